@@ -1,0 +1,411 @@
+//! The case file as the user writes it: one struct per JSON object, nothing derived.
+//!
+//! Keys carry their unit. Unknown keys are refused, so that a misspelt one is never ignored.
+//! `Case` is the validated form that the solvers see.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A breakwater case: a flume, the water in it, the wave and the armour units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CaseFile {
+    /// Where the JSON schema lies, for editors (`breakwater schema` prints it). Not used by the solver.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// One line that names the case in reports.
+    pub title: String,
+    /// What had to be assumed because no source gives it; listed in the report.
+    #[serde(default)]
+    pub assumptions: Vec<String>,
+    /// The whole flume: bed, mound and still water.
+    pub flume: FlumeFile,
+    /// The part of the flume that is filled with particles.
+    pub domain: DomainFile,
+    /// Water and its artificial compressibility.
+    #[serde(default)]
+    pub fluid: FluidFile,
+    /// Constants of the SPH scheme.
+    #[serde(default)]
+    pub numerics: NumericsFile,
+    /// The wave that is sent down the flume.
+    #[serde(default)]
+    pub wave: WaveFile,
+    /// The armour units; none for a flume with water alone.
+    #[serde(default)]
+    pub units: Option<UnitsFile>,
+    /// Elastic constants by material name.
+    #[serde(default)]
+    pub materials: Vec<MaterialFile>,
+    /// Friction of each pair of materials that can touch.
+    #[serde(default)]
+    pub friction: Vec<FrictionFile>,
+    /// Contact between units and with the bed.
+    #[serde(default)]
+    pub contact: ContactFile,
+    /// Points at which the water is measured.
+    #[serde(default)]
+    pub gauges: Vec<GaugeFile>,
+    /// What is written, and how often.
+    #[serde(default)]
+    pub output: OutputFile,
+    /// When the run ends.
+    pub stop: StopFile,
+}
+
+/// Bed, mound and still water of the whole flume; x runs from the wavemaker to the shore, z upwards.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlumeFile {
+    /// Corner points [x, z] of the bed [m], x rising, from the wavemaker to the shore.
+    pub bed_m: Vec<[f64; 2]>,
+    /// Level of the still water [m], in the z of `bed_m`.
+    pub still_water_level_m: f64,
+    /// A trapezoidal mound on the bed.
+    #[serde(default)]
+    pub mound: Option<MoundFile>,
+    /// Material of bed and mound, one of `materials`; needed when there are units.
+    #[serde(default)]
+    pub material: Option<String>,
+}
+
+/// A trapezoidal mound.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MoundFile {
+    /// Middle of the crest [m].
+    pub centre_x_m: f64,
+    /// Width of the crest [m].
+    pub crest_width_m: f64,
+    /// Level of the crest [m], in the z of `bed_m`.
+    pub crest_z_m: f64,
+    /// Horizontal run for one unit of rise, seaward side [-].
+    pub seaward_run_per_rise: f64,
+    /// Horizontal run for one unit of rise, lee side [-].
+    pub lee_run_per_rise: f64,
+}
+
+/// The part of the flume that is filled with particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DomainFile {
+    /// Seaward and shoreward end [m]. The wavemaker (or a wall) stands at the first, a wall at the second.
+    pub x_m: [f64; 2],
+    /// Width across the flume [m].
+    pub width_m: f64,
+    /// What closes the domain across the flume.
+    pub sides: Sides,
+    /// Top of the walls [m]; a particle that rises above it by one wall height has escaped.
+    pub top_z_m: f64,
+    /// Distance between particles [m].
+    pub dp_m: f64,
+    /// Where the water stands at the start.
+    #[serde(default)]
+    pub water: WaterFile,
+}
+
+/// What closes the domain across the flume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sides {
+    /// What leaves on one side enters on the other.
+    Periodic,
+    /// Solid walls at y = 0 and y = width.
+    Walls,
+}
+
+/// Where the water stands at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
+pub enum WaterFile {
+    /// Up to the still water level (and, once the wave has entered, to the level that the flume model gives).
+    #[default]
+    StillLevel,
+    /// A block of water between two x, from the bed to a level: a dam about to break.
+    Block {
+        /// Seaward and shoreward face of the block [m].
+        x_m: [f64; 2],
+        /// Top of the block [m].
+        top_z_m: f64,
+    },
+}
+
+/// Water and its artificial compressibility.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FluidFile {
+    /// Reference density [kg/m3].
+    pub density_kg_m3: f64,
+    /// Gravitational acceleration [m/s2].
+    pub gravity_m_s2: f64,
+    /// Speed of sound as a multiple of sqrt(g d), d the largest still depth in the domain [-].
+    pub sound_speed_factor: f64,
+    /// Polytropic exponent gamma of Tait's equation [-].
+    pub tait_exponent: f64,
+}
+
+impl Default for FluidFile {
+    fn default() -> Self {
+        Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: 15.0, tait_exponent: 7.0 }
+    }
+}
+
+/// Constants of the SPH scheme; the defaults are those of Mitsui et al. (2023).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct NumericsFile {
+    /// h / (sqrt(3) dp) [-].
+    pub smoothing_factor: f64,
+    /// Artificial viscosity alpha [-] (equation 3).
+    pub viscosity_alpha: f64,
+    /// Density diffusion delta [-] (equation 4).
+    pub diffusion_delta: f64,
+    /// Courant number [-].
+    pub cfl: f64,
+    /// How walls, wavemaker and units act on the water.
+    pub boundary: BoundaryFile,
+    /// Layers of particles in walls and bed.
+    pub boundary_layers: u32,
+    /// Time for which the units are held while the water comes to rest round them [s].
+    pub hold_units_s: f64,
+}
+
+impl Default for NumericsFile {
+    fn default() -> Self {
+        Self {
+            smoothing_factor: 1.2,
+            viscosity_alpha: 0.04,
+            diffusion_delta: 0.1,
+            cfl: 0.2,
+            boundary: BoundaryFile::Mdbc,
+            boundary_layers: 3,
+            hold_units_s: 0.2,
+        }
+    }
+}
+
+/// Boundary condition of the SPH walls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BoundaryFile {
+    /// Dynamic boundary condition (Crespo et al. 2007).
+    Dbc,
+    /// Modified dynamic boundary condition with ghost nodes (English et al. 2022).
+    Mdbc,
+}
+
+/// The wave that is sent down the flume.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
+pub enum WaveFile {
+    /// No wave: still water, or a dam break.
+    #[default]
+    None,
+    /// A solitary wave made by a piston at x = 0 of the flume, carried to the domain by the layered model.
+    Solitary {
+        /// Height above the still water in the offshore depth [m].
+        height_m: f64,
+        /// Shape of the wave, and with it the piston's motion.
+        #[serde(default)]
+        theory: SolitaryTheory,
+        /// Layers of the non-hydrostatic flume model.
+        #[serde(default = "default_layers")]
+        layers: u32,
+        /// Cell of the flume model [m].
+        #[serde(default = "default_flume_cell_m")]
+        flume_cell_m: f64,
+        /// Flume time at which the particles start [s]; without it, when the velocity at the wavemaker's place
+        /// reaches `start_at_share` of its maximum.
+        #[serde(default)]
+        start_s: Option<f64>,
+        /// Share of the largest velocity at which the particles start [-].
+        #[serde(default = "default_start_share")]
+        start_at_share: f64,
+    },
+}
+
+fn default_layers() -> u32 {
+    2
+}
+
+fn default_flume_cell_m() -> f64 {
+    0.05
+}
+
+fn default_start_share() -> f64 {
+    0.03
+}
+
+/// Shape of a solitary wave (Goring & Raichlen 1980; Guizien & Barthelemy 2002).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SolitaryTheory {
+    /// k = sqrt(3H / 4d^3).
+    Boussinesq,
+    /// k = sqrt(3H / 4d^2(d+H)); nearer to the exact wave.
+    #[default]
+    Rayleigh,
+}
+
+/// One row of armour units across the flume.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UnitsFile {
+    /// Shape of a unit.
+    pub shape: Shape,
+    /// Height H of a unit standing on three legs [m].
+    pub height_m: f64,
+    /// Mass of a unit [kg].
+    pub mass_kg: f64,
+    /// Material, one of `materials`.
+    pub material: String,
+    /// Number of units in the row.
+    pub count: u32,
+    /// Distance between the units' axes [m].
+    pub pitch_m: f64,
+    /// Place of the row [m].
+    pub x_m: f64,
+    /// Place of the first unit across the flume [m]; without it, the row is centred.
+    #[serde(default)]
+    pub first_y_m: Option<f64>,
+    /// How the units are turned about the vertical.
+    #[serde(default)]
+    pub orientation: Orientation,
+    /// A unit is damaged when it has moved further than this [m]; without it, its height.
+    #[serde(default)]
+    pub damage_distance_m: Option<f64>,
+}
+
+/// Shape of an armour unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// Tetrapod (Danel & Greslou 1962).
+    Tetrapod,
+}
+
+/// How the units of a row are turned about the vertical.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Orientation {
+    /// Neighbours are turned by half a circle; the first has a leg seaward (SPH1 of Mitsui et al.).
+    #[default]
+    Alternating,
+    /// Neighbours are turned by half a circle; the first has a leg shoreward (SPH2).
+    AlternatingReversed,
+    /// Every unit has a leg seaward.
+    Seaward,
+    /// Every unit has a leg shoreward.
+    Shoreward,
+}
+
+/// Elastic constants of a material in contact.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialFile {
+    /// Name used by `units.material`, `flume.material` and `friction`.
+    pub name: String,
+    /// Young's modulus in contact [Pa]. A softer value than the real one lengthens the contact and the time step.
+    pub young_modulus_pa: f64,
+    /// Poisson's ratio [-].
+    pub poisson_ratio: f64,
+    /// Coefficient of restitution [-].
+    pub restitution: f64,
+}
+
+/// Friction of a pair of materials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionFile {
+    /// The two materials; the same one twice for units against units.
+    pub between: [String; 2],
+    /// Coulomb's coefficient [-].
+    pub coefficient: f64,
+}
+
+/// Contact between units and with the bed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ContactFile {
+    /// Rounding radius of a unit's edges as a share of its height; also the radius of Hertz's law [-].
+    pub rounding_share: f64,
+}
+
+impl Default for ContactFile {
+    fn default() -> Self {
+        Self { rounding_share: 0.05 }
+    }
+}
+
+/// A point at which the water is measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
+pub enum GaugeFile {
+    /// Surface elevation above the still water [m]; also written by the flume model.
+    Elevation {
+        /// Name in tables and plots.
+        name: String,
+        /// Place along the flume [m].
+        x_m: f64,
+        /// Place across the flume [m]; without it, the middle.
+        #[serde(default)]
+        y_m: Option<f64>,
+    },
+    /// Pressure [Pa].
+    Pressure {
+        /// Name in tables and plots.
+        name: String,
+        /// Place [m].
+        at_m: [f64; 3],
+    },
+    /// Velocity [m/s].
+    Velocity {
+        /// Name in tables and plots.
+        name: String,
+        /// Place [m].
+        at_m: [f64; 3],
+    },
+}
+
+/// What is written, and how often.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct OutputFile {
+    /// Interval of the fluid snapshots [s]; 0 writes none.
+    pub fluid_interval_s: f64,
+    /// Interval of the moving surfaces of the units [s]; 0 writes none.
+    pub units_interval_s: f64,
+    /// Interval of gauges, unit motion, unit forces and energy [s].
+    pub series_interval_s: f64,
+    /// Interval of the checkpoints in simulated time [s]; 0 writes one at the end only.
+    pub checkpoint_interval_s: f64,
+}
+
+impl Default for OutputFile {
+    fn default() -> Self {
+        Self { fluid_interval_s: 0.1, units_interval_s: 0.02, series_interval_s: 0.01, checkpoint_interval_s: 0.5 }
+    }
+}
+
+/// When the run ends.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StopFile {
+    /// Simulated time at most [s], counted from the start of the particles.
+    pub duration_s: f64,
+    /// End earlier when every unit that has moved has been at rest for a while.
+    #[serde(default)]
+    pub at_rest: Option<AtRestFile>,
+}
+
+/// End the run when the units have moved and come to rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AtRestFile {
+    /// A unit slower than this is at rest [m/s].
+    pub speed_m_s: f64,
+    /// For how long all must be at rest [s].
+    pub for_s: f64,
+    /// Not before this simulated time [s], counted from the start of the particles.
+    pub not_before_s: f64,
+}

@@ -1,0 +1,3 @@
+//! Geometry: bed profile, closed surfaces, armour units.
+
+pub mod profile;

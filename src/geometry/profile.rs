@@ -1,0 +1,109 @@
+//! Bed and mound as one polyline z(x), the same across the flume.
+
+/// A bed profile: corner points with rising x, straight in between, level beyond the ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    points: Vec<[f64; 2]>,
+}
+
+impl Profile {
+    /// Profile through `points` [x, z] in metres.
+    ///
+    /// # Panics
+    /// If there are fewer than two points or x does not rise strictly: the case validation has checked both.
+    pub fn new(points: Vec<[f64; 2]>) -> Self {
+        assert!(points.len() >= 2, "a profile needs two points");
+        assert!(points.windows(2).all(|w| w[1][0] > w[0][0]), "x of a profile must rise");
+        Self { points }
+    }
+
+    /// Corner points [x, z] in metres.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// Bed level z [m] at x [m].
+    pub fn z(&self, x: f64) -> f64 {
+        let points = &self.points;
+        let last = points.len() - 1;
+        if x <= points[0][0] {
+            return points[0][1];
+        }
+        if x >= points[last][0] {
+            return points[last][1];
+        }
+        let right = points.partition_point(|p| p[0] <= x).clamp(1, last);
+        let ([x0, z0], [x1, z1]) = (points[right - 1], points[right]);
+        z0 + (z1 - z0) * (x - x0) / (x1 - x0)
+    }
+
+    /// Slope dz/dx at x, that of the piece to the right at a corner [-].
+    pub fn slope(&self, x: f64) -> f64 {
+        let points = &self.points;
+        let last = points.len() - 1;
+        if x < points[0][0] || x >= points[last][0] {
+            return 0.0;
+        }
+        let right = points.partition_point(|p| p[0] <= x).clamp(1, last);
+        let ([x0, z0], [x1, z1]) = (points[right - 1], points[right]);
+        (z1 - z0) / (x1 - x0)
+    }
+
+    /// The same bed with a trapezoidal mound on it: crest between `crest_x` [m] at level `crest_z` [m], flanks of the
+    /// given horizontal run per unit of rise, down to the bed. `None` if the crest lies below the bed or a flank does
+    /// not meet the bed inside the profile.
+    pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<Self> {
+        if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
+            return None;
+        }
+        let toe_seaward = self.flank_meets_bed(crest_x[0], crest_z, -run_per_rise[0])?;
+        let toe_lee = self.flank_meets_bed(crest_x[1], crest_z, run_per_rise[1])?;
+        let mut points: Vec<[f64; 2]> = self.points.iter().copied().filter(|p| p[0] < toe_seaward[0]).collect();
+        points.extend([toe_seaward, [crest_x[0], crest_z], [crest_x[1], crest_z], toe_lee]);
+        points.extend(self.points.iter().copied().filter(|p| p[0] > toe_lee[0]));
+        Some(Self::new(points))
+    }
+
+    /// Where the line from (x, z) with the signed run per unit of fall meets the bed.
+    fn flank_meets_bed(&self, x: f64, z: f64, run: f64) -> Option<[f64; 2]> {
+        let crossing = |[xa, za]: [f64; 2], [xb, zb]: [f64; 2]| {
+            // Height of the flank above the bed, linear along the piece.
+            let above = |px: f64, pz: f64| z - (px - x) / run - pz;
+            let (a, b) = (above(xa, za), above(xb, zb));
+            let outside = |px: f64| (px - x) * run.signum() < 0.0;
+            if a * b > 0.0 || (outside(xa) && outside(xb)) {
+                return None;
+            }
+            let t = a / (a - b);
+            let hit = [xa + t * (xb - xa), za + t * (zb - za)];
+            ((hit[0] - x) * run.signum() > 0.0).then_some(hit)
+        };
+        let mut hits: Vec<[f64; 2]> = self.points.windows(2).filter_map(|w| crossing(w[0], w[1])).collect();
+        hits.sort_by(|a, b| (a[0] - x).abs().total_cmp(&(b[0] - x).abs()));
+        hits.first().copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn level_and_slope_follow_the_corner_points() {
+        let bed = Profile::new(vec![[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]]);
+        assert_eq!(bed.z(10.0), 0.0);
+        assert!((bed.z(39.0) - 20.0 / 30.0).abs() < 1e-12);
+        assert!((bed.slope(39.0) - 1.0 / 30.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn mound_flanks_reach_the_sloping_bed() {
+        let bed = Profile::new(vec![[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]]);
+        let with = bed.with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
+        assert_eq!(with.z(39.0), 0.717);
+        let toe = with.points()[2];
+        assert!((toe[1] - bed.z(toe[0])).abs() < 1e-12);
+        assert!(((38.84 - toe[0]) / (0.717 - toe[1]) - 2.0).abs() < 1e-9);
+        assert!(bed.with_mound([38.84, 39.16], 0.5, [2.0, 2.0]).is_none());
+    }
+}

@@ -1,0 +1,27 @@
+//! breakwater: will this wave move the armour units, and will the units break?
+//!
+//! Data walks in at the top and out at the bottom:
+//!
+//! | module | what it holds |
+//! | --- | --- |
+//! | [`case`] | the case file as written, and the validated [`case::Case`] that everything else reads |
+//! | [`geometry`] | bed profile, closed surfaces, armour units, STL |
+//! | [`particles`] | filling water, bed, walls and units with particles; normals for mDBC |
+//! | [`waves`] | solitary-wave theory, the layered flume model, the multi-layer piston |
+//! | [`sph`] | the weakly compressible SPH solver |
+//! | [`rigid`] | rigid armour units and their contact |
+//! | [`simulation`] | the coupled loop: water, units, outputs |
+//! | [`output`] | ParaView files, tables, checkpoints, summary, report, comparison |
+//! | [`cli`] | one file a subcommand |
+//!
+//! SI units throughout. Axes: x from the wavemaker to the shore, y across the flume, z upwards.
+
+pub mod case;
+pub mod cli;
+pub mod geometry;
+pub mod output;
+pub mod particles;
+pub mod rigid;
+pub mod simulation;
+pub mod sph;
+pub mod waves;
