@@ -1,1 +1,35 @@
-//! sph
+//! Weakly compressible smoothed particle hydrodynamics (Mitsui et al. 2023, section 2.1 and 2.2).
+//!
+//! | file | equation |
+//! | --- | --- |
+//! | [`kernel`] | quintic Wendland kernel |
+//! | [`momentum`] | 1: pressure acceleration |
+//! | [`continuity`] | 2: continuity |
+//! | [`viscosity`] | 3: artificial viscosity |
+//! | [`density_diffusion`] | 4 and 5: density diffusion |
+//! | [`equation_of_state`] | 6: Tait |
+//! | [`step`] | 7 to 9: symplectic position Verlet |
+//! | [`mdbc`] | section 2.2: density of boundary particles from ghost nodes |
+//! | [`time_step`] | variable time step |
+//!
+//! Particles are sorted into [`grid`] bins each step; clusters of eight neighbours share one list of
+//! [`neighbours`] and fill the SIMD [`lanes`]. Every sum is gathered by the particle that owns it, in a fixed order:
+//! the same bits for any number of threads.
+
+pub mod continuity;
+pub mod density_diffusion;
+pub mod equation_of_state;
+pub mod grid;
+pub mod kernel;
+pub mod lanes;
+pub mod mdbc;
+pub mod momentum;
+pub mod neighbours;
+pub mod parameters;
+pub mod rates;
+pub mod records;
+pub mod sampling;
+pub mod solve;
+pub mod step;
+pub mod time_step;
+pub mod viscosity;

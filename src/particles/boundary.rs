@@ -1,0 +1,158 @@
+//! Boundary particles: fixed bed and walls, the rows of the multi-layer piston, the armour units.
+
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+
+/// Boundary particles in a fixed order: bed and walls, then the piston, then unit after unit.
+#[derive(Debug, Clone, Default)]
+pub struct Boundary {
+    /// Position [m].
+    pub position: Vec<DVec3>,
+    /// Velocity [m/s].
+    pub velocity: Vec<DVec3>,
+    /// From the particle to the surface that the water touches [m]; twice that leads to its ghost node.
+    pub to_surface: Vec<DVec3>,
+    /// Volume [m3].
+    pub volume: Vec<f64>,
+    /// Density [kg/m3].
+    pub density: Vec<f64>,
+    /// Particles of the piston.
+    piston: Range<usize>,
+    /// Row of each particle of the piston.
+    piston_row: Vec<u32>,
+    /// Particles of each unit.
+    units: Vec<Range<usize>>,
+    /// Place of a piston particle at zero displacement, of a unit particle in the unit's axes [m].
+    anchor: Vec<DVec3>,
+    /// `to_surface` in the unit's axes [m].
+    anchor_to_surface: Vec<DVec3>,
+}
+
+/// One boundary particle to be added.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoundaryParticle {
+    /// Position, for units in the unit's axes [m].
+    pub position: DVec3,
+    /// From the particle to the surface [m].
+    pub to_surface: DVec3,
+    /// Volume [m3].
+    pub volume: f64,
+}
+
+/// Position and motion of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Centre of mass [m].
+    pub position: DVec3,
+    /// Rotation from the body's axes to the world's.
+    pub rotation: DQuat,
+    /// Velocity of the centre of mass [m/s].
+    pub velocity: DVec3,
+    /// Angular velocity in world axes [rad/s].
+    pub angular_velocity: DVec3,
+}
+
+impl Boundary {
+    /// Bed and walls, then the piston with the row of each of its particles, then `units` copies of `unit`.
+    /// All start at the density `rho0` [kg/m3]; the units lie at the origin until [`Self::move_unit`].
+    pub fn new(
+        fixed: &[BoundaryParticle],
+        piston: &[(u32, BoundaryParticle)],
+        unit: &[BoundaryParticle],
+        units: usize,
+        rho0: f64,
+    ) -> Self {
+        let mut boundary = Self::default();
+        fixed.iter().for_each(|p| boundary.push(p, rho0));
+        let first = boundary.len();
+        piston.iter().for_each(|(_, p)| boundary.push(p, rho0));
+        boundary.piston = first..boundary.len();
+        boundary.piston_row = piston.iter().map(|&(row, _)| row).collect();
+        for _ in 0..units {
+            let first = boundary.len();
+            unit.iter().for_each(|p| boundary.push(p, rho0));
+            boundary.units.push(first..boundary.len());
+        }
+        boundary.anchor = boundary.position.clone();
+        boundary.anchor_to_surface = boundary.to_surface.clone();
+        boundary
+    }
+
+    fn push(&mut self, particle: &BoundaryParticle, rho0: f64) {
+        self.position.push(particle.position);
+        self.velocity.push(DVec3::ZERO);
+        self.to_surface.push(particle.to_surface);
+        self.volume.push(particle.volume);
+        self.density.push(rho0);
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Particles of bed, walls and piston; those of the units follow.
+    pub fn walls(&self) -> Range<usize> {
+        0..self.piston.end
+    }
+
+    /// Particles of the piston.
+    pub fn piston(&self) -> Range<usize> {
+        self.piston.clone()
+    }
+
+    /// Particles of each unit.
+    pub fn units(&self) -> &[Range<usize>] {
+        &self.units
+    }
+
+    /// Put the piston where `row_motion` says: displacement [m] and velocity [m/s] along x of a row.
+    pub fn move_piston(&mut self, row_motion: impl Fn(u32) -> (f64, f64)) {
+        for (particle, &row) in self.piston.clone().zip(&self.piston_row) {
+            let (displacement, velocity) = row_motion(row);
+            self.position[particle] = self.anchor[particle] + DVec3::X * displacement;
+            self.velocity[particle] = DVec3::X * velocity;
+        }
+    }
+
+    /// Put a unit where its body is.
+    pub fn move_unit(&mut self, unit: usize, motion: &Motion) {
+        for particle in self.units[unit].clone() {
+            let arm = motion.rotation * self.anchor[particle];
+            self.position[particle] = motion.position + arm;
+            self.velocity[particle] = motion.velocity + motion.angular_velocity.cross(arm);
+            self.to_surface[particle] = motion.rotation * self.anchor_to_surface[particle];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unit_particles_move_as_a_rigid_body() {
+        let particle = BoundaryParticle { position: DVec3::X, to_surface: DVec3::X * 0.1, volume: 1.0 };
+        let mut boundary = Boundary::new(&[], &[], &[particle], 2, 1000.0);
+        let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        boundary.move_unit(
+            1,
+            &Motion {
+                position: DVec3::new(5.0, 0.0, 0.0),
+                rotation: quarter,
+                velocity: DVec3::Z,
+                angular_velocity: DVec3::Z * 2.0,
+            },
+        );
+        assert!((boundary.position[1] - DVec3::new(5.0, 1.0, 0.0)).length() < 1e-15);
+        assert!((boundary.velocity[1] - DVec3::new(-2.0, 0.0, 1.0)).length() < 1e-15);
+        assert!((boundary.to_surface[1] - DVec3::Y * 0.1).length() < 1e-15);
+        assert_eq!(boundary.position[0], DVec3::X);
+    }
+}

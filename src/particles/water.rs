@@ -1,0 +1,30 @@
+//! The water particles.
+
+use glam::DVec3;
+
+/// State of the water, one entry a particle in every array.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Water {
+    /// Position [m].
+    pub position: Vec<DVec3>,
+    /// Velocity [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Density [kg/m3].
+    pub density: Vec<f64>,
+    /// Number of the particle, which it keeps when the arrays are sorted.
+    pub id: Vec<u32>,
+    /// Mass of a particle [kg].
+    pub mass: f64,
+}
+
+impl Water {
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there is no water.
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+}

@@ -1,0 +1,76 @@
+//! Equation 6: Tait's equation of state, p = c0^2 rho0 / gamma [(rho/rho0)^gamma - 1].
+
+/// Tait's equation of state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tait {
+    /// Reference density rho0 [kg/m3].
+    pub rho0: f64,
+    /// Speed of sound at rho0 [m/s].
+    pub c0: f64,
+    /// Polytropic exponent gamma [-].
+    pub gamma: f64,
+}
+
+impl Tait {
+    /// c0^2 rho0 / gamma [Pa].
+    fn stiffness(&self) -> f64 {
+        self.c0 * self.c0 * self.rho0 / self.gamma
+    }
+
+    /// Pressure [Pa] of the density [kg/m3].
+    pub fn pressure(&self, rho: f64) -> f64 {
+        self.stiffness() * (self.power(rho / self.rho0, self.gamma) - 1.0)
+    }
+
+    /// Density [kg/m3] of the pressure [Pa].
+    pub fn density(&self, p: f64) -> f64 {
+        self.rho0 * (1.0 + p / self.stiffness()).powf(1.0 / self.gamma)
+    }
+
+    /// Speed of sound c = c0 (rho/rho0)^((gamma-1)/2) [m/s].
+    pub fn sound_speed(&self, rho: f64) -> f64 {
+        self.c0 * self.power(rho / self.rho0, 0.5 * (self.gamma - 1.0))
+    }
+
+    /// Internal energy of compression per mass, int p / rho^2 d rho from rho0 [J/kg].
+    pub fn internal_energy(&self, rho: f64) -> f64 {
+        let ratio = rho / self.rho0;
+        let b = self.stiffness() / self.rho0;
+        b * ((ratio.powf(self.gamma - 1.0) - 1.0) / (self.gamma - 1.0) + 1.0 / ratio - 1.0)
+    }
+
+    /// Whole exponents, which are the rule, go without `powf`.
+    fn power(&self, base: f64, exponent: f64) -> f64 {
+        if exponent.fract() == 0.0 { base.powi(exponent as i32) } else { base.powf(exponent) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WATER: Tait = Tait { rho0: 1000.0, c0: 20.0, gamma: 7.0 };
+
+    #[test]
+    fn density_inverts_pressure() {
+        for p in [-100.0, 0.0, 3000.0, 2e4] {
+            // 1e-9 relative to the stiffness of 6e4 Pa: rounding.
+            assert!((WATER.pressure(WATER.density(p)) - p).abs() < 1e-9 * 6e4);
+        }
+    }
+
+    #[test]
+    fn sound_speed_is_the_derivative_of_pressure() {
+        let rho = 1013.0;
+        let slope = (WATER.pressure(rho + 1e-3) - WATER.pressure(rho - 1e-3)) / 2e-3;
+        // 1e-6: second-order difference quotient.
+        assert!((slope.sqrt() / WATER.sound_speed(rho) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn internal_energy_grows_by_the_work_of_pressure() {
+        let rho = 1013.0;
+        let slope = (WATER.internal_energy(rho + 1e-2) - WATER.internal_energy(rho - 1e-2)) / 2e-2;
+        assert!((slope * rho * rho / WATER.pressure(rho) - 1.0).abs() < 1e-5);
+    }
+}

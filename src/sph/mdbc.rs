@@ -1,0 +1,245 @@
+//! Modified dynamic boundary condition (English et al. 2022; section 2.2 of Mitsui et al. 2023).
+//!
+//! Each boundary particle has a ghost node, its mirror image in the boundary surface. The density and its gradient at
+//! the ghost node come from the water particles round it by the first-order consistent correction of Liu & Liu (2006):
+//! the four equations
+//!
+//!   sum_b f_b W V_b      = f sum_b W V_b      + grad f . sum_b r_b W V_b
+//!   sum_b f_b grad W V_b = f sum_b grad W V_b + grad f . sum_b r_b (x) grad W V_b,   r_b from the ghost node to b,
+//!
+//! are solved for f and grad f, and the density is carried back along the line to the particle.
+//!
+//! Where too few particles surround the node the matrix is ill-conditioned. The stated fall-back is then the mean
+//! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. A node
+//! without neighbours leaves its particle at the reference density: there is no water to press on.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{
+    grid::{Bins, Grid},
+    lanes::{Avx2, Lanes, Portable, has_avx2_fma},
+    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists, Sources},
+    parameters::Parameters,
+    rates::lanes_of,
+    records::{Record, split_position},
+    solve::solve,
+};
+
+/// Smallest determinant of the scaled matrix, as a share of the determinant of a full neighbourhood with the same sum
+/// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles
+/// less than this.
+const LEAST_DETERMINANT: f64 = 0.01;
+
+/// Sum of W V below which a node is dry: less than a lone particle gives from one dp away.
+const DRY: f64 = 0.01;
+
+/// Ghost nodes, sorted into bins, and their sums.
+#[derive(Debug, Default)]
+pub struct GhostNodes {
+    points: Vec<DVec3>,
+    bins: Bins,
+    sorted: Vec<DVec3>,
+    split: Vec<[f32; 4]>,
+    lists: NeighbourLists,
+    sums: Vec<NodeSums>,
+}
+
+/// Sums over the water round one ghost node, lengths in h.
+#[derive(Debug, Clone, Copy, Default)]
+struct NodeSums {
+    /// sum W V (1, x, y, z).
+    value: [f32; 4],
+    /// sum W V f.
+    value_f: f32,
+    /// sum g V (x, y, z) with g = -G h^2.
+    first: [f32; 3],
+    /// sum g V (xx, yy, zz, xy, xz, yz).
+    second: [f32; 6],
+    /// sum g V f (x, y, z).
+    first_f: [f32; 3],
+}
+
+impl GhostNodes {
+    /// Find the density of each boundary particle and write it to `density` [kg/m3].
+    ///
+    /// `to_surface` leads from a particle to the surface [m], half the way to its ghost node.
+    pub fn densities(
+        &mut self,
+        grid: &Grid,
+        parameters: &Parameters,
+        water: &Sources,
+        records: &[Record],
+        positions: &[DVec3],
+        to_surface: &[DVec3],
+        density: &mut [f64],
+    ) {
+        self.points.clear();
+        self.points.extend(positions.iter().zip(to_surface).map(|(&position, &half)| position + 2.0 * half));
+        self.bins.sort(grid, &self.points);
+        self.sorted.clear();
+        self.sorted.extend(self.bins.order.iter().map(|&i| self.points[i as usize]));
+        self.split.clear();
+        self.split.extend(self.sorted.iter().map(|&point| split_position(grid, point)));
+        self.lists.build(grid, &self.bins, &self.sorted, std::slice::from_ref(water), parameters.kernel.support());
+
+        self.sums.resize(self.sorted.len(), NodeSums::default());
+        let (split, lists) = (&self.split, &self.lists);
+        let pairs = GhostLoop { parameters, bin_x: grid.size.x as f32, avx2_fma: has_avx2_fma() };
+        self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
+            let begin = number * CHUNK;
+            pairs.chunk_sums(chunk, &split[begin..begin + sums.len()], records, sums);
+        });
+        for (sums, &particle) in self.sums.iter().zip(&self.bins.order) {
+            let particle = particle as usize;
+            density[particle] = sums.density_at(parameters, to_surface[particle]);
+        }
+    }
+}
+
+struct GhostLoop<'a> {
+    parameters: &'a Parameters,
+    bin_x: f32,
+    avx2_fma: bool,
+}
+
+impl GhostLoop<'_> {
+    fn chunk_sums(&self, chunk: &Chunk, nodes: &[[f32; 4]], records: &[Record], sums: &mut [NodeSums]) {
+        #[cfg(target_arch = "x86_64")]
+        if self.avx2_fma {
+            // SAFETY: `has_avx2_fma` has asked the processor.
+            return unsafe { chunk_sums_avx2_fma(self, chunk, nodes, records, sums) };
+        }
+        chunk_sums::<Portable>(self, chunk, nodes, records, sums);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn chunk_sums_avx2_fma(
+    pairs: &GhostLoop,
+    chunk: &Chunk,
+    nodes: &[[f32; 4]],
+    records: &[Record],
+    sums: &mut [NodeSums],
+) {
+    chunk_sums::<Avx2>(pairs, chunk, nodes, records, sums);
+}
+
+#[inline(always)]
+fn chunk_sums<L: Lanes>(
+    pairs: &GhostLoop,
+    chunk: &Chunk,
+    nodes: &[[f32; 4]],
+    records: &[Record],
+    sums: &mut [NodeSums],
+) {
+    for (cluster, neighbours) in chunk.clusters() {
+        let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+        if neighbours.is_empty() {
+            sums[members].fill(NodeSums::default());
+            continue;
+        }
+        let lanes = cluster_sums::<L>(pairs, cluster, nodes, neighbours, records).map(L::to_array);
+        for (lane, node) in sums[members].iter_mut().enumerate() {
+            *node = NodeSums {
+                value: std::array::from_fn(|k| lanes[k][lane]),
+                value_f: lanes[4][lane],
+                first: std::array::from_fn(|k| lanes[5 + k][lane]),
+                second: std::array::from_fn(|k| lanes[8 + k][lane]),
+                first_f: std::array::from_fn(|k| lanes[14 + k][lane]),
+            };
+        }
+    }
+}
+
+#[inline(always)]
+fn cluster_sums<L: Lanes>(
+    pairs: &GhostLoop,
+    cluster: &Cluster,
+    nodes: &[[f32; 4]],
+    neighbours: &[u32],
+    records: &[Record],
+) -> [L; 17] {
+    let kernel = &pairs.parameters.kernel;
+    let width = pairs.parameters.periodic_width.unwrap_or(0.0) as f32;
+    let splat = L::splat;
+    let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, nodes, |n| n[k]));
+    let (per_h, minus_h2) = (splat(1.0 / kernel.h as f32), splat(-(kernel.h * kernel.h) as f32));
+    let per_width = splat(if width > 0.0 { 1.0 / width } else { 0.0 });
+
+    let mut sums = [splat(0.0); 17];
+    for &j in neighbours {
+        let b = &records[j as usize];
+        let rx = (splat(b.bin_x) - node[0]).mul_add(splat(pairs.bin_x), splat(b.x) - node[1]);
+        let mut ry = splat(b.y) - node[2];
+        ry = ry - splat(width) * (ry * per_width).round();
+        let rz = splat(b.z) - node[3];
+        let closeness = kernel.closeness(rx.mul_add(rx, ry.mul_add(ry, rz * rz)).sqrt());
+        let (x, y, z) = (rx * per_h, ry * per_h, rz * per_h);
+        let (volume, f) = (splat(b.volume), splat(b.excess_density));
+        let wv = kernel.value(closeness) * volume;
+        let gv = kernel.gradient_factor(closeness) * minus_h2 * volume;
+        let (gx, gy, gz) = (gv * x, gv * y, gv * z);
+        let terms = [
+            wv,
+            wv * x,
+            wv * y,
+            wv * z,
+            wv * f,
+            gx,
+            gy,
+            gz,
+            gx * x,
+            gy * y,
+            gz * z,
+            gx * y,
+            gx * z,
+            gy * z,
+            gx * f,
+            gy * f,
+            gz * f,
+        ];
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            *sum += term;
+        }
+    }
+    sums
+}
+
+impl NodeSums {
+    /// Density of the boundary particle [kg/m3], `to_surface` [m] being half the way to this node.
+    fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
+        let rho0 = parameters.tait.rho0;
+        let occupied = f64::from(self.value[0]);
+        if occupied < DRY {
+            return rho0;
+        }
+        // From the node back to the particle, in h.
+        let back = -2.0 * to_surface / parameters.kernel.h;
+        let excess = match self.value_and_gradient() {
+            Some([f, fx, fy, fz]) => f + DVec3::new(fx, fy, fz).dot(back),
+            None => {
+                let centroid_z = f64::from(self.value[3]) / occupied;
+                let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
+                f64::from(self.value_f) / occupied + hydrostatic * (back.z - centroid_z) * parameters.kernel.h
+            }
+        };
+        rho0 + excess
+    }
+
+    /// Solution [f, h grad f] of the four equations, if they are well conditioned.
+    fn value_and_gradient(&self) -> Option<[f64; 4]> {
+        let [w, wx, wy, wz] = self.value.map(f64::from);
+        let [gx, gy, gz] = self.first.map(f64::from);
+        let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
+        let [fx, fy, fz] = self.first_f.map(f64::from);
+        let rows = [
+            [w, wx, wy, wz, f64::from(self.value_f)],
+            [gx, xx, xy, xz, fx],
+            [gy, xy, yy, yz, fy],
+            [gz, xz, yz, zz, fz],
+        ];
+        solve(rows, LEAST_DETERMINANT * w.powi(4))
+    }
+}

@@ -1,0 +1,385 @@
+//! Clusters of up to eight neighbouring particles and their shared neighbour lists.
+//!
+//! A candidate enters a cluster's list if it is near the cluster's box; lanes that it does not reach cost nothing but
+//! a multiplication by zero. The list is built once a step and serves both evaluations of the step, so it reaches a
+//! little further than the kernel: as far as two particles can close in during half a step.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{
+    grid::{Bins, Grid},
+    lanes::{Avx2, LANES, Lanes, Portable, has_avx2_fma},
+};
+
+/// Targets of one task of the thread pool; clusters do not cross its ends.
+pub const CHUNK: usize = 512;
+
+/// A cluster has at most this many bins between its first and last particle, lest a loose row make a huge box.
+const LONGEST_CLUSTER: u32 = 4;
+
+/// Up to eight consecutive targets and the place of their neighbours.
+#[derive(Debug, Clone, Copy)]
+pub struct Cluster {
+    /// First target, counted from the start of the chunk.
+    pub first: u32,
+    /// Number of targets, 1 to 8.
+    pub len: u32,
+    /// End of its neighbours in the chunk's list; they begin where those of the cluster before end.
+    pub list_end: u32,
+}
+
+/// Clusters and lists of [`CHUNK`] consecutive targets.
+#[derive(Debug, Default)]
+pub struct Chunk {
+    clusters: Vec<Cluster>,
+    list: Vec<u32>,
+}
+
+impl Chunk {
+    #[inline(always)]
+    fn build<L: Lanes>(
+        &mut self,
+        grid: &Grid,
+        bins: &Bins,
+        targets: &[DVec3],
+        members: std::ops::Range<usize>,
+        sources: &[Sources],
+        reach: f64,
+    ) {
+        self.clusters.clear();
+        self.list.clear();
+        let mut first = members.start;
+        while first < members.end {
+            let end = cluster_end(grid, &bins.bin_at[..members.end], first);
+            let cluster_box = BoundingBox::of(grid, &targets[first..end]);
+            for source in sources {
+                cluster_box.list_near::<L>(grid, source, reach, &mut self.list);
+            }
+            self.clusters.push(Cluster {
+                first: (first - members.start) as u32,
+                len: (end - first) as u32,
+                list_end: self.list.len() as u32,
+            });
+            first = end;
+        }
+    }
+
+    /// Each cluster with its neighbours.
+    pub fn clusters(&self) -> impl Iterator<Item = (&Cluster, &[u32])> {
+        let mut begin = 0;
+        self.clusters.iter().map(move |cluster| {
+            let neighbours = &self.list[begin..cluster.list_end as usize];
+            begin = cluster.list_end as usize;
+            (cluster, neighbours)
+        })
+    }
+}
+
+/// Sorted particles that can be neighbours.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// Their bins.
+    pub bins: &'a Bins,
+    /// Their positions in the order of the bins.
+    pub positions: &'a SortedPositions,
+    /// Index of the first in the records.
+    pub first_record: u32,
+}
+
+/// Positions in the order of the bins, from the low corner of the grid, an array an axis [m].
+#[derive(Debug, Default)]
+pub struct SortedPositions {
+    axes: [Vec<f32>; 3],
+}
+
+impl SortedPositions {
+    /// Take over the positions; the arrays are padded so that a whole register can be read from any place.
+    pub fn set(&mut self, grid: &Grid, points: &[DVec3]) {
+        for (axis, values) in self.axes.iter_mut().enumerate() {
+            values.clear();
+            values.extend(points.iter().map(|point| (point[axis] - grid.low[axis]) as f32));
+            values.extend([0.0; LANES]);
+        }
+    }
+
+    #[inline(always)]
+    fn load<L: Lanes>(&self, axis: usize, first: usize) -> L {
+        let values: &[f32; LANES] = self.axes[axis][first..first + LANES].try_into().expect("the arrays are padded");
+        L::from_array(*values)
+    }
+}
+
+/// Neighbour lists of sorted targets.
+#[derive(Debug, Default)]
+pub struct NeighbourLists {
+    chunks: Vec<Chunk>,
+}
+
+impl NeighbourLists {
+    /// The chunks in the order of the targets.
+    pub fn chunks(&self) -> &[Chunk] {
+        &self.chunks
+    }
+
+    /// Bytes in use.
+    pub fn bytes(&self) -> usize {
+        self.chunks.iter().map(|c| c.list.capacity() * 4 + c.clusters.capacity() * size_of::<Cluster>()).sum()
+    }
+
+    /// Mean number of listed neighbours of a target.
+    pub fn mean_length(&self) -> f64 {
+        let (sum, targets) = self.chunks.iter().flat_map(Chunk::clusters).fold((0.0, 0.0), |(sum, targets), (c, l)| {
+            (sum + f64::from(c.len) * l.len() as f64, targets + f64::from(c.len))
+        });
+        if targets > 0.0 { sum / targets } else { 0.0 }
+    }
+
+    /// Cluster the targets and list, for each cluster, the sources within `reach` [m] of its box.
+    ///
+    /// `targets` are sorted as `bins` says.
+    pub fn build(&mut self, grid: &Grid, bins: &Bins, targets: &[DVec3], sources: &[Sources], reach: f64) {
+        self.chunks.resize_with(targets.len().div_ceil(CHUNK), Chunk::default);
+        let avx2_fma = has_avx2_fma();
+        self.chunks.par_iter_mut().enumerate().for_each(|(number, chunk)| {
+            let begin = number * CHUNK;
+            let end = (begin + CHUNK).min(targets.len());
+            #[cfg(target_arch = "x86_64")]
+            if avx2_fma {
+                // SAFETY: `has_avx2_fma` has asked the processor.
+                return unsafe { build_avx2_fma(chunk, grid, bins, targets, begin..end, sources, reach) };
+            }
+            chunk.build::<Portable>(grid, bins, targets, begin..end, sources, reach);
+        });
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn build_avx2_fma(
+    chunk: &mut Chunk,
+    grid: &Grid,
+    bins: &Bins,
+    targets: &[DVec3],
+    members: std::ops::Range<usize>,
+    sources: &[Sources],
+    reach: f64,
+) {
+    chunk.build::<Avx2>(grid, bins, targets, members, sources, reach);
+}
+
+/// End of the cluster that starts at `first`: the same row, at most eight targets, not too long.
+fn cluster_end(grid: &Grid, bin_at: &[u32], first: usize) -> usize {
+    let nx = grid.count[0] as u32;
+    let row = bin_at[first] / nx;
+    let same = |bin: u32| bin / nx == row && bin - bin_at[first] < LONGEST_CLUSTER;
+    let most = (first + LANES).min(bin_at.len());
+    (first + 1..most).find(|&i| !same(bin_at[i])).unwrap_or(most)
+}
+
+/// Box round a cluster [m], in f64: the wavemaker's end of a long flume keeps its precision.
+struct BoundingBox {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl BoundingBox {
+    fn of(grid: &Grid, points: &[DVec3]) -> Self {
+        let low = points.iter().copied().reduce(DVec3::min).expect("a cluster has a particle");
+        let high = points.iter().copied().reduce(DVec3::max).expect("a cluster has a particle");
+        Self { low: low - grid.low, high: high - grid.low }
+    }
+
+    /// Append the records of `source` within `reach` of the box.
+    #[inline(always)]
+    fn list_near<L: Lanes>(&self, grid: &Grid, source: &Sources, reach: f64, list: &mut Vec<u32>) {
+        let [nx, ny, nz] = grid.count;
+        let near = Near::<L>::new(self, reach, grid.periodic_width);
+        for iz in self.bins(grid, 2, reach) {
+            let gap_z = self.gap(grid, 2, iz, iz == 0, iz + 1 == nz);
+            for iy in self.rows_across(grid, reach) {
+                let edge = |at_edge: bool| at_edge && grid.periodic_width.is_none();
+                let gap_y = self.gap(grid, 1, iy, edge(iy == 0), edge(iy + 1 == ny));
+                let rest = reach * reach - gap_z * gap_z - gap_y * gap_y;
+                if rest < 0.0 {
+                    continue;
+                }
+                let row = (iz * ny + iy % ny) * nx;
+                let x_bins = self.bins(grid, 0, rest.sqrt());
+                let begin = source.bins.start[row + x_bins.start()] as usize;
+                let end = source.bins.start[row + x_bins.end() + 1] as usize;
+                near.append(source.positions, begin..end, source.first_record, list);
+            }
+        }
+    }
+
+    /// Bins along an axis that the box can reach.
+    fn bins(&self, grid: &Grid, axis: usize, reach: f64) -> std::ops::RangeInclusive<usize> {
+        let from = grid.along(axis, self.low[axis] - reach + grid.low[axis]);
+        from..=grid.along(axis, self.high[axis] + reach + grid.low[axis])
+    }
+
+    /// Rows of bins across the flume that the box can reach; in a periodic one they are to be taken modulo their
+    /// number, each at most once.
+    fn rows_across(&self, grid: &Grid, reach: f64) -> std::ops::RangeInclusive<usize> {
+        if grid.periodic_width.is_none() {
+            return self.bins(grid, 1, reach);
+        }
+        let ny = grid.count[1];
+        let bin = |y: f64| (y / grid.size.y).floor() as i64;
+        let first = bin(self.low.y - reach);
+        let more = ((bin(self.high.y + reach) - first) as usize).min(ny - 1);
+        let first = first.rem_euclid(ny as i64) as usize;
+        first..=first + more
+    }
+
+    /// Distance along an axis from the box to a bin [m]; bins at the open ends of the grid hold everything beyond.
+    fn gap(&self, grid: &Grid, axis: usize, bin: usize, first: bool, last: bool) -> f64 {
+        let size = grid.size[axis];
+        let (mut low, mut high) = (bin as f64 * size, (bin + 1) as f64 * size);
+        if let (1, Some(width)) = (axis, grid.periodic_width) {
+            let shift = width * ((0.5 * (self.low.y + self.high.y - low - high)) / width).round();
+            low += shift;
+            high += shift;
+        }
+        let below = if last { f64::NEG_INFINITY } else { self.low[axis] - high };
+        let above = if first { f64::NEG_INFINITY } else { low - self.high[axis] };
+        below.max(above).max(0.0)
+    }
+}
+
+/// The test whether points lie within reach of a box, eight at a time, in single precision; the reach is widened by
+/// its rounding.
+struct Near<L> {
+    low: [L; 3],
+    high: [L; 3],
+    middle_y: L,
+    reach2: L,
+    /// Width of a periodic flume and its inverse, else 0 [m, 1/m].
+    width: L,
+    per_width: L,
+}
+
+impl<L: Lanes> Near<L> {
+    #[inline(always)]
+    fn new(cluster_box: &BoundingBox, reach: f64, periodic_width: Option<f64>) -> Self {
+        let extent = cluster_box.high.abs().max_element();
+        let reach = reach + 4.0 * f64::from(f32::EPSILON) * extent;
+        let splat = |value: f64| L::splat(value as f32);
+        Self {
+            low: cluster_box.low.to_array().map(splat),
+            high: cluster_box.high.to_array().map(splat),
+            middle_y: splat(0.5 * (cluster_box.low.y + cluster_box.high.y)),
+            reach2: splat(reach * reach),
+            width: splat(periodic_width.unwrap_or(0.0)),
+            per_width: splat(periodic_width.map_or(0.0, f64::recip)),
+        }
+    }
+
+    /// Append the numbers of the near points. Branch-free: the eight numbers are written, near ones first, and the
+    /// others are overwritten by what follows.
+    #[inline(always)]
+    fn append(&self, positions: &SortedPositions, members: std::ops::Range<usize>, offset: u32, list: &mut Vec<u32>) {
+        let mut len = list.len();
+        list.resize(len + members.len() + LANES, 0);
+        for first in members.clone().step_by(LANES) {
+            let x = positions.load::<L>(0, first);
+            let mut y = positions.load::<L>(1, first);
+            // In a periodic flume, the image that is nearest to the box.
+            y += self.width * ((self.middle_y - y) * self.per_width).round();
+            let z = positions.load::<L>(2, first);
+            let (dx, dy, dz) = (self.outside(0, x), self.outside(1, y), self.outside(2, z));
+            let distance2 = dx.mul_add(dx, dy.mul_add(dy, dz * dz));
+            let present = if members.end - first < LANES { (1 << (members.end - first)) - 1 } else { 0xff };
+            let near = distance2.at_most(self.reach2) & present;
+            let base = offset + first as u32;
+            let out = &mut list[len..len + LANES];
+            for (out, &lane) in out.iter_mut().zip(&SET_BITS[near]) {
+                *out = base + u32::from(lane);
+            }
+            len += near.count_ones() as usize;
+        }
+        list.truncate(len);
+    }
+
+    /// Distance along an axis from the box [m].
+    #[inline(always)]
+    fn outside(&self, axis: usize, value: L) -> L {
+        (self.low[axis] - value).max(value - self.high[axis]).max(L::splat(0.0))
+    }
+}
+
+/// The positions of the set bits of each byte, lowest first.
+static SET_BITS: [[u8; LANES]; 256] = set_bits();
+
+const fn set_bits() -> [[u8; LANES]; 256] {
+    let mut table = [[0; LANES]; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut bit, mut count) = (0, 0);
+        while bit < LANES {
+            if byte >> bit & 1 == 1 {
+                table[byte][count] = bit as u8;
+                count += 1;
+            }
+            bit += 1;
+        }
+        byte += 1;
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scattered(n: u32, size: DVec3) -> Vec<DVec3> {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / (1_u64 << 24) as f64
+        };
+        (0..n).map(|_| DVec3::new(random(), random(), random()) * size).collect()
+    }
+
+    fn every_pair_is_listed(periodic: Option<f64>) {
+        let (dp, reach, size) = (0.05, 0.21, DVec3::new(2.0, 0.6, 0.7));
+        let grid = Grid::new(DVec3::ZERO, size, dp, periodic);
+        let points = scattered(3000, size);
+        let mut bins = Bins::default();
+        bins.sort(&grid, &points);
+        let sorted: Vec<DVec3> = bins.order.iter().map(|&i| points[i as usize]).collect();
+        let mut positions = SortedPositions::default();
+        positions.set(&grid, &sorted);
+        let mut lists = NeighbourLists::default();
+        let source = Sources { bins: &bins, positions: &positions, first_record: 0 };
+        lists.build(&grid, &bins, &sorted, &[source], reach);
+        let mut clustered = 0;
+        for (number, chunk) in lists.chunks().iter().enumerate() {
+            for (cluster, list) in chunk.clusters() {
+                for lane in 0..cluster.len {
+                    let a = sorted[number * CHUNK + (cluster.first + lane) as usize];
+                    clustered += 1;
+                    for (b, other) in sorted.iter().enumerate() {
+                        let mut r = a - *other;
+                        if let Some(width) = periodic {
+                            r.y -= width * (r.y / width).round();
+                        }
+                        assert!(r.length() > reach || list.iter().filter(|&&j| j == b as u32).count() == 1);
+                    }
+                }
+            }
+        }
+        assert_eq!(clustered, 3000);
+    }
+
+    #[test]
+    fn every_neighbour_is_listed_once() {
+        every_pair_is_listed(None);
+    }
+
+    #[test]
+    fn every_neighbour_is_listed_once_across_periodic_sides() {
+        every_pair_is_listed(Some(0.6));
+    }
+}

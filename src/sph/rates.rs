@@ -1,0 +1,150 @@
+//! Right-hand sides of equations 1 and 2: one pass over the neighbour lists gives the acceleration, the rate of the
+//! density and the largest approach speed of each target.
+
+use rayon::prelude::*;
+
+use super::{
+    continuity::compression,
+    lanes::{Avx2, LANES, Lanes, Portable, has_avx2_fma},
+    momentum::pair_stress,
+    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
+    parameters::Parameters,
+    records::Record,
+    viscosity::{approach_speed, viscous_stress},
+};
+
+/// Sums of one target.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Rate {
+    /// Acceleration without gravity [m/s2].
+    pub acceleration: [f32; 3],
+    /// d rho / dt [kg/(m3 s)].
+    pub density: f32,
+    /// Largest |mu_ab| of equation 3 over the neighbours [m/s].
+    pub approach: f32,
+}
+
+/// What the pair loop needs besides the records.
+#[derive(Debug, Clone, Copy)]
+pub struct PairLoop {
+    parameters: Parameters,
+    bin_x: f32,
+    width: f32,
+    avx2_fma: bool,
+}
+
+impl PairLoop {
+    /// Loop over pairs in bins of length `bin_x` [m].
+    pub fn new(parameters: Parameters, bin_x: f64) -> Self {
+        let width = parameters.periodic_width.unwrap_or(0.0) as f32;
+        Self { parameters, bin_x: bin_x as f32, width, avx2_fma: has_avx2_fma() }
+    }
+
+    /// The same loop without processor-specific instructions.
+    pub fn portable(self) -> Self {
+        Self { avx2_fma: false, ..self }
+    }
+
+    /// Rates of the targets, which are consecutive `records` from `first_target` on.
+    pub fn rates(&self, lists: &NeighbourLists, records: &[Record], first_target: usize, rates: &mut [Rate]) {
+        rates.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (rates, chunk))| {
+            let begin = first_target + number * CHUNK;
+            let targets = &records[begin..begin + rates.len()];
+            self.chunk_rates(chunk, targets, records, rates);
+        });
+    }
+
+    fn chunk_rates(&self, chunk: &Chunk, targets: &[Record], records: &[Record], rates: &mut [Rate]) {
+        #[cfg(target_arch = "x86_64")]
+        if self.avx2_fma {
+            // SAFETY: `has_avx2_fma` has asked the processor.
+            return unsafe { chunk_rates_avx2_fma(self, chunk, targets, records, rates) };
+        }
+        chunk_rates::<Portable>(self, chunk, targets, records, rates);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn chunk_rates_avx2_fma(pairs: &PairLoop, chunk: &Chunk, targets: &[Record], records: &[Record], rates: &mut [Rate]) {
+    chunk_rates::<Avx2>(pairs, chunk, targets, records, rates);
+}
+
+#[inline(always)]
+fn chunk_rates<L: Lanes>(pairs: &PairLoop, chunk: &Chunk, targets: &[Record], records: &[Record], rates: &mut [Rate]) {
+    for (cluster, neighbours) in chunk.clusters() {
+        let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+        let sums = if pairs.width > 0.0 {
+            cluster_rates::<L, true>(pairs, cluster, targets, neighbours, records)
+        } else {
+            cluster_rates::<L, false>(pairs, cluster, targets, neighbours, records)
+        };
+        rates[members].copy_from_slice(&sums[..cluster.len as usize]);
+    }
+}
+
+/// The members of a cluster, one a lane; missing ones repeat the last.
+#[inline(always)]
+pub(super) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
+    let last = cluster.len as usize - 1;
+    L::from_array(std::array::from_fn(|lane| f(&targets[cluster.first as usize + lane.min(last)])))
+}
+
+#[inline(always)]
+fn cluster_rates<L: Lanes, const PERIODIC: bool>(
+    pairs: &PairLoop,
+    cluster: &Cluster,
+    targets: &[Record],
+    neighbours: &[u32],
+    records: &[Record],
+) -> [Rate; LANES] {
+    let Parameters { kernel, tait, alpha, diffusion, .. } = &pairs.parameters;
+    let (h, alpha, rho0) = (kernel.h as f32, *alpha as f32, tait.rho0 as f32);
+    let a = |f: fn(&Record) -> f32| lanes_of::<L, Record>(cluster, targets, f);
+    let splat = L::splat;
+
+    let (bin_a, x_a, y_a, z_a) = (a(|r| r.bin_x), a(|r| r.x), a(|r| r.y), a(|r| r.z));
+    let (vx_a, vy_a, vz_a) = (a(|r| r.velocity[0]), a(|r| r.velocity[1]), a(|r| r.velocity[2]));
+    let (excess_a, p_a, c_a) = (a(|r| r.excess_density), a(|r| r.pressure), a(|r| r.sound_speed));
+    let rho_a = splat(rho0) + excess_a;
+
+    let zero = splat(0.0);
+    let (mut force_x, mut force_y, mut force_z) = (zero, zero, zero);
+    let (mut compressions, mut diffusions, mut approach) = (zero, zero, zero);
+    for &j in neighbours {
+        let b = &records[j as usize];
+        let x_ab = (bin_a - splat(b.bin_x)).mul_add(splat(pairs.bin_x), x_a - splat(b.x));
+        let mut y_ab = y_a - splat(b.y);
+        if PERIODIC {
+            y_ab = y_ab - splat(pairs.width) * (y_ab * splat(1.0 / pairs.width)).round();
+        }
+        let z_ab = z_a - splat(b.z);
+        let r2 = x_ab.mul_add(x_ab, y_ab.mul_add(y_ab, z_ab * z_ab));
+        let closeness = kernel.closeness(r2.sqrt());
+        let g = kernel.gradient_factor(closeness);
+
+        let (vx_ab, vy_ab) = (vx_a - splat(b.velocity[0]), vy_a - splat(b.velocity[1]));
+        let vz_ab = vz_a - splat(b.velocity[2]);
+        let v_dot_r = vx_ab.mul_add(x_ab, vy_ab.mul_add(y_ab, vz_ab * z_ab));
+        let (volume_b, rho_b) = (splat(b.volume), splat(rho0 + b.excess_density));
+
+        let mu = approach_speed(h, v_dot_r, r2);
+        approach = approach.max(mu.abs().where_positive(closeness));
+        let viscous = viscous_stress(alpha, mu, c_a, splat(b.sound_speed), rho_a, rho_b);
+        let stress = pair_stress(p_a, splat(b.pressure), viscous) * (volume_b * g);
+        force_x = stress.mul_add(x_ab, force_x);
+        force_y = stress.mul_add(y_ab, force_y);
+        force_z = stress.mul_add(z_ab, force_z);
+        compressions += compression(volume_b, rho_b, v_dot_r, g);
+        diffusions += diffusion.term(excess_a, splat(b.excess_density), z_ab, g, splat(b.diffusive_volume));
+    }
+
+    let minus_per_mass = splat(-1.0) / rho_a;
+    let [ax, ay, az] = [force_x, force_y, force_z].map(|force| (force * minus_per_mass).to_array());
+    let (density, approach) = ((compressions + diffusions).to_array(), approach.to_array());
+    std::array::from_fn(|lane| Rate {
+        acceleration: [ax[lane], ay[lane], az[lane]],
+        density: density[lane],
+        approach: approach[lane],
+    })
+}

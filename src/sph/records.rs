@@ -1,0 +1,75 @@
+//! The packed record of a particle that the pair loop broadcasts.
+
+use glam::DVec3;
+
+use super::{grid::Grid, parameters::Parameters};
+
+/// What a neighbour needs to know of a particle, in single precision, 48 bytes.
+///
+/// The long axis is split into a whole number of bins and an offset, so that differences keep their precision in
+/// flumes of any length; y and z are relative to the middle of the grid.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct Record {
+    /// Bin along x, a whole number.
+    pub bin_x: f32,
+    /// Offset from the bin's low end [m].
+    pub x: f32,
+    /// y and z from the middle of the grid [m].
+    pub y: f32,
+    /// See `y`.
+    pub z: f32,
+    /// Velocity [m/s].
+    pub velocity: [f32; 3],
+    /// m / rho [m3].
+    pub volume: f32,
+    /// rho - rho0 [kg/m3].
+    pub excess_density: f32,
+    /// Pressure [Pa].
+    pub pressure: f32,
+    /// Speed of sound [m/s].
+    pub sound_speed: f32,
+    /// The volume with which the particle takes part in density diffusion [m3]: zero for boundary particles of the
+    /// dynamic boundary condition, whose density is not one of the water.
+    pub diffusive_volume: f32,
+}
+
+/// Position split as in [`Record`]: bin along x, offset, y, z.
+pub fn split_position(grid: &Grid, point: DVec3) -> [f32; 4] {
+    let from_low = point - grid.low;
+    let bin = (from_low.x / grid.size.x).floor();
+    let middle = |axis: usize| 0.5 * grid.size[axis] * grid.count[axis] as f64;
+    [
+        bin as f32,
+        (from_low.x - bin * grid.size.x) as f32,
+        (from_low.y - middle(1)) as f32,
+        (from_low.z - middle(2)) as f32,
+    ]
+}
+
+/// Record of a particle from its double-precision state.
+pub fn record(
+    grid: &Grid,
+    parameters: &Parameters,
+    position: DVec3,
+    velocity: DVec3,
+    density: f64,
+    mass: f64,
+    diffuses: bool,
+) -> Record {
+    let tait = &parameters.tait;
+    let [bin_x, x, y, z] = split_position(grid, position);
+    let volume = (mass / density) as f32;
+    Record {
+        bin_x,
+        x,
+        y,
+        z,
+        velocity: velocity.as_vec3().to_array(),
+        volume,
+        excess_density: (density - tait.rho0) as f32,
+        pressure: tait.pressure(density) as f32,
+        sound_speed: tait.sound_speed(density) as f32,
+        diffusive_volume: if diffuses { volume } else { 0.0 },
+    }
+}

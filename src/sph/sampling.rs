@@ -1,0 +1,127 @@
+//! Measuring the water at points: pressure, velocity, surface elevation.
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    equation_of_state::Tait,
+    grid::{Bins, Grid},
+    kernel::Wendland,
+    solve::solve,
+};
+use crate::particles::water::Water;
+
+/// Sum of W V at which the water ends: half a neighbourhood.
+const SURFACE: f64 = 0.5;
+
+/// Smallest scaled determinant for which the linear fit is trusted; see [`super::mdbc`].
+const LEAST_DETERMINANT: f64 = 0.01;
+
+/// The sorted water of a step, ready to be measured.
+#[derive(Clone, Copy)]
+pub struct Sampler<'a> {
+    /// Bins that the water is sorted into.
+    pub grid: &'a Grid,
+    /// Where each bin begins.
+    pub bins: &'a Bins,
+    /// The water, sorted.
+    pub water: &'a Water,
+    /// Kernel.
+    pub kernel: Wendland,
+    /// Equation of state.
+    pub tait: Tait,
+}
+
+/// Water at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Pressure [Pa].
+    pub pressure: f64,
+    /// Velocity [m/s].
+    pub velocity: DVec3,
+}
+
+impl Sampler<'_> {
+    /// Fold over the water within the kernel's support of a point: offset from the point [m] and particle.
+    fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
+        let (grid, reach) = (self.grid, self.kernel.support());
+        let [nx, ny, _] = grid.count;
+        let bins = |axis: usize| grid.along(axis, point[axis] - reach)..=grid.along(axis, point[axis] + reach);
+        let (x, z) = (bins(0), bins(2));
+        // Every row of a periodic flume is looked at: gauges are few.
+        let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { bins(1) };
+        let mut value = start;
+        for iz in z {
+            for iy in y.clone() {
+                let row = (iz * ny + iy) * nx;
+                let members = self.bins.start[row + x.start()]..self.bins.start[row + x.end() + 1];
+                for b in members.map(|b| b as usize) {
+                    let mut r = self.water.position[b] - point;
+                    if let Some(width) = grid.periodic_width {
+                        r.y -= width * (r.y / width).round();
+                    }
+                    if r.length_squared() < reach * reach {
+                        value = f(value, r, b);
+                    }
+                }
+            }
+        }
+        value
+    }
+
+    /// m / rho W of a neighbour [-].
+    fn weight(&self, r: DVec3, b: usize) -> f64 {
+        self.water.mass / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
+    }
+
+    /// Sum of W V [-]: 1 inside the water, 1/2 at its surface.
+    pub fn occupied(&self, point: DVec3) -> f64 {
+        self.fold(point, 0.0, |sum, r, b| sum + self.weight(r, b))
+    }
+
+    /// Pressure and velocity by a linear fit with kernel weights (moving least squares), or by the weighted mean where
+    /// the neighbours do not carry a fit; `None` where the point is dry.
+    pub fn sample(&self, point: DVec3) -> Option<Sample> {
+        let per_h = 1.0 / self.kernel.h;
+        // Moments of (1, x, y, z) against (1, x, y, z, p, u, v, w).
+        let moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
+            let weight = self.weight(r, b);
+            let [x, y, z] = (r * per_h).to_array();
+            let [u, v, w] = self.water.velocity[b].to_array();
+            let columns = [1.0, x, y, z, self.tait.pressure(self.water.density[b]), u, v, w];
+            for (row, base) in sums.iter_mut().zip([1.0, x, y, z]) {
+                for (sum, column) in row.iter_mut().zip(columns) {
+                    *sum += weight * base * column;
+                }
+            }
+            sums
+        });
+        let occupied = moments[0][0];
+        // A fifth of a neighbourhood: what is left of it a little above a calm surface.
+        if occupied < 0.2 {
+            return None;
+        }
+        let value = |field: usize| {
+            let rows = moments.map(|row| [row[0], row[1], row[2], row[3], row[4 + field]]);
+            // The second moments of a full neighbourhood are 1/6 h^2 each.
+            solve(rows, LEAST_DETERMINANT * occupied.powi(4) / 216.0).map_or(moments[0][4 + field] / occupied, |s| s[0])
+        };
+        Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
+    }
+
+    /// Level of the surface z [m] over a place (x, y), looked for from `high` down to `low` [m]; `None` if dry.
+    pub fn surface(&self, place: DVec2, low: f64, high: f64) -> Option<f64> {
+        let step = 0.25 * self.kernel.h;
+        let at = |z: f64| self.occupied(place.extend(z));
+        let count = ((high - low) / step).ceil() as u32;
+        let mut above = (high, at(high));
+        for z in (1..=count).map(|k| high - f64::from(k) * step) {
+            let here = (z, at(z));
+            if here.1 >= SURFACE {
+                let share = (SURFACE - above.1) / (here.1 - above.1);
+                return Some(above.0 + share * (here.0 - above.0));
+            }
+            above = here;
+        }
+        None
+    }
+}

@@ -1,0 +1,61 @@
+//! Variable time step (Monaghan et al. 1999): dt = C min(dt_f, dt_cv),
+//! dt_f = min_a sqrt(h / |dv_a/dt|), dt_cv = min_a h / (c_a + max_b |h v_ab . r_ab / (r_ab^2 + 0.01 h^2)|).
+
+use rayon::prelude::*;
+
+use super::{parameters::Parameters, rates::Rate, records::Record};
+
+/// Largest acceleration and signal speed over the water.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Limits {
+    /// max |dv/dt| [m/s2].
+    pub acceleration: f64,
+    /// max (c + |mu|) [m/s].
+    pub signal_speed: f64,
+}
+
+impl Limits {
+    /// Limits of the water, from its records and rates; NaN anywhere makes them NaN.
+    pub fn of(records: &[Record], rates: &[Rate], gravity: f64) -> Self {
+        records
+            .par_iter()
+            .zip(rates)
+            .with_min_len(4096)
+            .map(|(record, rate)| {
+                let [ax, ay, az] = rate.acceleration.map(f64::from);
+                let az = az - gravity;
+                Self {
+                    acceleration: (ax * ax + ay * ay + az * az).sqrt(),
+                    signal_speed: f64::from(record.sound_speed + rate.approach),
+                }
+            })
+            .reduce(Self::default, |a, b| Self {
+                acceleration: larger_or_nan(a.acceleration, b.acceleration),
+                signal_speed: larger_or_nan(a.signal_speed, b.signal_speed),
+            })
+    }
+
+    /// The time step [s].
+    pub fn time_step(&self, parameters: &Parameters) -> f64 {
+        let h = parameters.kernel.h;
+        let of_force = (h / self.acceleration).sqrt();
+        let of_sound_and_viscosity = h / self.signal_speed;
+        parameters.cfl * of_force.min(of_sound_and_viscosity)
+    }
+}
+
+fn larger_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn not_a_number_is_not_lost() {
+        assert!(larger_or_nan(f64::NAN, 1.0).is_nan());
+        assert!(larger_or_nan(1.0, f64::NAN).is_nan());
+        assert_eq!(larger_or_nan(1.0, 2.0), 2.0);
+    }
+}
