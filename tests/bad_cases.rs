@@ -24,26 +24,34 @@ fn bad_cases() -> Vec<(PathBuf, Vec<String>)> {
         .collect()
 }
 
-fn assert_tells(message: &str, path: &Path, expected: &[String]) {
-    assert!(!expected.is_empty(), "{}: nothing is expected", path.display());
-    for line in expected {
-        assert!(message.contains(line), "{}:\nexpected: {line}\nmessage:\n{message}", path.display());
-    }
+/// What a message lacks.
+fn complaints(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
     let name = path.file_name().unwrap().to_string_lossy();
-    for line in message.lines() {
-        assert!(line.contains(&*name), "a line of the message does not name the file {name}: {line}");
+    let mut found = Vec::new();
+    if expected.is_empty() {
+        found.push(format!("{name}: nothing is expected"));
     }
+    for line in expected.iter().filter(|line| !message.contains(line.as_str())) {
+        found.push(format!("{name}:\n  expected: {line}\n  message:  {message}"));
+    }
+    for line in message.lines().filter(|line| !line.contains(&*name)) {
+        found.push(format!("{name}: a line of the message does not name the file: {line}"));
+    }
+    found
 }
 
 #[test]
 fn every_bad_case_is_refused_with_its_message() {
     let cases = bad_cases();
     assert!(cases.len() >= 30, "only {} bad cases found", cases.len());
+    let mut found = Vec::new();
     for (path, expected) in cases {
-        let Err(errors) = Case::load(&path) else { panic!("{} was accepted", path.display()) };
-        assert!(!errors.errors.is_empty());
-        assert_tells(&errors.to_string(), &path, &expected);
+        match Case::load(&path) {
+            Ok(_) => found.push(format!("{} was accepted", path.display())),
+            Err(errors) => found.extend(complaints(&errors.to_string(), &path, &expected)),
+        }
     }
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]
@@ -65,6 +73,43 @@ fn truncated_cases_are_refused_at_every_length() {
     for length in (0..whole).filter(|length| text.is_char_boundary(*length)) {
         assert!(Case::from_str(&text[..length], "cut.json").is_err(), "accepted when cut at {length}");
     }
+}
+
+#[test]
+fn odd_values_anywhere_give_an_error_or_a_sound_case() {
+    let odd = ["0", "-1", "1e308", "-1e308", "5e-324", "4294967295", "0.001", "null", "\"\"", "[]", "{}", "true"];
+    let file: breakwater::case::file::CaseFile = serde_json::from_str(&breakwater::case::template_text()).unwrap();
+    let sound = serde_json::to_value(&file).unwrap();
+    let mut pointers = Vec::new();
+    collect_pointers(&sound, String::new(), &mut pointers);
+    for pointer in &pointers {
+        for value in odd {
+            let mut changed = sound.clone();
+            *changed.pointer_mut(pointer).unwrap() = serde_json::from_str(value).unwrap();
+            match Case::from_str(&changed.to_string(), "odd.json") {
+                Ok(case) => {
+                    let size = case.estimate();
+                    let finite = size.dt > 0.0 && size.dt.is_finite() && size.bytes.is_finite();
+                    assert!(finite, "{pointer} = {value}: {size:?}");
+                }
+                Err(errors) => assert!(!errors.errors.is_empty(), "{pointer} = {value}: refused without a reason"),
+            }
+        }
+    }
+}
+
+/// JSON pointers of a value and everything inside it.
+fn collect_pointers(value: &serde_json::Value, at: String, pointers: &mut Vec<String>) {
+    match value {
+        serde_json::Value::Object(object) => {
+            object.iter().for_each(|(key, inner)| collect_pointers(inner, format!("{at}/{key}"), pointers));
+        }
+        serde_json::Value::Array(list) => {
+            list.iter().enumerate().for_each(|(i, inner)| collect_pointers(inner, format!("{at}/{i}"), pointers));
+        }
+        _ => {}
+    }
+    pointers.push(at);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The part of the flume that is filled with particles, validated.
 
-use super::check::{Checker, above, show};
+use super::check::{Checker, above, from, show};
 use super::file::{DomainFile, Sides, WaterFile};
 use super::flume::Flume;
 
@@ -61,7 +61,7 @@ pub(super) fn validate(
     check.number(
         "domain.dp_m",
         file.dp_m,
-        above(0.0).up_to(0.5),
+        from(1e-4).up_to(0.5),
         "m",
         "write the particle distance in metres, e.g. 0.007",
     );
@@ -174,10 +174,13 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
 }
 
 fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Option<(Water, f64)> {
-    let (water, depth, path) = match file.water {
-        WaterFile::StillLevel {} => {
-            (Water::StillLevel, flume.still_level - lowest(flume, file.x_m), "flume.still_water_level_m")
-        }
+    let (water, depth, path, level) = match file.water {
+        WaterFile::StillLevel {} => (
+            Water::StillLevel,
+            flume.still_level - lowest(flume, file.x_m),
+            "flume.still_water_level_m",
+            flume.still_level,
+        ),
         WaterFile::Block(block) => {
             let [x0, x1] = block.x_m;
             if !(x0 >= file.x_m[0] && x1 <= file.x_m[1] && x1 - x0 >= file.dp_m) {
@@ -200,14 +203,18 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
             ) {
                 return None;
             }
-            (Water::Block { x: block.x_m, top_z: block.top_z_m }, block.top_z_m - ground, "domain.water.top_z_m")
+            (
+                Water::Block { x: block.x_m, top_z: block.top_z_m },
+                block.top_z_m - ground,
+                "domain.water.top_z_m",
+                block.top_z_m,
+            )
         }
     };
     if depth < file.dp_m {
-        let level = file.top_z_m.min(flume.still_level);
         check.refuse(
             path,
-            show(if path.starts_with("flume") { level } else { file.top_z_m }),
+            show(level),
             format!("at least one particle distance above the ground of the domain (the depth is {} m)", show(depth)),
             "raise the water or move the domain to where it is deeper",
         );

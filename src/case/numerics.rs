@@ -1,6 +1,6 @@
 //! Water and the constants of the SPH scheme, validated.
 
-use super::check::{Checker, above, from};
+use super::check::{Checker, from};
 use super::file::{Boundary, FluidFile, NumericsFile};
 
 /// Water; SI units.
@@ -48,7 +48,7 @@ pub(super) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut C
     check.number(
         "fluid.gravity_m_s2",
         file.gravity_m_s2,
-        above(0.0).up_to(1000.0),
+        from(0.01).up_to(1000.0),
         "m/s2",
         "write it positive, 9.81 on earth; it acts downwards",
     );
@@ -67,8 +67,14 @@ pub(super) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut C
     Some(Fluid { rho0: file.density_kg_m3, gravity: file.gravity_m_s2, gamma: file.tait_exponent, sound_speed })
 }
 
-/// Validate the constants of the scheme; `dp` is the particle distance [m], `duration` the run's [s].
-pub(super) fn validate_numerics(file: &NumericsFile, dp: f64, duration: f64, check: &mut Checker) -> Option<Numerics> {
+/// Validate the constants of the scheme; `dp` is the particle distance [m], `longest_hold` the time for which
+/// units can be held in this run [s].
+pub(super) fn validate_numerics(
+    file: &NumericsFile,
+    dp: f64,
+    longest_hold: f64,
+    check: &mut Checker,
+) -> Option<Numerics> {
     let before = check.count();
     check.number(
         "numerics.smoothing_factor",
@@ -79,14 +85,14 @@ pub(super) fn validate_numerics(file: &NumericsFile, dp: f64, duration: f64, che
     );
     check.number("numerics.viscosity_alpha", file.viscosity_alpha, from(0.0).up_to(1.0), "", "0.01 to 0.1 is usual");
     check.number("numerics.diffusion_delta", file.diffusion_delta, from(0.0).up_to(1.0), "", "0.1 is usual");
-    check.number("numerics.cfl", file.cfl, above(0.0).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
+    check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
     if !(1..=10).contains(&file.boundary_layers) {
         check.refuse("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 cover the kernel's reach");
     }
     check.number(
         "numerics.hold_units_s",
         file.hold_units_s,
-        from(0.0).up_to(duration.max(0.0)),
+        from(0.0).up_to(longest_hold),
         "s",
         "hold the units for a part of the run only, e.g. 0.2",
     );

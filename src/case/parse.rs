@@ -1,6 +1,6 @@
 //! Text to [`CaseFile`]: syntax, keys and types.
 
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
 
 use super::error::{CaseError, nearest};
@@ -20,7 +20,7 @@ pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
             let path = error.path().to_string();
             let inner = error.into_inner();
             if !inner.is_data() {
-                return Err(syntax(&inner, name));
+                return Err(not_json_or_key(text, path, &inner, name));
             }
             let (path, problem) = refine(text, &path).unwrap_or_else(|| (path, without_place(&inner)));
             Err(key_error(name, path, inner.line(), &problem))
@@ -28,11 +28,32 @@ pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
     }
 }
 
+/// Two things that the parser calls syntax errors are a key's: a number beyond the largest float, and the surplus
+/// entries of a list of fixed length (the text is then JSON to a reader who expects nothing).
+fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
+    let key = |problem: &str, advice: &str| CaseError::Key {
+        file: name.to_owned(),
+        path,
+        line: error.line(),
+        problem: problem.to_owned(),
+        advice: advice.to_owned(),
+    };
+    if without_place(error) == "number out of range" {
+        key("number too large to be represented", "write a finite number")
+    } else if serde_json::from_str::<IgnoredAny>(text).is_ok() {
+        key("too many entries", "leave out the surplus; `breakwater schema` tells how many there must be")
+    } else {
+        syntax(error, name)
+    }
+}
+
 fn syntax(error: &serde_json::Error, name: &str) -> CaseError {
-    let problem = without_place(error);
-    // serde_json's words for a number such as 1e400.
-    let problem = problem.replace("number out of range", "number too large to be represented");
-    CaseError::Syntax { file: name.to_owned(), line: error.line(), column: error.column(), problem }
+    CaseError::Syntax {
+        file: name.to_owned(),
+        line: error.line(),
+        column: error.column(),
+        problem: without_place(error),
+    }
 }
 
 /// The parser's message without its " at line 3 column 5".

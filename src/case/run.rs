@@ -89,7 +89,7 @@ pub(super) fn validate_stop(file: &StopFile, has_units: bool, check: &mut Checke
     let sound = check.number(
         "stop.duration_s",
         file.duration_s,
-        above(0.0).up_to(1e4),
+        from(1e-6).up_to(1e4),
         "s",
         "write the simulated time, counted from the start of the particles",
     );

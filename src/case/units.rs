@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::check::{Checker, above, show};
+use super::check::{Checker, above, from, show};
 use super::domain::Domain;
 use super::file::{Orientation, Shape, Sides, UnitsFile};
+use super::flume::Flume;
 use super::materials::{self, FrictionPair, Material};
 
 /// Units in one row at most.
@@ -71,6 +72,7 @@ pub(super) fn volume(shape: Shape, height: f64) -> f64 {
 
 /// What the units need to know of the rest of the case.
 pub(super) struct Surroundings<'a> {
+    pub flume: Option<&'a Flume>,
     pub domain: Option<&'a Domain>,
     pub materials: &'a [Material],
     pub friction: &'a [FrictionPair],
@@ -95,7 +97,7 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
         );
     }
     let friction = validate_friction(material, around, check);
-    let placements = if row_sound { place_row(file, around.domain?, check) } else { Vec::new() };
+    let placements = if row_sound { place_row(file, around.flume?, around.domain?, check) } else { Vec::new() };
     if check.count() > before {
         return None;
     }
@@ -115,7 +117,8 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
 }
 
 fn validate_numbers(file: &UnitsFile, rho0: f64, check: &mut Checker) {
-    if check.number("units.height_m", file.height_m, above(0.0).up_to(20.0), "m", "write the unit's height in metres") {
+    if check.number("units.height_m", file.height_m, from(0.005).up_to(20.0), "m", "write the unit's height in metres")
+    {
         let volume = volume(file.shape, file.height_m);
         let range = above(100.0 * volume).up_to(20_000.0 * volume);
         let advice = format!("a unit of this height has {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
@@ -160,7 +163,7 @@ fn validate_friction(material: Option<usize>, around: &Surroundings, check: &mut
 }
 
 /// Place the units of the row and check that it fits into the domain.
-fn place_row(file: &UnitsFile, domain: &Domain, check: &mut Checker) -> Vec<Placement> {
+fn place_row(file: &UnitsFile, flume: &Flume, domain: &Domain, check: &mut Checker) -> Vec<Placement> {
     let shape = proportions(file.shape);
     let margin = shape.reach_x * file.height_m;
     check.number(
@@ -170,6 +173,15 @@ fn place_row(file: &UnitsFile, domain: &Domain, check: &mut Checker) -> Vec<Plac
         "m",
         "the whole unit must stand inside `domain.x_m`",
     );
+    let top = flume.profile.z(file.x_m) + file.height_m;
+    if top > domain.top_z {
+        check.refuse(
+            "domain.top_z_m",
+            show(domain.top_z),
+            format!("above the top of the units, {} m", show(top)),
+            "raise the walls",
+        );
+    }
     let length = f64::from(file.count - 1) * file.pitch_m;
     let first_y = file.first_y_m.unwrap_or(0.5 * (domain.width - length));
     match domain.sides {

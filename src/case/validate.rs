@@ -103,7 +103,7 @@ fn read(path: &Path) -> Result<String, String> {
 /// Validate section by section. A section that rests on an unsound one checks what it can and gives `None`.
 fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Option<Case> {
     if file.title.trim().is_empty() {
-        check.refuse("title", "\"\"", "a line of text", "name the case; reports show it");
+        check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case; reports show it");
     }
     let materials = materials::validate_materials(&file.materials, check);
     let friction = materials::validate_friction(&file.friction, &materials, check);
@@ -113,9 +113,12 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
     let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
     let stop = run::validate_stop(&file.stop, file.units.is_some(), check);
-    let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, stop.duration, check);
+    // The holding time has a default: compare it with the duration only where it means something.
+    let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
+    let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check);
     let wave = wave::validate(&file.wave, &file.domain.water, flume.as_ref(), domain.as_ref(), check);
     let around = Surroundings {
+        flume: flume.as_ref(),
         domain: domain.as_ref(),
         materials: &materials,
         friction: &friction,
