@@ -67,7 +67,7 @@ fn without_place(error: &serde_json::Error) -> String {
 /// kind it says it is, to name the key inside it.
 fn refine(text: &str, path: &str) -> Option<(String, String)> {
     let root: Value = serde_json::from_str(text).ok()?;
-    let pointer = format!("/{}", path.replace('.', "/").replace('[', "/").replace(']', ""));
+    let pointer = format!("/{}", path.replace(['.', '['], "/").replace(']', ""));
     let mut object = root.pointer(&pointer)?.as_object()?.clone();
     let Some(Value::String(kind)) = object.shift_remove("kind") else { return None };
     let rest = Value::Object(object);

@@ -269,8 +269,8 @@ fn validate_periodic_row(file: &UnitsFile, width: f64, first_y: f64, check: &mut
 /// Turn of the unit at `index` about the vertical [rad].
 fn azimuth(orientation: Orientation, index: u32) -> f64 {
     let shoreward = match orientation {
-        Orientation::Alternating => index % 2 == 1,
-        Orientation::AlternatingReversed => index % 2 == 0,
+        Orientation::Alternating => !index.is_multiple_of(2),
+        Orientation::AlternatingReversed => index.is_multiple_of(2),
         Orientation::Seaward => false,
         Orientation::Shoreward => true,
     };
