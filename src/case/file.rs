@@ -3,6 +3,11 @@
 //! Keys carry their unit. Unknown keys are refused, so that a misspelt one is never ignored.
 //! `Case` is the validated form that the solvers see.
 
+mod objects;
+
+pub use objects::{
+    ContactFile, ElevationFile, FrictionFile, GaugeFile, MaterialFile, Orientation, PointFile, Shape, UnitsFile,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -115,19 +120,29 @@ pub enum Sides {
 }
 
 /// Where the water stands at the start.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WaterFile {
     /// Up to the still water level (and, once the wave has entered, to the level that the flume model gives).
-    #[default]
-    StillLevel,
+    StillLevel {},
     /// A block of water between two x, from the bed to a level: a dam about to break.
-    Block {
-        /// Seaward and shoreward face of the block [m].
-        x_m: [f64; 2],
-        /// Top of the block [m].
-        top_z_m: f64,
-    },
+    Block(BlockFile),
+}
+
+impl Default for WaterFile {
+    fn default() -> Self {
+        Self::StillLevel {}
+    }
+}
+
+/// A block of water between two x, from the bed to a level.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlockFile {
+    /// Seaward and shoreward face of the block [m].
+    pub x_m: [f64; 2],
+    /// Top of the block [m].
+    pub top_z_m: f64,
 }
 
 /// Water and its artificial compressibility.
@@ -163,7 +178,7 @@ pub struct NumericsFile {
     /// Courant number [-].
     pub cfl: f64,
     /// How walls, wavemaker and units act on the water.
-    pub boundary: BoundaryFile,
+    pub boundary: Boundary,
     /// Layers of particles in walls and bed.
     pub boundary_layers: u32,
     /// Time for which the units are held while the water comes to rest round them [s].
@@ -177,7 +192,7 @@ impl Default for NumericsFile {
             viscosity_alpha: 0.04,
             diffusion_delta: 0.1,
             cfl: 0.2,
-            boundary: BoundaryFile::Mdbc,
+            boundary: Boundary::Mdbc,
             boundary_layers: 3,
             hold_units_s: 0.2,
         }
@@ -187,7 +202,7 @@ impl Default for NumericsFile {
 /// Boundary condition of the SPH walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum BoundaryFile {
+pub enum Boundary {
     /// Dynamic boundary condition (Crespo et al. 2007).
     Dbc,
     /// Modified dynamic boundary condition with ghost nodes (English et al. 2022).
@@ -195,33 +210,43 @@ pub enum BoundaryFile {
 }
 
 /// The wave that is sent down the flume.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WaveFile {
     /// No wave: still water, or a dam break.
-    #[default]
-    None,
+    None {},
     /// A solitary wave made by a piston at x = 0 of the flume, carried to the domain by the layered model.
-    Solitary {
-        /// Height above the still water in the offshore depth [m].
-        height_m: f64,
-        /// Shape of the wave, and with it the piston's motion.
-        #[serde(default)]
-        theory: SolitaryTheory,
-        /// Layers of the non-hydrostatic flume model.
-        #[serde(default = "default_layers")]
-        layers: u32,
-        /// Cell of the flume model [m].
-        #[serde(default = "default_flume_cell_m")]
-        flume_cell_m: f64,
-        /// Flume time at which the particles start [s]; without it, when the velocity at the wavemaker's place
-        /// reaches `start_at_share` of its maximum.
-        #[serde(default)]
-        start_s: Option<f64>,
-        /// Share of the largest velocity at which the particles start [-].
-        #[serde(default = "default_start_share")]
-        start_at_share: f64,
-    },
+    Solitary(SolitaryFile),
+}
+
+impl Default for WaveFile {
+    fn default() -> Self {
+        Self::None {}
+    }
+}
+
+/// A solitary wave made by a piston at x = 0 of the flume.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SolitaryFile {
+    /// Height above the still water in the offshore depth [m].
+    pub height_m: f64,
+    /// Shape of the wave, and with it the piston's motion.
+    #[serde(default)]
+    pub theory: SolitaryTheory,
+    /// Layers of the non-hydrostatic flume model.
+    #[serde(default = "default_layers")]
+    pub layers: u32,
+    /// Cell of the flume model [m].
+    #[serde(default = "default_flume_cell_m")]
+    pub flume_cell_m: f64,
+    /// Flume time at which the particles start [s]; without it, when the velocity at the wavemaker's place
+    /// reaches `start_at_share` of its maximum.
+    #[serde(default)]
+    pub start_s: Option<f64>,
+    /// Share of the largest velocity at which the particles start [-].
+    #[serde(default = "default_start_share")]
+    pub start_at_share: f64,
 }
 
 fn default_layers() -> u32 {
@@ -245,126 +270,6 @@ pub enum SolitaryTheory {
     /// k = sqrt(3H / 4d^2(d+H)); nearer to the exact wave.
     #[default]
     Rayleigh,
-}
-
-/// One row of armour units across the flume.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct UnitsFile {
-    /// Shape of a unit.
-    pub shape: Shape,
-    /// Height H of a unit standing on three legs [m].
-    pub height_m: f64,
-    /// Mass of a unit [kg].
-    pub mass_kg: f64,
-    /// Material, one of `materials`.
-    pub material: String,
-    /// Number of units in the row.
-    pub count: u32,
-    /// Distance between the units' axes [m].
-    pub pitch_m: f64,
-    /// Place of the row [m].
-    pub x_m: f64,
-    /// Place of the first unit across the flume [m]; without it, the row is centred.
-    #[serde(default)]
-    pub first_y_m: Option<f64>,
-    /// How the units are turned about the vertical.
-    #[serde(default)]
-    pub orientation: Orientation,
-    /// A unit is damaged when it has moved further than this [m]; without it, its height.
-    #[serde(default)]
-    pub damage_distance_m: Option<f64>,
-}
-
-/// Shape of an armour unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Shape {
-    /// Tetrapod (Danel & Greslou 1962).
-    Tetrapod,
-}
-
-/// How the units of a row are turned about the vertical.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Orientation {
-    /// Neighbours are turned by half a circle; the first has a leg seaward (SPH1 of Mitsui et al.).
-    #[default]
-    Alternating,
-    /// Neighbours are turned by half a circle; the first has a leg shoreward (SPH2).
-    AlternatingReversed,
-    /// Every unit has a leg seaward.
-    Seaward,
-    /// Every unit has a leg shoreward.
-    Shoreward,
-}
-
-/// Elastic constants of a material in contact.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MaterialFile {
-    /// Name used by `units.material`, `flume.material` and `friction`.
-    pub name: String,
-    /// Young's modulus in contact [Pa]. A softer value than the real one lengthens the contact and the time step.
-    pub young_modulus_pa: f64,
-    /// Poisson's ratio [-].
-    pub poisson_ratio: f64,
-    /// Coefficient of restitution [-].
-    pub restitution: f64,
-}
-
-/// Friction of a pair of materials.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct FrictionFile {
-    /// The two materials; the same one twice for units against units.
-    pub between: [String; 2],
-    /// Coulomb's coefficient [-].
-    pub coefficient: f64,
-}
-
-/// Contact between units and with the bed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ContactFile {
-    /// Rounding radius of a unit's edges as a share of its height; also the radius of Hertz's law [-].
-    pub rounding_share: f64,
-}
-
-impl Default for ContactFile {
-    fn default() -> Self {
-        Self { rounding_share: 0.05 }
-    }
-}
-
-/// A point at which the water is measured.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
-pub enum GaugeFile {
-    /// Surface elevation above the still water [m]; also written by the flume model.
-    Elevation {
-        /// Name in tables and plots.
-        name: String,
-        /// Place along the flume [m].
-        x_m: f64,
-        /// Place across the flume [m]; without it, the middle.
-        #[serde(default)]
-        y_m: Option<f64>,
-    },
-    /// Pressure [Pa].
-    Pressure {
-        /// Name in tables and plots.
-        name: String,
-        /// Place [m].
-        at_m: [f64; 3],
-    },
-    /// Velocity [m/s].
-    Velocity {
-        /// Name in tables and plots.
-        name: String,
-        /// Place [m].
-        at_m: [f64; 3],
-    },
 }
 
 /// What is written, and how often.

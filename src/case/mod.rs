@@ -1,3 +1,37 @@
 //! Case files: as written, validated, and what is wrong with them.
+//!
+//! Text becomes a [`file::CaseFile`] (keys and types), and that becomes a [`Case`] (values that make sense together).
+//! Solvers read the [`Case`] only.
 
+mod check;
+mod domain;
+mod error;
+mod estimate;
 pub mod file;
+mod flume;
+mod gauges;
+mod hash;
+mod materials;
+mod numerics;
+mod parse;
+mod run;
+mod schema;
+mod template;
+mod units;
+mod validate;
+mod wave;
+
+pub use domain::{Domain, Water};
+pub use error::{CaseError, CaseErrors};
+pub use estimate::Estimate;
+pub use file::{Boundary, Shape, Sides, SolitaryTheory};
+pub use flume::{Flume, Mound};
+pub use gauges::{Gauge, Quantity};
+pub use materials::{FrictionPair, Material};
+pub use numerics::{Fluid, Numerics};
+pub use run::{AtRest, Contact, Output, Stop};
+pub use schema::schema_text;
+pub use template::template_text;
+pub use units::{Placement, Units};
+pub use validate::Case;
+pub use wave::{SolitaryWave, Start, Wave};

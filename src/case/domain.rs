@@ -1,0 +1,248 @@
+//! The part of the flume that is filled with particles, validated.
+
+use super::check::{Checker, above, from, show};
+use super::file::{DomainFile, Sides, WaterFile};
+use super::flume::Flume;
+
+/// Particles along one direction at most.
+const MOST_ALONG: f64 = 1e6;
+
+/// The particle domain; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Domain {
+    /// Seaward and shoreward end [m].
+    pub x: [f64; 2],
+    /// Width across the flume [m].
+    pub width: f64,
+    /// What closes the domain across the flume.
+    pub sides: Sides,
+    /// Top of the walls [m].
+    pub top_z: f64,
+    /// Lowest ground in the domain [m].
+    pub bottom_z: f64,
+    /// Distance between particles along x and z [m].
+    pub dp: f64,
+    /// Distance between particles across the flume [m]: the width divided into `ny` equal parts, nearly `dp`.
+    pub dy: f64,
+    /// Particles along the flume, rounded.
+    pub nx: usize,
+    /// Particles across the flume.
+    pub ny: usize,
+    /// Particles from the lowest ground to the top of the walls, rounded up.
+    pub nz: usize,
+    /// Where the water stands at the start.
+    pub water: Water,
+    /// Largest depth of the water at the start [m].
+    pub depth: f64,
+}
+
+/// Where the water stands at the start; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Water {
+    /// Up to the still water level.
+    StillLevel,
+    /// A block from the bed to a level.
+    Block {
+        /// Seaward and shoreward face [m].
+        x: [f64; 2],
+        /// Top [m].
+        top_z: f64,
+    },
+}
+
+/// Validate the domain; `smoothing_factor` is that of the numerics, as written.
+pub(super) fn validate(
+    file: &DomainFile,
+    flume: Option<&Flume>,
+    smoothing_factor: f64,
+    check: &mut Checker,
+) -> Option<Domain> {
+    let before = check.count();
+    check.number(
+        "domain.dp_m",
+        file.dp_m,
+        from(1e-4).up_to(0.5),
+        "m",
+        "write the particle distance in metres, e.g. 0.007",
+    );
+    check.number("domain.width_m", file.width_m, above(0.0).up_to(1e4), "m", "write the width across the flume");
+    let flume = flume?;
+    validate_extent(file, flume, check);
+    if check.count() > before {
+        return None;
+    }
+    validate_width(file, smoothing_factor, check);
+    let bottom_z = lowest(flume, file.x_m);
+    let lengths = [file.x_m[1] - file.x_m[0], file.width_m, file.top_z_m - bottom_z];
+    for (name, length) in ["along the flume", "across the flume", "upwards"].into_iter().zip(lengths) {
+        if length / file.dp_m > MOST_ALONG {
+            check.refuse(
+                "domain.dp_m",
+                show(file.dp_m),
+                format!("at least {:e} m, for {MOST_ALONG:e} particles {name}", length / MOST_ALONG),
+                "write a larger particle distance",
+            );
+        }
+    }
+    let (water, depth) = validate_water(file, flume, check)?;
+    if check.count() > before {
+        return None;
+    }
+    let count = |length: f64| ((length / file.dp_m).round() as usize).max(1);
+    let ny = count(file.width_m);
+    Some(Domain {
+        x: file.x_m,
+        width: file.width_m,
+        sides: file.sides,
+        top_z: file.top_z_m,
+        bottom_z,
+        dp: file.dp_m,
+        dy: file.width_m / ny as f64,
+        nx: count(lengths[0]),
+        ny,
+        nz: (lengths[2] / file.dp_m).ceil() as usize,
+        water,
+        depth,
+    })
+}
+
+fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
+    let [start, end] = flume.ends();
+    for (index, x) in file.x_m.into_iter().enumerate() {
+        if !(x >= start && x <= end) {
+            check.refuse(
+                &format!("domain.x_m[{index}]"),
+                show(x),
+                format!("within the bed, {} to {} m", show(start), show(end)),
+                "move the end of the domain or lengthen `flume.bed_m`",
+            );
+        }
+    }
+    if file.x_m[1] - file.x_m[0] < 10.0 * file.dp_m {
+        check.refuse(
+            "domain.x_m",
+            format!("[{}, {}]", show(file.x_m[0]), show(file.x_m[1])),
+            "rising, with at least 10 particle distances between the two",
+            "write the seaward end first",
+        );
+        return;
+    }
+    let ground = highest(flume, file.x_m);
+    let lowest_top = match file.water {
+        WaterFile::StillLevel {} => ground.max(flume.still_level),
+        WaterFile::Block(_) => ground,
+    };
+    check.number(
+        "domain.top_z_m",
+        file.top_z_m,
+        above(lowest_top).up_to(lowest_top + 1000.0),
+        "m",
+        "the walls must rise above water and ground; leave room for the wave",
+    );
+}
+
+fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker) {
+    let h = smoothing_factor * 3f64.sqrt() * file.dp_m;
+    let least = 4.0 * h + file.dp_m;
+    if file.sides == Sides::Periodic && file.width_m < least {
+        check.refuse(
+            "domain.width_m",
+            show(file.width_m),
+            format!("at least 4h + dp = {} m with periodic sides, or a particle acts on its own image", show(least)),
+            "widen the domain or write a smaller `domain.dp_m`",
+        );
+    }
+    if file.width_m < file.dp_m {
+        check.refuse(
+            "domain.width_m",
+            show(file.width_m),
+            format!("at least one particle distance, {} m", show(file.dp_m)),
+            "widen the domain or write a smaller `domain.dp_m`",
+        );
+    }
+    let layers = (file.width_m / file.dp_m).round().max(1.0);
+    let stretch = file.width_m / layers / file.dp_m;
+    // Beyond a few per cent the lattice is visibly not cubic, and the density sum at rest drifts.
+    if (stretch - 1.0).abs() > 0.03 {
+        check.warn(format!(
+            "domain.width_m = {} is {:.2} particle distances: the spacing across the flume becomes {:.3} dp",
+            show(file.width_m),
+            file.width_m / file.dp_m,
+            stretch
+        ));
+    }
+}
+
+fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Option<(Water, f64)> {
+    let (water, depth, path, level) = match file.water {
+        WaterFile::StillLevel {} => (
+            Water::StillLevel,
+            flume.still_level - lowest(flume, file.x_m),
+            "flume.still_water_level_m",
+            flume.still_level,
+        ),
+        WaterFile::Block(block) => {
+            let [x0, x1] = block.x_m;
+            if !(x0 >= file.x_m[0] && x1 <= file.x_m[1] && x1 - x0 >= file.dp_m) {
+                check.refuse(
+                    "domain.water.x_m",
+                    format!("[{}, {}]", show(x0), show(x1)),
+                    format!("rising and within the domain, {} to {} m", show(file.x_m[0]), show(file.x_m[1])),
+                    "write the seaward face of the block first",
+                );
+                return None;
+            }
+            let ground = lowest(flume, block.x_m);
+            let range = above(ground).up_to(file.top_z_m);
+            if !check.number(
+                "domain.water.top_z_m",
+                block.top_z_m,
+                range,
+                "m",
+                "between the bed and the top of the walls",
+            ) {
+                return None;
+            }
+            (
+                Water::Block { x: block.x_m, top_z: block.top_z_m },
+                block.top_z_m - ground,
+                "domain.water.top_z_m",
+                block.top_z_m,
+            )
+        }
+    };
+    if depth < file.dp_m {
+        check.refuse(
+            path,
+            show(level),
+            format!("at least one particle distance above the ground of the domain (the depth is {} m)", show(depth)),
+            "raise the water or move the domain to where it is deeper",
+        );
+        return None;
+    }
+    if depth < 10.0 * file.dp_m {
+        check.warn(format!(
+            "domain.dp_m = {}: only {:.1} particles over the largest depth, {} m",
+            show(file.dp_m),
+            depth / file.dp_m,
+            show(depth)
+        ));
+    }
+    Some((water, depth))
+}
+
+/// Lowest ground between two x [m].
+fn lowest(flume: &Flume, x: [f64; 2]) -> f64 {
+    ground_levels(flume, x).fold(f64::INFINITY, f64::min)
+}
+
+/// Highest ground between two x [m].
+fn highest(flume: &Flume, x: [f64; 2]) -> f64 {
+    ground_levels(flume, x).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Ground at both ends and at the corners between them: the extremes of a polyline are among these.
+fn ground_levels(flume: &Flume, [x0, x1]: [f64; 2]) -> impl Iterator<Item = f64> {
+    let corners = flume.profile.points().iter().filter(move |p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
+    corners.chain([flume.profile.z(x0), flume.profile.z(x1)])
+}

@@ -1,0 +1,107 @@
+//! How large a case is, before any particle is made.
+
+use super::domain::Water;
+use super::file::Sides;
+use super::units;
+use super::validate::Case;
+use crate::geometry::profile::Profile;
+
+/// Memory of one particle with its neighbour lists [bytes].
+const BYTES_PER_PARTICLE: f64 = 600.0;
+
+/// Size of a run, from areas and volumes; good to some ten per cent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Water particles.
+    pub fluid: f64,
+    /// Particles in bed, walls and wavemaker.
+    pub boundary: f64,
+    /// Particles in the armour units.
+    pub units: f64,
+    /// Memory [bytes].
+    pub bytes: f64,
+    /// Time step from the speed of sound, cfl h / c0 [s].
+    pub dt: f64,
+    /// Steps of the whole duration.
+    pub steps: f64,
+}
+
+impl Estimate {
+    /// All particles.
+    pub fn particles(&self) -> f64 {
+        self.fluid + self.boundary + self.units
+    }
+}
+
+impl Case {
+    /// Size of the run.
+    pub fn estimate(&self) -> Estimate {
+        let domain = &self.domain;
+        let profile = &self.flume.profile;
+        let per_volume = 1.0 / (domain.dp * domain.dp * domain.dy);
+        let thickness = self.numerics.boundary_layers as f64 * domain.dp;
+        let water_area = match domain.water {
+            Water::StillLevel => area_under(profile, domain.x, self.flume.still_level),
+            Water::Block { x, top_z } => area_under(profile, x, top_z),
+        };
+        let end_walls = domain.x.iter().map(|x| (domain.top_z - profile.z(*x)).max(0.0)).sum::<f64>();
+        let bed = length_along(profile, domain.x);
+        let mut solid = (bed + end_walls) * thickness * domain.width;
+        if domain.sides == Sides::Walls {
+            solid += 2.0 * thickness * area_under(profile, domain.x, domain.top_z);
+        }
+        let unit_volume =
+            self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * units::volume(row.shape, row.height));
+        let (fluid, boundary, units) =
+            (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
+        let dt = self.numerics.cfl * self.numerics.h / self.fluid.sound_speed;
+        Estimate {
+            fluid: fluid.round(),
+            boundary: boundary.round(),
+            units: units.round(),
+            bytes: BYTES_PER_PARTICLE * (fluid + boundary + units),
+            dt,
+            steps: (self.stop.duration / dt).ceil(),
+        }
+    }
+}
+
+/// Corner points of the ground between two x, both ends included.
+fn pieces(profile: &Profile, [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
+    let inner = profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
+    [[x0, profile.z(x0)]].into_iter().chain(inner).chain([[x1, profile.z(x1)]]).collect()
+}
+
+/// Area between the ground and a level, where the ground is lower [m2].
+fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
+    let piece = |pair: &[[f64; 2]]| {
+        let (a, b) = (level - pair[0][1], level - pair[1][1]);
+        let length = pair[1][0] - pair[0][0];
+        match (a > 0.0, b > 0.0) {
+            (true, true) => 0.5 * (a + b) * length,
+            // Only the wet part of a piece that comes out of the water: a triangle.
+            (true, false) => 0.5 * a * length * a / (a - b),
+            (false, true) => 0.5 * b * length * b / (b - a),
+            (false, false) => 0.0,
+        }
+    };
+    pieces(profile, x).windows(2).map(piece).sum()
+}
+
+/// Length of the ground between two x [m].
+fn length_along(profile: &Profile, x: [f64; 2]) -> f64 {
+    pieces(profile, x).windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn areas_follow_the_ground() {
+        let bed = Profile::new(vec![[0.0, 0.0], [2.0, 0.0], [4.0, 2.0]]);
+        assert!((area_under(&bed, [0.0, 4.0], 1.0) - 2.5).abs() < 1e-12);
+        assert!((area_under(&bed, [1.0, 4.0], 3.0) - 7.0).abs() < 1e-12);
+        assert!((length_along(&bed, [1.0, 3.0]) - (1.0 + 2f64.sqrt())).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,168 @@
+//! Bed, mound and still water of the whole flume, validated.
+
+use super::check::{Checker, above, from, show};
+use super::file::{FlumeFile, MoundFile};
+use crate::geometry::profile::Profile;
+
+/// Coordinates beyond this are a slip of the keyboard, not a flume [m].
+const LARGEST_COORDINATE: f64 = 1e5;
+/// Corner points of a bed at most.
+const MOST_BED_POINTS: usize = 100_000;
+
+/// The whole flume; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flume {
+    /// Bed with the mound on it.
+    pub profile: Profile,
+    /// Bed without the mound.
+    pub bed: Profile,
+    /// Level of the still water [m].
+    pub still_level: f64,
+    /// Mound, if there is one.
+    pub mound: Option<Mound>,
+    /// Material of bed and mound, an index into `Case::materials`.
+    pub material: Option<usize>,
+}
+
+/// A trapezoidal mound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mound {
+    /// Seaward and lee edge of the crest [m].
+    pub crest_x: [f64; 2],
+    /// Level of the crest [m].
+    pub crest_z: f64,
+}
+
+impl Flume {
+    /// Seaward and shoreward end of the bed [m].
+    pub fn ends(&self) -> [f64; 2] {
+        let points = self.bed.points();
+        [points[0][0], points[points.len() - 1][0]]
+    }
+
+    /// Depth of the still water at x, mound included; 0 where the ground is dry [m].
+    pub fn still_depth(&self, x: f64) -> f64 {
+        (self.still_level - self.profile.z(x)).max(0.0)
+    }
+
+    /// Depth of the still water at the wavemaker's end [m].
+    pub fn offshore_depth(&self) -> f64 {
+        self.still_level - self.bed.points()[0][1]
+    }
+}
+
+/// Validate the flume; `material` is the index of its material, found beforehand.
+pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) -> Option<Flume> {
+    let before = check.count();
+    validate_bed(&file.bed_m, check);
+    check.number(
+        "flume.still_water_level_m",
+        file.still_water_level_m,
+        from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE),
+        "m",
+        "write the level in the z of the bed",
+    );
+    if let Some(mound) = &file.mound {
+        validate_mound_numbers(mound, check);
+    }
+    if check.count() > before {
+        return None;
+    }
+    let bed = Profile::new(file.bed_m.clone());
+    let (profile, mound) = match &file.mound {
+        None => (bed.clone(), None),
+        Some(mound) => {
+            let (profile, mound) = place_mound(mound, &bed, check)?;
+            (profile, Some(mound))
+        }
+    };
+    Some(Flume { profile, bed, still_level: file.still_water_level_m, mound, material })
+}
+
+fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
+    if points.len() < 2 || points.len() > MOST_BED_POINTS {
+        check.refuse(
+            "flume.bed_m",
+            format!("{} points", points.len()),
+            format!("2 to {MOST_BED_POINTS} points"),
+            "write the corner points [x, z] from the wavemaker to the shore, e.g. [[0, 0], [19, 0], [55, 1.2]]",
+        );
+    }
+    let everywhere = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
+    for (index, [x, z]) in points.iter().enumerate() {
+        check.number(&format!("flume.bed_m[{index}][0]"), *x, everywhere, "m", "write x in metres");
+        check.number(&format!("flume.bed_m[{index}][1]"), *z, everywhere, "m", "write z in metres");
+    }
+    for (index, pair) in points.windows(2).enumerate() {
+        // A piece shorter than a micrometre is a vertical step, which the slope of the bed could not describe.
+        if pair[1][0] - pair[0][0] < 1e-6 {
+            check.refuse(
+                &format!("flume.bed_m[{}][0]", index + 1),
+                show(pair[1][0]),
+                format!("greater than the x before it, {} m", show(pair[0][0])),
+                "let x rise from point to point; write a step as a short steep piece",
+            );
+        }
+    }
+}
+
+fn validate_mound_numbers(mound: &MoundFile, check: &mut Checker) {
+    let everywhere = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
+    check.number("flume.mound.centre_x_m", mound.centre_x_m, everywhere, "m", "write the middle of the crest");
+    check.number(
+        "flume.mound.crest_width_m",
+        mound.crest_width_m,
+        above(0.0).up_to(1000.0),
+        "m",
+        "write the width of the level part of the mound",
+    );
+    check.number("flume.mound.crest_z_m", mound.crest_z_m, everywhere, "m", "write the level of the crest");
+    for (key, run) in
+        [("seaward_run_per_rise", mound.seaward_run_per_rise), ("lee_run_per_rise", mound.lee_run_per_rise)]
+    {
+        check.number(
+            &format!("flume.mound.{key}"),
+            run,
+            from(0.01).up_to(100.0),
+            "",
+            "a flank 1:2 (2 m along for 1 m up) is written 2",
+        );
+    }
+}
+
+fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<(Profile, Mound)> {
+    let half = 0.5 * mound.crest_width_m;
+    let crest_x = [mound.centre_x_m - half, mound.centre_x_m + half];
+    let points = bed.points();
+    let ends = [points[0][0], points[points.len() - 1][0]];
+    if !(crest_x[0] > ends[0] && crest_x[1] < ends[1] && crest_x[1] - crest_x[0] > 1e-6) {
+        check.refuse(
+            "flume.mound.centre_x_m",
+            show(mound.centre_x_m),
+            format!("such that the whole crest lies on the bed, {} to {} m", show(ends[0]), show(ends[1])),
+            "move the mound or lengthen the bed",
+        );
+        return None;
+    }
+    let inner = points.iter().filter(|p| p[0] > crest_x[0] && p[0] < crest_x[1]).map(|p| p[1]);
+    let highest = inner.fold(bed.z(crest_x[0]).max(bed.z(crest_x[1])), f64::max);
+    if mound.crest_z_m <= highest {
+        check.refuse(
+            "flume.mound.crest_z_m",
+            show(mound.crest_z_m),
+            format!("above the bed under the crest, {} m", show(highest)),
+            "the level is measured in the z of the bed, not from the bed upwards",
+        );
+        return None;
+    }
+    let profile = bed.with_mound(crest_x, mound.crest_z_m, [mound.seaward_run_per_rise, mound.lee_run_per_rise]);
+    if profile.is_none() {
+        check.refuse(
+            "flume.mound.crest_z_m",
+            show(mound.crest_z_m),
+            "such that both flanks meet the bed inside the flume",
+            "lower the crest, steepen the flanks or lengthen the bed",
+        );
+    }
+    Some((profile?, Mound { crest_x, crest_z: mound.crest_z_m }))
+}

@@ -1,0 +1,30 @@
+//! Fingerprint of a case: the same for the same case, however the file is laid out.
+
+use super::file::CaseFile;
+
+/// 32 hexadecimal digits: FNV-1a (128 bits) of the case with every default written out. White space, the order of the
+/// keys and `$schema` do not matter.
+pub(super) fn fingerprint(file: &CaseFile) -> String {
+    let without_schema = CaseFile { schema: None, ..file.clone() };
+    // The structs fix the order of the keys; writing them to memory cannot fail: every key is a string.
+    let canonical = serde_json::to_string(&without_schema).unwrap_or_default();
+    format!("{:032x}", fnv1a_128(canonical.as_bytes()))
+}
+
+/// FNV-1a with 128 bits (Fowler, Noll, Vo; draft-eastlake-fnv).
+fn fnv1a_128(bytes: &[u8]) -> u128 {
+    const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+    bytes.iter().fold(OFFSET, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(PRIME))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fnv_matches_its_published_vectors() {
+        assert_eq!(fnv1a_128(b""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
+        assert_eq!(fnv1a_128(b"a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
+    }
+}

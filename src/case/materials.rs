@@ -1,0 +1,136 @@
+//! Materials and their friction, validated.
+
+use super::check::{Checker, above, from, show};
+use super::error::nearest;
+use super::file::{FrictionFile, MaterialFile};
+
+/// Materials in one case at most.
+const MOST_MATERIALS: usize = 100;
+
+/// Elastic constants of a material in contact; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name in the case file.
+    pub name: String,
+    /// Young's modulus in contact [Pa].
+    pub young_modulus: f64,
+    /// Poisson's ratio [-].
+    pub poisson_ratio: f64,
+    /// Coefficient of restitution [-].
+    pub restitution: f64,
+}
+
+/// Friction of two materials, each an index into `Case::materials`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionPair {
+    /// The two materials, the smaller index first.
+    pub between: [usize; 2],
+    /// Coulomb's coefficient [-].
+    pub coefficient: f64,
+}
+
+/// Validate the materials; the result has one entry for each in the file, also where an error was found.
+pub(super) fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Material> {
+    if file.len() > MOST_MATERIALS {
+        check.refuse("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "leave out some");
+        return Vec::new();
+    }
+    for (index, material) in file.iter().enumerate() {
+        let path = |key: &str| format!("materials[{index}].{key}");
+        if material.name.trim().is_empty() {
+            check.refuse(&path("name"), "\"\"", "a name", "write e.g. \"mortar\"");
+        }
+        if file[..index].iter().any(|other| other.name == material.name) {
+            check.refuse(&path("name"), format!("{:?}", material.name), "different from the others", "rename one");
+        }
+        check.number(
+            &path("young_modulus_pa"),
+            material.young_modulus_pa,
+            from(1e5).up_to(1e12),
+            "Pa",
+            "concrete has 3e10; about 1e8 is stiff enough in small-scale models and allows a longer step",
+        );
+        check.number(&path("poisson_ratio"), material.poisson_ratio, above(-1.0).below(0.5), "", "concrete has 0.2");
+        check.number(
+            &path("restitution"),
+            material.restitution,
+            above(0.0).up_to(1.0),
+            "",
+            "1 loses nothing in a collision, 0.5 half of the speed",
+        );
+    }
+    let validated = |material: &MaterialFile| Material {
+        name: material.name.clone(),
+        young_modulus: material.young_modulus_pa,
+        poisson_ratio: material.poisson_ratio,
+        restitution: material.restitution,
+    };
+    file.iter().map(validated).collect()
+}
+
+/// Index of the material called `name`.
+pub(super) fn find(materials: &[Material], name: &str, path: &str, check: &mut Checker) -> Option<usize> {
+    let found = materials.iter().position(|material| material.name == name);
+    if found.is_none() {
+        let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
+        let guess = nearest(name, names.iter().copied());
+        let advice = match guess {
+            Some(guess) => format!("did you mean \"{guess}\"?"),
+            None => "add it to `materials`".to_owned(),
+        };
+        let allowed = if names.is_empty() { "a name in `materials`, which is empty".to_owned() } else { list(&names) };
+        check.refuse(path, format!("{name:?}"), allowed, advice);
+    }
+    found
+}
+
+fn list(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    format!("one of {}", quoted.join(", "))
+}
+
+/// Validate the table of friction coefficients.
+pub(super) fn validate_friction(
+    file: &[FrictionFile],
+    materials: &[Material],
+    check: &mut Checker,
+) -> Vec<FrictionPair> {
+    let mut pairs: Vec<FrictionPair> = Vec::new();
+    // A table of all pairs of the allowed materials is the longest that makes sense.
+    let most = MOST_MATERIALS * (MOST_MATERIALS + 1) / 2;
+    if file.len() > most {
+        check.refuse("friction", file.len(), format!("at most {most} pairs"), "write each pair once");
+        return pairs;
+    }
+    for (index, friction) in file.iter().enumerate() {
+        let coefficient = friction.coefficient;
+        check.number(
+            &format!("friction[{index}].coefficient"),
+            coefficient,
+            from(0.0).up_to(2.0),
+            "",
+            "write the tangent of the angle at which sliding starts, e.g. 0.6",
+        );
+        let path = |side: usize| format!("friction[{index}].between[{side}]");
+        let first = find(materials, &friction.between[0], &path(0), check);
+        let second = find(materials, &friction.between[1], &path(1), check);
+        let (Some(first), Some(second)) = (first, second) else { continue };
+        let between = [first.min(second), first.max(second)];
+        if let Some(other) = pairs.iter().find(|pair| pair.between == between) {
+            check.refuse(
+                &format!("friction[{index}].between"),
+                format!("{:?}", friction.between),
+                format!("a pair not yet given (it has {})", show(other.coefficient)),
+                "keep one of the two",
+            );
+            continue;
+        }
+        pairs.push(FrictionPair { between, coefficient });
+    }
+    pairs
+}
+
+/// Friction coefficient of two materials, if the table has it.
+pub(super) fn coefficient(pairs: &[FrictionPair], a: usize, b: usize) -> Option<f64> {
+    pairs.iter().find(|pair| pair.between == [a.min(b), a.max(b)]).map(|pair| pair.coefficient)
+}

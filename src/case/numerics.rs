@@ -1,0 +1,120 @@
+//! Water and the constants of the SPH scheme, validated.
+
+use super::check::{Checker, from};
+use super::file::{Boundary, FluidFile, NumericsFile};
+
+/// Water; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fluid {
+    /// Reference density [kg/m3].
+    pub rho0: f64,
+    /// Gravitational acceleration, positive [m/s2].
+    pub gravity: f64,
+    /// Polytropic exponent of Tait's equation [-].
+    pub gamma: f64,
+    /// Speed of sound c0 = factor sqrt(g d), d the water's depth in the domain [m/s].
+    pub sound_speed: f64,
+}
+
+/// Constants of the SPH scheme; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numerics {
+    /// Smoothing length h = factor sqrt(3) dp [m]; the kernel reaches 2h.
+    pub h: f64,
+    /// Artificial viscosity [-].
+    pub alpha: f64,
+    /// Density diffusion [-].
+    pub delta: f64,
+    /// Courant number [-].
+    pub cfl: f64,
+    /// Boundary condition of walls, wavemaker and units.
+    pub boundary: Boundary,
+    /// Layers of particles in walls and bed.
+    pub boundary_layers: usize,
+    /// Time for which the units are held at the start [s].
+    pub hold_units: f64,
+}
+
+/// Validate the water's constants; the speed of sound follows from the depth, see [`Fluid`].
+pub(super) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
+    let before = check.count();
+    check.number(
+        "fluid.density_kg_m3",
+        file.density_kg_m3,
+        from(1.0).up_to(20_000.0),
+        "kg/m3",
+        "fresh water has 1000, sea water 1025",
+    );
+    check.number(
+        "fluid.gravity_m_s2",
+        file.gravity_m_s2,
+        from(0.01).up_to(1000.0),
+        "m/s2",
+        "write it positive, 9.81 on earth; it acts downwards",
+    );
+    check.number(
+        "fluid.sound_speed_factor",
+        file.sound_speed_factor,
+        from(5.0).up_to(200.0),
+        "",
+        "10 to 20 keeps the density within about 1 %; a larger one shortens the time step",
+    );
+    check.number("fluid.tait_exponent", file.tait_exponent, from(1.0).up_to(10.0), "", "water has 7");
+    if check.count() > before {
+        return None;
+    }
+    let sound_speed = file.sound_speed_factor * (file.gravity_m_s2 * depth?).sqrt();
+    Some(Fluid { rho0: file.density_kg_m3, gravity: file.gravity_m_s2, gamma: file.tait_exponent, sound_speed })
+}
+
+/// Validate the constants of the scheme; `dp` is the particle distance [m], `longest_hold` the time for which
+/// units can be held in this run [s].
+pub(super) fn validate_numerics(
+    file: &NumericsFile,
+    dp: f64,
+    longest_hold: f64,
+    check: &mut Checker,
+) -> Option<Numerics> {
+    let before = check.count();
+    check.number(
+        "numerics.smoothing_factor",
+        file.smoothing_factor,
+        from(0.8).up_to(2.5),
+        "",
+        "h = factor sqrt(3) dp; 1.2 is usual",
+    );
+    check.number("numerics.viscosity_alpha", file.viscosity_alpha, from(0.0).up_to(1.0), "", "0.01 to 0.1 is usual");
+    check.number("numerics.diffusion_delta", file.diffusion_delta, from(0.0).up_to(1.0), "", "0.1 is usual");
+    check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
+    if !(1..=10).contains(&file.boundary_layers) {
+        check.refuse("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 cover the kernel's reach");
+    }
+    check.number(
+        "numerics.hold_units_s",
+        file.hold_units_s,
+        from(0.0).up_to(longest_hold),
+        "s",
+        "hold the units for a part of the run only, e.g. 0.2",
+    );
+    if check.count() > before {
+        return None;
+    }
+    let h = file.smoothing_factor * 3f64.sqrt() * dp;
+    // The outer three tenths of the kernel's reach carry a few per cent of its sum.
+    if f64::from(file.boundary_layers) * dp < 0.7 * 2.0 * h {
+        check.warn(format!(
+            "numerics.boundary_layers = {}: thinner than the kernel's reach, 2h = {:.3} m",
+            file.boundary_layers,
+            2.0 * h
+        ));
+    }
+    Some(Numerics {
+        h,
+        alpha: file.viscosity_alpha,
+        delta: file.diffusion_delta,
+        cfl: file.cfl,
+        boundary: file.boundary,
+        boundary_layers: file.boundary_layers as usize,
+        hold_units: file.hold_units_s,
+    })
+}

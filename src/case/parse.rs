@@ -1,0 +1,139 @@
+//! Text to [`CaseFile`]: syntax, keys and types.
+
+use serde::de::{DeserializeOwned, IgnoredAny};
+use serde_json::Value;
+
+use super::error::{CaseError, nearest};
+use super::file::{BlockFile, CaseFile, ElevationFile, PointFile, SolitaryFile};
+
+/// Read the case as written; `name` is the file's name in messages.
+pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut reader = serde_json::Deserializer::from_str(text);
+    let parsed = serde_path_to_error::deserialize::<_, CaseFile>(&mut reader);
+    match parsed {
+        Ok(file) => match reader.end() {
+            Ok(()) => Ok(file),
+            Err(error) => Err(syntax(&error, name)),
+        },
+        Err(error) => {
+            let path = error.path().to_string();
+            let inner = error.into_inner();
+            if !inner.is_data() {
+                return Err(not_json_or_key(text, path, &inner, name));
+            }
+            let (path, problem) = refine(text, &path).unwrap_or_else(|| (path, without_place(&inner)));
+            Err(key_error(name, path, inner.line(), &problem))
+        }
+    }
+}
+
+/// Two things that the parser calls syntax errors are a key's: a number beyond the largest float, and the surplus
+/// entries of a list of fixed length (the text is then JSON to a reader who expects nothing).
+fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
+    let key = |problem: &str, advice: &str| CaseError::Key {
+        file: name.to_owned(),
+        path,
+        line: error.line(),
+        problem: problem.to_owned(),
+        advice: advice.to_owned(),
+    };
+    if without_place(error) == "number out of range" {
+        key("number too large to be represented", "write a finite number")
+    } else if serde_json::from_str::<IgnoredAny>(text).is_ok() {
+        key("too many entries", "leave out the surplus; `breakwater schema` tells how many there must be")
+    } else {
+        syntax(error, name)
+    }
+}
+
+fn syntax(error: &serde_json::Error, name: &str) -> CaseError {
+    CaseError::Syntax {
+        file: name.to_owned(),
+        line: error.line(),
+        column: error.column(),
+        problem: without_place(error),
+    }
+}
+
+/// The parser's message without its " at line 3 column 5".
+fn without_place(error: &serde_json::Error) -> String {
+    let message = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    message.strip_suffix(&place).unwrap_or(&message).to_owned()
+}
+
+/// An object with `kind` is read in two steps, and the parser then knows only the object's path. Read it again, as the
+/// kind it says it is, to name the key inside it.
+fn refine(text: &str, path: &str) -> Option<(String, String)> {
+    let root: Value = serde_json::from_str(text).ok()?;
+    let pointer = format!("/{}", path.replace(['.', '['], "/").replace(']', ""));
+    let mut object = root.pointer(&pointer)?.as_object()?.clone();
+    let Some(Value::String(kind)) = object.shift_remove("kind") else { return None };
+    let rest = Value::Object(object);
+    let (inner_path, problem) = match kind.as_str() {
+        "solitary" => first_problem::<SolitaryFile>(rest),
+        "block" => first_problem::<BlockFile>(rest),
+        "elevation" => first_problem::<ElevationFile>(rest),
+        "pressure" | "velocity" => first_problem::<PointFile>(rest),
+        _ => None,
+    }?;
+    let path = if inner_path == "." { path.to_owned() } else { format!("{path}.{inner_path}") };
+    Some((path, problem))
+}
+
+fn first_problem<T: DeserializeOwned>(value: Value) -> Option<(String, String)> {
+    let error = serde_path_to_error::deserialize::<_, T>(value).err()?;
+    Some((error.path().to_string(), without_place(error.inner())))
+}
+
+/// Turn the parser's words into a case writer's.
+fn key_error(name: &str, path: String, line: usize, problem: &str) -> CaseError {
+    let path = if path == "." { "top level".to_owned() } else { path };
+    let (problem, advice) = reword(problem);
+    CaseError::Key { file: name.to_owned(), path, line, problem, advice }
+}
+
+fn reword(problem: &str) -> (String, String) {
+    for (prefix, noun) in [("unknown field `", "key"), ("unknown variant `", "value")] {
+        let Some(rest) = problem.strip_prefix(prefix) else { continue };
+        let (word, expected) = rest.split_once("`, ").unwrap_or((rest.trim_end_matches('`'), ""));
+        let allowed: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+        let guess = nearest(word, allowed.iter().copied());
+        let guess = guess.map(|key| format!("did you mean \"{key}\"? ")).unwrap_or_default();
+        let allowed = if allowed.is_empty() { "none".to_owned() } else { allowed.join(", ") };
+        return (format!("unknown {noun} \"{word}\""), format!("{guess}allowed here: {allowed}"));
+    }
+    if let Some(key) = problem.strip_prefix("missing field `") {
+        let key = key.trim_end_matches('`');
+        return (
+            format!("the key \"{key}\" is missing"),
+            "add it; `breakwater schema` tells what every key means".to_owned(),
+        );
+    }
+    if let Some(key) = problem.strip_prefix("duplicate field `") {
+        return (
+            format!("the key \"{}\" is written twice", key.trim_end_matches('`')),
+            "keep one of the two".to_owned(),
+        );
+    }
+    let Some((found, expected)) = problem.split_once(", expected ") else {
+        return (problem.to_owned(), "`breakwater schema` tells what every key means".to_owned());
+    };
+    let found = found.strip_prefix("invalid type: ").unwrap_or(found);
+    (format!("wrong type: {found}"), format!("write {}", expected_words(expected)))
+}
+
+fn expected_words(expected: &str) -> String {
+    match expected {
+        "f64" => "a number".to_owned(),
+        "u32" => "a whole number, 0 or more".to_owned(),
+        "a sequence" => "a list [ ... ]".to_owned(),
+        _ if expected.starts_with("struct ") => "an object { ... }".to_owned(),
+        _ if expected.contains("tagged enum") => "an object { \"kind\": ..., ... }".to_owned(),
+        _ if expected.starts_with("an array of length ") => {
+            format!("a list of exactly {} entries", expected.trim_start_matches("an array of length "))
+        }
+        _ => expected.to_owned(),
+    }
+}

@@ -1,0 +1,174 @@
+//! The validated case: everything that the solvers read.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::check::{Checker, show};
+use super::domain::{self, Domain};
+use super::error::{CaseError, CaseErrors};
+use super::file::{CaseFile, WaveFile};
+use super::flume::{self, Flume};
+use super::gauges::{self, Gauge};
+use super::hash::fingerprint;
+use super::materials::{self, FrictionPair, Material};
+use super::numerics::{self, Fluid, Numerics};
+use super::parse::parse;
+use super::run::{self, Contact, Output, Stop};
+use super::units::{self, Surroundings, Units};
+use super::wave::{self, Wave};
+
+/// A larger case file is no case file [bytes].
+const LARGEST_FILE: u64 = 16 << 20;
+/// Particles above which a run is probably not meant.
+const MANY_PARTICLES: f64 = 50e6;
+/// Particles at most.
+const MOST_PARTICLES: f64 = 1e9;
+
+/// A case whose values make sense, each alone and together; SI units throughout.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// One line that names the case in reports.
+    pub title: String,
+    /// What had to be assumed; listed in the report.
+    pub assumptions: Vec<String>,
+    /// What is allowed and probably not meant.
+    pub warnings: Vec<String>,
+    /// Name of the file as given.
+    pub name: String,
+    /// 32 hexadecimal digits that stay the same for the same case, whatever the layout of the file.
+    pub hash: String,
+    /// The file as written, to copy into the run's folder.
+    pub text: String,
+    /// Bed, mound and still water of the whole flume.
+    pub flume: Flume,
+    /// The part of the flume that is filled with particles.
+    pub domain: Domain,
+    /// Water.
+    pub fluid: Fluid,
+    /// Constants of the SPH scheme.
+    pub numerics: Numerics,
+    /// The wave that is sent down the flume.
+    pub wave: Wave,
+    /// The armour units, if any.
+    pub units: Option<Units>,
+    /// Elastic constants; other structs hold indices into this list.
+    pub materials: Vec<Material>,
+    /// Friction of each pair of materials in the file.
+    pub friction: Vec<FrictionPair>,
+    /// Contact between units and with the bed.
+    pub contact: Contact,
+    /// Points at which the water is measured.
+    pub gauges: Vec<Gauge>,
+    /// Intervals of the outputs.
+    pub output: Output,
+    /// When the run ends.
+    pub stop: Stop,
+}
+
+impl Case {
+    /// Read and validate a case file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        let text = read(path).map_err(|reason| CaseError::Read { file: name.clone(), reason })?;
+        Self::from_str(&text, &name)
+    }
+
+    /// Validate the text of a case file; `name` is its name in messages.
+    pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
+        let file = parse(text, name)?;
+        let mut check = Checker::new(name);
+        match validate(&file, text, name, &mut check) {
+            Some(case) if check.count() == 0 => Ok(Self { warnings: check.warnings, ..case }),
+            _ => Err(check.into_errors()),
+        }
+    }
+
+    /// Friction coefficient of two materials, each an index into `materials`; `None` if the file has no such pair.
+    pub fn friction_between(&self, a: usize, b: usize) -> Option<f64> {
+        materials::coefficient(&self.friction, a, b)
+    }
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    let mut text = String::new();
+    let size = file.take(LARGEST_FILE + 1).read_to_string(&mut text).map_err(|error| error.to_string())?;
+    if size as u64 > LARGEST_FILE {
+        return Err(format!("larger than {} MiB, which no case file is", LARGEST_FILE >> 20));
+    }
+    Ok(text)
+}
+
+/// Validate section by section. A section that rests on an unsound one checks what it can and gives `None`.
+fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Option<Case> {
+    if file.title.trim().is_empty() {
+        check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case; reports show it");
+    }
+    let materials = materials::validate_materials(&file.materials, check);
+    let friction = materials::validate_friction(&file.friction, &materials, check);
+    let ground = file.flume.material.as_deref();
+    let ground_material = ground.and_then(|name| materials::find(&materials, name, "flume.material", check));
+    let flume = flume::validate(&file.flume, ground_material, check);
+    let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
+    let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
+    let stop = run::validate_stop(&file.stop, file.units.is_some(), check);
+    // The holding time has a default: compare it with the duration only where it means something.
+    let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
+    let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check);
+    let wave = wave::validate(&file.wave, &file.domain.water, flume.as_ref(), domain.as_ref(), check);
+    let around = Surroundings {
+        flume: flume.as_ref(),
+        domain: domain.as_ref(),
+        materials: &materials,
+        friction: &friction,
+        ground_material,
+        ground_named: ground.is_some(),
+        rho0: file.fluid.density_kg_m3,
+    };
+    let units = file.units.as_ref().map(|row| units::validate(row, &around, check));
+    let contact = run::validate_contact(&file.contact, check);
+    let has_wave = !matches!(file.wave, WaveFile::None {});
+    let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), has_wave, check);
+    let output = run::validate_output(&file.output, stop.duration, check);
+    let units = match units {
+        None => None,
+        Some(row) => Some(row?),
+    };
+    let case = Case {
+        title: file.title.clone(),
+        assumptions: file.assumptions.clone(),
+        warnings: Vec::new(),
+        name: name.to_owned(),
+        hash: fingerprint(file),
+        text: text.to_owned(),
+        flume: flume?,
+        domain: domain?,
+        fluid: fluid?,
+        numerics: numerics?,
+        wave: wave?,
+        units,
+        materials,
+        friction,
+        contact,
+        gauges,
+        output,
+        stop,
+    };
+    validate_size(&case, check);
+    Some(case)
+}
+
+fn validate_size(case: &Case, check: &mut Checker) {
+    let particles = case.estimate().particles();
+    if particles > MOST_PARTICLES {
+        check.refuse(
+            "domain.dp_m",
+            show(case.domain.dp),
+            format!("large enough for at most {MOST_PARTICLES:e} particles (it would be {particles:.1e})"),
+            "write a larger particle distance or a smaller domain",
+        );
+    } else if particles > MANY_PARTICLES {
+        check.warn(format!("domain.dp_m = {}: about {:.0} million particles", show(case.domain.dp), particles / 1e6));
+    }
+}

@@ -1,0 +1,142 @@
+//! Every case file that comes with the program loads, and the schema tells about every key.
+
+use std::path::{Path, PathBuf};
+
+use breakwater::case::file::CaseFile;
+use breakwater::case::{Case, Wave, schema_text, template_text};
+
+fn json_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(json_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "json") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+fn cases() -> Vec<PathBuf> {
+    json_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"))
+}
+
+fn case(name: &str) -> Case {
+    Case::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name))
+        .unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+#[test]
+fn every_case_file_loads() {
+    let files = cases();
+    assert!(files.len() >= 9, "only {} case files found", files.len());
+    for path in files {
+        let case = Case::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
+        assert!(!case.assumptions.is_empty(), "{}: no assumption listed", path.display());
+        let size = case.estimate();
+        println!(
+            "{}: {:.2e} particles, {:.1} GB, dt {:.1e} s, {} steps",
+            path.display(),
+            size.particles(),
+            size.bytes / 1e9,
+            size.dt,
+            size.steps
+        );
+        for warning in &case.warnings {
+            println!("    {warning}");
+        }
+    }
+}
+
+#[test]
+fn template_loads_without_a_warning() {
+    let case = Case::from_str(&template_text(), "template").unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(case.warnings, Vec::<String>::new());
+}
+
+#[test]
+fn case_files_survive_being_written_and_read() {
+    for path in cases() {
+        let file: CaseFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        let written = serde_json::to_string_pretty(&file).unwrap();
+        let again: CaseFile = serde_json::from_str(&written).unwrap();
+        assert_eq!(file, again, "{}", path.display());
+        let hash = Case::load(&path).unwrap().hash;
+        assert_eq!(Case::from_str(&written, "again").unwrap().hash, hash, "{}", path.display());
+    }
+}
+
+#[test]
+fn hash_sees_values_and_not_layout() {
+    let text = template_text();
+    let hash = Case::from_str(&text, "a").unwrap().hash;
+    assert_eq!(hash.len(), 32);
+    let layout = text.replace("\n", "\n\n").replace("\"$schema\": \"case.schema.json\",", "");
+    assert_eq!(Case::from_str(&layout, "b").unwrap().hash, hash);
+    let value = text.replace("\"height_m\": 0.06", "\"height_m\": 0.061");
+    assert_ne!(Case::from_str(&value, "c").unwrap().hash, hash);
+}
+
+#[test]
+fn derived_numbers_are_those_of_the_published_run() {
+    let case = case("fudo/H6.4-full.json");
+    // Mitsui et al. 2023, section 4.1: h = 1.2 sqrt(3) dp = 0.0104 m at dp = 0.005 m.
+    assert!((case.numerics.h - 0.010_392).abs() < 1e-6);
+    // Still depth at the wavemaker, x = 33 m: 0.8 - 14/30 m.
+    assert!((case.domain.depth - (0.8 - 14.0 / 30.0)).abs() < 1e-12);
+    assert!((case.fluid.sound_speed - 15.0 * (9.81 * case.domain.depth).sqrt()).abs() < 1e-12);
+    assert!((case.flume.profile.z(39.0) - 0.717).abs() < 1e-12);
+    let Wave::Solitary(wave) = case.wave else { panic!("no wave") };
+    assert!((wave.depth - 0.8).abs() < 1e-12);
+    // Stroke of Rayleigh's solitary wave: sqrt(16 H (H + d) / 3).
+    assert!((wave.stroke() - (16.0 * 0.064 * 0.864 / 3.0_f64).sqrt()).abs() < 1e-12);
+    let units = case.units.unwrap();
+    assert_eq!(units.placements.len(), 15);
+    assert_eq!(units.placements[0].azimuth, 0.0);
+    assert_eq!(units.placements[1].azimuth, std::f64::consts::PI);
+    // The row is centred.
+    assert!((units.placements[7].y - 0.6).abs() < 1e-12);
+    assert_eq!((units.friction_unit, units.friction_ground), (0.65, 0.32));
+    assert!(!case.gauges[0].in_domain && case.gauges[1].in_domain);
+}
+
+#[test]
+fn estimate_counts_the_water_of_the_dam_break() {
+    let case = case("verification/dam-break.json");
+    // 1 m x 2 m x 0.26 m of particles of (0.02 m)^3.
+    assert_eq!(case.estimate().fluid, 65_000.0);
+    assert_eq!((case.domain.nx, case.domain.ny, case.domain.nz), (200, 13, 150));
+}
+
+#[test]
+fn schema_tells_about_every_key() {
+    let text = schema_text();
+    let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert!(schema.is_object());
+    let mut keys = Vec::new();
+    for text in cases().iter().map(|path| std::fs::read_to_string(path).unwrap()).chain([template_text()]) {
+        let file: CaseFile = serde_json::from_str(&text).unwrap();
+        collect_keys(&serde_json::to_value(&file).unwrap(), &mut keys);
+    }
+    assert!(keys.len() > 60, "only {} keys", keys.len());
+    for key in keys {
+        assert!(text.contains(&format!("\"{key}\"")), "the schema does not mention {key}");
+    }
+}
+
+fn collect_keys(value: &serde_json::Value, keys: &mut Vec<String>) {
+    match value {
+        serde_json::Value::Object(object) => {
+            for (key, inner) in object {
+                if !keys.contains(key) {
+                    keys.push(key.clone());
+                }
+                collect_keys(inner, keys);
+            }
+        }
+        serde_json::Value::Array(list) => list.iter().for_each(|inner| collect_keys(inner, keys)),
+        _ => {}
+    }
+}
