@@ -1,0 +1,184 @@
+//! One run of the layered model: a flume, a piston, a solitary wave; what comes out is a [`FlumeRecord`].
+
+use thiserror::Error;
+
+use crate::geometry::profile::Profile;
+use crate::waves::layered::{LayeredFlume, LayeredParameters};
+use crate::waves::record::FlumeRecord;
+use crate::waves::solitary::SolitaryWave;
+
+/// Most layers the model takes: the vertical profile of these long waves is resolved by two or three.
+pub const MOST_LAYERS: usize = 8;
+/// Courant number of a long wave on the largest depth [-]: the scheme is stable to 1, and its errors in time stay below
+/// those in space up to about 0.4.
+const COURANT: f64 = 0.4;
+/// Cells follow the piston over this many strokes, so that none is squeezed by more than a tenth.
+const MAPPED_STROKES: f64 = 10.0;
+/// The piston may squeeze the cells in front of it by at most this share.
+const MOST_SQUEEZE: f64 = 0.5;
+
+/// A flume with a wave, and what to record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlumeSetup {
+    /// Bed, from the piston at rest (first point) to the end wall (last point); the mound is part of it.
+    pub profile: Profile,
+    /// Still-water level z [m].
+    pub still_level_m: f64,
+    /// Gravity [m/s2].
+    pub gravity_m_s2: f64,
+    /// The wave, its depth that at the piston; the stroke starts at t = 0.
+    pub wave: SolitaryWave,
+    /// Number of layers, 1..=8.
+    pub layers: usize,
+    /// Width of a cell [m].
+    pub cell_m: f64,
+    /// Places of wave gauges [m].
+    pub gauges_x_m: Vec<f64>,
+    /// Window [m] in which the whole flow is recorded; cut to the flume.
+    pub window_x_m: [f64; 2],
+    /// Time between records [s].
+    pub record_interval_s: f64,
+    /// End of the run [s].
+    pub end_s: f64,
+}
+
+/// What can go wrong with a flume.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FlumeError {
+    /// A value outside its range.
+    #[error("flume: {name} is {value}, it must be {allowed}")]
+    Value {
+        /// Which value.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// What would be allowed.
+        allowed: String,
+    },
+    /// The computation went astray.
+    #[error("flume: unstable at t = {time_s:.3} s, x = {x_m:.3} m; try a smaller cell or fewer layers")]
+    Unstable {
+        /// Time [s].
+        time_s: f64,
+        /// Place [m].
+        x_m: f64,
+    },
+}
+
+/// Compute the flume from rest to `end_s`.
+pub fn run(setup: &FlumeSetup) -> Result<FlumeRecord, FlumeError> {
+    check(setup)?;
+    let mapped_m = mapped_length_m(setup)?;
+    let steps_per_record = steps_per_record(setup, mapped_m);
+    let step_s = setup.record_interval_s / steps_per_record as f64;
+    let mut flume = LayeredFlume::new(LayeredParameters {
+        profile: setup.profile.clone(),
+        still_level_m: setup.still_level_m,
+        gravity_m_s2: setup.gravity_m_s2,
+        layers: setup.layers,
+        cell_m: setup.cell_m,
+        mapped_m,
+        step_s,
+    });
+    let mut record = empty_record(setup, flume.volume_m2());
+    let records = (setup.end_s / setup.record_interval_s).ceil() as usize;
+    for step in 0..=records * steps_per_record {
+        let paddle_m = setup.wave.piston_displacement_m((step + 1) as f64 * step_s);
+        flume.advance_velocities(paddle_m);
+        if step % steps_per_record == 0 {
+            take_record(&flume, &mut record);
+        }
+        flume.advance_depths(paddle_m);
+        if let Some(x_m) = flume.astray_at() {
+            return Err(FlumeError::Unstable { time_s: flume.time_s(), x_m });
+        }
+    }
+    Ok(record)
+}
+
+/// Refuse what cannot be computed.
+fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
+    let points = setup.profile.points();
+    let length = points[points.len() - 1][0] - points[0][0];
+    let depth = setup.still_level_m - points[0][1];
+    let require = |name, value: f64, fits: bool, allowed: &str| {
+        if fits { Ok(()) } else { Err(FlumeError::Value { name, value, allowed: allowed.to_owned() }) }
+    };
+    let positive = |name, value: f64| require(name, value, value.is_finite() && value > 0.0, "above 0");
+    positive("gravity_m_s2", setup.gravity_m_s2)?;
+    positive("record_interval_s", setup.record_interval_s)?;
+    positive("end_s", setup.end_s)?;
+    positive("cell_m", setup.cell_m)?;
+    let widest = length / 10.0;
+    require("cell_m", setup.cell_m, setup.cell_m <= widest, &format!("at most a tenth of the flume, {widest}"))?;
+    let allowed = format!("from 1 to {MOST_LAYERS}");
+    require("layers", setup.layers as f64, (1..=MOST_LAYERS).contains(&setup.layers), &allowed)?;
+    positive("still_level_m above the bed at the piston", depth)?;
+    positive("the wave's height_m", setup.wave.height_m)?;
+    let highest = 0.7 * depth;
+    let allowed = format!("at most 0.7 of the depth, {highest}, where solitary waves break");
+    require("the wave's height_m", setup.wave.height_m, setup.wave.height_m <= highest, &allowed)?;
+    // The piston's law holds for the depth it stands in; a millimetre is within what a flume is filled to.
+    let same = (setup.wave.depth_m - depth).abs() <= 1e-3;
+    require("the wave's depth_m", setup.wave.depth_m, same, &format!("the depth at the piston, {depth}"))?;
+    let [from, to] = setup.window_x_m;
+    require("window_x_m[0]", from, from.is_finite() && from < to, &format!("below window_x_m[1], {to}"))?;
+    let end = points[points.len() - 1][0];
+    require("window_x_m[0]", from, from < end, &format!("below the flume's end, {end}"))?;
+    let start = points[0][0];
+    require("window_x_m[1]", to, to > start, &format!("above the flume's start, {start}"))?;
+    setup.gauges_x_m.iter().try_for_each(|&x| {
+        require("a gauge's x", x, (start..=end).contains(&x), &format!("inside the flume, {start} to {end}"))
+    })
+}
+
+/// Length over which the cells follow the piston [m]: ten strokes, less if the bed is level or the flume short of it.
+fn mapped_length_m(setup: &FlumeSetup) -> Result<f64, FlumeError> {
+    let points = setup.profile.points();
+    let level = points.windows(2).take_while(|w| w[0][1] == w[1][1]).last().map_or(0.0, |w| w[1][0] - points[0][0]);
+    let length = points[points.len() - 1][0] - points[0][0];
+    let stroke = setup.wave.stroke_m();
+    let wanted = (MAPPED_STROKES * stroke).max(10.0 * setup.cell_m).min(0.5 * length);
+    let mapped = if level >= 0.4 * wanted { wanted.min(level) } else { wanted };
+    if stroke > MOST_SQUEEZE * mapped {
+        let allowed = format!("at most {} for a flume of this length", MOST_SQUEEZE * mapped);
+        return Err(FlumeError::Value { name: "the piston's stroke", value: stroke, allowed });
+    }
+    Ok(mapped)
+}
+
+/// Steps between two records, for the Courant number.
+fn steps_per_record(setup: &FlumeSetup, mapped_m: f64) -> usize {
+    let lowest = setup.profile.points().iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let depth = setup.still_level_m - lowest + 2.0 * setup.wave.height_m;
+    let narrowest = setup.cell_m * (1.0 - setup.wave.stroke_m() / mapped_m);
+    let step = COURANT * narrowest / (setup.gravity_m_s2 * depth).sqrt();
+    (setup.record_interval_s / step).ceil().max(1.0) as usize
+}
+
+/// The record before the first state, its window cut to the flume and sampled about once a cell.
+fn empty_record(setup: &FlumeSetup, volume_m2: f64) -> FlumeRecord {
+    let points = setup.profile.points();
+    let from = setup.window_x_m[0].max(points[0][0]);
+    let to = setup.window_x_m[1].min(points[points.len() - 1][0]);
+    let pieces = ((to - from) / setup.cell_m).ceil().max(1.0) as usize;
+    let window = (0..=pieces).map(|i| from + (to - from) * i as f64 / pieces as f64).collect();
+    let mut record = FlumeRecord::new(
+        setup.profile.clone(),
+        setup.still_level_m,
+        setup.layers,
+        setup.record_interval_s,
+        setup.gauges_x_m.clone(),
+        window,
+    );
+    record.volume_m2 = volume_m2;
+    record
+}
+
+/// Add the present state.
+fn take_record(flume: &LayeredFlume, record: &mut FlumeRecord) {
+    let levels: Vec<f64> = record.gauges_x_m.iter().map(|&x| flume.surface_m(x)).collect();
+    let window = record.window_x_m.clone();
+    record.push(flume.paddle_m(), &levels, window.iter().map(|&x| flume.column(x)));
+    record.volume_error = record.volume_error.max((flume.volume_m2() / record.volume_m2 - 1.0).abs());
+}

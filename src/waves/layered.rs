@@ -1,0 +1,325 @@
+//! K-layer non-hydrostatic model of a flume with a moving piston, in one horizontal dimension.
+//!
+//! Zijlema, Stelling & Smit (2011), "SWASH: An operational public domain code for simulating wave fields and rapidly
+//! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). Layers of equal share of the
+//! depth, u at the faces, w in the middle of each layer, H in the cells:
+//!
+//!     dH/dt + dx sum(h_m u_m) = 0
+//!     du_m/dt + adv = - g dx eta - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m]
+//!     dw_m/dt + adv = - (q_{m+1} - q_m) / h_m
+//!
+//! | part | how | where |
+//! | --- | --- | --- |
+//! | time | leapfrog: H at n, u and w at n + 1/2; second-order Adams-Bashforth for advection | here |
+//! | moving piston | cells that follow it, fluxes relative to the faces | `grid` |
+//! | advection | conservative in momentum, third-order upwind | `advection` |
+//! | pressure q | Keller box, continuity as its transpose, one direct solve a step | `pressure` |
+//! | surface, wet and dry, breaking | half-step depths at the faces, hydrostatic front | `surface` |
+
+mod advection;
+mod block_tridiagonal;
+mod grid;
+mod pressure;
+mod surface;
+
+use block_tridiagonal::BlockTridiagonal;
+use grid::Grid;
+
+use crate::geometry::profile::Profile;
+use crate::waves::interpolation::Stencil;
+
+/// Water shallower than this does not move [m].
+pub(super) const THIN_M: f64 = 1e-5;
+
+/// A flume being computed.
+#[derive(Debug, Clone)]
+pub struct LayeredFlume {
+    gravity: f64,
+    layers: usize,
+    still_level_m: f64,
+    grid: Grid,
+    time_s: f64,
+    step_s: f64,
+    first_step: bool,
+    // State: cells, faces x layers, cells x layers.
+    depth: Vec<f64>,
+    u: Vec<f64>,
+    w: Vec<f64>,
+    paddle_m: f64,
+    // What the steps hand on: the fluxes carry the momentum of the next one.
+    flux: Vec<f64>,
+    rise_m_s: Vec<f64>,
+    breaking: Vec<bool>,
+    earlier_u: Vec<f64>,
+    earlier_w: Vec<f64>,
+    advection_u: Vec<f64>,
+    advection_w: Vec<f64>,
+    // Scratch.
+    next_u: Vec<f64>,
+    next_w: Vec<f64>,
+    exchange: Vec<f64>,
+    total_flux: Vec<f64>,
+    mean_depth: Vec<f64>,
+    next_depth: Vec<f64>,
+    open: Vec<bool>,
+    active: Vec<bool>,
+    smooth: Vec<bool>,
+    system: BlockTridiagonal,
+}
+
+/// What a [`LayeredFlume`] is made of.
+#[derive(Debug, Clone)]
+pub struct LayeredParameters {
+    /// Bed from the piston at rest to the end wall.
+    pub profile: Profile,
+    /// Still-water level z [m].
+    pub still_level_m: f64,
+    /// Gravity [m/s2].
+    pub gravity_m_s2: f64,
+    /// Number of layers K.
+    pub layers: usize,
+    /// Width of a cell [m].
+    pub cell_m: f64,
+    /// Length in front of the piston over which the cells follow it [m].
+    pub mapped_m: f64,
+    /// Time step [s].
+    pub step_s: f64,
+}
+
+/// Flow at one place and moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Surface level z [m]; the bed's level where it is dry.
+    pub surface_m: f64,
+    /// Bed level z [m].
+    pub bed_m: f64,
+    /// Horizontal velocity of each layer, bed upwards [m/s].
+    pub u: Vec<f64>,
+    /// Vertical velocity at each interface, bed upwards, one more than layers [m/s].
+    pub w: Vec<f64>,
+}
+
+impl LayeredFlume {
+    /// Still water.
+    pub fn new(parameters: LayeredParameters) -> Self {
+        let LayeredParameters { profile, still_level_m, gravity_m_s2, layers, cell_m, mapped_m, step_s } = parameters;
+        let grid = Grid::new(profile, cell_m, mapped_m);
+        let cells = grid.cells();
+        let depth: Vec<f64> = grid.bed.iter().map(|bed| (still_level_m - bed).max(0.0)).collect();
+        let (in_cells, at_faces) = (vec![0.0; cells * layers], vec![0.0; (cells + 1) * layers]);
+        Self {
+            gravity: gravity_m_s2,
+            layers,
+            still_level_m,
+            grid,
+            time_s: 0.0,
+            step_s,
+            first_step: true,
+            next_depth: depth.clone(),
+            depth,
+            u: at_faces.clone(),
+            w: in_cells.clone(),
+            paddle_m: 0.0,
+            flux: at_faces.clone(),
+            rise_m_s: vec![0.0; cells],
+            breaking: vec![false; cells],
+            earlier_u: at_faces.clone(),
+            earlier_w: in_cells.clone(),
+            next_u: at_faces.clone(),
+            next_w: in_cells.clone(),
+            advection_u: at_faces,
+            advection_w: in_cells.clone(),
+            exchange: in_cells,
+            total_flux: vec![0.0; cells + 1],
+            mean_depth: vec![0.0; cells + 1],
+            open: vec![false; cells + 1],
+            active: vec![false; cells],
+            smooth: vec![false; cells],
+            system: BlockTridiagonal::new(cells, layers),
+        }
+    }
+
+    /// Begin with a given flow instead of still water: `elevation` above still water [m] of x at t = 0, `velocity`
+    /// [m/s] of (x, z) at t = -dt/2.
+    pub fn set_flow(&mut self, elevation: impl Fn(f64) -> f64, velocity: impl Fn(f64, f64) -> f64) {
+        let k = self.layers;
+        for cell in 0..self.grid.cells() {
+            if self.depth[cell] > 0.0 {
+                let surface = self.still_level_m + elevation(self.grid.centre_x[cell]);
+                self.depth[cell] = (surface - self.grid.bed[cell]).max(0.0);
+            }
+        }
+        self.measure_faces();
+        for face in (1..self.grid.cells()).filter(|&f| self.open[f]) {
+            let bed = 0.5 * (self.grid.bed[face - 1] + self.grid.bed[face]);
+            for m in 0..k {
+                let z = bed + self.mean_depth[face] * (m as f64 + 0.5) / k as f64;
+                self.u[face * k + m] = velocity(self.grid.face_x[face], z);
+                self.flux[face * k + m] = self.mean_depth[face] / k as f64 * self.u[face * k + m];
+            }
+        }
+        (0..self.grid.cells()).for_each(|cell| self.follow(cell));
+    }
+
+    /// Advance one step, the piston ending it at `paddle_m` from its place at rest.
+    pub fn step(&mut self, paddle_m: f64) {
+        self.advance_velocities(paddle_m);
+        self.advance_depths(paddle_m);
+    }
+
+    /// First half of a step: u and w from n - 1/2 to n + 1/2. Between the halves [`Self::column`] gives the flow at n.
+    pub fn advance_velocities(&mut self, paddle_m: f64) {
+        self.grid.aim(paddle_m, self.step_s);
+        self.measure_faces();
+        self.classify_cells();
+        self.exchange_between_layers();
+        self.accelerate_u();
+        self.accelerate_w();
+        self.turn_over();
+        self.correct_with_pressure();
+        self.first_step = false;
+    }
+
+    /// Second half of a step: the depths from n to n + 1.
+    pub fn advance_depths(&mut self, paddle_m: f64) {
+        self.volume_fluxes(self.step_s);
+        self.update_depths(self.step_s);
+        self.grid.arrive(paddle_m);
+        self.paddle_m = paddle_m;
+        self.time_s += self.step_s;
+    }
+
+    /// u without non-hydrostatic pressure: u -= dt (adv + g dx eta); zero at closed faces.
+    fn accelerate_u(&mut self) {
+        let (k, dt) = (self.layers, self.step_s);
+        for face in 1..self.grid.cells() {
+            let slope = self.surface_slope(face);
+            for m in 0..k {
+                let at = face * k + m;
+                let new = if self.open[face] { self.advection_of_u(face, m) } else { 0.0 };
+                let old = std::mem::replace(&mut self.advection_u[at], new);
+                self.next_u[at] = if self.open[face] {
+                    self.u[at] - dt * (self.adams_bashforth(new, old) + self.gravity * slope)
+                } else {
+                    0.0
+                };
+            }
+        }
+    }
+
+    /// w without non-hydrostatic pressure: w -= dt adv.
+    fn accelerate_w(&mut self) {
+        let (k, dt) = (self.layers, self.step_s);
+        for cell in 0..self.grid.cells() {
+            for m in 0..k {
+                let at = cell * k + m;
+                let new = if self.active[cell] { self.advection_of_w(cell, m) } else { 0.0 };
+                let old = std::mem::replace(&mut self.advection_w[at], new);
+                self.next_w[at] = self.w[at] - dt * self.adams_bashforth(new, old);
+            }
+        }
+    }
+
+    /// The provisional velocities take the place of u and w, which stay at hand as the earlier ones.
+    fn turn_over(&mut self) {
+        std::mem::swap(&mut self.u, &mut self.earlier_u);
+        std::mem::swap(&mut self.u, &mut self.next_u);
+        std::mem::swap(&mut self.w, &mut self.earlier_w);
+        std::mem::swap(&mut self.w, &mut self.next_w);
+        self.u[..self.layers].fill(self.grid.face_velocity[0]);
+        let end = self.u.len() - self.layers;
+        self.u[end..].fill(0.0);
+    }
+
+    /// Second-order Adams-Bashforth from the present and the last rate; Euler in the first step.
+    fn adams_bashforth(&self, new: f64, old: f64) -> f64 {
+        if self.first_step { new } else { 1.5 * new - 0.5 * old }
+    }
+
+    /// dx eta at a face between cells [-].
+    fn surface_slope(&self, face: usize) -> f64 {
+        let level = |cell: usize| self.grid.bed[cell] + self.depth[cell];
+        (level(face) - level(face - 1)) / self.grid.spacing(face)
+    }
+
+    /// Time of the depths [s].
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// Distance of the piston from its place at rest [m].
+    pub fn paddle_m(&self) -> f64 {
+        self.paddle_m
+    }
+
+    /// Water in the flume per metre of width [m2].
+    pub fn volume_m2(&self) -> f64 {
+        self.depth.iter().zip(&self.grid.width).map(|(h, dx)| h * dx).sum()
+    }
+
+    /// Largest difference between the surface and the still level over the wet cells [m].
+    pub fn largest_elevation_m(&self) -> f64 {
+        let levels = self.depth.iter().zip(&self.grid.bed).filter(|(h, _)| **h > 0.0).map(|(h, bed)| h + bed);
+        levels.fold(0.0, |largest, level| f64::max(largest, (level - self.still_level_m).abs()))
+    }
+
+    /// Largest horizontal velocity [m/s].
+    pub fn largest_velocity_m_s(&self) -> f64 {
+        self.u.iter().fold(0.0, |largest, u| f64::max(largest, u.abs()))
+    }
+
+    /// Place [m] of the first cell whose numbers have gone astray: not finite, or water that crosses a cell in less
+    /// than a step.
+    pub fn astray_at(&self) -> Option<f64> {
+        let limit = 1.0 / self.step_s;
+        let astray = |cell: usize| {
+            let fast = self.u[cell * self.layers..(cell + 1) * self.layers]
+                .iter()
+                .any(|u| !u.is_finite() || u.abs() > limit * self.grid.width[cell]);
+            fast || !self.depth[cell].is_finite()
+        };
+        (0..self.grid.cells()).find(|&cell| astray(cell)).map(|cell| self.grid.centre_x[cell])
+    }
+
+    /// Surface level z [m] at x [m]: cubic between the cells; the bed's level where it is dry.
+    pub fn surface_m(&self, x: f64) -> f64 {
+        let wet = |cell: usize| self.depth[cell] > THIN_M;
+        Stencil::at(&self.grid.centre_x, x, wet).apply(|cell| self.grid.bed[cell] + self.depth[cell])
+    }
+
+    /// The flow at x [m] and at the time of the depths, to be asked between the halves of a step.
+    pub fn column(&self, x: f64) -> Column {
+        let k = self.layers;
+        let wet = |cell: usize| self.depth[cell] > THIN_M;
+        let cells = Stencil::at(&self.grid.centre_x, x, wet);
+        let faces = Stencil::at(&self.grid.face_x, x, |face| face == 0 || face == self.grid.cells() || self.open[face]);
+        let at_n = |now: &[f64], earlier: &[f64], at: usize| 0.5 * (now[at] + earlier[at]);
+        let u = (0..k).map(|m| faces.apply(|face| at_n(&self.u, &self.earlier_u, face * k + m))).collect();
+        let middle: Vec<f64> = (0..k).map(|m| cells.apply(|cell| at_n(&self.w, &self.earlier_w, cell * k + m))).collect();
+        Column {
+            surface_m: cells.apply(|cell| self.grid.bed[cell] + self.depth[cell]),
+            bed_m: cells.apply(|cell| self.grid.bed[cell]),
+            u,
+            w: at_interfaces(&middle, cells.apply(|cell| self.climb_along_bed(cell))),
+        }
+    }
+
+    /// w at the bed of a cell, u_0 dx z_b [m/s].
+    fn climb_along_bed(&self, cell: usize) -> f64 {
+        let (k, last) = (self.layers, self.grid.cells());
+        let climb = |face: usize| {
+            let inner = face.clamp(1, last - 1);
+            let slope = (self.grid.bed[inner] - self.grid.bed[inner - 1]) / self.grid.spacing(inner);
+            0.5 * (self.u[face * k] + self.earlier_u[face * k]) * slope
+        };
+        if self.depth[cell] > THIN_M { 0.5 * (climb(cell) + climb(cell + 1)) } else { 0.0 }
+    }
+}
+
+/// w at the interfaces from that in the middle of the layers and at the bed: means inside, extrapolated to the surface.
+fn at_interfaces(middle: &[f64], bed: f64) -> Vec<f64> {
+    let mut w = vec![bed];
+    w.extend(middle.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
+    w.push(2.0 * middle[middle.len() - 1] - w[w.len() - 1]);
+    w
+}

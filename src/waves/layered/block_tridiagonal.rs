@@ -1,0 +1,181 @@
+//! Symmetric positive definite block-tridiagonal systems, by block elimination without pivoting (Golub & Van Loan 4.5).
+
+/// Matrix, right-hand side and scratch of `blocks` x `blocks` blocks of size `size`.
+///
+/// Row i reads U_{i-1}^T q_{i-1} + D_i q_i + U_i q_{i+1} = r_i.
+#[derive(Debug, Clone)]
+pub(super) struct BlockTridiagonal {
+    size: usize,
+    diagonal: Vec<f64>,
+    upper: Vec<f64>,
+    right: Vec<f64>,
+    eliminated_upper: Vec<f64>,
+    pivot: Vec<f64>,
+}
+
+impl BlockTridiagonal {
+    /// An empty system.
+    pub(super) fn new(blocks: usize, size: usize) -> Self {
+        let square = blocks * size * size;
+        Self {
+            size,
+            diagonal: vec![0.0; square],
+            upper: vec![0.0; square],
+            right: vec![0.0; blocks * size],
+            eliminated_upper: vec![0.0; square],
+            pivot: vec![0.0; size * size],
+        }
+    }
+
+    /// Set all entries to zero.
+    pub(super) fn clear(&mut self) {
+        self.diagonal.fill(0.0);
+        self.upper.fill(0.0);
+        self.right.fill(0.0);
+    }
+
+    /// Add to D_block[row, column].
+    pub(super) fn add_diagonal(&mut self, block: usize, row: usize, column: usize, value: f64) {
+        self.diagonal[(block * self.size + row) * self.size + column] += value;
+    }
+
+    /// Add to U_block[row, column]: couples unknown `row` of the block with unknown `column` of the next one.
+    pub(super) fn add_upper(&mut self, block: usize, row: usize, column: usize, value: f64) {
+        self.upper[(block * self.size + row) * self.size + column] += value;
+    }
+
+    /// Add to r_block[row].
+    pub(super) fn add_right(&mut self, block: usize, row: usize, value: f64) {
+        self.right[block * self.size + row] += value;
+    }
+
+    /// The unknowns, after [`Self::solve`].
+    pub(super) fn unknowns(&self) -> &[f64] {
+        &self.right
+    }
+
+    /// Solve; the unknowns take the place of the right-hand side.
+    pub(super) fn solve(&mut self) {
+        let blocks = self.right.len() / self.size;
+        for block in 0..blocks {
+            self.eliminate(block);
+        }
+        for block in (0..blocks.saturating_sub(1)).rev() {
+            self.substitute_back(block);
+        }
+    }
+
+    /// S = D_i - U_{i-1}^T C_{i-1}, C_i = S^-1 U_i, r_i = S^-1 (r_i - U_{i-1}^T r_{i-1}).
+    fn eliminate(&mut self, block: usize) {
+        let k = self.size;
+        let here = block * k * k;
+        self.pivot.copy_from_slice(&self.diagonal[here..here + k * k]);
+        if block > 0 {
+            let before = here - k * k;
+            for m in 0..k {
+                for row in 0..k {
+                    let u = self.upper[before + m * k + row];
+                    if u == 0.0 {
+                        continue;
+                    }
+                    for column in 0..k {
+                        self.pivot[row * k + column] -= u * self.eliminated_upper[before + m * k + column];
+                    }
+                    self.right[block * k + row] -= u * self.right[(block - 1) * k + m];
+                }
+            }
+        }
+        let (upper, eliminated) = (&self.upper[here..here + k * k], &mut self.eliminated_upper[here..here + k * k]);
+        eliminated.copy_from_slice(upper);
+        gauss(&mut self.pivot, eliminated, &mut self.right[block * k..(block + 1) * k]);
+    }
+
+    /// q_i = r_i - C_i q_{i+1}.
+    fn substitute_back(&mut self, block: usize) {
+        let k = self.size;
+        for row in 0..k {
+            let next = (0..k).map(|column| {
+                self.eliminated_upper[(block * k + row) * k + column] * self.right[(block + 1) * k + column]
+            });
+            self.right[block * k + row] -= next.sum::<f64>();
+        }
+    }
+}
+
+/// Solve the small system in place for the matrix `many` and the vector `one` on the right.
+fn gauss(matrix: &mut [f64], many: &mut [f64], one: &mut [f64]) {
+    let k = one.len();
+    for p in 0..k {
+        let inverse = 1.0 / matrix[p * k + p];
+        for row in p + 1..k {
+            let factor = matrix[row * k + p] * inverse;
+            if factor == 0.0 {
+                continue;
+            }
+            for column in p + 1..k {
+                matrix[row * k + column] -= factor * matrix[p * k + column];
+            }
+            for column in 0..k {
+                many[row * k + column] -= factor * many[p * k + column];
+            }
+            one[row] -= factor * one[p];
+        }
+    }
+    for p in (0..k).rev() {
+        let inverse = 1.0 / matrix[p * k + p];
+        for row in p + 1..k {
+            let factor = matrix[p * k + row];
+            for column in 0..k {
+                many[p * k + column] -= factor * many[row * k + column];
+            }
+            one[p] -= factor * one[row];
+        }
+        for column in 0..k {
+            many[p * k + column] *= inverse;
+        }
+        one[p] *= inverse;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solution_satisfies_the_rows() {
+        let (blocks, k) = (5, 3);
+        let mut system = BlockTridiagonal::new(blocks, k);
+        let entry = |a: usize, b: usize| 0.3 * ((a * 7 + b * 3) as f64).sin();
+        for block in 0..blocks {
+            for row in 0..k {
+                for column in 0..k {
+                    let symmetric = entry(row, column) + entry(column, row);
+                    system.add_diagonal(block, row, column, symmetric + if row == column { 4.0 } else { 0.0 });
+                    if block + 1 < blocks {
+                        system.add_upper(block, row, column, entry(row + block, column));
+                    }
+                }
+                system.add_right(block, row, 1.0 + (block * k + row) as f64);
+            }
+        }
+        let (diagonal, upper, right) = (system.diagonal.clone(), system.upper.clone(), system.right.clone());
+        system.solve();
+        let q = system.unknowns();
+        for block in 0..blocks {
+            for row in 0..k {
+                let mut left = 0.0;
+                for column in 0..k {
+                    left += diagonal[(block * k + row) * k + column] * q[block * k + column];
+                    if block + 1 < blocks {
+                        left += upper[(block * k + row) * k + column] * q[(block + 1) * k + column];
+                    }
+                    if block > 0 {
+                        left += upper[((block - 1) * k + column) * k + row] * q[(block - 1) * k + column];
+                    }
+                }
+                // A well conditioned 15 x 15 system: rounding only.
+                assert!((left - right[block * k + row]).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Multi-layer piston: a wavemaker for particles whose rows follow the water of a flume run.
+//!
+//! Altomare, Dominguez, Crespo, Suzuki, Caceres & Gomez-Gesteira (2015), "Hybridization of the wave propagation model SWASH
+//! and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall: they must move as
+//! the water that stands at x0 when the particles start, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t). Integrating the Eulerian
+//! u(x0, t) instead gives too short a stroke.
+//!
+//! Rows move in x only and keep their height, while the water rises and falls. So one water particle is followed from
+//! each row's height (in space, x and z), and at each moment a row takes the velocity interpolated in height between the
+//! followed particles; below the lowest it takes the lowest's, above the highest (at the still surface) the highest's.
+
+use std::io;
+
+use crate::waves::record::FlumeRecord;
+use crate::waves::velx::Velx;
+
+/// The motion of the rows of a piston.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MlPiston {
+    place_m: f64,
+    row_heights_m: Vec<f64>,
+    start_s: f64,
+    interval_s: f64,
+    /// Velocities at the knots [m/s], one list a row.
+    velocities: Vec<Vec<f64>>,
+    /// Displacements at the knots [m], one list a row.
+    displacements: Vec<Vec<f64>>,
+}
+
+impl MlPiston {
+    /// Rows at the given levels z [m] standing at `x0_m` at `start_s`, moving until `end_s`, from knots `interval_s` apart.
+    ///
+    /// # Panics
+    /// If there is no row, the interval is not above zero or the end not after the start.
+    pub fn from_record(
+        record: &FlumeRecord,
+        x0_m: f64,
+        row_heights_m: &[f64],
+        start_s: f64,
+        end_s: f64,
+        interval_s: f64,
+    ) -> Self {
+        assert!(!row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s, "a piston needs rows and time");
+        let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
+        let mut particles = particles_at_start(record, x0_m, row_heights_m, start_s);
+        let mut velocities = vec![Vec::with_capacity(knots); row_heights_m.len()];
+        for knot in 0..knots {
+            let t = start_s + knot as f64 * interval_s;
+            let speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
+            for (series, &height) in velocities.iter_mut().zip(row_heights_m) {
+                series.push(at_height(&speeds, height));
+            }
+            particles.iter_mut().for_each(|p| *p = follow(record, *p, t, interval_s));
+        }
+        Self::from_velocities(x0_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
+    }
+
+    /// The motion from velocities at even knots: the displacement is their integral, linear velocity between knots.
+    fn from_velocities(
+        place_m: f64,
+        row_heights_m: Vec<f64>,
+        start_s: f64,
+        interval_s: f64,
+        velocities: Vec<Vec<f64>>,
+    ) -> Self {
+        let integrate = |series: &Vec<f64>| {
+            let mut displacement = 0.0;
+            let mut all = vec![0.0];
+            for pair in series.windows(2) {
+                displacement += 0.5 * (pair[0] + pair[1]) * interval_s;
+                all.push(displacement);
+            }
+            all
+        };
+        let displacements = velocities.iter().map(integrate).collect();
+        Self { place_m, row_heights_m, start_s, interval_s, velocities, displacements }
+    }
+
+    /// Levels z of the rows [m].
+    pub fn row_heights_m(&self) -> &[f64] {
+        &self.row_heights_m
+    }
+
+    /// Place of the rows before they move [m].
+    pub fn place_m(&self) -> f64 {
+        self.place_m
+    }
+
+    /// Time at which the rows begin to move [s].
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// Time at which they stop [s].
+    pub fn end_s(&self) -> f64 {
+        self.start_s + (self.velocities[0].len() - 1) as f64 * self.interval_s
+    }
+
+    /// Displacement of a row [m] at t [s] of the flume: 0 until the start, the last one after the end. In between the
+    /// cubic of Hermite through the knots, which is a parabola here because the displacements are the trapezoidal
+    /// integral of the velocities.
+    pub fn displacement_m(&self, row: usize, t: f64) -> f64 {
+        let (v, d) = (&self.velocities[row], &self.displacements[row]);
+        match self.knot(t) {
+            Knot::Before => 0.0,
+            Knot::After => d[d.len() - 1],
+            Knot::At(i, share) => {
+                d[i] + self.interval_s * share * (v[i] + 0.5 * share * (v[i + 1] - v[i]))
+            }
+        }
+    }
+
+    /// Velocity of a row [m/s] at t [s] of the flume, the derivative of the displacement: 0 before the start and after
+    /// the end (it jumps there by what the water has at those moments).
+    pub fn velocity_m_s(&self, row: usize, t: f64) -> f64 {
+        let v = &self.velocities[row];
+        match self.knot(t) {
+            Knot::Before | Knot::After => 0.0,
+            Knot::At(i, share) => v[i] + share * (v[i + 1] - v[i]),
+        }
+    }
+
+    /// Where t lies among the knots.
+    fn knot(&self, t: f64) -> Knot {
+        let knots = (t - self.start_s) / self.interval_s;
+        let pieces = self.velocities[0].len() - 1;
+        if knots < 0.0 {
+            Knot::Before
+        } else if knots >= pieces as f64 {
+            Knot::After
+        } else {
+            Knot::At(knots as usize, knots.fract())
+        }
+    }
+
+    /// The velocities as a DualSPHysics file, its time starting with the motion.
+    pub fn velx(&self) -> Velx {
+        let knots = self.velocities[0].len();
+        Velx {
+            place_m: [self.place_m, 0.0],
+            times_s: (0..knots).map(|i| i as f64 * self.interval_s).collect(),
+            heights_m: vec![self.row_heights_m.clone(); knots],
+            velocities_m_s: (0..knots).map(|i| self.velocities.iter().map(|series| series[i]).collect()).collect(),
+        }
+    }
+
+    /// Write the `_velx` file.
+    pub fn write_velx(&self, out: impl io::Write) -> io::Result<()> {
+        self.velx().write(out)
+    }
+}
+
+/// A time among the knots.
+enum Knot {
+    Before,
+    At(usize, f64),
+    After,
+}
+
+/// First time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum, to a record; the end of the
+/// record if the water never moves.
+pub fn start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
+    let speeds: Vec<f64> = record.times_s().iter().map(|&t| record.mean_velocity(x0_m, t).abs()).collect();
+    let largest = speeds.iter().copied().fold(0.0, f64::max);
+    let first = speeds.iter().position(|&speed| largest > 0.0 && speed >= share * largest);
+    first.map_or(record.end_s(), |i| record.times_s()[i])
+}
+
+/// One particle a row that stands in the water, and one at the surface; at least that one.
+fn particles_at_start(record: &FlumeRecord, x0_m: f64, row_heights_m: &[f64], start_s: f64) -> Vec<[f64; 2]> {
+    let (bed, surface) = (record.profile.z(x0_m), record.surface_level_m(x0_m, start_s));
+    let mut heights: Vec<f64> = row_heights_m.iter().copied().filter(|z| (bed..surface).contains(z)).collect();
+    heights.push(surface);
+    heights.sort_by(f64::total_cmp);
+    heights.into_iter().map(|z| [x0_m, z]).collect()
+}
+
+/// Move a water particle for `dt` (classical Runge-Kutta); it stays between the bed and the surface.
+fn follow(record: &FlumeRecord, [x, z]: [f64; 2], t: f64, dt: f64) -> [f64; 2] {
+    let rate = |shift: f64, [kx, kz]: [f64; 2]| {
+        let (u, w) = record.velocity(x + shift * kx, z + shift * kz, t + shift);
+        [u, w]
+    };
+    let k1 = rate(0.0, [0.0; 2]);
+    let k2 = rate(0.5 * dt, k1);
+    let k3 = rate(0.5 * dt, k2);
+    let k4 = rate(dt, k3);
+    let step = |i: usize| dt / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+    let x = x + step(0);
+    let bed = record.profile.z(x);
+    [x, (z + step(1)).clamp(bed, record.surface_level_m(x, t + dt).max(bed))]
+}
+
+/// Velocity at a height from [height, velocity] pairs: linear between neighbours, constant beyond the ends.
+fn at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
+    // Particles keep their order in height but for rounding where they touch the bed.
+    let above = speeds.partition_point(|s| s[0] <= height);
+    if above == 0 {
+        return speeds[0][1];
+    }
+    if above == speeds.len() {
+        return speeds[above - 1][1];
+    }
+    let ([z0, u0], [z1, u1]) = (speeds[above - 1], speeds[above]);
+    u0 + (u1 - u0) * (height - z0) / (z1 - z0)
+}

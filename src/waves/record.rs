@@ -1,0 +1,248 @@
+//! What a flume run leaves behind: gauges, and the whole flow in a window, to be asked at any place and time.
+
+use std::ops::Range;
+
+use crate::geometry::profile::Profile;
+use crate::waves::interpolation::Stencil;
+use crate::waves::layered::Column;
+
+/// Water shallower than this counts as dry when blending in space [m]: below it the mean bed of a cell differs from the
+/// profile's at a corner.
+const FILM_M: f64 = 1e-3;
+
+/// Gauges and a window of the flow at a fixed interval.
+#[derive(Debug, Clone)]
+pub struct FlumeRecord {
+    /// Bed of the flume.
+    pub profile: Profile,
+    /// Still-water level z [m].
+    pub still_level_m: f64,
+    /// Number of layers.
+    pub layers: usize,
+    /// Time between records [s]; the first is at t = 0.
+    pub interval_s: f64,
+    /// Places of the gauges [m].
+    pub gauges_x_m: Vec<f64>,
+    /// Elevation above still water at the gauges [m], one series a gauge; bed level minus still level while dry.
+    pub gauge_elevations_m: Vec<Vec<f64>>,
+    /// Points of the window [m].
+    pub window_x_m: Vec<f64>,
+    /// Displacement of the piston [m], a value a record.
+    pub paddle_m: Vec<f64>,
+    /// Water in the flume at the start [m2].
+    pub volume_m2: f64,
+    /// Largest relative departure from that volume [-].
+    pub volume_error: f64,
+    surface_m: Vec<f64>,
+    u: Vec<f64>,
+    w: Vec<f64>,
+    times_s: Vec<f64>,
+}
+
+/// The flow in the window at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlumeState {
+    /// Time [s].
+    pub time_s: f64,
+    /// Points [m].
+    pub x_m: Vec<f64>,
+    /// The flow at the points.
+    pub columns: Vec<Column>,
+}
+
+impl FlumeRecord {
+    /// An empty record.
+    pub(super) fn new(
+        profile: Profile,
+        still_level_m: f64,
+        layers: usize,
+        interval_s: f64,
+        gauges_x_m: Vec<f64>,
+        window_x_m: Vec<f64>,
+    ) -> Self {
+        Self {
+            profile,
+            still_level_m,
+            layers,
+            interval_s,
+            gauge_elevations_m: vec![Vec::new(); gauges_x_m.len()],
+            gauges_x_m,
+            window_x_m,
+            paddle_m: Vec::new(),
+            volume_m2: 0.0,
+            volume_error: 0.0,
+            surface_m: Vec::new(),
+            u: Vec::new(),
+            w: Vec::new(),
+            times_s: Vec::new(),
+        }
+    }
+
+    /// Add the state at the next record's time.
+    pub(super) fn push(&mut self, paddle_m: f64, gauge_levels_m: &[f64], columns: impl Iterator<Item = Column>) {
+        self.times_s.push(self.times_s.len() as f64 * self.interval_s);
+        self.paddle_m.push(paddle_m);
+        for (series, level) in self.gauge_elevations_m.iter_mut().zip(gauge_levels_m) {
+            series.push(level - self.still_level_m);
+        }
+        for column in columns {
+            self.surface_m.push(column.surface_m);
+            self.u.extend(column.u);
+            self.w.extend(column.w);
+        }
+    }
+
+    /// Times of the records [s].
+    pub fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    /// Time of the last record [s].
+    pub fn end_s(&self) -> f64 {
+        self.times_s.last().copied().unwrap_or(0.0)
+    }
+
+    /// Elevation above still water [m] at x [m] and t [s]; bed level minus still level where it is dry. Cubic in
+    /// space and time; outside the window or the time of the run the value at its end.
+    pub fn elevation(&self, x: f64, t: f64) -> f64 {
+        self.surface_level_m(x, t) - self.still_level_m
+    }
+
+    /// Surface level z [m] at x [m] and t [s], as [`Self::elevation`].
+    pub fn surface_level_m(&self, x: f64, t: f64) -> f64 {
+        self.blend(x, t, |at| self.surface_m[at]).max(self.profile.z(x))
+    }
+
+    /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s]: above the surface those of the surface, below the
+    /// bed those of the bed. u between the layers is a parabola in the height above the bed, w is linear.
+    pub fn velocity(&self, x: f64, z: f64, t: f64) -> (f64, f64) {
+        let bed = self.profile.z(x);
+        let depth = self.surface_level_m(x, t) - bed;
+        let height = if depth > 0.0 { ((z - bed) / depth).clamp(0.0, 1.0) } else { 0.0 };
+        let k = self.layers;
+        let u = self.blend(x, t, |at| profile_of_u(&self.u[at * k..(at + 1) * k], height));
+        let w = self.blend(x, t, |at| profile_of_w(&self.w[at * (k + 1)..(at + 1) * (k + 1)], height));
+        (u, w)
+    }
+
+    /// Mean of the horizontal velocity over the depth [m/s] at x [m] and t [s].
+    pub fn mean_velocity(&self, x: f64, t: f64) -> f64 {
+        let k = self.layers;
+        self.blend(x, t, |at| self.u[at * k..(at + 1) * k].iter().sum::<f64>() / k as f64)
+    }
+
+    /// The flow in the whole window at t [s].
+    pub fn state_at(&self, t: f64) -> FlumeState {
+        let time_s = t.clamp(0.0, self.end_s());
+        let (k, points) = (self.layers, self.window_x_m.len());
+        let in_time = self.in_time(time_s);
+        // Values stored `each` to a point, the `at`-th of one record.
+        let mix = |values: &[f64], each: usize, at: usize| in_time.apply(|record| values[record * points * each + at]);
+        let column = |i: usize| {
+            let bed_m = self.profile.z(self.window_x_m[i]);
+            Column {
+                surface_m: mix(&self.surface_m, 1, i).max(bed_m),
+                bed_m,
+                u: (0..k).map(|m| mix(&self.u, k, i * k + m)).collect(),
+                w: (0..=k).map(|m| mix(&self.w, k + 1, i * (k + 1) + m)).collect(),
+            }
+        };
+        let columns = (0..points).map(column).collect();
+        FlumeState { time_s, x_m: self.window_x_m.clone(), columns }
+    }
+
+    /// Highest elevation [m] at a gauge and its time [s], from the parabola through the highest record and its
+    /// neighbours.
+    pub fn crest(&self, gauge: usize) -> (f64, f64) {
+        let series = &self.gauge_elevations_m[gauge];
+        let highest = (0..series.len()).max_by(|&a, &b| series[a].total_cmp(&series[b])).unwrap_or(0);
+        if highest == 0 || highest + 1 >= series.len() {
+            return (series.get(highest).copied().unwrap_or(0.0), highest as f64 * self.interval_s);
+        }
+        let (before, top, after) = (series[highest - 1], series[highest], series[highest + 1]);
+        let curvature = before - 2.0 * top + after;
+        let shift = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
+        (top - 0.25 * (before - after) * shift, (highest as f64 + shift) * self.interval_s)
+    }
+
+    /// Stencil over the records for t [s].
+    fn in_time(&self, t: f64) -> Stencil {
+        Stencil::at(&self.times_s, t, |_| true)
+    }
+
+    /// `value` of a recorded point, blended in space and time; dry points keep out of the cubic in space.
+    fn blend(&self, x: f64, t: f64, value: impl Fn(usize) -> f64) -> f64 {
+        let points = self.window_x_m.len();
+        self.in_time(t).apply(|record| {
+            let all: Range<usize> = record * points..(record + 1) * points;
+            let wet = |i: usize| self.surface_m[all.start + i] > self.profile.z(self.window_x_m[i]) + FILM_M;
+            Stencil::at(&self.window_x_m, x, wet).apply(|i| value(all.start + i))
+        })
+    }
+}
+
+/// u at a height above the bed, as a share of the depth, from the layers' means: linear in the height squared, which is
+/// exact for the parabola a + b height^2 of a long irrotational wave.
+fn profile_of_u(layers: &[f64], height: f64) -> f64 {
+    let k = layers.len();
+    if k == 1 {
+        return layers[0];
+    }
+    let node = |m: usize| ((m as f64 + 0.5).powi(2) + 1.0 / 12.0) / (k * k) as f64;
+    let square = height * height;
+    let below = (1..k - 1).take_while(|&m| node(m) <= square).count();
+    let share = (square - node(below)) / (node(below + 1) - node(below));
+    layers[below] + share * (layers[below + 1] - layers[below])
+}
+
+/// w at a height above the bed, as a share of the depth, from the interfaces: linear.
+fn profile_of_w(interfaces: &[f64], height: f64) -> f64 {
+    let k = interfaces.len() - 1;
+    let below = ((height * k as f64) as usize).min(k - 1);
+    let share = height * k as f64 - below as f64;
+    interfaces[below] + share * (interfaces[below + 1] - interfaces[below])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two layers over a level bed, surface 1 + 0.1 x + 0.2 t, u = 1 + height^2 as layer means, w from 0 to 0.5.
+    fn record() -> FlumeRecord {
+        let profile = Profile::new(vec![[0.0, 0.0], [10.0, 0.0]]);
+        let window: Vec<f64> = (0..6).map(f64::from).collect();
+        let mut record = FlumeRecord::new(profile, 1.0, 2, 0.5, vec![2.0], window);
+        for r in 0..5 {
+            let t = 0.5 * f64::from(r);
+            let column = |x: i32| Column {
+                surface_m: 1.0 + 0.1 * f64::from(x) + 0.2 * t,
+                bed_m: 0.0,
+                u: vec![1.0 + 1.0 / 12.0, 1.0 + 7.0 / 12.0],
+                w: vec![0.0, 0.25, 0.5],
+            };
+            record.push(0.0, &[1.0 + t * (2.0 - t)], (0..6).map(column));
+        }
+        record
+    }
+
+    #[test]
+    fn flow_is_interpolated_in_space_height_and_time() {
+        let record = record();
+        // Linear fields and a parabola in height: exact but for rounding.
+        assert!((record.elevation(2.3, 1.1) - (0.23 + 0.22)).abs() < 1e-12);
+        let depth = 1.0 + 0.23 + 0.22;
+        let (u, w) = record.velocity(2.3, 0.6 * depth, 1.1);
+        assert!((u - 1.36).abs() < 1e-12 && (w - 0.3).abs() < 1e-12);
+        assert_eq!(record.velocity(2.3, 9.0, 1.1).1, 0.5);
+        assert_eq!(record.velocity(2.3, -9.0, 1.1).1, 0.0);
+        let state = record.state_at(1.1);
+        assert!((state.columns[3].surface_m - 1.52).abs() < 1e-12);
+    }
+
+    #[test]
+    fn crest_is_the_top_of_a_parabola() {
+        let (height, time) = record().crest(0);
+        // The series is the parabola t (2 - t).
+        assert!((height - 1.0).abs() < 1e-12 && (time - 1.0).abs() < 1e-12);
+    }
+}

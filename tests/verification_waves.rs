@@ -1,0 +1,187 @@
+//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume.
+
+use breakwater::case::file::SolitaryTheory;
+use breakwater::geometry::profile::Profile;
+use breakwater::waves::flume::{FlumeSetup, run};
+use breakwater::waves::layered::{LayeredFlume, LayeredParameters};
+use breakwater::waves::ml_piston::{MlPiston, start_time};
+use breakwater::waves::record::FlumeRecord;
+use breakwater::waves::solitary::{SolitaryWave, ThirdOrderSolitary};
+
+const GRAVITY: f64 = 9.81;
+const STILL_LEVEL_M: f64 = 0.8;
+const GAUGES_X_M: [f64; 8] = [9.5, 19.0, 25.0, 29.0, 33.0, 36.0, 38.0, 39.0];
+
+/// Height of the wave [m], crests at the gauges [m], largest velocity at x = 33 m [m/s], stroke of the water there [m].
+struct Expected {
+    height_m: f64,
+    crests_m: [f64; 8],
+    velocity_m_s: f64,
+    stroke_m: f64,
+}
+
+const EXPECTED: [Expected; 3] = [
+    Expected {
+        height_m: 0.026,
+        crests_m: [0.0260, 0.0268, 0.0285, 0.0301, 0.0323, 0.0345, 0.0365, 0.0376],
+        velocity_m_s: 0.156,
+        stroke_m: 0.58,
+    },
+    Expected {
+        height_m: 0.045,
+        crests_m: [0.0450, 0.0460, 0.0487, 0.0512, 0.0545, 0.0578, 0.0604, 0.0618],
+        velocity_m_s: 0.265,
+        stroke_m: 0.80,
+    },
+    Expected {
+        height_m: 0.064,
+        crests_m: [0.0641, 0.0653, 0.0688, 0.0722, 0.0769, 0.0820, 0.0876, 0.0931],
+        velocity_m_s: 0.371,
+        stroke_m: 0.98,
+    },
+];
+
+/// The Fudo flume without its mound.
+fn fudo_bed() -> Profile {
+    Profile::new(vec![[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]])
+}
+
+fn fudo(profile: Profile, height_m: f64, cell_m: f64, layers: usize) -> FlumeRecord {
+    let theory = SolitaryTheory::Rayleigh;
+    run(&FlumeSetup {
+        profile,
+        still_level_m: STILL_LEVEL_M,
+        gravity_m_s2: GRAVITY,
+        wave: SolitaryWave { height_m, depth_m: STILL_LEVEL_M, gravity: GRAVITY, theory },
+        layers,
+        cell_m,
+        gauges_x_m: GAUGES_X_M.to_vec(),
+        window_x_m: [32.0, 41.0],
+        record_interval_s: 0.02,
+        end_s: 30.0,
+    })
+    .unwrap()
+}
+
+fn largest_velocity(record: &FlumeRecord, x: f64) -> f64 {
+    record.times_s().iter().map(|&t| record.mean_velocity(x, t)).fold(0.0, f64::max)
+}
+
+fn stroke(record: &FlumeRecord, x: f64) -> f64 {
+    let heights: Vec<f64> = (0..6).map(|k| record.profile.z(x) + 0.03 + 0.05 * f64::from(k)).collect();
+    let piston = MlPiston::from_record(record, x, &heights, start_time(record, x, 0.003), 30.0, 0.02);
+    // The largest displacement: the wave that comes back from the shore pushes the water back.
+    (0..1500).map(|i| piston.displacement_m(3, 0.02 * f64::from(i))).fold(0.0, f64::max)
+}
+
+#[test]
+fn crests_velocity_and_stroke_along_the_fudo_flume() {
+    for expected in &EXPECTED {
+        let begun = std::time::Instant::now();
+        let record = fudo(fudo_bed(), expected.height_m, 0.05, 2);
+        println!("H = {} m: {:.2} s, volume error {:.1e}", expected.height_m, begun.elapsed().as_secs_f64(), record.volume_error);
+        // Fluxes are shared by two cells and none crosses a wall: rounding over 5,000 steps.
+        assert!(record.volume_error < 1e-10);
+        for (gauge, crest_m) in expected.crests_m.iter().enumerate() {
+            let (crest, time) = record.crest(gauge);
+            let error = crest / crest_m - 1.0;
+            println!("  x = {:5.1} m: crest {:.5} m at {time:.3} s, {:+.2} %", GAUGES_X_M[gauge], crest, 100.0 * error);
+            // The table comes from another layered calculation, rounded to 0.1 mm.
+            assert!(error.abs() < 0.02, "x = {}: {error}", GAUGES_X_M[gauge]);
+        }
+        let (velocity, stroke) = (largest_velocity(&record, 33.0), stroke(&record, 33.0));
+        println!("  u at 33 m {velocity:.4} m/s, stroke {stroke:.4} m");
+        // As above; the stroke is given with two digits.
+        assert!((velocity / expected.velocity_m_s - 1.0).abs() < 0.03);
+        assert!((stroke / expected.stroke_m - 1.0).abs() < 0.04);
+    }
+}
+
+#[test]
+fn half_the_cell_and_more_layers_change_the_crests_little() {
+    let height_m = EXPECTED[2].height_m;
+    let coarse = fudo(fudo_bed(), height_m, 0.05, 2);
+    for (cell_m, layers) in [(0.025, 2), (0.05, 3)] {
+        let begun = std::time::Instant::now();
+        let other = fudo(fudo_bed(), height_m, cell_m, layers);
+        println!("cell {cell_m} m, K = {layers}: {:.2} s", begun.elapsed().as_secs_f64());
+        for gauge in 0..GAUGES_X_M.len() {
+            let change = coarse.crest(gauge).0 / other.crest(gauge).0 - 1.0;
+            println!("  x = {:5.1} m: {:+.2} %", GAUGES_X_M[gauge], 100.0 * change);
+            // The wave of 6.4 cm is close to breaking at 39 m, where its crest is sharpest.
+            assert!(change.abs() < 0.02);
+        }
+    }
+}
+
+#[test]
+fn waves_pass_the_mound() {
+    let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
+    for expected in &EXPECTED {
+        let record = fudo(bed.clone(), expected.height_m, 0.05, 2);
+        assert!(record.volume_error < 1e-10);
+        let over_the_mound = record.crest(7).0;
+        println!("H = {} m: crest over the mound {over_the_mound:.4} m, u {:.3} m/s", expected.height_m, largest_velocity(&record, 39.0));
+        // The mound reflects a little and shoals a little: the crest stays near that without it.
+        assert!((over_the_mound / expected.crests_m[7] - 1.0).abs() < 0.25);
+        let largest = record.gauge_elevations_m.iter().flatten().fold(0.0f64, |a, &b| a.max(b));
+        assert!(largest < 2.0 * expected.height_m);
+    }
+}
+
+#[test]
+fn lake_at_rest_stays_at_rest_over_mound_island_and_shore() {
+    let corners = vec![[0.0, 0.0], [19.0, 0.0], [25.0, 0.9], [26.0, 0.3], [38.0, 0.6], [39.0, 0.75], [40.0, 0.6], [55.0, 1.2]];
+    for layers in [1, 2, 3, 8] {
+        let mut flume = LayeredFlume::new(LayeredParameters {
+            profile: Profile::new(corners.clone()),
+            still_level_m: STILL_LEVEL_M,
+            gravity_m_s2: GRAVITY,
+            layers,
+            cell_m: 0.05,
+            mapped_m: 5.0,
+            step_s: 0.006,
+        });
+        (0..1000).for_each(|_| flume.step(0.0));
+        // Levels are sums of bed and depth: rounding of 1e-16 m, not amplified.
+        assert!(flume.largest_elevation_m() < 1e-12, "{}", flume.largest_elevation_m());
+        assert!(flume.largest_velocity_m_s() < 1e-12, "{}", flume.largest_velocity_m_s());
+    }
+}
+
+#[test]
+fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
+    let depth_m = 0.8;
+    let wave = ThirdOrderSolitary { height_m: 0.08 * depth_m, depth_m, gravity: GRAVITY };
+    let (start, distance, step_s) = (12.0, 40.0, 0.4 * 0.05 / (GRAVITY * 0.93f64).sqrt());
+    let celerity = wave.celerity_m_s();
+    for layers in 1..=3 {
+        let mut flume = LayeredFlume::new(LayeredParameters {
+            profile: Profile::new(vec![[0.0, -depth_m], [70.0, -depth_m]]),
+            still_level_m: 0.0,
+            gravity_m_s2: GRAVITY,
+            layers,
+            cell_m: 0.05,
+            mapped_m: 5.0,
+            step_s,
+        });
+        flume.set_flow(
+            |x| wave.elevation_m(x - start),
+            |x, z| wave.velocity_m_s(x - start + 0.5 * celerity * step_s, z),
+        );
+        let volume = flume.volume_m2();
+        let steps = (distance / celerity / step_s).round() as usize;
+        (0..steps).for_each(|_| flume.step(0.0));
+        let (top, place) = (0..70_000)
+            .map(|i| 0.001 * f64::from(i))
+            .map(|x| (flume.surface_m(x), x))
+            .fold((0.0, 0.0), |best, now| if now.0 > best.0 { now } else { best });
+        let amplitude = top / wave.height_m - 1.0;
+        let phase = (place - start) / (celerity * flume.time_s()) - 1.0;
+        println!("K = {layers}: amplitude {:+.3} %, phase {:+.3} %", 100.0 * amplitude, 100.0 * phase);
+        assert!((flume.volume_m2() / volume - 1.0).abs() < 1e-12);
+        if layers >= 2 {
+            assert!(amplitude.abs() < 0.01 && phase.abs() < 0.003);
+        }
+    }
+}
