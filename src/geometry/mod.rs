@@ -1,3 +1,8 @@
-//! Geometry: bed profile, closed surfaces, armour units.
+//! Geometry: bed profile, closed surfaces, convex parts, armour units, STL.
 
+pub mod armour_unit;
+pub mod convex_part;
 pub mod profile;
+pub mod solid;
+pub mod stl;
+pub mod tetrapod;
