@@ -14,6 +14,7 @@ mod atomic;
 pub mod columns;
 mod error;
 mod plot;
+mod report;
 mod series;
 mod summary;
 mod table;
@@ -22,6 +23,7 @@ mod vtkhdf;
 
 pub use atomic::write_atomically;
 pub use error::OutputError;
+pub use report::write_report;
 pub use series::CsvSeries;
 pub use summary::{
     ContactSummary, EnergySummary, Execution, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,

@@ -28,7 +28,8 @@ impl Axis {
     }
 
     /// Smallest and largest value.
-    pub fn range(&self) -> (f64, f64) {
+    #[cfg(test)]
+    fn range(&self) -> (f64, f64) {
         (self.low, self.high)
     }
 

@@ -28,6 +28,8 @@ pub struct BarChart {
     pub groups: Vec<String>,
     /// Sets of bars.
     pub bars: Vec<Bars>,
+    /// Draw the sets of a group in the same place; each group should then have one value.
+    pub stacked: bool,
     /// Horizontal lines with words at them.
     pub marks: Vec<(f64, String)>,
     /// Width and height [px].
@@ -38,7 +40,8 @@ impl BarChart {
     /// The chart as an `<svg>` element.
     pub fn svg(&self) -> String {
         let [width, height] = self.size;
-        let named = || self.bars.iter().filter(|bars| !bars.name.is_empty());
+        let named =
+            || self.bars.iter().filter(|bars| !bars.name.is_empty() && bars.values.iter().any(|v| v.is_finite()));
         let names: Vec<&str> = named().map(|bars| bars.name.as_str()).collect();
         let frame = Frame::new(width, height, Frame::legend_rows(width, &names));
         let values = self.bars.iter().flat_map(|bars| bars.values.iter().copied());
@@ -48,14 +51,15 @@ impl BarChart {
         let mut svg = frame.open(&self.title);
         svg += &frame.vertical_axis(&y);
         let pitch = (frame.right - frame.left) / self.groups.len().max(1) as f64;
-        let bar_width = (0.76 * pitch / self.bars.len().max(1) as f64).min(34.0);
+        let places = if self.stacked { 1 } else { self.bars.len().max(1) };
+        let bar_width = (0.76 * pitch / places as f64).min(34.0);
         for (group, name) in self.groups.iter().enumerate() {
             let middle = frame.left + pitch * (group as f64 + 0.5);
-            let first = middle - 0.5 * bar_width * self.bars.len() as f64;
+            let first = middle - 0.5 * bar_width * places as f64;
             for (index, bars) in self.bars.iter().enumerate() {
                 let Some(value) = bars.values.get(group).copied().filter(|v| v.is_finite()) else { continue };
                 let (top, foot) = (frame.y(&y, value.max(0.0)), frame.y(&y, value.min(0.0)));
-                let left = first + bar_width * index as f64;
+                let left = first + bar_width * (index % places) as f64;
                 let series = if bars.name.is_empty() { &self.y_label } else { &bars.name };
                 svg += &format!(
                     "<rect class=\"{}\" x=\"{:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\"><title>{}, {}: {}</title></rect>",
@@ -76,7 +80,10 @@ impl BarChart {
         }
         let entries: Vec<(String, String)> = named()
             .map(|bars| {
-                (bars.name.clone(), format!("<rect class=\"{}\" x=\"6\" y=\"-6\" width=\"13\" height=\"12\"/>", class(bars)))
+                (
+                    bars.name.clone(),
+                    format!("<rect class=\"{}\" x=\"6\" y=\"-6\" width=\"13\" height=\"12\"/>", class(bars)),
+                )
             })
             .collect();
         svg += &frame.legend(&entries);

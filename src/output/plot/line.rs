@@ -45,9 +45,10 @@ impl LineChart {
         let frame = Frame::new(width, height, Frame::legend_rows(width, &names));
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let x = Axis::tight(&self.x_label, points().map(|p| p[0]), (width / 90.0) as usize);
-        let with_band = self.lines.iter().flat_map(|line| {
-            line.points.iter().zip(&line.band).flat_map(|(p, half)| [p[1] - half, p[1] + half])
-        });
+        let with_band = self
+            .lines
+            .iter()
+            .flat_map(|line| line.points.iter().zip(&line.band).flat_map(|(p, half)| [p[1] - half, p[1] + half]));
         let values = points().map(|p| p[1]).chain(with_band).chain(self.marks.iter().map(|m| m.0));
         let y = Axis::round(&self.y_label, values, (height / 55.0) as usize);
 
@@ -63,8 +64,9 @@ impl LineChart {
         for (value, words) in &self.marks {
             svg += &mark(&frame, &y, *value, words);
         }
-        let entries: Vec<(String, String)> =
-            named().map(|line| (line.name.clone(), format!("<path class=\"{}\" d=\"M0 0H22\"/>", class(line)))).collect();
+        let entries: Vec<(String, String)> = named()
+            .map(|line| (line.name.clone(), format!("<path class=\"{}\" d=\"M0 0H22\"/>", class(line))))
+            .collect();
         svg += &frame.legend(&entries);
         if points().next().is_none() {
             svg += &text(0.5 * width, 0.5 * height, "note mid", "no values");
@@ -131,7 +133,8 @@ mod tests {
     fn a_long_line_is_thinned_but_keeps_its_peak() {
         let mut points: Vec<[f64; 2]> = (0..100_000).map(|i| [f64::from(i) * 1e-3, 0.0]).collect();
         points[54_321][1] = 7.0;
-        let chart = LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
+        let chart =
+            LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
         let svg = chart.svg();
         assert!(svg.len() < 60_000, "{}", svg.len());
         let frame = Frame::new(600.0, 240.0, 0);
@@ -142,7 +145,8 @@ mod tests {
     #[test]
     fn a_line_breaks_where_there_is_no_value() {
         let points = vec![[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, 1.0], [4.0, 0.0]];
-        let chart = LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
+        let chart =
+            LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
         let svg = chart.svg();
         let line = svg.lines().find(|l| l.contains("class=\"line")).unwrap();
         assert_eq!(line.matches('M').count(), 2);

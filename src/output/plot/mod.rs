@@ -54,7 +54,9 @@ impl Frame {
     fn open(&self, title: &str) -> String {
         let title = escape(title);
         let (w, h) = (self.width, self.height);
-        format!("<svg class=\"chart\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>\n")
+        format!(
+            "<svg class=\"chart\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>\n"
+        )
     }
 
     /// Horizontal grid lines with their numbers, and the label of the vertical axis above them.

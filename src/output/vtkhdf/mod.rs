@@ -19,7 +19,6 @@ mod layout;
 #[cfg(test)]
 mod tests;
 
-
 /// What the cells of a series are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
