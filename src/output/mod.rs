@@ -1,1 +1,34 @@
-//! output
+//!
+//! | file of a run folder | written with | holds |
+//! | --- | --- | --- |
+//! | `case.json` | [`write_atomically`] | the case as it was run |
+//! | `profile.csv` | [`CsvSeries`] | bed with mound: `x_m`, `z_m` |
+//! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | water at the gauges, by the particles and by the flume model |
+//! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | motion and forces of the units, contact events, energy |
+//! | `unit_surface.json` | [`UnitSurface`] | the unit's surface about its centre of mass |
+//! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
+//!
+//! The column names of the tables are in [`columns`].
+
+mod atomic;
+pub mod columns;
+mod error;
+mod plot;
+mod report;
+mod series;
+mod summary;
+mod table;
+mod unit_surface;
+mod vtkhdf;
+
+pub use atomic::write_atomically;
+pub use error::OutputError;
+pub use report::write_report;
+pub use series::CsvSeries;
+pub use summary::{
+    ContactSummary, EnergySummary, Execution, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
+    UnitSummary, WaveSummary,
+};
+pub use table::Table;
+pub use unit_surface::UnitSurface;
+pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries};

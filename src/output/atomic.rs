@@ -1,0 +1,46 @@
+//! Files that are there whole or not at all.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::Path;
+
+use super::OutputError;
+
+/// Writes `bytes` to `path` so that a reader, or a run killed half way, finds the old file or the new one, never a part:
+/// written beside it under a temporary name, synced to the disk, renamed.
+///
+/// # Errors
+/// If the file cannot be written; the old one is then untouched.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let temporary = path.with_file_name(name);
+    let write = || -> std::io::Result<()> {
+        let mut file = File::create(&temporary)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        fs::rename(&temporary, path)
+    };
+    write().map_err(OutputError::io(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replaces_the_file_and_leaves_nothing_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("checkpoint.bin");
+        write_atomically(&path, b"first").unwrap();
+        write_atomically(&path, b"second, longer").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second, longer");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn names_the_file_that_cannot_be_written() {
+        let error = write_atomically(Path::new("/nowhere/at/all.json"), b"x").unwrap_err();
+        assert!(error.to_string().starts_with("/nowhere/at/all.json: "), "{error}");
+    }
+}

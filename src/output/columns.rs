@@ -1,0 +1,71 @@
+//! Names of the columns in the tables of a run folder, units in the names.
+
+/// `units.csv`: one row for each unit and moment. `unit` counts from 1; position and orientation (quaternion) are those
+/// of the centre of mass and the body axes; `fluid_*` is what the water does, `contact_*` what bed and neighbours do,
+/// forces [N] and torques [N m] about the centre of mass.
+pub const UNITS: [&str; 27] = [
+    "time_s",
+    "unit",
+    "x_m",
+    "y_m",
+    "z_m",
+    "qx",
+    "qy",
+    "qz",
+    "qw",
+    "vx_m_s",
+    "vy_m_s",
+    "vz_m_s",
+    "wx_rad_s",
+    "wy_rad_s",
+    "wz_rad_s",
+    "fluid_fx_n",
+    "fluid_fy_n",
+    "fluid_fz_n",
+    "fluid_tx_nm",
+    "fluid_ty_nm",
+    "fluid_tz_nm",
+    "contact_fx_n",
+    "contact_fy_n",
+    "contact_fz_n",
+    "contact_tx_nm",
+    "contact_ty_nm",
+    "contact_tz_nm",
+];
+
+/// `contacts.csv`: one row for each contact event. `partner` is the other unit, counted from 1, or 0 for the bed.
+pub const CONTACTS: [&str; 11] = [
+    "start_s",
+    "end_s",
+    "unit",
+    "partner",
+    "x_m",
+    "y_m",
+    "z_m",
+    "normal_velocity_m_s",
+    "tangential_velocity_m_s",
+    "peak_force_n",
+    "impulse_n_s",
+];
+
+/// `energy.csv`: energy of the water and of the units.
+pub const ENERGY: [&str; 6] =
+    ["time_s", "kinetic_j", "potential_j", "internal_j", "units_kinetic_j", "units_potential_j"];
+
+/// `profile.csv`: corner points of the bed with the mound.
+pub const PROFILE: [&str; 2] = ["x_m", "z_m"];
+
+/// Column of the surface elevation above the still water [m] at the gauge `name` (`gauges.csv`, `flume_gauges.csv`).
+pub fn elevation(name: &str) -> String {
+    format!("{name}_eta_m")
+}
+
+/// Column of the pressure [Pa] at the gauge `name`.
+pub fn pressure(name: &str) -> String {
+    format!("{name}_p_pa")
+}
+
+/// Columns of the velocity [m/s] at the gauge `name`.
+pub fn velocity(name: &str) -> [String; 3] {
+    ["u", "v", "w"].map(|c| format!("{name}_{c}_m_s"))
+}

@@ -1,0 +1,120 @@
+//! Bars in groups.
+
+use super::{Axis, Frame, escape, mark, short, text};
+
+/// One set of bars, one bar for each group.
+#[derive(Debug, Clone, Default)]
+pub struct Bars {
+    /// Name in the legend; empty for none.
+    pub name: String,
+    /// Heights; what is not finite is left out.
+    pub values: Vec<f64>,
+    /// Colour of the palette.
+    pub colour: usize,
+    /// Outlined instead of filled, for measurements beside calculations.
+    pub hollow: bool,
+}
+
+/// A chart of bars.
+#[derive(Debug, Clone, Default)]
+pub struct BarChart {
+    /// What it shows, for readers who do not see it.
+    pub title: String,
+    /// What the groups are.
+    pub x_label: String,
+    /// Quantity and unit of the heights.
+    pub y_label: String,
+    /// Names of the groups.
+    pub groups: Vec<String>,
+    /// Sets of bars.
+    pub bars: Vec<Bars>,
+    /// Draw the sets of a group in the same place; each group should then have one value.
+    pub stacked: bool,
+    /// Horizontal lines with words at them.
+    pub marks: Vec<(f64, String)>,
+    /// Width and height [px].
+    pub size: [f64; 2],
+}
+
+impl BarChart {
+    /// The chart as an `<svg>` element.
+    pub fn svg(&self) -> String {
+        let [width, height] = self.size;
+        let named =
+            || self.bars.iter().filter(|bars| !bars.name.is_empty() && bars.values.iter().any(|v| v.is_finite()));
+        let names: Vec<&str> = named().map(|bars| bars.name.as_str()).collect();
+        let frame = Frame::new(width, height, Frame::legend_rows(width, &names));
+        let values = self.bars.iter().flat_map(|bars| bars.values.iter().copied());
+        let values = values.chain(self.marks.iter().map(|m| m.0)).chain([0.0]);
+        let y = Axis::round(&self.y_label, values, (height / 55.0) as usize);
+
+        let mut svg = frame.open(&self.title);
+        svg += &frame.vertical_axis(&y);
+        let pitch = (frame.right - frame.left) / self.groups.len().max(1) as f64;
+        let places = if self.stacked { 1 } else { self.bars.len().max(1) };
+        let bar_width = (0.76 * pitch / places as f64).min(34.0);
+        for (group, name) in self.groups.iter().enumerate() {
+            let middle = frame.left + pitch * (group as f64 + 0.5);
+            let first = middle - 0.5 * bar_width * places as f64;
+            for (index, bars) in self.bars.iter().enumerate() {
+                let Some(value) = bars.values.get(group).copied().filter(|v| v.is_finite()) else { continue };
+                let (top, foot) = (frame.y(&y, value.max(0.0)), frame.y(&y, value.min(0.0)));
+                let left = first + bar_width * (index % places) as f64;
+                let series = if bars.name.is_empty() { &self.y_label } else { &bars.name };
+                svg += &format!(
+                    "<rect class=\"{}\" x=\"{:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\"><title>{}, {}: {}</title></rect>",
+                    class(bars),
+                    left + 0.06 * bar_width,
+                    0.88 * bar_width,
+                    foot - top,
+                    escape(name),
+                    escape(series),
+                    short(value, 4)
+                );
+            }
+            svg += &text(middle, frame.bottom + 18.0, "tick mid", name);
+        }
+        svg += &frame.horizontal_label(&self.x_label);
+        for (value, words) in &self.marks {
+            svg += &mark(&frame, &y, *value, words);
+        }
+        let entries: Vec<(String, String)> = named()
+            .map(|bars| {
+                (
+                    bars.name.clone(),
+                    format!("<rect class=\"{}\" x=\"6\" y=\"-6\" width=\"13\" height=\"12\"/>", class(bars)),
+                )
+            })
+            .collect();
+        svg += &frame.legend(&entries);
+        svg + "</svg>\n"
+    }
+}
+
+fn class(bars: &Bars) -> String {
+    let hollow = if bars.hollow { " hollow" } else { "" };
+    format!("bar c{}{hollow}", bars.colour % super::COLOURS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_stand_on_zero_and_missing_values_are_left_out() {
+        let chart = BarChart {
+            groups: vec!["1".to_owned(), "2".to_owned()],
+            bars: vec![
+                Bars { name: "EXP1".to_owned(), values: vec![0.1, f64::NAN], ..Bars::default() },
+                Bars { name: "run".to_owned(), values: vec![0.2], ..Bars::default() },
+            ],
+            marks: vec![(0.077, "damage distance".to_owned())],
+            size: [600.0, 240.0],
+            ..BarChart::default()
+        };
+        let svg = chart.svg();
+        assert_eq!(svg.matches("<title>1, ").count(), 2);
+        assert_eq!(svg.matches("<title>2, ").count(), 0);
+        assert!(svg.contains("damage distance") && !svg.contains("NaN"));
+    }
+}

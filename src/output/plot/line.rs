@@ -1,0 +1,155 @@
+//! Lines against time or place.
+
+use super::{Axis, Frame, mark, text};
+
+/// One line of a chart.
+#[derive(Debug, Clone, Default)]
+pub struct Line {
+    /// Name in the legend; empty for none.
+    pub name: String,
+    /// Points in the units of the axes; the line breaks at values that are not finite.
+    pub points: Vec<[f64; 2]>,
+    /// Colour of the palette.
+    pub colour: usize,
+    /// Dashed instead of drawn through.
+    pub dashed: bool,
+    /// Thin and pale, for one of many.
+    pub faint: bool,
+    /// Half width of a shaded band about the line, one for each point; empty for none.
+    pub band: Vec<f64>,
+}
+
+/// A chart of lines.
+#[derive(Debug, Clone, Default)]
+pub struct LineChart {
+    /// What it shows, for readers who do not see it.
+    pub title: String,
+    /// Quantity and unit of the horizontal axis.
+    pub x_label: String,
+    /// Quantity and unit of the vertical axis.
+    pub y_label: String,
+    /// The lines, drawn in this order.
+    pub lines: Vec<Line>,
+    /// Horizontal lines with words at them.
+    pub marks: Vec<(f64, String)>,
+    /// Width and height [px].
+    pub size: [f64; 2],
+}
+
+impl LineChart {
+    /// The chart as an `<svg>` element.
+    pub fn svg(&self) -> String {
+        let [width, height] = self.size;
+        let named = || self.lines.iter().filter(|line| !line.name.is_empty());
+        let names: Vec<&str> = named().map(|line| line.name.as_str()).collect();
+        let frame = Frame::new(width, height, Frame::legend_rows(width, &names));
+        let points = || self.lines.iter().flat_map(|line| &line.points);
+        let x = Axis::tight(&self.x_label, points().map(|p| p[0]), (width / 90.0) as usize);
+        let with_band = self
+            .lines
+            .iter()
+            .flat_map(|line| line.points.iter().zip(&line.band).flat_map(|(p, half)| [p[1] - half, p[1] + half]));
+        let values = points().map(|p| p[1]).chain(with_band).chain(self.marks.iter().map(|m| m.0));
+        let y = Axis::round(&self.y_label, values, (height / 55.0) as usize);
+
+        let mut svg = frame.open(&self.title);
+        svg += &frame.vertical_axis(&y);
+        svg += &frame.horizontal_axis(&x);
+        for line in &self.lines {
+            svg += &band(&frame, &x, &y, line);
+        }
+        for line in &self.lines {
+            svg += &format!("<path class=\"{}\" d=\"{}\"/>\n", class(line), path(&frame, &x, &y, &line.points));
+        }
+        for (value, words) in &self.marks {
+            svg += &mark(&frame, &y, *value, words);
+        }
+        let entries: Vec<(String, String)> = named()
+            .map(|line| (line.name.clone(), format!("<path class=\"{}\" d=\"M0 0H22\"/>", class(line))))
+            .collect();
+        svg += &frame.legend(&entries);
+        if points().next().is_none() {
+            svg += &text(0.5 * width, 0.5 * height, "note mid", "no values");
+        }
+        svg + "</svg>\n"
+    }
+}
+
+fn class(line: &Line) -> String {
+    let dashed = if line.dashed { " dashed" } else { "" };
+    let faint = if line.faint { " faint" } else { "" };
+    format!("line c{}{dashed}{faint}", line.colour % super::COLOURS)
+}
+
+/// The line as path data; of the points that fall on one pixel column only first, lowest, highest and last are kept.
+fn path(frame: &Frame, x: &Axis, y: &Axis, points: &[[f64; 2]]) -> String {
+    let mut data = String::new();
+    for piece in points.split(|p| !(p[0].is_finite() && p[1].is_finite())).filter(|piece| !piece.is_empty()) {
+        let pixels: Vec<[f64; 2]> = piece.iter().map(|p| [frame.x(x, p[0]), frame.y(y, p[1])]).collect();
+        let mut command = 'M';
+        for column in pixels.chunk_by(|a, b| (2.0 * a[0]).floor() == (2.0 * b[0]).floor()) {
+            for [px, py] in thinned(column) {
+                data += &format!("{command}{px:.1} {py:.1}");
+                command = 'L';
+            }
+        }
+    }
+    data
+}
+
+fn thinned(column: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    if column.len() <= 4 {
+        return column.to_vec();
+    }
+    let by_height = |a: &usize, b: &usize| column[*a][1].total_cmp(&column[*b][1]);
+    let indices = 0..column.len();
+    let lowest = indices.clone().min_by(by_height).unwrap_or(0);
+    let highest = indices.max_by(by_height).unwrap_or(0);
+    let mut kept = vec![0, lowest, highest, column.len() - 1];
+    kept.sort_unstable();
+    kept.dedup();
+    kept.into_iter().map(|i| column[i]).collect()
+}
+
+/// The shaded band about a line.
+fn band(frame: &Frame, x: &Axis, y: &Axis, line: &Line) -> String {
+    if line.band.is_empty() {
+        return String::new();
+    }
+    let edge = |sign: f64| -> Vec<[f64; 2]> {
+        line.points.iter().zip(&line.band).map(|(p, half)| [p[0], p[1] + sign * half]).collect()
+    };
+    let mut lower = edge(-1.0);
+    lower.reverse();
+    let outline = path(frame, x, y, &edge(1.0)) + &path(frame, x, y, &lower).replacen('M', "L", 1);
+    format!("<path class=\"band c{}\" d=\"{outline}Z\"/>\n", line.colour % super::COLOURS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_line_is_thinned_but_keeps_its_peak() {
+        let mut points: Vec<[f64; 2]> = (0..100_000).map(|i| [f64::from(i) * 1e-3, 0.0]).collect();
+        points[54_321][1] = 7.0;
+        let chart =
+            LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
+        let svg = chart.svg();
+        assert!(svg.len() < 60_000, "{}", svg.len());
+        let frame = Frame::new(600.0, 240.0, 0);
+        let peak = frame.y(&Axis::round("", [0.0, 7.0], 4), 7.0);
+        assert!(svg.contains(&format!(" {peak:.1}L")), "the peak is drawn");
+    }
+
+    #[test]
+    fn a_line_breaks_where_there_is_no_value() {
+        let points = vec![[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, 1.0], [4.0, 0.0]];
+        let chart =
+            LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
+        let svg = chart.svg();
+        let line = svg.lines().find(|l| l.contains("class=\"line")).unwrap();
+        assert_eq!(line.matches('M').count(), 2);
+        assert!(!svg.contains("NaN"));
+    }
+}

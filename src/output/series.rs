@@ -1,0 +1,174 @@
+//! Tables that grow with the run: one row a moment, one column a quantity.
+
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+
+/// A CSV file of numbers under one header line, appended row by row.
+///
+/// Numbers are written as the shortest text that reads back to the same bits; what is not a number (`NaN`) leaves the
+/// field empty. Every call hands its rows to the operating system, so that a killed run loses none. The length in
+/// bytes goes into a checkpoint; a resumed run cuts the file there and goes on with the same bytes as an unbroken one.
+#[derive(Debug)]
+pub struct CsvSeries {
+    path: PathBuf,
+    file: File,
+    columns: usize,
+    bytes: u64,
+    line: String,
+}
+
+impl CsvSeries {
+    /// A new file with the given column names, units in the names (`time_s`); an old file is overwritten.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create<S: AsRef<str>>(path: &Path, columns: &[S]) -> Result<Self, OutputError> {
+        let file = File::create(path).map_err(OutputError::io(path))?;
+        let mut series =
+            Self { path: path.to_owned(), file, columns: columns.len(), bytes: 0, line: String::with_capacity(256) };
+        let names: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
+        series.line.push_str(&names.join(","));
+        series.line.push('\n');
+        series.write_line()?;
+        Ok(series)
+    }
+
+    /// Opens a file of an interrupted run, cut to the length that the checkpoint stored.
+    ///
+    /// # Errors
+    /// If the file cannot be opened, is shorter than `bytes` or is not cut at the end of a line.
+    pub fn open_truncated(path: &Path, bytes: u64) -> Result<Self, OutputError> {
+        let text = std::fs::read(path).map_err(OutputError::io(path))?;
+        let Some(kept) = usize::try_from(bytes).ok().and_then(|n| text.get(..n)) else {
+            let what = format!("holds {} bytes, fewer than the {bytes} at the checkpoint", text.len());
+            return Err(OutputError::content(path, what));
+        };
+        let Some(header) = kept.split(|b| *b == b'\n').next().filter(|_| kept.last() == Some(&b'\n')) else {
+            let what = format!("the checkpoint's length of {bytes} bytes is not the end of a line");
+            return Err(OutputError::content(path, what));
+        };
+        let columns = header.split(|b| *b == b',').count();
+        let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
+        file.set_len(bytes).map_err(OutputError::io(path))?;
+        Ok(Self { path: path.to_owned(), file, columns, bytes, line: String::with_capacity(256) })
+    }
+
+    /// Appends one row.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    ///
+    /// # Panics
+    /// If the row has not one value for each column.
+    pub fn append(&mut self, row: &[f64]) -> Result<(), OutputError> {
+        self.append_rows(std::iter::once(row))
+    }
+
+    /// Appends several rows in one write.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    ///
+    /// # Panics
+    /// If a row has not one value for each column.
+    pub fn append_rows<R: AsRef<[f64]>>(&mut self, rows: impl IntoIterator<Item = R>) -> Result<(), OutputError> {
+        for row in rows {
+            let row = row.as_ref();
+            assert_eq!(row.len(), self.columns, "{}: values and columns", self.path.display());
+            for (column, value) in row.iter().enumerate() {
+                if column > 0 {
+                    self.line.push(',');
+                }
+                push_number(&mut self.line, *value);
+            }
+            self.line.push('\n');
+        }
+        self.write_line()
+    }
+
+    /// Length of the file up to the last appended row [bytes].
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn write_line(&mut self) -> Result<(), OutputError> {
+        self.file.write_all(self.line.as_bytes()).map_err(OutputError::io(&self.path))?;
+        self.bytes += self.line.len() as u64;
+        self.line.clear();
+        Ok(())
+    }
+}
+
+/// The shortest text that reads back to the same number; very large and very small numbers with an exponent.
+fn push_number(text: &mut String, value: f64) {
+    use std::fmt::Write;
+    let magnitude = value.abs();
+    // Writing to a String cannot fail.
+    let _ = if value.is_nan() {
+        Ok(())
+    } else if magnitude == 0.0 || (1e-4..1e15).contains(&magnitude) {
+        write!(text, "{value}")
+    } else {
+        write!(text, "{value:e}")
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Table;
+    use super::*;
+
+    #[test]
+    fn numbers_read_back_to_the_same_bits() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("gauges.csv");
+        let values = [0.1 + 0.2, 1.0 / 3.0, 1e-17, -2.5e300, 0.0, -0.0, 123456789.0, f64::MIN_POSITIVE];
+        let mut series = CsvSeries::create(&path, &["time_s", "WG1_eta_m"]).unwrap();
+        for v in values {
+            series.append(&[v, -v]).unwrap();
+        }
+        assert_eq!(series.bytes(), std::fs::metadata(&path).unwrap().len());
+        let table = Table::read(&path).unwrap();
+        for (read, v) in table.column("time_s").unwrap().iter().zip(values) {
+            assert_eq!(read.to_bits(), v.to_bits());
+        }
+    }
+
+    #[test]
+    fn a_resumed_file_equals_an_unbroken_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i) * 0.01, f64::from(i).sin()]).collect();
+        let (whole, broken) = (folder.path().join("whole.csv"), folder.path().join("broken.csv"));
+        CsvSeries::create(&whole, &["time_s", "x_m"]).unwrap().append_rows(&rows).unwrap();
+
+        let mut series = CsvSeries::create(&broken, &["time_s", "x_m"]).unwrap();
+        series.append_rows(&rows[..8]).unwrap();
+        let at_checkpoint = series.bytes();
+        series.append_rows(&rows[8..13]).unwrap();
+        drop(series);
+        let mut series = CsvSeries::open_truncated(&broken, at_checkpoint).unwrap();
+        series.append_rows(&rows[8..]).unwrap();
+        assert_eq!(std::fs::read(&whole).unwrap(), std::fs::read(&broken).unwrap());
+        assert_eq!(series.bytes(), std::fs::metadata(&whole).unwrap().len());
+    }
+
+    #[test]
+    fn a_wrong_checkpoint_length_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("energy.csv");
+        CsvSeries::create(&path, &["time_s"]).unwrap().append(&[1.5]).unwrap();
+        let error = CsvSeries::open_truncated(&path, 1000).unwrap_err().to_string();
+        assert!(error.contains("fewer than the 1000"), "{error}");
+        let error = CsvSeries::open_truncated(&path, 9).unwrap_err().to_string();
+        assert!(error.contains("not the end of a line"), "{error}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"time_s\n1.5\n");
+    }
+}

@@ -1,0 +1,110 @@
+//! Reading the CSV files of a run folder back, column by column.
+
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+
+/// A table of numbers with named columns; lines that begin with `#` are comments, an empty field is `NaN`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    path: PathBuf,
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Reads a CSV file. A last line without its line end, left by a killed run, is dropped.
+    ///
+    /// # Errors
+    /// If the file cannot be read or holds something other than numbers under a header.
+    pub fn read(path: &Path) -> Result<Self, OutputError> {
+        let text = std::fs::read_to_string(path).map_err(OutputError::io(path))?;
+        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+        Self::parse(path, whole)
+    }
+
+    /// Reads a CSV file, `None` if there is none.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn read_if_present(path: &Path) -> Result<Option<Self>, OutputError> {
+        if path.exists() { Self::read(path).map(Some) } else { Ok(None) }
+    }
+
+    /// Reads a table from text; `path` names it in errors.
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, OutputError> {
+        let mut lines = text.lines().enumerate().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let Some((_, header)) = lines.next() else {
+            return Err(OutputError::content(path, "is empty; a header line with the column names is needed"));
+        };
+        let names: Vec<String> = header.split(',').map(|name| name.trim().to_owned()).collect();
+        let mut columns = vec![Vec::new(); names.len()];
+        for (number, line) in lines {
+            let fields: Vec<&str> = line.split(',').map(str::trim).collect();
+            if fields.len() != names.len() {
+                let what = format!("line {}: {} fields under {} columns", number + 1, fields.len(), names.len());
+                return Err(OutputError::content(path, what));
+            }
+            for ((column, field), name) in columns.iter_mut().zip(fields).zip(&names) {
+                let value = if field.is_empty() { Ok(f64::NAN) } else { field.parse::<f64>() };
+                column.push(value.map_err(|_| {
+                    OutputError::content(path, format!("line {}: {name} is \"{field}\", not a number", number + 1))
+                })?);
+            }
+        }
+        Ok(Self { path: path.to_owned(), names, columns })
+    }
+
+    /// Column names in the order of the file.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// A column by its name, `None` if there is none.
+    pub fn get(&self, name: &str) -> Option<&[f64]> {
+        self.names.iter().position(|n| n == name).map(|i| self.columns[i].as_slice())
+    }
+
+    /// A column by its name.
+    ///
+    /// # Errors
+    /// If there is no such column; the message lists those that are there.
+    pub fn column(&self, name: &str) -> Result<&[f64], OutputError> {
+        self.get(name).ok_or_else(|| {
+            let what = format!("has no column \"{name}\"; it has {}", self.names.join(", "));
+            OutputError::content(&self.path, what)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_columns_and_leaves_out_a_half_written_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, "# a comment\ntime_s,x_m\n0,1.5\n0.1,\n0.2,3").unwrap();
+        let table = Table::read(&path).unwrap();
+        assert_eq!(table.rows(), 2);
+        assert_eq!(table.column("time_s").unwrap(), [0.0, 0.1]);
+        assert!(table.column("x_m").unwrap()[1].is_nan());
+    }
+
+    #[test]
+    fn says_which_line_is_wrong() {
+        let path = Path::new("t.csv");
+        let message = |text: &str| Table::parse(path, text).unwrap_err().to_string();
+        assert_eq!(message("a,b\n1,2\n3\n"), "t.csv: line 3: 1 fields under 2 columns");
+        assert_eq!(message("a,b\n1,wet\n"), "t.csv: line 2: b is \"wet\", not a number");
+        assert!(message("").contains("is empty"));
+        let table = Table::parse(path, "a,b\n1,2\n").unwrap();
+        assert_eq!(table.column("c").unwrap_err().to_string(), "t.csv: has no column \"c\"; it has a, b");
+    }
+}

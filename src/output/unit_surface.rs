@@ -1,0 +1,64 @@
+//! The surface of an armour unit about its centre of mass, for the views in the report.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{OutputError, write_atomically};
+
+/// A closed surface of triangles in the body axes of the unit, origin at the centre of mass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnitSurface {
+    /// Corner points [m].
+    pub vertices_m: Vec<[f64; 3]>,
+    /// Three corner points each, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl UnitSurface {
+    /// Name of the file in a run folder.
+    pub const FILE: &str = "unit_surface.json";
+
+    /// Writes the surface to `path`.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        let bytes = serde_json::to_vec(self).map_err(OutputError::json(path))?;
+        write_atomically(path, &bytes)
+    }
+
+    /// Reads a surface.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or a triangle has a corner that is not there.
+    pub fn read(path: &Path) -> Result<Self, OutputError> {
+        let bytes = std::fs::read(path).map_err(OutputError::io(path))?;
+        let surface: Self = serde_json::from_slice(&bytes).map_err(OutputError::json(path))?;
+        let points = surface.vertices_m.len();
+        match surface.triangles.iter().flatten().find(|i| **i as usize >= points) {
+            Some(i) => Err(OutputError::content(path, format!("a triangle names point {i} of {points}"))),
+            None => Ok(surface),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_back_and_refuses_a_corner_that_is_not_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(UnitSurface::FILE);
+        let mut surface = UnitSurface {
+            vertices_m: vec![[0.0, 0.0, 0.1], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]],
+            triangles: vec![[0, 1, 2]],
+        };
+        surface.write(&path).unwrap();
+        assert_eq!(UnitSurface::read(&path).unwrap(), surface);
+        surface.triangles.push([0, 1, 3]);
+        surface.write(&path).unwrap();
+        assert!(UnitSurface::read(&path).unwrap_err().to_string().contains("point 3 of 3"));
+    }
+}

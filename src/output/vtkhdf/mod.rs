@@ -1,0 +1,322 @@
+//! Moving points and surfaces for ParaView: VTKHDF temporal PolyData (version 2.0), one file a series.
+//!
+//! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step is one part. A cell kind
+//! has always the same number of corners, so that the `Offsets` of all steps are one and the same list 0, n, 2n, ...:
+//! it is written once, as long as the longest step needs, and every step starts at its beginning. Connectivity is
+//! written again only when it differs from that of the step before. `NSteps` is written last and the file is flushed
+//! after each step: a killed run leaves a file that ends with its last whole step.
+
+use std::path::{Path, PathBuf};
+
+use hdf5_metno::{Dataset, File, Group};
+
+use self::layout::{
+    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of_3, set_row, set_row_of_4, unlocked, write_skeleton,
+};
+use super::OutputError;
+
+mod layout;
+#[cfg(test)]
+mod tests;
+
+/// What the cells of a series are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cells {
+    /// Every point is a cell of its own: particles.
+    Vertices,
+    /// Triangles: surfaces.
+    Triangles,
+}
+
+impl Cells {
+    fn topology(self) -> usize {
+        match self {
+            Self::Vertices => 0,
+            Self::Triangles => 2,
+        }
+    }
+
+    fn corners(self) -> usize {
+        match self {
+            Self::Vertices => 1,
+            Self::Triangles => 3,
+        }
+    }
+}
+
+/// What a point field holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FieldKind {
+    /// One f32 a point.
+    Scalar,
+    /// Three f32 a point.
+    Vector,
+    /// One i32 a point.
+    Integer,
+}
+
+/// Values of a point field in one step, one for each point.
+#[derive(Debug, Clone, Copy)]
+pub enum FieldValues<'a> {
+    /// For [`FieldKind::Scalar`].
+    Scalar(&'a [f32]),
+    /// For [`FieldKind::Vector`].
+    Vector(&'a [[f32; 3]]),
+    /// For [`FieldKind::Integer`].
+    Integer(&'a [i32]),
+}
+
+impl FieldValues<'_> {
+    fn kind(&self) -> FieldKind {
+        match self {
+            Self::Scalar(_) => FieldKind::Scalar,
+            Self::Vector(_) => FieldKind::Vector,
+            Self::Integer(_) => FieldKind::Integer,
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Scalar(values) => values.len(),
+            Self::Vector(values) => values.len(),
+            Self::Integer(values) => values.len(),
+        }
+    }
+}
+
+/// A VTKHDF file that grows step by step.
+#[derive(Debug)]
+pub struct PolyDataSeries {
+    path: PathBuf,
+    file: File,
+    cells: Cells,
+    fields: Vec<(String, FieldKind)>,
+    steps: usize,
+    /// Connectivity of the last step and where it starts in the file.
+    last_triangles: Vec<[u32; 3]>,
+    last_connectivity_start: usize,
+}
+
+impl PolyDataSeries {
+    /// A new file for cells of one kind and point fields of the given names and kinds; an old file is overwritten.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create(path: &Path, cells: Cells, fields: &[(&str, FieldKind)]) -> Result<Self, OutputError> {
+        let create = || -> Hdf5Result<File> {
+            let file = unlocked().create(path)?;
+            write_skeleton(&file, fields)?;
+            file.flush()?;
+            Ok(file)
+        };
+        let file = create().map_err(OutputError::hdf5(path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            file,
+            cells,
+            fields: fields.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect(),
+            steps: 0,
+            last_triangles: Vec::new(),
+            last_connectivity_start: 0,
+        })
+    }
+
+    /// Opens a file of an interrupted run and drops the steps beyond the first `steps`.
+    ///
+    /// # Errors
+    /// If the file cannot be opened, is no file of such cells and fields, or has fewer steps.
+    pub fn open_and_truncate(
+        path: &Path,
+        cells: Cells,
+        fields: &[(&str, FieldKind)],
+        steps: usize,
+    ) -> Result<Self, OutputError> {
+        let open = || -> Hdf5Result<(File, usize)> {
+            let file = unlocked().open_rw(path)?;
+            let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
+            for (name, _) in fields {
+                file.dataset(&format!("VTKHDF/PointData/{name}"))?;
+            }
+            Ok((file, usize::try_from(present).unwrap_or(0)))
+        };
+        let (file, present) = open().map_err(OutputError::hdf5(path))?;
+        if present < steps {
+            let what = format!("holds {present} steps, fewer than the {steps} at the checkpoint");
+            return Err(OutputError::content(path, what));
+        }
+        let mut series = Self {
+            path: path.to_owned(),
+            file,
+            cells,
+            fields: fields.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect(),
+            steps,
+            last_triangles: Vec::new(),
+            last_connectivity_start: 0,
+        };
+        series.truncate().map_err(OutputError::hdf5(path))?;
+        Ok(series)
+    }
+
+    /// Appends one step: time [s], points [m], triangles (none for [`Cells::Vertices`]) and the values of each field in
+    /// the order of creation.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    ///
+    /// # Panics
+    /// If the fields do not match those of the file, or a field has not one value for each point.
+    pub fn append(
+        &mut self,
+        time_s: f64,
+        points_m: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        values: &[FieldValues<'_>],
+    ) -> Result<(), OutputError> {
+        assert!(self.cells == Cells::Triangles || triangles.is_empty(), "vertices need no triangles");
+        assert_eq!(values.len(), self.fields.len(), "{}: one value list a field", self.path.display());
+        for ((name, kind), value) in self.fields.iter().zip(values) {
+            assert_eq!(*kind, value.kind(), "kind of field {name}");
+            assert_eq!(points_m.len(), value.len(), "length of field {name}");
+        }
+        self.write_step(time_s, points_m, triangles, values).map_err(OutputError::hdf5(&self.path))
+    }
+
+    /// Number of steps in the file.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn write_step(
+        &mut self,
+        time_s: f64,
+        points: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        values: &[FieldValues<'_>],
+    ) -> Hdf5Result<()> {
+        let root = self.file.group("VTKHDF")?;
+        let steps = root.group("Steps")?;
+        let (row, topology) = (self.steps, self.cells.topology());
+        let count = match self.cells {
+            Cells::Vertices => points.len(),
+            Cells::Triangles => triangles.len(),
+        };
+
+        let point_start = append_rows_of_3(&root.dataset("Points")?, points)?;
+        let connectivity_start = self.write_cells(&root, points.len(), triangles, count)?;
+        let point_data = root.group("PointData")?;
+        let point_data_offsets = steps.group("PointDataOffsets")?;
+        for ((name, _), value) in self.fields.iter().zip(values) {
+            let dataset = point_data.dataset(name)?;
+            let start = match value {
+                FieldValues::Scalar(values) => append_rows(&dataset, values)?,
+                FieldValues::Vector(values) => append_rows_of_3(&dataset, values)?,
+                FieldValues::Integer(values) => append_rows(&dataset, values)?,
+            };
+            set_row(&point_data_offsets.dataset(name)?, row, start as i64)?;
+        }
+
+        set_row(&root.dataset("NumberOfPoints")?, row, points.len() as i64)?;
+        for (index, name) in TOPOLOGIES.into_iter().enumerate() {
+            let cells = if index == topology { count } else { 0 };
+            let group = root.group(name)?;
+            set_row(&group.dataset("NumberOfCells")?, row, cells as i64)?;
+            set_row(&group.dataset("NumberOfConnectivityIds")?, row, (cells * self.cells.corners()) as i64)?;
+        }
+        set_row(&steps.dataset("Values")?, row, time_s)?;
+        set_row(&steps.dataset("PartOffsets")?, row, row as i64)?;
+        set_row(&steps.dataset("NumberOfParts")?, row, 1_i64)?;
+        set_row(&steps.dataset("PointOffsets")?, row, point_start as i64)?;
+        let mut connectivity_starts = [0_i64; 4];
+        connectivity_starts[topology] = connectivity_start as i64;
+        set_row_of_4(&steps.dataset("CellOffsets")?, row, [0; 4])?;
+        set_row_of_4(&steps.dataset("ConnectivityIdOffsets")?, row, connectivity_starts)?;
+
+        self.steps += 1;
+        steps.attr("NSteps")?.write_scalar(&(self.steps as i64))?;
+        self.file.flush()
+    }
+
+    /// Writes what is new in the cells of this step; returns where its connectivity starts.
+    fn write_cells(&mut self, root: &Group, points: usize, triangles: &[[u32; 3]], count: usize) -> Hdf5Result<usize> {
+        let group = root.group(TOPOLOGIES[self.cells.topology()])?;
+        let offsets = group.dataset("Offsets")?;
+        let (present, corners) = (offsets.size(), self.cells.corners());
+        let missing: Vec<i64> = (present..=count).map(|i| (i * corners) as i64).collect();
+        append_rows(&offsets, &missing)?;
+
+        let connectivity = group.dataset("Connectivity")?;
+        match self.cells {
+            Cells::Vertices => {
+                let missing: Vec<i64> = (connectivity.size()..points).map(|i| i as i64).collect();
+                append_rows(&connectivity, &missing)?;
+                Ok(0)
+            }
+            Cells::Triangles => {
+                if self.steps == 0 || self.last_triangles != triangles {
+                    let ids: Vec<i64> = triangles.iter().flatten().map(|i| i64::from(*i)).collect();
+                    self.last_connectivity_start = append_rows(&connectivity, &ids)?;
+                    self.last_triangles = triangles.to_vec();
+                }
+                Ok(self.last_connectivity_start)
+            }
+        }
+    }
+
+    /// Cuts every dataset behind the last kept step.
+    fn truncate(&mut self) -> Hdf5Result<()> {
+        let root = self.file.group("VTKHDF")?;
+        let steps = root.group("Steps")?;
+        steps.attr("NSteps")?.write_scalar(&(self.steps as i64))?;
+        let kept = self.steps;
+
+        let end_of = |starts: &Dataset| -> Hdf5Result<usize> {
+            let Some(last) = kept.checked_sub(1) else { return Ok(0) };
+            let start = starts.read_1d::<i64>()?[last];
+            let count = root.dataset("NumberOfPoints")?.read_1d::<i64>()?[last];
+            Ok(usize::try_from(start + count).unwrap_or(0))
+        };
+        root.dataset("Points")?.resize((end_of(&steps.dataset("PointOffsets")?)?, 3))?;
+        let point_data_offsets = steps.group("PointDataOffsets")?;
+        for (name, kind) in &self.fields {
+            let starts = point_data_offsets.dataset(name)?;
+            let (dataset, rows) = (root.group("PointData")?.dataset(name)?, end_of(&starts)?);
+            match kind {
+                FieldKind::Vector => dataset.resize((rows, 3))?,
+                FieldKind::Scalar | FieldKind::Integer => dataset.resize(rows)?,
+            }
+            starts.resize(kept)?;
+        }
+        if self.cells == Cells::Triangles {
+            self.recall_last_triangles(&root, &steps)?;
+        }
+        root.dataset("NumberOfPoints")?.resize(kept)?;
+        for name in TOPOLOGIES {
+            let group = root.group(name)?;
+            group.dataset("NumberOfCells")?.resize(kept)?;
+            group.dataset("NumberOfConnectivityIds")?.resize(kept)?;
+        }
+        for name in ["Values", "PartOffsets", "NumberOfParts", "PointOffsets"] {
+            steps.dataset(name)?.resize(kept)?;
+        }
+        for name in ["CellOffsets", "ConnectivityIdOffsets"] {
+            steps.dataset(name)?.resize((kept, 4))?;
+        }
+        self.file.flush()
+    }
+
+    /// Reads the triangles of the last kept step and cuts the connectivity behind them.
+    fn recall_last_triangles(&mut self, root: &Group, steps: &Group) -> Hdf5Result<()> {
+        let group = root.group(TOPOLOGIES[Cells::Triangles.topology()])?;
+        let connectivity = group.dataset("Connectivity")?;
+        let Some(last) = self.steps.checked_sub(1) else { return connectivity.resize(0) };
+        let ids = group.dataset("NumberOfConnectivityIds")?.read_1d::<i64>()?[last];
+        let start = steps.dataset("ConnectivityIdOffsets")?.read_2d::<i64>()?[(last, Cells::Triangles.topology())];
+        self.last_connectivity_start = usize::try_from(start).unwrap_or(0);
+        let end = self.last_connectivity_start + usize::try_from(ids).unwrap_or(0);
+        connectivity.resize(end)?;
+        let corners = connectivity.read_slice_1d::<i64, _>(self.last_connectivity_start..end)?;
+        let corners: Vec<u32> = corners.iter().map(|i| u32::try_from(*i).unwrap_or(0)).collect();
+        self.last_triangles = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+        Ok(())
+    }
+}

@@ -1,0 +1,229 @@
+//! The files of a run folder, from a made-up run: two units slide over a mound while a hump of water passes.
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use breakwater::output::{
+    Cells, ContactSummary, CsvSeries, EnergySummary, Execution, FieldKind, FieldValues, GaugeSummary, OutputError,
+    ParticleCounts, PolyDataSeries, Stopped, Summary, TimeStepSummary, UnitSummary, UnitSurface, WaveSummary, columns,
+    write_report,
+};
+
+const DAMAGE_DISTANCE_M: f64 = 0.077;
+const START_Z_M: f64 = 0.755;
+
+/// A fresh folder below the build's own folder, where it can be looked at afterwards.
+fn fresh(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Four round legs from the middle to the corners of a tetrahedron, one of them upwards.
+fn four_legs() -> UnitSurface {
+    let (mut vertices_m, mut triangles) = (Vec::new(), Vec::new());
+    let slant = (-1.0_f64 / 3.0, (8.0_f64 / 9.0).sqrt());
+    let mut directions = vec![[0.0, 0.0, 1.0]];
+    directions.extend((0..3).map(|i| {
+        let angle = PI + 2.0 * PI * f64::from(i) / 3.0;
+        [slant.1 * angle.cos(), slant.1 * angle.sin(), slant.0]
+    }));
+    const AROUND: u32 = 14;
+    for d in directions {
+        let side = if d[2].abs() < 0.9 { [0.0, 0.0, 1.0] } else { [1.0, 0.0, 0.0] };
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let unit = |v: [f64; 3]| v.map(|c| c / v.iter().map(|c| c * c).sum::<f64>().sqrt());
+        let e1 = unit(cross(d, side));
+        let e2 = cross(d, e1);
+        let base = vertices_m.len() as u32;
+        for (along, radius) in [(-0.005, 0.0), (0.0, 0.019), (0.047, 0.0125), (0.047, 0.0)] {
+            for k in 0..AROUND {
+                let angle = 2.0 * PI * f64::from(k) / f64::from(AROUND);
+                vertices_m.push([0, 1, 2].map(|i| along * d[i] + radius * (angle.cos() * e1[i] + angle.sin() * e2[i])));
+            }
+        }
+        for ring in 0..3 {
+            for k in 0..AROUND {
+                let (a, b) = (base + ring * AROUND + k, base + ring * AROUND + (k + 1) % AROUND);
+                triangles.extend([[a, b, b + AROUND], [a, b + AROUND, a + AROUND]]);
+            }
+        }
+    }
+    UnitSurface { vertices_m, triangles }
+}
+
+/// Place and turn about y of a unit at a time.
+fn pose(unit: u32, time: f64) -> ([f64; 3], [f64; 4]) {
+    let slid = ((time - 2.0) / 2.0).clamp(0.0, 1.0);
+    let slid = slid * slid * (3.0 - 2.0 * slid);
+    let way = slid * (0.16 + 0.09 * f64::from(unit * 7 % 5) / 4.0);
+    let fall = (0.5 * (way - 0.16)).max(0.0);
+    let y = 0.04 + 0.08 * f64::from(unit - 1);
+    let turn = 8.0 * fall;
+    // Even units are turned by half a circle about the vertical.
+    let (s, c) = ((0.5 * turn).sin(), (0.5 * turn).cos());
+    let orientation = if unit % 2 == 1 { [0.0, s, 0.0, c] } else { [-s, 0.0, c, 0.0] };
+    ([39.0 + way, y + 0.1 * fall * f64::from(unit % 3), START_Z_M - fall], orientation)
+}
+
+fn hump(time: f64, at: f64, height: f64) -> f64 {
+    height / (1.6 * (time - at)).cosh().powi(2)
+}
+
+fn summary(units: u32) -> Summary {
+    let mut summary = Summary {
+        title: "Row of Tetrapods on a PVC mound, H = 4.5 cm".to_owned(),
+        breakwater_version: "0.1.0".to_owned(),
+        case_hash: "7d0c2f1b9a8e4c55".to_owned(),
+        wave: Some(WaveSummary { kind: "solitary".to_owned(), theory: "rayleigh".to_owned(), height_m: 0.045 }),
+        gauges: vec![
+            GaugeSummary { name: "WG6".to_owned(), x_m: 36.0, crest_sph_m: Some(0.0569), crest_flume_m: Some(0.0578) },
+            GaugeSummary { name: "WG7".to_owned(), x_m: 38.7, crest_sph_m: None, crest_flume_m: Some(0.0611) },
+        ],
+        contacts: ContactSummary {
+            with_bed: 1834,
+            between_units: 212,
+            peak_force_n: 31.4,
+            peak_normal_velocity_m_s: 0.42,
+        },
+        energy: Some(EnergySummary { start_j: -12.0, end_j: -3.5, wavemaker_work_j: 9.1 }),
+        assumptions: vec![
+            "Crest width of the mound 0.32 m: read from the measured displacements, no source gives it.".to_owned(),
+            "Side slopes 1:2.".to_owned(),
+        ],
+        particles: 2_338_876,
+        particle_counts: ParticleCounts { water: 1_800_000, bed: 500_000, wavemaker: 36_825, units: 2_051 },
+        dp_m: 0.005,
+        speed_of_sound_m_s: 27.1,
+        still_water_level_m: 0.8,
+        domain_x_m: [35.0, 41.0],
+        domain_width_m: 0.08 * f64::from(units.max(1)),
+        side_walls: units == 15,
+        steps: 151_234,
+        simulated_s: 8.0,
+        start_s: 11.25,
+        time_step_s: TimeStepSummary { min: 3.1e-5, mean: 5.3e-5, max: 6.0e-5 },
+        stopped: Stopped::AtRest,
+        execution: Execution { wall_s: 9876.0, steps_per_s: 15.3, threads: 16, created: None },
+        ..Summary::default()
+    };
+    let moved = |unit: u32| {
+        let (start, _) = pose(unit, 0.0);
+        let (end, q) = pose(unit, 8.0);
+        let turned = 2.0 * (q[1].hypot(q[0])).asin().to_degrees();
+        let mut moved = UnitSummary::moved(unit, start, end, turned, DAMAGE_DISTANCE_M);
+        (moved.peak_fluid_force_n, moved.peak_contact_force_n) = (1.8, 14.2);
+        (moved.bed_contacts, moved.unit_contacts) = (120, 14);
+        moved
+    };
+    summary.set_units((1..=units).map(moved).collect(), DAMAGE_DISTANCE_M);
+    summary
+}
+
+fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
+    summary(units).write(folder)?;
+    let mut profile = CsvSeries::create(&folder.join("profile.csv"), &columns::PROFILE)?;
+    for corner in [[19.0, 0.0], [38.73, 0.658], [38.84, 0.717], [39.16, 0.717], [39.25, 0.675], [45.0, 0.867]] {
+        profile.append(&corner)?;
+    }
+    let names = [columns::elevation("WG6"), columns::elevation("WG7"), columns::pressure("P1")];
+    let velocity = columns::velocity("ADV");
+    let gauge_columns: Vec<&str> =
+        std::iter::once("time_s").chain(names.iter().chain(&velocity).map(String::as_str)).collect();
+    let mut gauges = CsvSeries::create(&folder.join("gauges.csv"), &gauge_columns)?;
+    let mut flume = CsvSeries::create(&folder.join("flume_gauges.csv"), &gauge_columns[..3])?;
+    let mut energy = CsvSeries::create(&folder.join("energy.csv"), &columns::ENERGY)?;
+    let mut motion = (units > 0).then(|| CsvSeries::create(&folder.join("units.csv"), &columns::UNITS)).transpose()?;
+    for i in 0..=800 {
+        let t = 0.01 * f64::from(i);
+        let ripple = 0.0006 * (9.0 * t).sin();
+        let (eta6, eta7) = (hump(t, 1.6, 0.0575), hump(t, 2.7, 0.061));
+        gauges.append(&[t, eta6 + ripple, eta7 + ripple, 780.0 + 9000.0 * eta7, 3.0 * eta7, 0.0, 0.3 * ripple])?;
+        flume.append(&[t, eta6, eta7 + 0.001])?;
+        energy.append(&[t, 60.0 * eta6, -10.0 + 80.0 * eta7, 0.1 * t, 0.5 * eta7, -0.1 * t])?;
+        for unit in 1..=units {
+            let ([x, y, z], q) = pose(unit, t);
+            let push = hump(t, 2.6, 1.6 + 0.05 * f64::from(unit)) - hump(t, 4.0, 0.5);
+            let touch = if (2.0..4.2).contains(&t) { 3.0 + (70.0 * t + f64::from(unit)).sin() } else { 1.9 };
+            let mut row = vec![t, f64::from(unit), x, y, z, q[0], q[1], q[2], q[3]];
+            row.extend([0.0; 6]);
+            row.extend([push, 0.0, 1.0 + 0.4 * push, 0.0, 0.0, 0.0, -0.3 * touch, 0.0, touch, 0.0, 0.0, 0.0]);
+            if let Some(motion) = &mut motion {
+                motion.append(&row)?;
+            }
+        }
+    }
+    if units > 0 {
+        four_legs().write(&folder.join(UnitSurface::FILE))?;
+    }
+    Ok(())
+}
+
+/// Fluid and unit surfaces with a number of particles that changes.
+fn write_paraview(folder: &Path) -> Result<(), OutputError> {
+    let fields = [("velocity", FieldKind::Vector), ("pressure", FieldKind::Scalar), ("kind", FieldKind::Integer)];
+    let mut fluid = PolyDataSeries::create(&folder.join("fluid.vtkhdf"), Cells::Vertices, &fields)?;
+    for step in 0..5_u16 {
+        let count = [1000, 900, 1100, 0, 20_000][usize::from(step)];
+        let points: Vec<[f32; 3]> = (0..count).map(|i| [i as f32 * 1e-3, f32::from(step), 0.5]).collect();
+        let pressure: Vec<f32> = points.iter().map(|p| 1000.0 * f32::from(step) + p[0]).collect();
+        let kind = vec![i32::from(step); count];
+        let values = [FieldValues::Vector(&points), FieldValues::Scalar(&pressure), FieldValues::Integer(&kind)];
+        fluid.append(0.1 * f64::from(step), &points, &[], &values)?;
+    }
+    let surface = four_legs();
+    let mut units =
+        PolyDataSeries::create(&folder.join("units.vtkhdf"), Cells::Triangles, &[("unit", FieldKind::Integer)])?;
+    for step in 0..4_u16 {
+        let at = |v: &[f64; 3]| [v[0] as f32 + 0.1 * f32::from(step), v[1] as f32, v[2] as f32];
+        let points: Vec<[f32; 3]> = surface.vertices_m.iter().map(at).collect();
+        let triangles = if step == 2 { &surface.triangles[..100] } else { &surface.triangles };
+        let unit = vec![1; points.len()];
+        units.append(0.02 * f64::from(step), &points, triangles, &[FieldValues::Integer(&unit)])?;
+    }
+    Ok(())
+}
+
+#[test]
+fn the_report_shows_units_gauges_and_assumptions() {
+    for units in [2, 15] {
+        let folder = fresh(&format!("run_{units}"));
+        write_run(&folder, units).unwrap();
+        write_paraview(&folder).unwrap();
+        let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
+        for words in
+            ["Damage ratio", "Mean displacement", "Side view after the wave", "WG7", "Side slopes 1:2.", "units.vtkhdf"]
+        {
+            assert!(html.contains(words), "{words}");
+        }
+        assert!(!html.contains("NaN") && !html.contains("inf "), "a number is missing");
+        assert!(!html.contains("http://") && !html.contains("https://") && !html.contains("<script"), "self-contained");
+        assert_eq!(html.matches("<svg").count(), html.matches("</svg>").count());
+    }
+}
+
+#[test]
+fn the_report_does_without_units_and_without_gauges() {
+    let folder = fresh("run_0");
+    write_run(&folder, 0).unwrap();
+    std::fs::remove_file(folder.join("flume_gauges.csv")).unwrap();
+    let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
+    assert!(html.contains("Water at the gauges") && !html.contains("Damage ratio"));
+
+    let bare = fresh("run_bare");
+    Summary { title: "Still water".to_owned(), ..Summary::default() }.write(&bare).unwrap();
+    let html = std::fs::read_to_string(write_report(&bare).unwrap()).unwrap();
+    assert!(html.contains("Still water") && !html.contains("Water at the gauges"));
+}
+
+#[test]
+fn a_folder_without_a_summary_is_named() {
+    let folder = fresh("run_none");
+    let error = write_report(&folder).unwrap_err().to_string();
+    assert!(error.contains("summary.json"), "{error}");
+}
