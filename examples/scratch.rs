@@ -51,7 +51,7 @@ fn main() {
         DVec3::new(-5.0 * dp, 0.0, -5.0 * dp),
         DVec3::new(length + 5.0 * dp, width, 2.0 * depth),
     );
-    println!("water {} boundary {} m/rho dp3 {}", water.len(), boundary.len(), water.mass / 1000.0 / dp.powi(3));
+    println!("water {} boundary {}", water.len(), boundary.len());
     let mut t = 0.0;
     let mut n = 0;
     let mut ph = [0.0; 5];
@@ -67,7 +67,7 @@ fn main() {
         let t3 = Instant::now();
         let dt = solver.limits().time_step(&parameters);
         if t >= next {
-            let ke: f64 = water.velocity.iter().map(|v| 0.5 * water.mass * v.length_squared()).sum();
+            let ke: f64 = water.velocity.iter().zip(&water.mass).map(|(v, m)| 0.5 * m * v.length_squared()).sum();
             let vmax = water.velocity.iter().map(|v| v.length()).fold(0.0, f64::max);
             let mut err = 0.0f64;
             let mut worst = 0.0f64;
@@ -78,6 +78,10 @@ fn main() {
                 cnt += 1.0;
                 worst = worst.max(e.abs());
             }
+            let k = (0..water.len()).max_by(|&a, &b| water.velocity[a].length().total_cmp(&water.velocity[b].length())).unwrap();
+            let kb = (0..boundary.len()).max_by(|&a, &b| boundary.density[a].total_cmp(&boundary.density[b])).unwrap();
+            let km = (0..boundary.len()).min_by(|&a, &b| boundary.density[a].total_cmp(&boundary.density[b])).unwrap();
+            println!("  fastest {:.4} v {:.3}  boundary max {:.1} at {:.4} min {:.1} at {:.4} (n {:.4})", water.position[k], water.velocity[k], boundary.density[kb], boundary.position[kb], boundary.density[km], boundary.position[km], boundary.to_surface[km]);
             let zmax = water.position.iter().map(|p| p.z).fold(0.0, f64::max);
             println!(
                 "t {t:.3} n {n} dt {dt:.3e} ke {ke:.3e} vmax {vmax:.4} p rms {:.4} worst {worst:.4} ztop {:.5} list {:.0}",

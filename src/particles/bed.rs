@@ -119,14 +119,14 @@ pub fn outline_particles(outline: &Outline, across: &Across, dp: f64, layers: u3
     particles
 }
 
-/// Boundary particles of the side walls, in front of the `section` points (x, z) of the water side, each standing for
-/// `area` [m2].
-pub fn side_wall_particles(section: &[DVec2], area: f64, across: &Across, layers: u32) -> Vec<BoundaryParticle> {
+/// Boundary particles of the side walls behind the points (x, z) of their water face, each of which stands for an area
+/// [m2].
+pub fn side_wall_particles(section: &[(DVec2, f64)], across: &Across, layers: u32) -> Vec<BoundaryParticle> {
     if !across.walls {
         return Vec::new();
     }
     let mut particles = Vec::new();
-    for point in section {
+    for (point, area) in section {
         for layer in 0..layers {
             let behind = (f64::from(layer) + 0.5) * across.spacing();
             for (y, to_wall) in [(-behind, behind), (across.width + behind, -behind)] {

@@ -13,8 +13,8 @@ pub struct Water {
     pub density: Vec<f64>,
     /// Number of the particle, which it keeps when the arrays are sorted.
     pub id: Vec<u32>,
-    /// Mass of a particle [kg].
-    pub mass: f64,
+    /// Mass [kg].
+    pub mass: Vec<f64>,
 }
 
 impl Water {

@@ -70,7 +70,7 @@ impl Sampler<'_> {
 
     /// m / rho W of a neighbour [-].
     fn weight(&self, r: DVec3, b: usize) -> f64 {
-        self.water.mass / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
+        self.water.mass[b] / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
     }
 
     /// Sum of W V [-]: 1 inside the water, 1/2 at its surface.

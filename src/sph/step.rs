@@ -42,6 +42,21 @@ pub struct Solver {
     unit_force: Vec<DVec3>,
 }
 
+/// The water's arrays, those of the half step with the masses of the step.
+#[derive(Clone, Copy)]
+struct State<'a> {
+    position: &'a [DVec3],
+    velocity: &'a [DVec3],
+    density: &'a [f64],
+    mass: &'a [f64],
+}
+
+impl<'a> State<'a> {
+    fn of(water: &'a Water) -> Self {
+        Self { position: &water.position, velocity: &water.velocity, density: &water.density, mass: &water.mass }
+    }
+}
+
 /// One of the three groups of particles in the records: water, walls (with bed and piston), units.
 #[derive(Debug, Default)]
 struct Group {
@@ -104,7 +119,7 @@ impl Solver {
         self.walls.first_record = water.len();
         self.units.first_record = water.len() + walls.len();
         self.records.resize(water.len() + boundary.len(), Record::default());
-        self.fill_records(water, boundary, false);
+        self.fill_records(State::of(water), boundary, false);
 
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
@@ -126,7 +141,7 @@ impl Solver {
         gather(order, &water.velocity, &mut self.sorted.velocity);
         gather(order, &water.density, &mut self.sorted.density);
         gather(order, &water.id, &mut self.sorted.id);
-        self.sorted.mass = water.mass;
+        gather(order, &water.mass, &mut self.sorted.mass);
         std::mem::swap(water, &mut self.sorted);
     }
 
@@ -140,12 +155,12 @@ impl Solver {
         kernel.support() + (speed * step).min(kernel.h)
     }
 
-    fn fill_records(&mut self, water: &Water, boundary: &Boundary, half: bool) {
+    fn fill_records(&mut self, water: State, boundary: &Boundary, half: bool) {
         let (grid, parameters) = (&self.grid, &self.parameters);
-        let (of_water, of_boundary) = self.records.split_at_mut(water.len());
+        let (of_water, of_boundary) = self.records.split_at_mut(water.position.len());
         let (of_walls, of_units) = of_boundary.split_at_mut(boundary.walls().len());
         of_water.par_iter_mut().enumerate().with_min_len(PIECE).for_each(|(i, out)| {
-            *out = record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass, true);
+            *out = record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true);
         });
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let density = if half && !diffuses { &self.half_density } else { &boundary.density };
@@ -174,7 +189,7 @@ impl Solver {
             &boundary.to_surface,
             &mut boundary.density,
         );
-        self.fill_records(water, boundary, false);
+        self.fill_records(State::of(water), boundary, false);
     }
 
     /// Rates of water, units and, under DBC, walls from the records as they stand.
@@ -205,7 +220,6 @@ impl Solver {
         self.half.position.resize(n, DVec3::ZERO);
         self.half.velocity.resize(n, DVec3::ZERO);
         self.half.density.resize(n, 0.0);
-        self.half.mass = water.mass;
         let half = &mut self.half;
         (&mut half.position, &mut half.velocity, &mut half.density, &self.water.rates)
             .into_par_iter()
@@ -219,7 +233,7 @@ impl Solver {
         self.half_boundary_density(half_dt, boundary);
         move_boundary(boundary);
         let half = std::mem::take(&mut self.half);
-        self.fill_records(&half, boundary, true);
+        self.fill_records(State { mass: &water.mass, ..State::of(&half) }, boundary, true);
         self.half = half;
     }
 
