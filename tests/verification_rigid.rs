@@ -85,6 +85,7 @@ fn hertz_impact_of_a_sphere_on_a_plane() {
 
 #[test]
 fn restitution_out_is_restitution_in() {
+    let mut worst: f64 = 0.0;
     for e in [0.3, 0.5, 0.8, 0.95, 1.0] {
         for (speed, dt) in [(0.1, 1e-4), (1.0, 1e-4), (1.0, 2e-5)] {
             let material = Material { restitution: e, ..MORTAR };
@@ -99,11 +100,12 @@ fn restitution_out_is_restitution_in() {
             run(&mut world, 0.02, dt);
             let out = world.states()[1].velocity.x / speed;
             println!("restitution in {e}, out {out:.5}, speed {speed}, dt {dt}, substeps {}", world.substeps());
-            assert!((out - e).abs() < 1e-3);
+            worst = worst.max((out - e).abs());
             // Momentum: equal and opposite forces, to rounding.
             assert!((world.states()[0].velocity + world.states()[1].velocity).length() < 1e-12);
         }
     }
+    assert!(worst < 1e-3, "{worst}");
 }
 
 #[test]
@@ -166,15 +168,16 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
             let mut angle = 0.9 * f64::atan(mu);
             world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
             run(&mut world, 0.5, 1e-4);
-            // It slides when it is faster than 1 mm/s: 0.1 s or 0.1 degrees after the start, 0.6 % of the smaller angle.
-            while world.states()[0].velocity.length() < 1e-3 {
+            // It slides when it is faster than 0.2 mm/s: 0.05 s or 0.05 degrees after the start, 0.3 % of the smaller angle.
+            while world.states()[0].velocity.length() < 2e-4 {
                 angle += rate * 1e-4;
                 world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
                 world.advance(1e-4, &[Load::default()]).unwrap();
                 assert!(angle < 1.0, "it never slides");
             }
             println!("tilt mu {mu} azimuth {azimuth:.2}: tan {:.4} ({:+.2} %)", angle.tan(), 100.0 * (angle.tan() / mu - 1.0));
-            assert!((angle / f64::atan(mu) - 1.0).abs() < 0.01);
+            // 0.5 %: what is asked of the slope test; the measure of sliding takes 0.3 % of it.
+            assert!((angle.tan() / mu - 1.0).abs() < 0.005);
         }
     }
 }

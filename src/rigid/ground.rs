@@ -63,21 +63,26 @@ impl GroundSurface {
         let centre = rotation * centre + position;
         let span = [centre.x - radius - reach, centre.x + radius + reach];
         let first = self.strips.partition_point(|s| s.x[1] < span[0]);
+        let from = out.len();
         for (k, strip) in self.strips.iter().enumerate().skip(first) {
             if strip.x[0] > span[1] {
                 break;
             }
             if (centre - strip.origin).dot(strip.normal) < radius + reach {
-                self.strip_approaches(k, part, rotation, position, reach, out);
+                for approach in self.strip_approaches(k, part, rotation, position, reach) {
+                    keep(out, from, approach);
+                }
             }
             if let Some(next) = self.strips.get(k + 1)
-                && strip.normal.cross(next.normal).y > 0.0
+                && strip.normal.cross(next.normal).y > STRAIGHT
+                && let Some(corner) = corner_approach(k, strip, next, part, rotation, position, reach)
             {
-                out.extend(corner_approach(k, strip, next, part, rotation, position, reach));
+                keep(out, from, corner);
             }
         }
     }
 
+    /// Places where the ends of a part are near to strip k.
     fn strip_approaches(
         &self,
         k: usize,
@@ -85,19 +90,38 @@ impl GroundSurface {
         rotation: DQuat,
         position: DVec3,
         reach: f64,
-        out: &mut Vec<Approach>,
-    ) {
+    ) -> impl Iterator<Item = Approach> + use<'_> {
         let strip = &self.strips[k];
-        for (end, point) in part.ends(rotation.inverse() * -strip.normal).enumerate() {
+        part.ends(rotation.inverse() * -strip.normal).enumerate().filter_map(move |(end, point)| {
             let core = rotation * point + position;
             let distance = (core - strip.origin).dot(strip.normal);
             let foot = core.x - distance * strip.normal.x;
             let above = distance > 0.0 || core.z < self.profile.z(core.x);
-            if distance < reach && above && (strip.x[0]..strip.x[1]).contains(&foot) {
-                let feature = Feature::Ground { place: 2 * k as u32, end: end as u8 };
-                out.push(Approach { feature, core, normal: strip.normal, distance });
-            }
-        }
+            // Widened by rounding, so that no foot falls between two strips; `keep` drops what then counts twice.
+            let inside = (strip.x[0] - SAME_PLACE..strip.x[1] + SAME_PLACE).contains(&foot);
+            let feature = Feature::Ground { place: 2 * k as u32, end: end as u8 };
+            (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
+        })
+    }
+}
+
+/// Feet nearer than this are one place [m].
+const SAME_PLACE: f64 = 1e-12;
+/// Sine of the angle below which two strips are one plane [-].
+const STRAIGHT: f64 = 1e-6;
+
+/// Appends an approach unless one of this part (those after `from`) is at the same place with the same normal: on the
+/// seam of two strips, the nearer one counts.
+fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
+    let foot = |a: &Approach| a.core - a.normal * a.distance;
+    let same = |old: &&mut Approach| {
+        // 1e-6 m: where the two planes of an angle below STRAIGHT part by less than a picometre.
+        foot(old).distance_squared(foot(&new)) < 1e-12 && old.normal.cross(new.normal).length() < STRAIGHT
+    };
+    match out[from..].iter_mut().find(same) {
+        Some(old) if new.distance < old.distance => *old = new,
+        Some(_) => {}
+        None => out.push(new),
     }
 }
 

@@ -14,9 +14,9 @@ use super::forces::{Contact, Energy, Laws, Step, Velocities};
 use super::motion::{self, BodyState, Load};
 use super::setup::RigidSetup;
 
-/// Steps in the shortest period of a body on its contacts. At 40 the restitution of an impact is right to 1e-3 (see
+/// Steps in the shortest period of a body on its contacts. At 80 the restitution of an impact is right to 1e-3 (see
 /// the tests); an impact lasts about two thirds of this period.
-const STEPS_PER_PERIOD: f64 = 40.0;
+const STEPS_PER_PERIOD: f64 = 80.0;
 
 /// Longest substep [s]: what comes nearer than this time at twice the speed is looked for, so that nothing is jumped into.
 const LONGEST_SUBSTEP: f64 = 1e-3;
@@ -28,7 +28,6 @@ pub struct RigidWorld {
     pub(super) surfaces: Surfaces,
     pub(super) laws: Laws,
     pub(super) mass: f64,
-    pub(super) inertia: DMat3,
     pub(super) inverse_inertia: DMat3,
     pub(super) rounding: f64,
     pub(super) gravity: DVec3,
@@ -66,7 +65,6 @@ impl RigidWorld {
             surfaces: Surfaces::new(&setup),
             laws: Laws::new(&setup),
             mass: setup.shape.mass,
-            inertia,
             inverse_inertia: inertia.inverse(),
             rounding: setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min),
             gravity: setup.gravity,
