@@ -234,7 +234,13 @@ fn fixed_touch(
     let overlap = part.rounding() - approach.distance;
     if overlap > part.rounding() || overlap.is_nan() {
         let partner = if matches!(approach.feature, Feature::Wall { .. }) { "a wall" } else { "the ground" };
-        return Err(RigidError::TooDeep { time, body, partner: partner.into(), depth: overlap, allowed: part.rounding() });
+        return Err(RigidError::TooDeep {
+            time,
+            body,
+            partner: partner.into(),
+            depth: overlap,
+            allowed: part.rounding(),
+        });
     }
     Ok(Touch {
         key: ContactKey { body: body as u32, part: index as u16, feature: approach.feature },

@@ -164,7 +164,8 @@ impl Laws {
                 Some(old) => (Contact { key: touch.key, ..old }, true),
                 None => {
                     let event = event::begin(touch.key, step.time, touch.point, v_n, v_t);
-                    let new = Contact { key: touch.key, normal: touch.normal, spring: DVec3::ZERO, elastic: [0.0; 2], event };
+                    let new =
+                        Contact { key: touch.key, normal: touch.normal, spring: DVec3::ZERO, elastic: [0.0; 2], event };
                     (new, false)
                 }
             };

@@ -128,7 +128,8 @@ mod tests {
         let parameters = IntegrationParameters { dt: 1e-4, ..Default::default() };
         let mut pipeline = PhysicsPipeline::new();
         let (mut islands, mut broad, mut narrow) = (IslandManager::new(), DefaultBroadPhase::new(), NarrowPhase::new());
-        let (mut impulse, mut multibody, mut ccd) = (ImpulseJointSet::new(), MultibodyJointSet::new(), CCDSolver::new());
+        let (mut impulse, mut multibody, mut ccd) =
+            (ImpulseJointSet::new(), MultibodyJointSet::new(), CCDSolver::new());
         let momentum = |set: &RigidBodySet| {
             let b = &set[body];
             angular_momentum(*b.rotation(), &inertia(), b.angvel())
@@ -136,8 +137,19 @@ mod tests {
         let before = momentum(&bodies);
         for _ in 0..10_000 {
             pipeline.step(
-                DVec3::ZERO, &parameters, &mut islands, &mut broad, &mut narrow, &mut bodies, &mut colliders,
-                &mut impulse, &mut multibody, &mut SoftBodySet::new(), &mut ccd, &(), &(),
+                DVec3::ZERO,
+                &parameters,
+                &mut islands,
+                &mut broad,
+                &mut narrow,
+                &mut bodies,
+                &mut colliders,
+                &mut impulse,
+                &mut multibody,
+                &mut SoftBodySet::new(),
+                &mut ccd,
+                &(),
+                &(),
             );
         }
         let error = (momentum(&bodies) - before).length() / before.length();
