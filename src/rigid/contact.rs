@@ -187,7 +187,8 @@ impl Surfaces {
                     continue;
                 }
                 let rounding = part_a.rounding() + part_b.rounding();
-                let allowed = part_a.rounding().min(part_b.rounding());
+                // The cores meet at the full sum; short of it gap and normal are still known.
+                let allowed = 0.75 * rounding;
                 let too_deep = |depth: f64| RigidError::TooDeep {
                     time,
                     body: pair.first,

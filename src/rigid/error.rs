@@ -16,7 +16,7 @@ pub enum RigidError {
     Snapshot { snapshot: usize, world: usize },
     /// Two bodies have gone deeper into each other than their rounding, so that the gap is no longer known.
     #[error(
-        "at {time:.6} s unit {} has gone {:.3} mm deep into {partner}, more than the rounding radius of {:.3} mm: \
+        "at {time:.6} s unit {} has gone {:.3} mm deep into {partner}, more than the {:.3} mm that the rounding allows: \
          stiffer material or a smaller speed is needed", body + 1, depth * 1e3, allowed * 1e3
     )]
     TooDeep { time: f64, body: usize, partner: String, depth: f64, allowed: f64 },

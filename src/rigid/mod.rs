@@ -28,6 +28,7 @@ mod setup;
 mod snapshot;
 mod world;
 
+pub use contact::Feature;
 pub use error::RigidError;
 pub use event::ContactEvent;
 pub use forces::Energy;

@@ -185,6 +185,7 @@ impl RigidWorld {
         self.book_load_work(loads, &angular_over, h);
         self.kick(&old, 0.5 * h);
         self.time += h;
+        self.check_finite()?;
         self.touch(h, left.min(LONGEST_SUBSTEP), &linear_over, &angular_over)?;
         // Undo the extrapolation, then the true second half.
         self.velocity.copy_from_slice(&linear_over);
@@ -194,7 +195,13 @@ impl RigidWorld {
             self.velocity[body] += new[body].0 * (0.5 * h);
         }
         self.substeps += 1;
-        match (0..self.position.len()).find(|b| !(self.position[*b] + self.angular_momentum[*b]).is_finite()) {
+        Ok(())
+    }
+
+    /// The search for contacts takes finite numbers only.
+    fn check_finite(&self) -> Result<(), RigidError> {
+        let finite = |b: &usize| (self.position[*b] + self.angular_momentum[*b]).is_finite();
+        match (0..self.position.len()).find(|b| !finite(b) || !self.rotation[*b].is_finite()) {
             Some(body) => Err(RigidError::NotFinite { time: self.time, body }),
             None => Ok(()),
         }
