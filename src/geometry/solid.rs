@@ -66,7 +66,10 @@ pub struct Solid {
 
 impl std::fmt::Debug for Solid {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Solid").field("triangles", &self.triangles().len()).field("properties", &self.properties).finish()
+        f.debug_struct("Solid")
+            .field("triangles", &self.triangles().len())
+            .field("properties", &self.properties)
+            .finish()
     }
 }
 

@@ -131,7 +131,8 @@ mod tests {
         let unit = ArmourUnit::tetrapod(0.077, 0.05).unwrap();
         write(&path, unit.solid().vertices(), unit.solid().triangles()).unwrap();
         let whole = std::fs::read(&path).unwrap();
-        for content in [&b""[..], b"solid x\nfacet normal", b"garbage", &whole[..whole.len() / 2], &whole[..90], &[255; 400]]
+        for content in
+            [&b""[..], b"solid x\nfacet normal", b"garbage", &whole[..whole.len() / 2], &whole[..90], &[255; 400]]
         {
             std::fs::write(&path, content).unwrap();
             let error = read(&path, 1.0).unwrap_err().to_string();

@@ -53,7 +53,7 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         // Direction of azimuth 0: the plane that also holds another leg, a mirror plane of the crease.
         let e1 = (other - axis * axis.dot(other)).normalize();
         let e2 = axis.cross(e1);
-        let mut rings: Vec<Vec<u32>> = vec![Vec::with_capacity(AROUND); ROWS + 1];
+        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); ROWS + 1];
         for k in 0..AROUND {
             let angle = TAU * k as f64 / AROUND as f64;
             let out = e1 * angle.cos() + e2 * angle.sin();

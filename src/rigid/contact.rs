@@ -1,0 +1,253 @@
+//! Where bodies touch: each other, their images across periodic sides, the ground and walls.
+//!
+//! Pairs of bodies come from their bounding spheres, pairs of parts from the parts' spheres, gaps from the cores. All
+//! places are sorted by a key, so that sums over them have one order whatever the search did.
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use super::error::RigidError;
+use super::gap::{self, Nearest};
+use super::ground::{Approach, GroundSurface, PlaneWall};
+use super::setup::{RigidSetup, Sides};
+use crate::geometry::convex_part::ConvexPart;
+
+/// What a part of a body touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Feature {
+    /// A part of another body (or of the same one), shifted by `image` widths across the flume.
+    Unit { body: u32, image: i32, part: u16 },
+    /// The ground: strip k is place 2 k, the convex corner after it 2 k + 1.
+    Ground { place: u32, end: u8 },
+    /// A wall: 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward.
+    Wall { wall: u8, end: u8 },
+}
+
+/// Name of a contact: body, part and what they touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct ContactKey {
+    /// Number of the body from 0.
+    pub body: u32,
+    /// Number of its part from 0.
+    pub part: u16,
+    /// What it touches.
+    pub feature: Feature,
+}
+
+/// A place where two surfaces are near or overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Its name.
+    pub key: ContactKey,
+    /// Middle of the overlap [m], at the first body.
+    pub point: DVec3,
+    /// Normal from the partner into the first body.
+    pub normal: DVec3,
+    /// Overlap d [m]; negative while there is a gap.
+    pub overlap: f64,
+    /// Shift of the partner's image [m].
+    pub shift: DVec3,
+}
+
+/// Rotation and position of every body.
+#[derive(Debug, Clone, Copy)]
+pub struct Placements<'a> {
+    /// Unit quaternions.
+    pub rotation: &'a [DQuat],
+    /// Centres of mass [m].
+    pub position: &'a [DVec3],
+}
+
+/// Two bodies near each other; `image` is the number of widths by which the second is shifted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyPair {
+    first: usize,
+    second: usize,
+    image: i32,
+}
+
+/// The surfaces that can touch.
+#[derive(Debug, Clone)]
+pub struct Surfaces {
+    parts: Vec<ConvexPart>,
+    reach: f64,
+    period: Option<f64>,
+    ground: Option<GroundSurface>,
+    walls: Vec<PlaneWall>,
+}
+
+impl Surfaces {
+    /// Surfaces of a world.
+    pub fn new(setup: &RigidSetup) -> Self {
+        let wall = |index, origin, normal| PlaneWall { index, origin, normal };
+        let mut walls = Vec::new();
+        if let Sides::Walls { width } = setup.sides {
+            walls.extend([wall(0, DVec3::ZERO, DVec3::Y), wall(1, DVec3::Y * width, DVec3::NEG_Y)]);
+        }
+        if let Some([seaward, shoreward]) = setup.end_walls {
+            walls.extend([wall(2, DVec3::X * seaward, DVec3::X), wall(3, DVec3::X * shoreward, DVec3::NEG_X)]);
+        }
+        Self {
+            parts: setup.shape.parts.clone(),
+            reach: setup.shape.reach(),
+            period: if let Sides::Periodic { width } = setup.sides { Some(width) } else { None },
+            ground: setup.ground.as_ref().map(|g| GroundSurface::new(&g.profile)),
+            walls,
+        }
+    }
+
+    /// Radius of the sphere about the centre of mass that holds a body [m].
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Pairs of bodies whose spheres are nearer than `margin` [m].
+    pub fn pairs(&self, position: &[DVec3], margin: f64) -> Vec<BodyPair> {
+        let near = 2.0 * self.reach + margin;
+        let mut pairs = Vec::new();
+        for (first, a) in position.iter().enumerate() {
+            for (second, b) in position.iter().enumerate().skip(first) {
+                let mut add = |image: i32, shift: f64| {
+                    if (*b + DVec3::Y * shift - *a).length_squared() < near * near {
+                        pairs.push(BodyPair { first, second, image });
+                    }
+                };
+                match self.period {
+                    None if first == second => {}
+                    None => add(0, 0.0),
+                    // A body meets its own image once, on the left; the other side is the same contact.
+                    Some(width) if first == second => add(1, width),
+                    Some(width) => {
+                        let nearest = ((a.y - b.y) / width).round() as i32;
+                        for image in [nearest - 1, nearest, nearest + 1] {
+                            add(image, f64::from(image) * width);
+                        }
+                    }
+                }
+            }
+        }
+        pairs
+    }
+
+    /// All places nearer than `margin` [m], sorted by key.
+    pub fn touches(
+        &self,
+        pairs: &[BodyPair],
+        placements: Placements<'_>,
+        margin: f64,
+        time: f64,
+    ) -> Result<Vec<Touch>, RigidError> {
+        let mut touches = Vec::new();
+        let mut approaches = Vec::new();
+        for body in 0..placements.position.len() {
+            for (index, part) in self.parts.iter().enumerate() {
+                approaches.clear();
+                let (q, x, near) = (placements.rotation[body], placements.position[body], part.rounding() + margin);
+                if let Some(ground) = &self.ground {
+                    ground.approaches(part, q, x, near, &mut approaches);
+                }
+                for wall in &self.walls {
+                    wall.approaches(part, q, x, near, &mut approaches);
+                }
+                for approach in &approaches {
+                    touches.push(fixed_touch(body, index, part, approach, time)?);
+                }
+            }
+        }
+        for pair in pairs {
+            self.unit_touches(pair, placements, margin, time, &mut touches)?;
+        }
+        touches.sort_unstable_by_key(|t| t.key);
+        Ok(touches)
+    }
+
+    fn unit_touches(
+        &self,
+        pair: &BodyPair,
+        placements: Placements<'_>,
+        margin: f64,
+        time: f64,
+        touches: &mut Vec<Touch>,
+    ) -> Result<(), RigidError> {
+        let shift = DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0));
+        let (q_a, x_a) = (placements.rotation[pair.first], placements.position[pair.first]);
+        let (q_b, x_b) = (placements.rotation[pair.second], placements.position[pair.second] + shift);
+        let near = 2.0 * self.reach + margin;
+        if (x_b - x_a).length_squared() > near * near {
+            return Ok(());
+        }
+        for (i, part_a) in self.parts.iter().enumerate() {
+            let (centre_a, reach_a) = part_a.bounding_sphere();
+            let centre_a = q_a * centre_a + x_a;
+            for (j, part_b) in self.parts.iter().enumerate() {
+                let (centre_b, reach_b) = part_b.bounding_sphere();
+                let near = reach_a + reach_b + margin;
+                if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
+                    continue;
+                }
+                let rounding = part_a.rounding() + part_b.rounding();
+                // The cores meet at the full sum; short of it gap and normal are still known.
+                let allowed = 0.75 * rounding;
+                let too_deep = |depth: f64| RigidError::TooDeep {
+                    time,
+                    body: pair.first,
+                    partner: format!("unit {}", pair.second + 1),
+                    depth,
+                    allowed,
+                };
+                let (p_a, p_b) = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), rounding + margin) {
+                    Nearest::Apart => continue,
+                    Nearest::Overlap => return Err(too_deep(rounding)),
+                    Nearest::Points(p_a, p_b) => (p_a, p_b),
+                };
+                let distance = (p_a - p_b).length();
+                let overlap = rounding - distance;
+                if overlap > allowed {
+                    return Err(too_deep(overlap));
+                }
+                let normal = (p_a - p_b) / distance;
+                touches.push(Touch {
+                    key: ContactKey {
+                        body: pair.first as u32,
+                        part: i as u16,
+                        feature: Feature::Unit { body: pair.second as u32, image: pair.image, part: j as u16 },
+                    },
+                    point: p_a - normal * (part_a.rounding() - 0.5 * overlap),
+                    normal,
+                    overlap,
+                    shift,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Touch of a part with the ground or a wall.
+fn fixed_touch(
+    body: usize,
+    index: usize,
+    part: &ConvexPart,
+    approach: &Approach,
+    time: f64,
+) -> Result<Touch, RigidError> {
+    let overlap = part.rounding() - approach.distance;
+    if overlap > part.rounding() || overlap.is_nan() {
+        let partner = if matches!(approach.feature, Feature::Wall { .. }) { "a wall" } else { "the ground" };
+        return Err(RigidError::TooDeep {
+            time,
+            body,
+            partner: partner.into(),
+            depth: overlap,
+            allowed: part.rounding(),
+        });
+    }
+    Ok(Touch {
+        key: ContactKey { body: body as u32, part: index as u16, feature: approach.feature },
+        point: approach.core - approach.normal * (part.rounding() - 0.5 * overlap),
+        normal: approach.normal,
+        overlap,
+        shift: DVec3::ZERO,
+    })
+}

@@ -1,0 +1,98 @@
+//! Record of contacts: when they began and ended, how fast the surfaces met, how hard they were pressed.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::contact::{ContactKey, Feature};
+
+/// A contact that has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ContactEvent {
+    /// First overlap [s].
+    pub start: f64,
+    /// End of the overlap [s].
+    pub end: f64,
+    /// Number of the body from 0.
+    pub body: u32,
+    /// What it touched.
+    pub partner: Feature,
+    /// Where it began [m].
+    pub point: [f64; 3],
+    /// Normal velocity at the start [m/s], positive when approaching.
+    pub approach_normal: f64,
+    /// Tangential velocity at the start [m/s].
+    pub approach_tangential: f64,
+    /// Largest force [N].
+    pub peak_force: f64,
+    /// Integral of the force on the body [N s].
+    pub impulse: [f64; 3],
+}
+
+/// Begins the record of a contact.
+pub fn begin(key: ContactKey, time: f64, point: DVec3, v_n: f64, v_t: DVec3) -> ContactEvent {
+    ContactEvent {
+        start: time,
+        end: time,
+        body: key.body,
+        partner: key.feature,
+        point: point.to_array(),
+        approach_normal: -v_n,
+        approach_tangential: v_t.length(),
+        peak_force: 0.0,
+        impulse: [0.0; 3],
+    }
+}
+
+impl ContactEvent {
+    /// Adds the force [N] of a step `dt` [s] that ends at `time`.
+    pub fn add(&mut self, force: DVec3, dt: f64, time: f64) {
+        self.peak_force = self.peak_force.max(force.length());
+        self.impulse = (DVec3::from_array(self.impulse) + force * dt).to_array();
+        self.end = time;
+    }
+}
+
+/// Most ended contacts kept until they are taken; the weaker half is dropped beyond that.
+pub const MOST_EVENTS: usize = 20_000;
+
+/// Ended contacts that nobody has taken yet.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct EventLog {
+    /// In the order of their ends.
+    pub ended: Vec<ContactEvent>,
+    /// How many were dropped since the start.
+    pub dropped: u64,
+}
+
+impl EventLog {
+    /// Keeps an ended contact; when full, drops the half with the smaller peak forces.
+    pub fn push(&mut self, event: ContactEvent) {
+        self.ended.push(event);
+        if self.ended.len() > MOST_EVENTS {
+            let mut peaks: Vec<f64> = self.ended.iter().map(|e| e.peak_force).collect();
+            peaks.sort_unstable_by(f64::total_cmp);
+            let (middle, before) = (peaks[peaks.len() / 2], self.ended.len());
+            self.ended.retain(|e| e.peak_force > middle);
+            self.dropped += (before - self.ended.len()) as u64;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_log_stays_bounded_and_keeps_the_hardest() {
+        let key = ContactKey { body: 0, part: 0, feature: Feature::Wall { wall: 0, end: 0 } };
+        let mut log = EventLog::default();
+        for i in 0..3 * MOST_EVENTS {
+            let mut event = begin(key, 0.0, DVec3::ZERO, -1.0, DVec3::ZERO);
+            event.add(DVec3::X * (i % 1000) as f64, 0.1, 0.1);
+            log.push(event);
+            assert!(log.ended.len() <= MOST_EVENTS);
+        }
+        assert!(log.ended.iter().any(|e| e.peak_force == 999.0));
+        assert_eq!(log.dropped as usize + log.ended.len(), 3 * MOST_EVENTS);
+    }
+}

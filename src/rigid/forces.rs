@@ -1,0 +1,228 @@
+//! Forces of all contacts at one instant, with the tangential history and the energy book.
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use super::contact::{ContactKey, Feature, Touch};
+use super::event::{self, ContactEvent, EventLog};
+use super::hertz_mindlin::{ContactLaw, impact_overlap};
+use super::motion::Load;
+use super::setup::RigidSetup;
+
+/// Energy of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping - load_work keeps
+/// its value up to the error of time stepping and the coupling of tangential stiffness and overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Energy {
+    /// Of translation and rotation.
+    pub kinetic: f64,
+    /// In gravity, zero at the origin.
+    pub potential: f64,
+    /// Stored in contacts.
+    pub elastic: f64,
+    /// Turned into heat by sliding since the start.
+    pub friction: f64,
+    /// Turned into heat by the dashpots since the start.
+    pub damping: f64,
+    /// Work of the given loads since the start.
+    pub load_work: f64,
+}
+
+/// A contact that exists, with its memory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Its name.
+    pub key: ContactKey,
+    /// Normal of the last evaluation.
+    pub normal: DVec3,
+    /// Tangential spring d_t [m].
+    pub spring: DVec3,
+    /// Energy stored in overlap and spring [J].
+    pub elastic: [f64; 2],
+    /// The record so far.
+    pub event: ContactEvent,
+}
+
+/// Velocities of all bodies at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Velocities<'a> {
+    /// Of the centres of mass [m/s].
+    pub linear: &'a [DVec3],
+    /// Angular, world axes [rad/s].
+    pub angular: &'a [DVec3],
+}
+
+impl Velocities<'_> {
+    /// Velocity of the material point of `body` at the arm r from its centre of mass [m/s].
+    fn at(&self, body: usize, arm: DVec3) -> DVec3 {
+        self.linear[body] + self.angular[body].cross(arm)
+    }
+}
+
+/// Laws of the pairs of surfaces.
+#[derive(Debug, Clone, Copy)]
+pub struct Laws {
+    unit: ContactLaw,
+    ground: ContactLaw,
+    wall: ContactLaw,
+    mass: f64,
+    least_inertia: f64,
+}
+
+/// One evaluation of all contacts.
+#[derive(Debug, Clone, Default)]
+pub struct Evaluation {
+    /// Sum over the contacts of each body.
+    pub loads: Vec<Load>,
+    /// Contacts that exist, sorted by key.
+    pub contacts: Vec<Contact>,
+    /// Square of the largest angular frequency that a body can have on its contacts [1/s2].
+    pub frequency_squared: f64,
+}
+
+/// Step over which an evaluation carries the history on.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    /// Its length [s]; 0 for the first evaluation.
+    pub dt: f64,
+    /// Time at its end [s].
+    pub time: f64,
+    /// Time for which the step length found here may be used [s]: what will touch within it counts.
+    pub horizon: f64,
+}
+
+impl Laws {
+    /// Laws of a world; radius R for a plane, R/2 for two equal roundings.
+    pub fn new(setup: &RigidSetup) -> Self {
+        let (mass, friction) = (setup.shape.mass, setup.friction);
+        let radius = setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min);
+        let ground = setup.ground.as_ref().map_or(setup.material, |g| g.material);
+        Self {
+            unit: ContactLaw::new(&setup.material, &setup.material, friction.unit_unit, 0.5 * mass, 0.5 * radius),
+            ground: ContactLaw::new(&setup.material, &ground, friction.unit_ground, mass, radius),
+            wall: ContactLaw::new(&setup.material, &setup.wall_material, friction.unit_wall, mass, radius),
+            mass,
+            // Of a symmetric positive tensor: the smallest eigenvalue is at least det / (trace / 2)^2.
+            least_inertia: setup.shape.inertia.determinant()
+                / (0.5 * (0..3).map(|i| setup.shape.inertia.col(i)[i]).sum::<f64>()).powi(2),
+        }
+    }
+
+    fn of(&self, feature: Feature) -> &ContactLaw {
+        match feature {
+            Feature::Unit { .. } => &self.unit,
+            Feature::Ground { .. } => &self.ground,
+            Feature::Wall { .. } => &self.wall,
+        }
+    }
+
+    /// Forces at the given places; `before` holds the contacts of the previous evaluation, `now` the velocities at this
+    /// instant, `over` those over the step (they move the tangential springs and do the work).
+    #[allow(clippy::too_many_arguments)]
+    pub fn evaluate(
+        &self,
+        touches: &[Touch],
+        before: &[Contact],
+        position: &[DVec3],
+        now: Velocities<'_>,
+        over: Velocities<'_>,
+        step: Step,
+        energy: &mut Energy,
+        log: &mut EventLog,
+    ) -> Evaluation {
+        let mut out = Evaluation { loads: vec![Load::default(); position.len()], ..Default::default() };
+        let mut stiffness = vec![0.0; position.len()];
+        let mut used = vec![false; before.len()];
+        energy.elastic = 0.0;
+        for touch in touches {
+            let law = self.of(touch.key.feature);
+            let a = touch.key.body as usize;
+            let b = if let Feature::Unit { body, .. } = touch.key.feature { Some(body as usize) } else { None };
+            let arm_a = touch.point - position[a];
+            let arm_b = b.map_or(DVec3::ZERO, |b| touch.point - touch.shift - position[b]);
+            let relative = |v: Velocities<'_>| v.at(a, arm_a) - b.map_or(DVec3::ZERO, |b| v.at(b, arm_b));
+            let (v, v_over) = (relative(now), relative(over));
+            let (v_n, v_n_over) = (v.dot(touch.normal), v_over.dot(touch.normal));
+            let (v_t, v_t_over) = (v - touch.normal * v_n, v_over - touch.normal * v_n_over);
+
+            let closing = (-v_n).max(0.0);
+            if -touch.overlap <= closing * step.horizon {
+                let expected = touch.overlap.max(impact_overlap(law.e_star, law.radius, law.mass, closing));
+                let s_n = law.normal_stiffness(expected);
+                let share = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
+                // Two bodies on one spring: the frequency is that of twice the stiffness (Gershgorin's bound).
+                stiffness[a] += if b.is_some() { 2.0 } else { 1.0 } * share(arm_a);
+                if let Some(b) = b {
+                    stiffness[b] += 2.0 * share(arm_b);
+                }
+            }
+            if touch.overlap <= 0.0 {
+                continue;
+            }
+
+            let memory = find(before, &mut used, touches, touch.key);
+            let (mut contact, known) = match memory {
+                Some(old) => (Contact { key: touch.key, ..old }, true),
+                None => {
+                    let event = event::begin(touch.key, step.time, touch.point, v_n, v_t);
+                    let new =
+                        Contact { key: touch.key, normal: touch.normal, spring: DVec3::ZERO, elastic: [0.0; 2], event };
+                    (new, false)
+                }
+            };
+            let moved = if known { v_t_over * step.dt } else { DVec3::ZERO };
+            let spring = turned(contact.spring, contact.normal, touch.normal) + moved;
+            let response = law.respond(touch.overlap, v_n, v_t, spring);
+            let force = touch.normal * response.normal + response.tangential;
+
+            out.loads[a].force += force;
+            out.loads[a].torque += arm_a.cross(force);
+            if let Some(b) = b {
+                out.loads[b].force -= force;
+                out.loads[b].torque -= arm_b.cross(force);
+            }
+
+            let stored = [law.normal_energy(touch.overlap), law.tangential_energy(touch.overlap, response.spring)];
+            energy.damping += (law.elastic_force(touch.overlap) - response.normal) * v_n_over * step.dt;
+            let lost = -response.tangential.dot(v_t_over) * step.dt - (stored[1] - contact.elastic[1]);
+            *(if response.sliding { &mut energy.friction } else { &mut energy.damping }) += lost;
+            energy.elastic += stored[0] + stored[1];
+
+            contact.normal = touch.normal;
+            contact.spring = response.spring;
+            contact.elastic = stored;
+            contact.event.add(force, step.dt, step.time);
+            out.contacts.push(contact);
+        }
+        for (old, _) in before.iter().zip(&used).filter(|(_, used)| !**used) {
+            energy.friction += old.elastic[1];
+            log.push(old.event);
+        }
+        out.frequency_squared = stiffness.iter().fold(0.0, |most: f64, k| most.max(k / self.mass));
+        out
+    }
+}
+
+/// Memory of a contact: its own, or that of the same part at the neighbouring place of the ground, which it has left.
+fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], key: ContactKey) -> Option<Contact> {
+    let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
+        let Feature::Ground { place, .. } = key.feature else { return None };
+        let touching =
+            |k: &ContactKey| touches.binary_search_by_key(k, |t| t.key).is_ok_and(|i| touches[i].overlap > 0.0);
+        before.iter().zip(used.iter()).position(|(c, used)| {
+            let neighbour = matches!(c.key.feature, Feature::Ground { place: old, .. } if old.abs_diff(place) <= 1);
+            !used && neighbour && (c.key.body, c.key.part) == (key.body, key.part) && !touching(&c.key)
+        })
+    })?;
+    used[index] = true;
+    Some(before[index])
+}
+
+/// The tangential spring turned with the contact's normal; its length stays.
+fn turned(spring: DVec3, old_normal: DVec3, normal: DVec3) -> DVec3 {
+    if old_normal == normal || spring == DVec3::ZERO {
+        return spring;
+    }
+    let turned = DQuat::from_rotation_arc(old_normal, normal) * spring;
+    let flat = turned - normal * turned.dot(normal);
+    flat.normalize_or_zero() * spring.length()
+}

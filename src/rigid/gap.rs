@@ -1,0 +1,112 @@
+//! Nearest points of the cores of two rounded parts.
+//!
+//! parry's GJK gives the nearest points of two convex cores to a relative accuracy of about 5e-8 in distance, but its
+//! direction then is good to the root of that only. A few alternating projections with the closed-form nearest points of
+//! the cores make the direction exact, so that a contact at rest sees the same normal in every step.
+
+use glam::{DQuat, DVec3};
+use parry3d_f64::math::Pose;
+use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
+use parry3d_f64::shape::SupportMap;
+
+use crate::geometry::convex_part::ConvexPart;
+
+/// A part seen by GJK: its core.
+struct CoreMap<'a>(&'a ConvexPart);
+
+impl SupportMap for CoreMap<'_> {
+    fn local_support_point(&self, direction: DVec3) -> DVec3 {
+        self.0.support(direction)
+    }
+}
+
+/// Where two cores are nearest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Nearest {
+    /// Further apart than asked for.
+    Apart,
+    /// Nearest points of the first and the second core, world axes [m].
+    Points(DVec3, DVec3),
+    /// The cores themselves overlap.
+    Overlap,
+}
+
+/// Placement of a body: rotation and centre of mass.
+pub type Placement = (DQuat, DVec3);
+
+/// Nearest points of the cores of two parts whose distance is at most `reach` [m].
+pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b): Placement, reach: f64) -> Nearest {
+    // In the axes of the first body.
+    let back = q_a.inverse();
+    let relative = Pose::from_parts(back * (x_b - x_a), back * q_b);
+    let on_b = |p: DVec3| relative.transform_point(b.nearest(relative.inverse_transform_point(p)));
+    let mut simplex = VoronoiSimplex::new();
+    let (map_a, map_b) = (CoreMap(a), CoreMap(b));
+    let towards = relative.transform_point(b.bounding_sphere().0) - a.bounding_sphere().0;
+    simplex.reset(CsoPoint::from_shapes(&relative, &map_a, &map_b, towards.try_normalize().unwrap_or(DVec3::X)));
+    let mut p_b = match gjk::closest_points(&relative, &map_a, &map_b, reach, true, &mut simplex) {
+        GJKResult::ClosestPoints(_, p_b, _) => p_b,
+        GJKResult::Intersection => return Nearest::Overlap,
+        // Either far apart, or out of iterations, which is reported with the direction X: start from the middle then.
+        GJKResult::NoIntersection(direction) if direction == DVec3::X => on_b(a.bounding_sphere().0),
+        GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => return Nearest::Apart,
+    };
+    let mut p_a = a.nearest(p_b);
+    for _ in 0..POLISH {
+        let before = p_b;
+        p_b = on_b(p_a);
+        p_a = a.nearest(p_b);
+        // Nanometres over the size of a unit: below the rounding of its position.
+        if (p_b - before).length_squared() < 1e-28 {
+            break;
+        }
+    }
+    let distance = (p_b - p_a).length();
+    if distance > reach {
+        return Nearest::Apart;
+    }
+    if distance == 0.0 {
+        return Nearest::Overlap;
+    }
+    Nearest::Points(q_a * p_a + x_a, q_a * p_b + x_a)
+}
+
+/// Alternating projections at most: each one shrinks the error by the ratio of the rounding to the radii, a few tens per
+/// cent; 60 are reached only where two sides lie flush and any of the points will do.
+const POLISH: usize = 60;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::armour_unit::ArmourUnit;
+
+    #[test]
+    fn two_balls() {
+        let ball = ConvexPart::ball(DVec3::ZERO, 0.1);
+        let at = |x: f64| (DQuat::IDENTITY, DVec3::X * x);
+        assert_eq!(nearest(&ball, at(0.0), &ball, at(0.5), 1.0), Nearest::Points(DVec3::ZERO, DVec3::X * 0.5));
+        assert_eq!(nearest(&ball, at(0.0), &ball, at(0.5), 0.4), Nearest::Apart);
+        assert_eq!(nearest(&ball, at(0.0), &ball, at(0.0), 0.4), Nearest::Overlap);
+    }
+
+    #[test]
+    fn distance_of_two_legs_is_smooth_and_certified() {
+        let unit = ArmourUnit::tetrapod(1.0, 0.05).unwrap();
+        let (a, b) = (&unit.parts()[0], &unit.parts()[1]);
+        for i in 0..400 {
+            let t = 0.017 * f64::from(i);
+            let turn = DQuat::from_euler(glam::EulerRot::XYZ, t, 1.7 * t, 0.3 * t);
+            let shift = DVec3::new((3.0 * t).cos(), (2.0 * t).sin(), (t).cos()).normalize() * 1.5;
+            let place_a = (DQuat::IDENTITY, DVec3::ZERO);
+            let Nearest::Points(p_a, p_b) = nearest(a, place_a, b, (turn, shift), 10.0) else {
+                continue;
+            };
+            let n = (p_b - p_a).normalize();
+            // No point of either core lies beyond the planes through the nearest points: that proves them nearest.
+            // 1e-9 of the height is a thousandth of the overlap at rest.
+            assert!(a.support(n).dot(n) - p_a.dot(n) < 1e-9, "{i}");
+            let on_b = turn * b.support(turn.inverse() * -n) + shift;
+            assert!(p_b.dot(n) - on_b.dot(n) < 1e-9, "{i}");
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Distance from rounded parts to the ground (a profile z(x), the same for all y) and to plane walls.
+//!
+//! The ground is a chain of strips. A part touches a strip where the foot of its lowest point falls between the strip's
+//! ends; a convex corner where the direction from the corner's line to the part lies between the two normals. The two
+//! cases join without a step, and never hold at once for the same point, so that no seam counts twice. In a concave
+//! corner both strips count.
+
+use glam::{DQuat, DVec3};
+
+use super::contact::Feature;
+use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::profile::Profile;
+
+/// A plane piece of the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Strip {
+    /// Ends along x [m].
+    x: [f64; 2],
+    /// A point of the plane [m].
+    origin: DVec3,
+    /// Upward normal.
+    normal: DVec3,
+}
+
+/// The ground as strips and convex corners.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroundSurface {
+    profile: Profile,
+    strips: Vec<Strip>,
+}
+
+/// A place where a part is near a fixed surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Approach {
+    /// What it is near to.
+    pub feature: Feature,
+    /// Point of the core [m].
+    pub core: DVec3,
+    /// Normal from the surface into the body.
+    pub normal: DVec3,
+    /// Distance of the core from the surface [m].
+    pub distance: f64,
+}
+
+impl GroundSurface {
+    /// Strips of a profile, level beyond its ends.
+    pub fn new(profile: &Profile) -> Self {
+        let points = profile.points();
+        let last = points[points.len() - 1];
+        let at = |p: [f64; 2]| DVec3::new(p[0], 0.0, p[1]);
+        let mut strips = vec![Strip { x: [f64::NEG_INFINITY, points[0][0]], origin: at(points[0]), normal: DVec3::Z }];
+        strips.extend(points.windows(2).map(|w| {
+            let along = at(w[1]) - at(w[0]);
+            Strip { x: [w[0][0], w[1][0]], origin: at(w[0]), normal: DVec3::new(-along.z, 0.0, along.x).normalize() }
+        }));
+        strips.push(Strip { x: [last[0], f64::INFINITY], origin: at(last), normal: DVec3::Z });
+        Self { profile: profile.clone(), strips }
+    }
+
+    /// Appends the places where a part of a body at (rotation, position) is nearer than `reach` [m] to the ground.
+    pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
+        let (centre, radius) = part.bounding_sphere();
+        let centre = rotation * centre + position;
+        let span = [centre.x - radius - reach, centre.x + radius + reach];
+        let first = self.strips.partition_point(|s| s.x[1] < span[0]);
+        let from = out.len();
+        for (k, strip) in self.strips.iter().enumerate().skip(first) {
+            if strip.x[0] > span[1] {
+                break;
+            }
+            if (centre - strip.origin).dot(strip.normal) < radius + reach {
+                for approach in self.strip_approaches(k, part, rotation, position, reach) {
+                    keep(out, from, approach);
+                }
+            }
+            if let Some(next) = self.strips.get(k + 1)
+                && strip.normal.cross(next.normal).y > STRAIGHT
+                && let Some(corner) = corner_approach(k, strip, next, part, rotation, position, reach)
+            {
+                keep(out, from, corner);
+            }
+        }
+    }
+
+    /// Places where the ends of a part are near to strip k.
+    fn strip_approaches(
+        &self,
+        k: usize,
+        part: &ConvexPart,
+        rotation: DQuat,
+        position: DVec3,
+        reach: f64,
+    ) -> impl Iterator<Item = Approach> + use<'_> {
+        let strip = &self.strips[k];
+        part.ends(rotation.inverse() * -strip.normal).enumerate().filter_map(move |(end, point)| {
+            let core = rotation * point + position;
+            let distance = (core - strip.origin).dot(strip.normal);
+            let foot = core.x - distance * strip.normal.x;
+            let above = distance > 0.0 || core.z < self.profile.z(core.x);
+            // Widened by rounding, so that no foot falls between two strips; `keep` drops what then counts twice.
+            let inside = (strip.x[0] - SAME_PLACE..strip.x[1] + SAME_PLACE).contains(&foot);
+            let feature = Feature::Ground { place: 2 * k as u32, end: end as u8 };
+            (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
+        })
+    }
+}
+
+/// Feet nearer than this are one place [m].
+const SAME_PLACE: f64 = 1e-12;
+/// Sine of the angle below which two strips are one plane [-].
+const STRAIGHT: f64 = 1e-6;
+
+/// Appends an approach unless one of this part (those after `from`) is at the same place with the same normal: on the
+/// seam of two strips, the nearer one counts.
+fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
+    let foot = |a: &Approach| a.core - a.normal * a.distance;
+    let same = |old: &&mut Approach| {
+        // 1e-6 m: where the two planes of an angle below STRAIGHT part by less than a picometre.
+        foot(old).distance_squared(foot(&new)) < 1e-12 && old.normal.cross(new.normal).length() < STRAIGHT
+    };
+    match out[from..].iter_mut().find(same) {
+        Some(old) if new.distance < old.distance => *old = new,
+        Some(_) => {}
+        None => out.push(new),
+    }
+}
+
+/// Nearest point of a part to the line of the convex corner between two strips, if the corner is what it is nearest to.
+fn corner_approach(
+    k: usize,
+    left: &Strip,
+    right: &Strip,
+    part: &ConvexPart,
+    rotation: DQuat,
+    position: DVec3,
+    reach: f64,
+) -> Option<Approach> {
+    let corner = right.x[0];
+    let line = if right.x[0] == right.origin.x { right.origin } else { left.origin };
+    let (centre, radius) = part.bounding_sphere();
+    let centre = rotation * centre + position;
+    let to_centre = DVec3::new(centre.x - corner, 0.0, centre.z - line.z);
+    if to_centre.length() > radius + reach {
+        return None;
+    }
+    let back = rotation.inverse();
+    let core_near = |y: f64| {
+        let on_line = DVec3::new(corner, y, line.z);
+        (on_line, rotation * part.nearest(back * (on_line - position)) + position)
+    };
+    // The distance to the part is convex along the line; its slope has the sign of y - y of the nearest point.
+    let [mut low, mut high] = [centre.y - radius, centre.y + radius];
+    // 50 halvings of less than a metre: 1e-15 m.
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        let (on_line, core) = core_near(middle);
+        if on_line.y > core.y { high = middle } else { low = middle }
+    }
+    let (on_line, core) = core_near(0.5 * (low + high));
+    let across = DVec3::new(core.x - on_line.x, 0.0, core.z - on_line.z);
+    let distance = across.length();
+    // Tangents of the strips towards +x.
+    let [t_left, t_right] = [left.normal, right.normal].map(|n| DVec3::new(n.z, 0.0, -n.x));
+    let within = across.dot(t_left) >= 0.0 && across.dot(t_right) < 0.0;
+    (within && distance < reach).then(|| Approach {
+        feature: Feature::Ground { place: 2 * k as u32 + 1, end: 0 },
+        core,
+        normal: across / distance,
+        distance,
+    })
+}
+
+/// A plane wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneWall {
+    /// Number among the walls of the domain.
+    pub index: u8,
+    /// A point of the plane [m].
+    pub origin: DVec3,
+    /// Normal into the domain.
+    pub normal: DVec3,
+}
+
+impl PlaneWall {
+    /// Appends the places where a part is nearer than `reach` [m] to the wall.
+    pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
+        for (end, point) in part.ends(rotation.inverse() * -self.normal).enumerate() {
+            let core = rotation * point + position;
+            let distance = (core - self.origin).dot(self.normal);
+            if distance < reach {
+                let feature = Feature::Wall { wall: self.index, end: end as u8 };
+                out.push(Approach { feature, core, normal: self.normal, distance });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const REACH: f64 = 0.3;
+
+    fn near(surface: &GroundSurface, at: DVec3) -> Vec<Approach> {
+        let mut out = Vec::new();
+        surface.approaches(&ConvexPart::ball(DVec3::ZERO, 0.1), DQuat::IDENTITY, at, REACH, &mut out);
+        out
+    }
+
+    fn trapezoid() -> GroundSurface {
+        GroundSurface::new(&Profile::new(vec![[-3.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [3.0, 0.0]]))
+    }
+
+    #[test]
+    fn a_point_passing_a_convex_corner_has_one_distance_without_a_step() {
+        let surface = trapezoid();
+        let (mut before, mut turned) = (0.1, 0.0);
+        for i in 0..=4000 {
+            // A path 0.1 above the crest that goes on level past the lee edge.
+            let at = DVec3::new(0.8 + 1e-4 * f64::from(i), 0.3, 1.1);
+            let found = near(&surface, at);
+            if found.is_empty() {
+                assert!(at.x > 1.1);
+                break;
+            }
+            assert_eq!(found.len(), 1, "{at}");
+            // The distance changes by less than the path, 1e-4 a step, and the normal by 1e-4 / 0.1 rad.
+            assert!((found[0].distance - before).abs() < 1.01e-4);
+            let angle = found[0].normal.x.atan2(found[0].normal.z);
+            assert!((angle - turned).abs() < 1.1e-3);
+            (before, turned) = (found[0].distance, angle);
+        }
+        assert!(turned > 0.4);
+    }
+
+    #[test]
+    fn concave_corners_touch_twice_and_straight_seams_once() {
+        let valley = GroundSurface::new(&Profile::new(vec![[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
+        assert_eq!(near(&valley, DVec3::new(0.0, 0.0, 0.2)).len(), 2);
+        let straight = GroundSurface::new(&Profile::new(vec![[-1.0, -0.5], [0.0, 0.0], [1.0, 0.5]]));
+        for i in -100..100 {
+            let x = 1e-3 * f64::from(i);
+            let found = near(&straight, DVec3::new(x, 0.0, 0.5 * x + 0.1));
+            assert_eq!(found.len(), 1);
+            // cos(atan 0.5) x 0.1.
+            assert!((found[0].distance - 0.0894427191).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_far_flank_of_a_mound_is_not_touched_from_behind() {
+        let found = near(&trapezoid(), DVec3::new(-1.6, 0.0, 0.75));
+        assert!(found.iter().all(|a| a.distance > 0.0));
+        assert_eq!(found.len(), 1);
+    }
+}

@@ -1,0 +1,113 @@
+//! State of the rigid bodies for checkpoints: a world restored from it goes on with the same bits.
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use super::contact::ContactKey;
+use super::error::RigidError;
+use super::event::{ContactEvent, EventLog};
+use super::forces::{Contact, Energy};
+use super::motion::Load;
+use super::world::RigidWorld;
+
+/// State of all bodies and contacts. Angular momentum and the contact forces of the last instant are kept as they are:
+/// recomputing them would give other last bits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RigidSnapshot {
+    time_s: f64,
+    substeps: u64,
+    frequency_squared: f64,
+    bodies: Vec<BodySnapshot>,
+    contacts: Vec<ContactSnapshot>,
+    energy: Energy,
+    log: EventLog,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct BodySnapshot {
+    position: [f64; 3],
+    /// x, y, z, w.
+    rotation: [f64; 4],
+    velocity: [f64; 3],
+    angular_momentum: [f64; 3],
+    /// Force and torque of the contacts at this instant, and their mean over the last advance.
+    contact_now: [[f64; 3]; 2],
+    contact_mean: [[f64; 3]; 2],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct ContactSnapshot {
+    key: ContactKey,
+    normal: [f64; 3],
+    spring: [f64; 3],
+    elastic: [f64; 2],
+    event: ContactEvent,
+}
+
+fn pack(load: &Load) -> [[f64; 3]; 2] {
+    [load.force.to_array(), load.torque.to_array()]
+}
+
+fn unpack([force, torque]: [[f64; 3]; 2]) -> Load {
+    Load { force: DVec3::from_array(force), torque: DVec3::from_array(torque) }
+}
+
+impl RigidWorld {
+    /// State to go on from later.
+    pub fn snapshot(&self) -> RigidSnapshot {
+        let body = |b: usize| BodySnapshot {
+            position: self.position[b].to_array(),
+            rotation: self.rotation[b].to_array(),
+            velocity: self.velocity[b].to_array(),
+            angular_momentum: self.angular_momentum[b].to_array(),
+            contact_now: pack(&self.contact_now[b]),
+            contact_mean: pack(&self.contact_mean[b]),
+        };
+        let contact = |c: &Contact| ContactSnapshot {
+            key: c.key,
+            normal: c.normal.to_array(),
+            spring: c.spring.to_array(),
+            elastic: c.elastic,
+            event: c.event,
+        };
+        RigidSnapshot {
+            time_s: self.time,
+            substeps: self.substeps,
+            frequency_squared: self.frequency_squared,
+            bodies: (0..self.position.len()).map(body).collect(),
+            contacts: self.contacts.iter().map(contact).collect(),
+            energy: self.energy,
+            log: self.log.clone(),
+        }
+    }
+
+    /// Goes back to a snapshot of a world with the same setup.
+    pub fn restore(&mut self, snapshot: &RigidSnapshot) -> Result<(), RigidError> {
+        if snapshot.bodies.len() != self.position.len() {
+            return Err(RigidError::Snapshot { snapshot: snapshot.bodies.len(), world: self.position.len() });
+        }
+        for (b, body) in snapshot.bodies.iter().enumerate() {
+            self.position[b] = DVec3::from_array(body.position);
+            self.rotation[b] = DQuat::from_array(body.rotation);
+            self.velocity[b] = DVec3::from_array(body.velocity);
+            self.angular_momentum[b] = DVec3::from_array(body.angular_momentum);
+            self.contact_now[b] = unpack(body.contact_now);
+            self.contact_mean[b] = unpack(body.contact_mean);
+        }
+        let contact = |c: &ContactSnapshot| Contact {
+            key: c.key,
+            normal: DVec3::from_array(c.normal),
+            spring: DVec3::from_array(c.spring),
+            elastic: c.elastic,
+            event: c.event,
+        };
+        self.contacts = snapshot.contacts.iter().map(contact).collect();
+        self.time = snapshot.time_s;
+        self.substeps = snapshot.substeps;
+        self.frequency_squared = snapshot.frequency_squared;
+        self.energy = snapshot.energy;
+        self.log = snapshot.log.clone();
+        self.publish();
+        Ok(())
+    }
+}

@@ -1,0 +1,293 @@
+//! The rigid bodies of a run: substeps of the velocity Verlet scheme.
+//!
+//! Half a kick, a drift, the contacts at the new places, half a kick. Dashpots need the velocity at the end of the step
+//! before it is known; it is extrapolated with the old acceleration, which keeps the second order.
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::contact::{BodyPair, Placements, Surfaces};
+use super::error::RigidError;
+use super::event::{ContactEvent, EventLog};
+use super::forces::{Contact, Energy, Laws, Step, Velocities};
+use super::motion::{self, BodyState, Load};
+use super::setup::RigidSetup;
+
+/// Steps in the shortest period of a body on its contacts. At 80 the restitution of an impact is right to 1e-3 (see
+/// the tests); an impact lasts about two thirds of this period.
+const STEPS_PER_PERIOD: f64 = 80.0;
+
+/// Longest substep [s]: what comes nearer than this time at twice the speed is looked for, so that nothing is jumped into.
+const LONGEST_SUBSTEP: f64 = 1e-3;
+
+/// Rigid bodies with their contacts.
+#[derive(Debug, Clone)]
+pub struct RigidWorld {
+    // Parameters.
+    pub(super) surfaces: Surfaces,
+    pub(super) laws: Laws,
+    pub(super) mass: f64,
+    pub(super) inverse_inertia: DMat3,
+    pub(super) rounding: f64,
+    pub(super) gravity: DVec3,
+    // State.
+    pub(super) time: f64,
+    pub(super) rotation: Vec<DQuat>,
+    pub(super) position: Vec<DVec3>,
+    pub(super) velocity: Vec<DVec3>,
+    pub(super) angular_momentum: Vec<DVec3>,
+    pub(super) contact_now: Vec<Load>,
+    pub(super) contacts: Vec<Contact>,
+    pub(super) frequency_squared: f64,
+    pub(super) energy: Energy,
+    pub(super) log: EventLog,
+    // What callers see.
+    pub(super) states: Vec<BodyState>,
+    pub(super) contact_mean: Vec<Load>,
+    pub(super) substeps: u64,
+    // Workspace.
+    angular_velocity: Vec<DVec3>,
+    pairs: Vec<BodyPair>,
+    /// Distance that a body may still travel before the pairs must be searched again [m].
+    slack: f64,
+}
+
+impl RigidWorld {
+    /// World at time 0; refuses values out of range and bodies that start too deep in something.
+    pub fn new(setup: RigidSetup) -> Result<Self, RigidError> {
+        setup.check()?;
+        let count = setup.bodies.len();
+        let inertia = setup.shape.inertia;
+        let rotation: Vec<DQuat> = setup.bodies.iter().map(|b| b.rotation.normalize()).collect();
+        let momentum = |(b, q): (&BodyState, &DQuat)| motion::angular_momentum(*q, &inertia, b.angular_velocity);
+        let mut world = Self {
+            surfaces: Surfaces::new(&setup),
+            laws: Laws::new(&setup),
+            mass: setup.shape.mass,
+            inverse_inertia: inertia.inverse(),
+            rounding: setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min),
+            gravity: setup.gravity,
+            time: 0.0,
+            angular_momentum: setup.bodies.iter().zip(&rotation).map(momentum).collect(),
+            rotation,
+            position: setup.bodies.iter().map(|b| b.position).collect(),
+            velocity: setup.bodies.iter().map(|b| b.velocity).collect(),
+            contact_now: vec![Load::default(); count],
+            contacts: Vec::new(),
+            frequency_squared: 0.0,
+            energy: Energy::default(),
+            log: EventLog::default(),
+            states: setup.bodies.clone(),
+            contact_mean: vec![Load::default(); count],
+            substeps: 0,
+            angular_velocity: vec![DVec3::ZERO; count],
+            pairs: Vec::new(),
+            slack: 0.0,
+        };
+        world.touch(0.0, 0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
+        world.publish();
+        Ok(world)
+    }
+
+    /// Places and motions of the bodies.
+    pub fn states(&self) -> &[BodyState] {
+        &self.states
+    }
+
+    /// Time [s] since the start.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Mean contact force and torque on each body over the last [`advance`](Self::advance).
+    pub fn contact_loads(&self) -> &[Load] {
+        &self.contact_mean
+    }
+
+    /// Energy and its losses; kinetic and potential energy are of now.
+    pub fn energy(&self) -> Energy {
+        self.energy
+    }
+
+    /// Number of contacts now.
+    pub fn contact_count(&self) -> usize {
+        self.contacts.len()
+    }
+
+    /// Substeps made since the start.
+    pub fn substeps(&self) -> u64 {
+        self.substeps
+    }
+
+    /// Contacts that have ended since the last call, in the order of their ends.
+    pub fn take_events(&mut self) -> Vec<ContactEvent> {
+        std::mem::take(&mut self.log.ended)
+    }
+
+    /// Contacts that exist now, as recorded so far.
+    pub fn running_events(&self) -> impl Iterator<Item = &ContactEvent> {
+        self.contacts.iter().map(|c| &c.event)
+    }
+
+    /// Ended contacts that were dropped because nobody took them.
+    pub fn dropped_events(&self) -> u64 {
+        self.log.dropped
+    }
+
+    /// Changes gravity [m/s2], to tilt the ground.
+    pub fn set_gravity(&mut self, gravity: DVec3) {
+        self.gravity = gravity;
+    }
+
+    /// Advances all bodies by `dt` [s] under the given loads (without gravity), constant over `dt`.
+    pub fn advance(&mut self, dt: f64, loads: &[Load]) -> Result<(), RigidError> {
+        if loads.len() != self.position.len() {
+            return Err(RigidError::Loads { loads: loads.len(), bodies: self.position.len() });
+        }
+        if !(dt >= 0.0 && dt.is_finite()) {
+            return Err(RigidError::Setup { what: "the time step [s]".into(), value: dt, allowed: "0 or greater" });
+        }
+        let mut impulse = vec![Load::default(); loads.len()];
+        let start = self.time;
+        let mut left = dt;
+        self.slack = 0.0;
+        while left > 0.0 {
+            let h = self.substep_length(left);
+            self.substep(h, left, loads)?;
+            for (sum, now) in impulse.iter_mut().zip(&self.contact_now) {
+                sum.force += now.force * h;
+                sum.torque += now.torque * h;
+            }
+            left = if h < left { left - h } else { 0.0 };
+        }
+        self.time = start + dt;
+        if dt > 0.0 {
+            self.contact_mean =
+                impulse.iter().map(|sum| Load { force: sum.force / dt, torque: sum.torque / dt }).collect();
+        }
+        self.publish();
+        Ok(())
+    }
+
+    /// Share of the time left: as many equal steps as the stiffest contact asks for.
+    fn substep_length(&self, left: f64) -> f64 {
+        let longest = (TAU / self.frequency_squared.sqrt() / STEPS_PER_PERIOD).min(LONGEST_SUBSTEP);
+        left / (left / longest).ceil().max(1.0)
+    }
+
+    fn substep(&mut self, h: f64, left: f64, loads: &[Load]) -> Result<(), RigidError> {
+        let old = self.accelerations(loads);
+        self.kick(&old, 0.5 * h);
+        self.drift(h);
+        let linear_over = self.velocity.clone();
+        let angular_over = self.angular_velocities();
+        self.book_load_work(loads, &angular_over, h);
+        self.kick(&old, 0.5 * h);
+        self.time += h;
+        self.check_finite()?;
+        self.touch(h, left.min(LONGEST_SUBSTEP), &linear_over, &angular_over)?;
+        // Undo the extrapolation, then the true second half.
+        self.velocity.copy_from_slice(&linear_over);
+        let new = self.accelerations(loads);
+        for body in 0..self.position.len() {
+            self.angular_momentum[body] += (new[body].1 - old[body].1) * (0.5 * h);
+            self.velocity[body] += new[body].0 * (0.5 * h);
+        }
+        self.substeps += 1;
+        Ok(())
+    }
+
+    /// The search for contacts takes finite numbers only.
+    fn check_finite(&self) -> Result<(), RigidError> {
+        let finite = |b: &usize| (self.position[*b] + self.angular_momentum[*b]).is_finite();
+        match (0..self.position.len()).find(|b| !finite(b) || !self.rotation[*b].is_finite()) {
+            Some(body) => Err(RigidError::NotFinite { time: self.time, body }),
+            None => Ok(()),
+        }
+    }
+
+    /// Acceleration [m/s2] and torque [N m] of each body.
+    fn accelerations(&self, loads: &[Load]) -> Vec<(DVec3, DVec3)> {
+        let of = |(given, contact): (&Load, &Load)| {
+            (self.gravity + (given.force + contact.force) / self.mass, given.torque + contact.torque)
+        };
+        loads.iter().zip(&self.contact_now).map(of).collect()
+    }
+
+    fn kick(&mut self, accelerations: &[(DVec3, DVec3)], dt: f64) {
+        for (body, (a, torque)) in accelerations.iter().enumerate() {
+            self.velocity[body] += *a * dt;
+            self.angular_momentum[body] += *torque * dt;
+        }
+    }
+
+    fn drift(&mut self, h: f64) {
+        for body in 0..self.position.len() {
+            self.position[body] += self.velocity[body] * h;
+            let (q, l) = (self.rotation[body], self.angular_momentum[body]);
+            self.rotation[body] = motion::rotated(q, &self.inverse_inertia, l, h);
+        }
+    }
+
+    fn angular_velocities(&self) -> Vec<DVec3> {
+        let of = |(q, l): (&DQuat, &DVec3)| motion::angular_velocity(*q, &self.inverse_inertia, *l);
+        self.rotation.iter().zip(&self.angular_momentum).map(of).collect()
+    }
+
+    fn book_load_work(&mut self, loads: &[Load], angular_over: &[DVec3], h: f64) {
+        for (body, load) in loads.iter().enumerate() {
+            let power = load.force.dot(self.velocity[body]) + load.torque.dot(angular_over[body]);
+            self.energy.load_work += power * h;
+        }
+    }
+
+    /// Finds the contacts at the present places and their forces.
+    fn touch(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
+        self.angular_velocity = self.angular_velocities();
+        let reach = self.surfaces.reach();
+        let surface_speed = |(v, w): (&DVec3, &DVec3)| v.length() + w.length() * reach;
+        let fastest = self.velocity.iter().zip(&self.angular_velocity).map(surface_speed).fold(0.0, f64::max);
+        // What may touch within the horizon, at twice the present speeds, has to be seen for the step length.
+        let margin = 4.0 * fastest * horizon;
+        self.slack -= 2.0 * fastest * h;
+        if self.slack <= margin || h == 0.0 {
+            self.slack = margin + self.rounding;
+            self.pairs = self.surfaces.pairs(&self.position, 2.0 * self.slack);
+        }
+        let placements = Placements { rotation: &self.rotation, position: &self.position };
+        let touches = self.surfaces.touches(&self.pairs, placements, margin, self.time)?;
+        let evaluation = self.laws.evaluate(
+            &touches,
+            &self.contacts,
+            &self.position,
+            Velocities { linear: &self.velocity, angular: &self.angular_velocity },
+            Velocities { linear, angular },
+            Step { dt: h, time: self.time, horizon },
+            &mut self.energy,
+            &mut self.log,
+        );
+        self.contact_now = evaluation.loads;
+        self.contacts = evaluation.contacts;
+        self.frequency_squared = evaluation.frequency_squared;
+        Ok(())
+    }
+
+    /// Brings what callers see up to date.
+    pub(super) fn publish(&mut self) {
+        self.energy.kinetic = 0.0;
+        self.energy.potential = 0.0;
+        for body in 0..self.position.len() {
+            let l = self.angular_momentum[body];
+            let state = BodyState {
+                position: self.position[body],
+                rotation: self.rotation[body],
+                velocity: self.velocity[body],
+                angular_velocity: motion::angular_velocity(self.rotation[body], &self.inverse_inertia, l),
+            };
+            self.energy.kinetic += 0.5 * (self.mass * state.velocity.length_squared() + l.dot(state.angular_velocity));
+            self.energy.potential -= self.mass * self.gravity.dot(state.position);
+            self.states[body] = state;
+        }
+    }
+}
