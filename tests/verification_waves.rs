@@ -1,4 +1,5 @@
-//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume.
+//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume. Run with `--release`:
+//! half a minute.
 
 use breakwater::case::file::SolitaryTheory;
 use breakwater::geometry::profile::Profile;
@@ -126,7 +127,7 @@ fn half_the_cell_and_more_layers_change_the_crests_little() {
 #[test]
 fn waves_pass_the_mound_alike_on_both_grids() {
     let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
-    for expected in &EXPECTED {
+    for expected in [&EXPECTED[0], &EXPECTED[2]] {
         let [coarse, fine] = [0.05, 0.025].map(|cell_m| fudo(bed.clone(), expected.height_m, cell_m, 2));
         assert!(coarse.volume_error < 1e-10 && fine.volume_error < 1e-10);
         let crests = [coarse.crest(7).0, fine.crest(7).0];

@@ -30,8 +30,10 @@ pub struct MlPiston {
 impl MlPiston {
     /// Rows at the given levels z [m] standing at `x0_m` at `start_s`, moving until `end_s`, from knots `interval_s` apart.
     ///
+    /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at its end.
+    ///
     /// # Panics
-    /// If there is no row, the interval is not above zero or the end not after the start.
+    /// If there is no row, the interval is not above zero, the end not after the start, or x0 outside the window.
     pub fn from_record(
         record: &FlumeRecord,
         x0_m: f64,
@@ -41,6 +43,8 @@ impl MlPiston {
         interval_s: f64,
     ) -> Self {
         assert!(!row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s, "a piston needs rows and time");
+        let window = &record.window_x_m;
+        assert!((window[0]..=window[window.len() - 1]).contains(&x0_m), "x0 = {x0_m} lies outside the record's window");
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
         let mut particles = particles_at_start(record, x0_m, row_heights_m, start_s);
         let mut velocities = vec![Vec::with_capacity(knots); row_heights_m.len()];
