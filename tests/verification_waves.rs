@@ -215,7 +215,7 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
         let phase = (place - start) / (celerity * flume.time_s()) - 1.0;
         println!("K = {layers}: amplitude {:+.3} %, phase {:+.3} %", 100.0 * amplitude, 100.0 * phase);
         assert!((flume.volume_m2() / volume - 1.0).abs() < 1e-12);
-        // What two and three layers leave of the error: it falls with K, not with the cell.
+        // K = 2: the target. K = 1 and 3: what was reached, rounded up, so that a change for the worse shows.
         let (most_amplitude, most_phase) = [(0.025, 0.01), (0.005, 0.002), (0.0025, 0.001)][layers - 1];
         assert!(amplitude.abs() < most_amplitude && phase.abs() < most_phase);
     }
@@ -246,7 +246,7 @@ fn run_up_on_a_plane_beach() {
     };
     let run_up = record.times_s().iter().map(wet).fold(0.0, f64::max) - STILL_LEVEL_M;
     println!("R/d = {:.4}", run_up / 0.8);
-    // The laboratory's spread, and a cell's rise of 2.5 mm (0.003 d).
+    // The laboratory's spread and a cell's rise of 2.5 mm (0.003 d) on either side: without friction the model is above it.
     assert!((0.071..0.081).contains(&(run_up / 0.8)));
 }
 
@@ -289,7 +289,8 @@ fn odd_but_valid_flumes_finish() {
         assert!(record.volume_error < 1e-10);
         let wet = state.columns.iter().filter(|c| c.surface_m > c.bed_m + 1e-3);
         let highest = wet.map(|c| c.surface_m).fold(0.0, f64::max);
-        // Run-up without friction stays below six wave heights on these slopes (Synolakis' laws).
-        assert!(highest < STILL_LEVEL_M + 6.0 * height_m, "{name}: {highest}");
+        // No law behind it: 3.5 wave heights is only a guard against a run-up that blows up.
+        println!("  highest water at the end {:+.2} H", (highest - STILL_LEVEL_M) / height_m);
+        assert!(highest < STILL_LEVEL_M + 3.5 * height_m, "{name}: {highest}");
     }
 }

@@ -291,7 +291,8 @@ mod tests {
         })
     }
 
-    /// c^2 / (g d) of the Keller box for small waves, mu = k d, one and two layers (Zijlema & Stelling 2005), else exact.
+    /// c^2 / (g d) of small waves, mu = k d: of the Keller box with one and two layers, linearised from the equations in
+    /// `pressure`; else exact.
     fn dispersion(layers: usize, mu: f64) -> f64 {
         match layers {
             1 => 1.0 / (1.0 + mu.powi(2) / 4.0),
