@@ -1,4 +1,5 @@
-//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume.
+//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume. Run with `--release`:
+//! half a minute.
 
 use breakwater::case::file::SolitaryTheory;
 use breakwater::geometry::profile::Profile;
@@ -70,8 +71,12 @@ fn largest_velocity(record: &FlumeRecord, x: f64) -> f64 {
 fn stroke(record: &FlumeRecord, x: f64) -> f64 {
     let heights: Vec<f64> = (0..6).map(|k| record.profile.z(x) + 0.03 + 0.05 * f64::from(k)).collect();
     let piston = MlPiston::from_record(record, x, &heights, start_time(record, x, 0.003), 30.0, 0.02);
-    // The largest displacement: the wave that comes back from the shore pushes the water back.
-    (0..1500).map(|i| piston.displacement_m(3, 0.02 * f64::from(i))).fold(0.0, f64::max)
+    largest_displacement(&piston, 3)
+}
+
+/// The stroke of a row [m]: the wave that comes back from the shore takes the water back.
+fn largest_displacement(piston: &MlPiston, row: usize) -> f64 {
+    (0..1500).map(|i| piston.displacement_m(row, 0.02 * f64::from(i))).fold(0.0, f64::max)
 }
 
 #[test]
@@ -79,7 +84,12 @@ fn crests_velocity_and_stroke_along_the_fudo_flume() {
     for expected in &EXPECTED {
         let begun = std::time::Instant::now();
         let record = fudo(fudo_bed(), expected.height_m, 0.05, 2);
-        println!("H = {} m: {:.2} s, volume error {:.1e}", expected.height_m, begun.elapsed().as_secs_f64(), record.volume_error);
+        println!(
+            "H = {} m: {:.2} s, volume error {:.1e}",
+            expected.height_m,
+            begun.elapsed().as_secs_f64(),
+            record.volume_error
+        );
         // Fluxes are shared by two cells and none crosses a wall: rounding over 5,000 steps.
         assert!(record.volume_error < 1e-10);
         for (gauge, crest_m) in expected.crests_m.iter().enumerate() {
@@ -105,9 +115,9 @@ fn half_the_cell_and_more_layers_change_the_crests_little() {
         let begun = std::time::Instant::now();
         let other = fudo(fudo_bed(), height_m, cell_m, layers);
         println!("cell {cell_m} m, K = {layers}: {:.2} s", begun.elapsed().as_secs_f64());
-        for gauge in 0..GAUGES_X_M.len() {
+        for (gauge, x) in GAUGES_X_M.iter().enumerate() {
             let change = coarse.crest(gauge).0 / other.crest(gauge).0 - 1.0;
-            println!("  x = {:5.1} m: {:+.2} %", GAUGES_X_M[gauge], 100.0 * change);
+            println!("  x = {x:5.1} m: {:+.2} %", 100.0 * change);
             // The wave of 6.4 cm is close to breaking at 39 m, where its crest is sharpest.
             assert!(change.abs() < 0.02);
         }
@@ -115,23 +125,48 @@ fn half_the_cell_and_more_layers_change_the_crests_little() {
 }
 
 #[test]
-fn waves_pass_the_mound() {
+fn waves_pass_the_mound_alike_on_both_grids() {
     let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
-    for expected in &EXPECTED {
-        let record = fudo(bed.clone(), expected.height_m, 0.05, 2);
-        assert!(record.volume_error < 1e-10);
-        let over_the_mound = record.crest(7).0;
-        println!("H = {} m: crest over the mound {over_the_mound:.4} m, u {:.3} m/s", expected.height_m, largest_velocity(&record, 39.0));
-        // The mound reflects a little and shoals a little: the crest stays near that without it.
-        assert!((over_the_mound / expected.crests_m[7] - 1.0).abs() < 0.25);
-        let largest = record.gauge_elevations_m.iter().flatten().fold(0.0f64, |a, &b| a.max(b));
-        assert!(largest < 2.0 * expected.height_m);
+    for expected in [&EXPECTED[0], &EXPECTED[2]] {
+        let [coarse, fine] = [0.05, 0.025].map(|cell_m| fudo(bed.clone(), expected.height_m, cell_m, 2));
+        assert!(coarse.volume_error < 1e-10 && fine.volume_error < 1e-10);
+        let crests = [coarse.crest(7).0, fine.crest(7).0];
+        let speeds = [largest_velocity(&coarse, 39.0), largest_velocity(&fine, 39.0)];
+        println!("H = {} m: crests over the mound {crests:.4?} m, u {speeds:.3?} m/s", expected.height_m);
+        // The mound's flanks are two cells long on the coarse grid.
+        assert!((crests[0] / crests[1] - 1.0).abs() < 0.05 && (speeds[0] / speeds[1] - 1.0).abs() < 0.05);
+        // It reflects a little and shoals a little: the crest stays near that without it.
+        assert!((crests[1] / expected.crests_m[7] - 1.0).abs() < 0.2);
     }
 }
 
 #[test]
+fn piston_near_the_mound_runs_in_production_form() {
+    let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
+    let record = fudo(bed, 0.045, 0.05, 2);
+    let begun = std::time::Instant::now();
+    let x0 = 36.5;
+    let heights: Vec<f64> = (0..80).map(|k| record.profile.z(x0) + 0.005 * (f64::from(k) + 0.5)).collect();
+    let start = start_time(&record, x0, 0.03);
+    let piston = MlPiston::from_record(&record, x0, &heights, start, 28.0, 0.02);
+    println!("80 rows from t = {start:.2} s: {:.2} s", begun.elapsed().as_secs_f64());
+    let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();
+    println!("strokes at the bed, in the water, above it {strokes:.4?} m");
+    // The wave is long: rows differ by what u varies over the depth, a few per cent.
+    assert!(strokes.iter().all(|stroke| (stroke / strokes[1] - 1.0).abs() < 0.1));
+    let euler: f64 = (0..1400)
+        .map(|i| 0.02 * f64::from(i))
+        .filter(|&t| t >= start)
+        .map(|t| record.velocity(x0, 0.7, t).0.max(0.0) * 0.02)
+        .sum();
+    // Following the water gives a longer stroke than the velocity at a fixed place.
+    assert!(strokes[1] > 1.05 * euler, "{} {euler}", strokes[1]);
+}
+
+#[test]
 fn lake_at_rest_stays_at_rest_over_mound_island_and_shore() {
-    let corners = vec![[0.0, 0.0], [19.0, 0.0], [25.0, 0.9], [26.0, 0.3], [38.0, 0.6], [39.0, 0.75], [40.0, 0.6], [55.0, 1.2]];
+    let corners =
+        vec![[0.0, 0.0], [19.0, 0.0], [25.0, 0.9], [26.0, 0.3], [38.0, 0.6], [39.0, 0.75], [40.0, 0.6], [55.0, 1.2]];
     for layers in [1, 2, 3, 8] {
         let mut flume = LayeredFlume::new(LayeredParameters {
             profile: Profile::new(corners.clone()),
@@ -180,8 +215,82 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
         let phase = (place - start) / (celerity * flume.time_s()) - 1.0;
         println!("K = {layers}: amplitude {:+.3} %, phase {:+.3} %", 100.0 * amplitude, 100.0 * phase);
         assert!((flume.volume_m2() / volume - 1.0).abs() < 1e-12);
-        if layers >= 2 {
-            assert!(amplitude.abs() < 0.01 && phase.abs() < 0.003);
-        }
+        // K = 2: the target. K = 1 and 3: what was reached, rounded up, so that a change for the worse shows.
+        let (most_amplitude, most_phase) = [(0.025, 0.01), (0.005, 0.002), (0.0025, 0.001)][layers - 1];
+        assert!(amplitude.abs() < most_amplitude && phase.abs() < most_phase);
+    }
+}
+
+/// Synolakis (1987): a wave of H/d = 0.0185 on a beach of 1:19.85 runs up to R/d = 0.074..0.078 without breaking.
+#[test]
+fn run_up_on_a_plane_beach() {
+    let shore_x = 20.0 + 0.8 * 19.85;
+    let profile = Profile::new(vec![[0.0, 0.0], [20.0, 0.0], [20.0 + 1.2 * 19.85, 1.2]]);
+    let theory = SolitaryTheory::Rayleigh;
+    let record = run(&FlumeSetup {
+        profile,
+        still_level_m: STILL_LEVEL_M,
+        gravity_m_s2: GRAVITY,
+        wave: SolitaryWave { height_m: 0.0185 * 0.8, depth_m: 0.8, gravity: GRAVITY, theory },
+        layers: 2,
+        cell_m: 0.05,
+        gauges_x_m: vec![10.0],
+        window_x_m: [shore_x - 2.0, shore_x + 4.0],
+        record_interval_s: 0.1,
+        end_s: 35.0,
+    })
+    .unwrap();
+    let wet = |t: &f64| {
+        let columns = record.state_at(*t).columns;
+        columns.into_iter().filter(|c| c.surface_m > c.bed_m + 1e-3).map(|c| c.surface_m).fold(0.0, f64::max)
+    };
+    let run_up = record.times_s().iter().map(wet).fold(0.0, f64::max) - STILL_LEVEL_M;
+    println!("R/d = {:.4}", run_up / 0.8);
+    // The laboratory's spread and a cell's rise of 2.5 mm (0.003 d) on either side: without friction the model is above it.
+    assert!((0.071..0.081).contains(&(run_up / 0.8)));
+}
+
+#[test]
+fn odd_but_valid_flumes_finish() {
+    let mound = || fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
+    let beach = Profile::new(vec![[0.0, 0.0], [15.0, 0.0], [27.0, 1.2]]);
+    let reef = Profile::new(vec![[0.0, 0.0], [12.0, 0.0], [13.0, 0.75], [16.0, 0.75], [16.1, 0.1], [25.0, 0.1]]);
+    let island = Profile::new(vec![[0.0, 0.0], [12.0, 0.0], [16.0, 0.85], [17.0, 0.3], [25.0, 0.3]]);
+    let slope_at_once = Profile::new(vec![[0.0, 0.0], [40.0, 0.6]]);
+    let setups = [
+        ("breaking on a steep beach", beach.clone(), 0.3, 0.05, 2),
+        ("breaking, three layers", beach.clone(), 0.2, 0.05, 3),
+        ("breaking, coarse cells", beach, 0.3, 0.25, 1),
+        ("reef", reef, 0.15, 0.05, 2),
+        ("island", island, 0.15, 0.05, 2),
+        ("slope from the piston on", slope_at_once, 0.1, 0.1, 2),
+        ("mound, eight layers", mound(), 0.064, 0.1, 8),
+        ("mound, high wave", mound(), 0.2, 0.05, 2),
+        ("mound, one layer", mound(), 0.064, 0.05, 1),
+    ];
+    for (name, profile, height_m, cell_m, layers) in setups {
+        let theory = SolitaryTheory::Boussinesq;
+        let begun = std::time::Instant::now();
+        let result = run(&FlumeSetup {
+            profile,
+            still_level_m: STILL_LEVEL_M,
+            gravity_m_s2: GRAVITY,
+            wave: SolitaryWave { height_m, depth_m: STILL_LEVEL_M, gravity: GRAVITY, theory },
+            layers,
+            cell_m,
+            gauges_x_m: vec![10.0],
+            window_x_m: [0.0, 100.0],
+            record_interval_s: 0.1,
+            end_s: 25.0,
+        });
+        let record = result.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let state = record.state_at(25.0);
+        println!("{name}: {:.2} s, volume error {:.1e}", begun.elapsed().as_secs_f64(), record.volume_error);
+        assert!(record.volume_error < 1e-10);
+        let wet = state.columns.iter().filter(|c| c.surface_m > c.bed_m + 1e-3);
+        let highest = wet.map(|c| c.surface_m).fold(0.0, f64::max);
+        // No law behind it: 3.5 wave heights is only a guard against a run-up that blows up.
+        println!("  highest water at the end {:+.2} H", (highest - STILL_LEVEL_M) / height_m);
+        assert!(highest < STILL_LEVEL_M + 3.5 * height_m, "{name}: {highest}");
     }
 }

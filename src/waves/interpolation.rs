@@ -41,6 +41,11 @@ impl Stencil {
         Self { first: left - 1, weights, points: 4 }
     }
 
+    /// One of the points read: if it is not usable, none is.
+    pub(super) fn point(&self) -> usize {
+        self.first
+    }
+
     /// Weighted sum of `value(index)`.
     pub(super) fn apply(&self, value: impl Fn(usize) -> f64) -> f64 {
         (0..self.points).map(|i| self.weights[i] * value(self.first + i)).sum()

@@ -30,8 +30,10 @@ pub struct MlPiston {
 impl MlPiston {
     /// Rows at the given levels z [m] standing at `x0_m` at `start_s`, moving until `end_s`, from knots `interval_s` apart.
     ///
+    /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at its end.
+    ///
     /// # Panics
-    /// If there is no row, the interval is not above zero or the end not after the start.
+    /// If there is no row, the interval is not above zero, the end not after the start, or x0 outside the window.
     pub fn from_record(
         record: &FlumeRecord,
         x0_m: f64,
@@ -41,12 +43,16 @@ impl MlPiston {
         interval_s: f64,
     ) -> Self {
         assert!(!row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s, "a piston needs rows and time");
+        let window = &record.window_x_m;
+        assert!((window[0]..=window[window.len() - 1]).contains(&x0_m), "x0 = {x0_m} lies outside the record's window");
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
         let mut particles = particles_at_start(record, x0_m, row_heights_m, start_s);
         let mut velocities = vec![Vec::with_capacity(knots); row_heights_m.len()];
         for knot in 0..knots {
             let t = start_s + knot as f64 * interval_s;
-            let speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
+            let mut speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
+            // Particles keep their order in height but for those that touch the bed or a broken surface.
+            speeds.sort_by(|a, b| a[0].total_cmp(&b[0]));
             for (series, &height) in velocities.iter_mut().zip(row_heights_m) {
                 series.push(at_height(&speeds, height));
             }
@@ -104,9 +110,7 @@ impl MlPiston {
         match self.knot(t) {
             Knot::Before => 0.0,
             Knot::After => d[d.len() - 1],
-            Knot::At(i, share) => {
-                d[i] + self.interval_s * share * (v[i] + 0.5 * share * (v[i + 1] - v[i]))
-            }
+            Knot::At(i, share) => d[i] + self.interval_s * share * (v[i] + 0.5 * share * (v[i + 1] - v[i])),
         }
     }
 
@@ -191,9 +195,8 @@ fn follow(record: &FlumeRecord, [x, z]: [f64; 2], t: f64, dt: f64) -> [f64; 2] {
     [x, (z + step(1)).clamp(bed, record.surface_level_m(x, t + dt).max(bed))]
 }
 
-/// Velocity at a height from [height, velocity] pairs: linear between neighbours, constant beyond the ends.
+/// Velocity at a height from [height, velocity] pairs of rising height: linear between them, constant beyond the ends.
 fn at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
-    // Particles keep their order in height but for rounding where they touch the bed.
     let above = speeds.partition_point(|s| s[0] <= height);
     if above == 0 {
         return speeds[0][1];
@@ -203,4 +206,92 @@ fn at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
     }
     let ([z0, u0], [z1, u1]) = (speeds[above - 1], speeds[above]);
     u0 + (u1 - u0) * (height - z0) / (z1 - z0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::profile::Profile;
+    use crate::waves::layered::Column;
+
+    const AMPLITUDE: f64 = 0.3;
+
+    /// u of a wave of period 4 s and length 8 m, uniform over the depth.
+    fn wave(x: f64, t: f64) -> f64 {
+        AMPLITUDE * (std::f64::consts::TAU * (t / 4.0 - x / 8.0)).sin()
+    }
+
+    /// That wave in water 1 m deep, recorded every 0.02 s and 0.05 m.
+    fn record() -> FlumeRecord {
+        let profile = Profile::new(vec![[0.0, 0.0], [4.0, 0.0]]);
+        let window: Vec<f64> = (0..=80).map(|i| 0.05 * f64::from(i)).collect();
+        let mut record = FlumeRecord::new(profile, 1.0, 2, 0.02, vec![], window.clone());
+        for r in 0..=300 {
+            let t = 0.02 * f64::from(r);
+            let column = |x: &f64| Column { surface_m: 1.0, bed_m: 0.0, u: vec![wave(*x, t); 2], w: vec![0.0; 3] };
+            record.push(0.0, &[], window.iter().map(column));
+        }
+        record
+    }
+
+    #[test]
+    fn rows_follow_the_water() {
+        let record = record();
+        let piston = MlPiston::from_record(&record, 1.0, &[0.2, 0.9, 1.4], 0.5, 4.5, 0.02);
+        let (mut x, mut t, dt) = (1.0, 0.5, 1e-4);
+        for i in 0..30_000 {
+            let middle = x + 0.5 * dt * wave(x, t);
+            x += dt * wave(middle, t + 0.5 * dt);
+            t = 0.5 + dt * f64::from(i + 1);
+            if i % 3000 == 0 {
+                for row in 0..3 {
+                    // Trapezoidal integral at 0.02 s: dt^2 u'' T / 12 is 2e-5.
+                    assert!((piston.displacement_m(row, t) - (x - 1.0)).abs() < 5e-5);
+                }
+            }
+        }
+        // The place where the row stood sees another velocity: what integrating u(x0, t) would miss.
+        let at_rest: f64 = (0..30_000).map(|i| dt * wave(1.0, 0.5 + dt * f64::from(i))).sum();
+        assert!((at_rest - (x - 1.0)).abs() > 0.02);
+    }
+
+    #[test]
+    fn velocity_is_the_derivative_and_the_ends_hold() {
+        let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], 0.5, 2.5, 0.1);
+        for i in 0..40 {
+            let (t, h) = (0.53 + 0.0481 * f64::from(i), 1e-6);
+            let slope = (piston.displacement_m(0, t + h) - piston.displacement_m(0, t - h)) / (2.0 * h);
+            // Across a knot the parabolas differ by their curvature: h times 0.5 m/s2.
+            assert!((slope - piston.velocity_m_s(0, t)).abs() < 1e-6);
+        }
+        assert_eq!((piston.displacement_m(0, 0.4), piston.velocity_m_s(0, 0.4)), (0.0, 0.0));
+        assert_eq!(piston.velocity_m_s(0, 9.0), 0.0);
+        let last = piston.displacement_m(0, piston.end_s() - 1e-9);
+        assert!((piston.displacement_m(0, 9.0) - last).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_velocity_between_particles_is_linear_and_constant_beyond() {
+        let speeds = [[0.1, 1.0], [0.3, 2.0]];
+        assert_eq!([0.0, 0.1, 0.3, 9.0].map(|z| at_height(&speeds, z)), [1.0, 1.0, 2.0, 2.0]);
+        assert!((at_height(&speeds, 0.25) - 1.75).abs() < 1e-12);
+    }
+
+    #[test]
+    fn start_is_where_the_water_first_moves() {
+        // |sin| reaches half its maximum at a twelfth of the period, but at x = 0.
+        let start = start_time(&record(), 0.0, 0.5);
+        assert!((start - 4.0 / 12.0).abs() <= 0.02);
+    }
+
+    #[test]
+    fn file_lists_the_rows() {
+        let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], 0.5, 0.56, 0.02);
+        let mut file = Vec::new();
+        piston.write_velx(&mut file).unwrap();
+        let back = Velx::read(file.as_slice()).unwrap();
+        assert_eq!(back.place_m, [1.0, 0.0]);
+        assert_eq!(back.heights_m[2], [0.2, 0.9]);
+        assert_eq!(back.velocities_m_s[1][0], piston.velocities[0][1]);
+    }
 }

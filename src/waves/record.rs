@@ -1,7 +1,5 @@
 //! What a flume run leaves behind: gauges, and the whole flow in a window, to be asked at any place and time.
 
-use std::ops::Range;
-
 use crate::geometry::profile::Profile;
 use crate::waves::interpolation::Stencil;
 use crate::waves::layered::Column;
@@ -110,7 +108,8 @@ impl FlumeRecord {
 
     /// Surface level z [m] at x [m] and t [s], as [`Self::elevation`].
     pub fn surface_level_m(&self, x: f64, t: f64) -> f64 {
-        self.blend(x, t, |at| self.surface_m[at]).max(self.profile.z(x))
+        let bed = self.profile.z(x);
+        self.blend(x, t, |at| if self.is_wet(at) { self.surface_m[at] } else { bed }).max(bed)
     }
 
     /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s]: above the surface those of the surface, below the
@@ -174,10 +173,14 @@ impl FlumeRecord {
     fn blend(&self, x: f64, t: f64, value: impl Fn(usize) -> f64) -> f64 {
         let points = self.window_x_m.len();
         self.in_time(t).apply(|record| {
-            let all: Range<usize> = record * points..(record + 1) * points;
-            let wet = |i: usize| self.surface_m[all.start + i] > self.profile.z(self.window_x_m[i]) + FILM_M;
-            Stencil::at(&self.window_x_m, x, wet).apply(|i| value(all.start + i))
+            let first = record * points;
+            Stencil::at(&self.window_x_m, x, |i| self.is_wet(first + i)).apply(|i| value(first + i))
         })
+    }
+
+    /// Whether there is water at a recorded point.
+    fn is_wet(&self, at: usize) -> bool {
+        self.surface_m[at] > self.profile.z(self.window_x_m[at % self.window_x_m.len()]) + FILM_M
     }
 }
 

@@ -34,17 +34,17 @@ impl BlockTridiagonal {
         self.right.fill(0.0);
     }
 
-    /// Add to D_block[row, column].
+    /// Add to `D_block[row, column]`.
     pub(super) fn add_diagonal(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.diagonal[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Add to U_block[row, column]: couples unknown `row` of the block with unknown `column` of the next one.
+    /// Add to `U_block[row, column]`: couples unknown `row` of the block with unknown `column` of the next one.
     pub(super) fn add_upper(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.upper[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Add to r_block[row].
+    /// Add to `r_block[row]`.
     pub(super) fn add_right(&mut self, block: usize, row: usize, value: f64) {
         self.right[block * self.size + row] += value;
     }

@@ -61,6 +61,11 @@ impl Grid {
         self.width.len()
     }
 
+    /// Bed level z [m] at x [m].
+    pub fn bed_at(&self, x: f64) -> f64 {
+        self.profile.z(x)
+    }
+
     /// Distance between the centres on both sides of a face [m]; the cell's width at the ends.
     pub fn spacing(&self, face: usize) -> f64 {
         if face == 0 || face == self.cells() {

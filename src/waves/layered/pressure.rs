@@ -2,12 +2,16 @@
 //!
 //! Unknown q at the bottom of each layer, q = 0 at the surface, linear in a layer. Pressure force on the momentum:
 //!
-//!     du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
+//! ```text
+//! du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
+//! ```
 //!
 //! with z_m the middle of layer m and q_bar_m the mean of its two interfaces. Continuity is imposed as the exact
 //! transpose of that force, which is, at the interface between layers m-1 and m,
 //!
-//!     w_m - w_{m-1} + [dx(h u)_{m-1} + dx(h u)_m] / 2 + u_{m-1} dx z_{m-1} - u_m dx z_m = 0
+//! ```text
+//! w_m - w_{m-1} + [dx(h u)_{m-1} + dx(h u)_m] / 2 + u_{m-1} dx z_{m-1} - u_m dx z_m = 0
+//! ```
 //!
 //! (at the bed: w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0), so that pressure does no work on the water, the system is symmetric
 //! and positive definite, and corners of the bed are harmless.

@@ -77,9 +77,12 @@ impl LayeredFlume {
     /// Volume fluxes through the faces over the step, relative to the moving faces [m2/s]: first with the depths at
     /// the start, then with those at half the step, and no more than a cell holds.
     pub(super) fn volume_fluxes(&mut self, dt: f64) {
-        self.total_fluxes(&self.depth.clone());
-        let half: Vec<f64> = (0..self.grid.cells()).map(|cell| self.depth_after(cell, 0.5 * dt)).collect();
-        self.total_fluxes(&half);
+        self.next_depth.copy_from_slice(&self.depth);
+        self.total_fluxes();
+        for cell in 0..self.grid.cells() {
+            self.next_depth[cell] = self.depth_after(cell, 0.5 * dt);
+        }
+        self.total_fluxes();
         self.limit_outflow(dt);
         let k = self.layers;
         for face in 1..self.grid.cells() {
@@ -92,12 +95,11 @@ impl LayeredFlume {
         }
     }
 
-    /// Total flux through each face, h_f (U - v), with the given depths of the cells.
-    fn total_fluxes(&mut self, depth: &[f64]) {
+    /// Total flux through each face, h_f (U - v), with the depths in `next_depth`.
+    fn total_fluxes(&mut self) {
         for face in 1..self.grid.cells() {
             let u = self.mean_velocity(face);
-            let h = if self.open[face] { self.transport_depth(face, depth, u) } else { 0.0 };
-            // A face that moves lies in deep water: it sweeps the mean depth even where no water crosses it.
+            let h = if self.open[face] { self.transport_depth(face, &self.next_depth, u) } else { 0.0 };
             self.total_flux[face] = h * (u - self.grid.face_velocity[face]);
         }
     }
@@ -142,8 +144,7 @@ impl LayeredFlume {
             let u = self.mean_velocity(face);
             self.open[face] = self.transport_depth(face, &self.depth, u) > THIN_M
                 || (u == 0.0 && self.transport_depth(face, &self.depth, 0.0) > THIN_M);
-            self.mean_depth[face] =
-                if self.open[face] { 0.5 * (self.depth[face - 1] + self.depth[face]) } else { 0.0 };
+            self.mean_depth[face] = if self.open[face] { 0.5 * (self.depth[face - 1] + self.depth[face]) } else { 0.0 };
         }
         self.mean_depth[0] = (1.5 * self.depth[0] - 0.5 * self.depth[1]).max(0.0);
         self.mean_depth[cells] = (1.5 * self.depth[cells - 1] - 0.5 * self.depth[cells - 2]).max(0.0);

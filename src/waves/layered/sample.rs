@@ -1,0 +1,86 @@
+//! Reading the flow at any x.
+
+use super::{LayeredFlume, THIN_M};
+use crate::waves::interpolation::Stencil;
+
+/// Flow at one place and moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Surface level z [m]; the bed's level where it is dry.
+    pub surface_m: f64,
+    /// Bed level z [m].
+    pub bed_m: f64,
+    /// Horizontal velocity of each layer, bed upwards [m/s].
+    pub u: Vec<f64>,
+    /// Vertical velocity at each interface, bed upwards, one more than layers [m/s].
+    pub w: Vec<f64>,
+}
+
+impl LayeredFlume {
+    /// Surface level z [m] at x [m]: cubic between the cells; the bed's level where it is dry.
+    pub fn surface_m(&self, x: f64) -> f64 {
+        self.surface_from(self.wet_cells(x), self.grid.bed_at(x))
+    }
+
+    /// Stencil over the wet cells around x.
+    fn wet_cells(&self, x: f64) -> Stencil {
+        Stencil::at(&self.grid.centre_x, x, |cell| self.depth[cell] > THIN_M)
+    }
+
+    /// Surface level from a stencil over wet cells, not below the bed [m].
+    fn surface_from(&self, cells: Stencil, bed_m: f64) -> f64 {
+        if self.depth[cells.point()] > THIN_M {
+            cells.apply(|cell| self.grid.bed[cell] + self.depth[cell]).max(bed_m)
+        } else {
+            bed_m
+        }
+    }
+
+    /// The flow at x [m] and at the time of the depths, to be asked between the halves of a step.
+    pub fn column(&self, x: f64) -> Column {
+        let k = self.layers;
+        let (cells, bed_m) = (self.wet_cells(x), self.grid.bed_at(x));
+        let faces = Stencil::at(&self.grid.face_x, x, |face| face == 0 || face == self.grid.cells() || self.open[face]);
+        let at_n = |now: &[f64], earlier: &[f64], at: usize| 0.5 * (now[at] + earlier[at]);
+        let u = (0..k).map(|m| faces.apply(|face| at_n(&self.u, &self.earlier_u, face * k + m))).collect();
+        let middle: Vec<f64> =
+            (0..k).map(|m| cells.apply(|cell| at_n(&self.w, &self.earlier_w, cell * k + m))).collect();
+        Column {
+            surface_m: self.surface_from(cells, bed_m),
+            bed_m,
+            u,
+            w: at_interfaces(&middle, cells.apply(|cell| self.climb_along_bed(cell))),
+        }
+    }
+
+    /// w at the bed of a cell, u_0 dx z_b [m/s].
+    fn climb_along_bed(&self, cell: usize) -> f64 {
+        let (k, last) = (self.layers, self.grid.cells());
+        let climb = |face: usize| {
+            let inner = face.clamp(1, last - 1);
+            let slope = (self.grid.bed[inner] - self.grid.bed[inner - 1]) / self.grid.spacing(inner);
+            0.5 * (self.u[face * k] + self.earlier_u[face * k]) * slope
+        };
+        if self.depth[cell] > THIN_M { 0.5 * (climb(cell) + climb(cell + 1)) } else { 0.0 }
+    }
+}
+
+/// w at the interfaces from that in the middle of the layers and at the bed: means inside, extrapolated to the surface.
+fn at_interfaces(middle: &[f64], bed: f64) -> Vec<f64> {
+    let mut w = vec![bed];
+    w.extend(middle.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
+    w.push(2.0 * middle[middle.len() - 1] - w[w.len() - 1]);
+    w
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interfaces_close_on_the_layer_means() {
+        let w = at_interfaces(&[0.2, 0.5, 0.9], 0.1);
+        assert_eq!((w[0], w[1]), (0.1, 0.35));
+        assert!((0.5 * (w[2] + w[3]) - 0.9).abs() < 1e-15);
+    }
+}
