@@ -160,8 +160,9 @@ impl WaveComparison {
                 remarks.push(format!(
                     "{}: {units} of {all} units. The slice stands for the inner units of the row; it has no side walls and \
                      no neighbours beyond its own, so its units are not the experiment's first {units}. Against the 13 \
-                     inner units alone the mean deviates by {:+.1} %.",
-                    run.name, run.inner_deviation_percent
+                     inner units alone the mean deviates by {} %.",
+                    run.name,
+                    format!("{:+.1}", run.inner_deviation_percent).replace('-', "\u{2212}")
                 ));
             } else if units > all {
                 remarks.push(format!("{}: {units} units, the experiment has {all}; the mean is over all.", run.name));

@@ -16,7 +16,7 @@ pub const COLOURS: usize = 6;
 /// Left edge of the plot area [px].
 const LEFT: f64 = 58.0;
 /// Width of a letter [px], on the safe side.
-const LETTER: f64 = 6.9;
+const LETTER: f64 = 7.2;
 
 /// A length with at most `decimals` figures after the point, without trailing zeros, with a true minus sign.
 pub fn short(value: f64, decimals: usize) -> String {
@@ -45,7 +45,7 @@ impl Frame {
     /// A frame with room for the legend above and for the words of `marks` at the right.
     fn new([width, height]: [f64; 2], legend: &[&str], marks: &[(f64, String)]) -> Self {
         let words = marks.iter().map(|(_, words)| words.chars().count()).max();
-        let right = width - words.map_or(14.0, |letters| 14.0 + LETTER * letters as f64);
+        let right = width - words.map_or(14.0, |letters| 18.0 + LETTER * letters as f64);
         let rows = legend_rows(width, legend);
         Self { width, height, left: LEFT, right, top: 14.0 + 20.0 * rows as f64, bottom: height - 42.0 }
     }

@@ -129,10 +129,7 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
         lines.extend(column_line(run.gauges.as_ref(), name, "particles", 0, false));
         let at = place(gauge).map_or(String::new(), |x| format!(" at x = {} m", short(x, 3)));
         let chart = line_chart(&format!("{gauge}{at}"), "elevation \u{03b7} [m]", lines, HALF);
-        charts.push(format!(
-            "<figure>{chart}<figcaption>{}{at}</figcaption></figure>",
-            super::super::plot::escape(gauge)
-        ));
+        charts.push(format!("<figure><figcaption>{}{at}</figcaption>{chart}</figure>", escape(gauge)));
     }
     charts.extend(other_gauges(run.gauges.as_ref()));
     charts
