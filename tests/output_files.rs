@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use breakwater::output::{
-    Cells, ContactSummary, CsvSeries, EnergySummary, Execution, FieldKind, FieldValues, GaugeSummary, OutputError,
-    ParticleCounts, PolyDataSeries, Stopped, Summary, TimeStepSummary, UnitSummary, UnitSurface, WaveSummary, columns,
-    write_report,
+    Cells, ContactSummary, CsvSeries, EnergySummary, Execution, FieldKind, FieldValues, Fudo, GaugeSummary,
+    OutputError, ParticleCounts, PolyDataSeries, Stopped, Summary, TimeStepSummary, UnitSummary, UnitSurface,
+    WaveSummary, columns, compare, write_report,
 };
 
 const DAMAGE_DISTANCE_M: f64 = 0.077;
@@ -226,4 +226,17 @@ fn a_folder_without_a_summary_is_named() {
     let folder = fresh("run_none");
     let error = write_report(&folder).unwrap_err().to_string();
     assert!(error.contains("summary.json"), "{error}");
+}
+
+#[test]
+fn runs_stand_beside_the_experiment() {
+    let (full, slice) = (fresh("compare_full"), fresh("compare_slice"));
+    write_run(&full, 15).unwrap();
+    write_run(&slice, 2).unwrap();
+    let comparison = compare(&[&full, &slice], &Fudo::published().unwrap()).unwrap();
+    let [html, csv] = comparison.write(&full).unwrap();
+    let html = std::fs::read_to_string(html).unwrap();
+    assert!(html.contains("compare_slice") && html.contains("stands for the inner units") && !html.contains("NaN"));
+    assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 1 + 15 + 2);
+    println!("{comparison}");
 }

@@ -12,6 +12,7 @@
 
 mod atomic;
 pub mod columns;
+mod compare;
 mod error;
 mod plot;
 mod report;
@@ -22,6 +23,7 @@ mod unit_surface;
 mod vtkhdf;
 
 pub use atomic::write_atomically;
+pub use compare::{Comparison, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare};
 pub use error::OutputError;
 pub use report::write_report;
 pub use series::CsvSeries;

@@ -1,6 +1,6 @@
 //! Bars in groups.
 
-use super::{Axis, Frame, escape, mark, short, text};
+use super::{Axis, Frame, escape, marks, short, text};
 
 /// One set of bars, one bar for each group.
 #[derive(Debug, Clone, Default)]
@@ -39,11 +39,11 @@ pub struct BarChart {
 impl BarChart {
     /// The chart as an `<svg>` element.
     pub fn svg(&self) -> String {
-        let [width, height] = self.size;
+        let height = self.size[1];
         let named =
             || self.bars.iter().filter(|bars| !bars.name.is_empty() && bars.values.iter().any(|v| v.is_finite()));
         let names: Vec<&str> = named().map(|bars| bars.name.as_str()).collect();
-        let frame = Frame::new(width, height, Frame::legend_rows(width, &names));
+        let frame = Frame::new(self.size, &names, &self.marks);
         let values = self.bars.iter().flat_map(|bars| bars.values.iter().copied());
         let values = values.chain(self.marks.iter().map(|m| m.0)).chain([0.0]);
         let y = Axis::round(&self.y_label, values, (height / 55.0) as usize);
@@ -75,9 +75,7 @@ impl BarChart {
             svg += &text(middle, frame.bottom + 18.0, "tick mid", name);
         }
         svg += &frame.horizontal_label(&self.x_label);
-        for (value, words) in &self.marks {
-            svg += &mark(&frame, &y, *value, words);
-        }
+        svg += &marks(&frame, &y, &self.marks);
         let entries: Vec<(String, String)> = named()
             .map(|bars| {
                 (

@@ -1,6 +1,6 @@
 //! Lines against time or place.
 
-use super::{Axis, Frame, mark, text};
+use super::{Axis, Frame, marks, text};
 
 /// One line of a chart.
 #[derive(Debug, Clone, Default)]
@@ -15,11 +15,13 @@ pub struct Line {
     pub dashed: bool,
     /// Thin and pale, for one of many.
     pub faint: bool,
+    /// A dot at each point.
+    pub dots: bool,
     /// Half width of a shaded band about the line, one for each point; empty for none.
     pub band: Vec<f64>,
 }
 
-/// A chart of lines.
+/// A chart of lines. The vertical axis always holds zero.
 #[derive(Debug, Clone, Default)]
 pub struct LineChart {
     /// What it shows, for readers who do not see it.
@@ -42,14 +44,14 @@ impl LineChart {
         let [width, height] = self.size;
         let named = || self.lines.iter().filter(|line| !line.name.is_empty());
         let names: Vec<&str> = named().map(|line| line.name.as_str()).collect();
-        let frame = Frame::new(width, height, Frame::legend_rows(width, &names));
+        let frame = Frame::new(self.size, &names, &self.marks);
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let x = Axis::tight(&self.x_label, points().map(|p| p[0]), (width / 90.0) as usize);
         let with_band = self
             .lines
             .iter()
             .flat_map(|line| line.points.iter().zip(&line.band).flat_map(|(p, half)| [p[1] - half, p[1] + half]));
-        let values = points().map(|p| p[1]).chain(with_band).chain(self.marks.iter().map(|m| m.0));
+        let values = points().map(|p| p[1]).chain(with_band).chain(self.marks.iter().map(|m| m.0)).chain([0.0]);
         let y = Axis::round(&self.y_label, values, (height / 55.0) as usize);
 
         let mut svg = frame.open(&self.title);
@@ -61,18 +63,29 @@ impl LineChart {
         for line in &self.lines {
             svg += &format!("<path class=\"{}\" d=\"{}\"/>\n", class(line), path(&frame, &x, &y, &line.points));
         }
-        for (value, words) in &self.marks {
-            svg += &mark(&frame, &y, *value, words);
+        svg += &marks(&frame, &y, &self.marks);
+        for line in self.lines.iter().filter(|line| line.dots) {
+            for point in &line.points {
+                let (px, py) = (frame.x(&x, point[0]), frame.y(&y, point[1]));
+                let colour = line.colour % super::COLOURS;
+                svg += &format!("<circle class=\"dot c{colour}\" cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"4.5\"/>");
+            }
         }
-        let entries: Vec<(String, String)> = named()
-            .map(|line| (line.name.clone(), format!("<path class=\"{}\" d=\"M0 0H22\"/>", class(line))))
-            .collect();
+        let entries: Vec<(String, String)> = named().map(|line| (line.name.clone(), sample(line))).collect();
         svg += &frame.legend(&entries);
         if points().next().is_none() {
             svg += &text(0.5 * width, 0.5 * height, "note mid", "no values");
         }
         svg + "</svg>\n"
     }
+}
+
+/// What the legend shows of a line.
+fn sample(line: &Line) -> String {
+    if line.points.len() == 1 && line.dots {
+        return format!("<circle class=\"dot c{}\" cx=\"12\" cy=\"0\" r=\"4.5\"/>", line.colour % super::COLOURS);
+    }
+    format!("<path class=\"{}\" d=\"M0 0H22\"/>", class(line))
 }
 
 fn class(line: &Line) -> String {
@@ -137,7 +150,7 @@ mod tests {
             LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };
         let svg = chart.svg();
         assert!(svg.len() < 60_000, "{}", svg.len());
-        let frame = Frame::new(600.0, 240.0, 0);
+        let frame = Frame::new([600.0, 240.0], &[], &[]);
         let peak = frame.y(&Axis::round("", [0.0, 7.0], 4), 7.0);
         assert!(svg.contains(&format!(" {peak:.1}L")), "the peak is drawn");
     }

@@ -13,6 +13,10 @@ pub use line::{Line, LineChart};
 
 /// Number of colours in the palette.
 pub const COLOURS: usize = 6;
+/// Left edge of the plot area [px].
+const LEFT: f64 = 58.0;
+/// Width of a letter [px], on the safe side.
+const LETTER: f64 = 7.2;
 
 /// A length with at most `decimals` figures after the point, without trailing zeros, with a true minus sign.
 pub fn short(value: f64, decimals: usize) -> String {
@@ -38,9 +42,12 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(width: f64, height: f64, legend_rows: usize) -> Self {
-        let top = 14.0 + 20.0 * legend_rows as f64;
-        Self { width, height, left: 58.0, right: width - 14.0, top, bottom: height - 42.0 }
+    /// A frame with room for the legend above and for the words of `marks` at the right.
+    fn new([width, height]: [f64; 2], legend: &[&str], marks: &[(f64, String)]) -> Self {
+        let words = marks.iter().map(|(_, words)| words.chars().count()).max();
+        let right = width - words.map_or(14.0, |letters| 18.0 + LETTER * letters as f64);
+        let rows = legend_rows(width, legend);
+        Self { width, height, left: LEFT, right, top: 14.0 + 20.0 * rows as f64, bottom: height - 42.0 }
     }
 
     fn x(&self, axis: &Axis, value: f64) -> f64 {
@@ -98,7 +105,7 @@ impl Frame {
         let (mut x, mut y, mut svg) = (self.left, 14.0, String::new());
         for (name, sample) in entries {
             let width = legend_width(name);
-            if x + width > self.right + 10.0 && x > self.left {
+            if x + width > self.width && x > self.left {
                 (x, y) = (self.left, y + 20.0);
             }
             svg += &format!("<g transform=\"translate({x:.1} {y:.1})\">{sample}</g>");
@@ -107,36 +114,42 @@ impl Frame {
         }
         svg + "\n"
     }
+}
 
-    /// Rows that a legend needs in a picture of this width.
-    fn legend_rows(width: f64, names: &[&str]) -> usize {
-        let (left, right) = (58.0, width - 14.0);
-        let (mut x, mut rows) = (left, usize::from(!names.is_empty()));
-        for name in names {
-            let width = legend_width(name);
-            if x + width > right + 10.0 && x > left {
-                (x, rows) = (left, rows + 1);
-            }
-            x += width;
+/// Rows that a legend needs in a picture of this width.
+fn legend_rows(width: f64, names: &[&str]) -> usize {
+    let (mut x, mut rows) = (LEFT, usize::from(!names.is_empty()));
+    for name in names {
+        let needed = legend_width(name);
+        if x + needed > width && x > LEFT {
+            (x, rows) = (LEFT, rows + 1);
         }
-        rows
+        x += needed;
     }
+    rows
 }
 
 /// Width of a legend entry [px], estimated from the number of letters.
 fn legend_width(name: &str) -> f64 {
-    44.0 + 6.9 * name.chars().count() as f64
+    44.0 + LETTER * name.chars().count() as f64
 }
 
 fn text(x: f64, y: f64, class: &str, words: &str) -> String {
     format!("<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escape(words))
 }
 
-/// A horizontal line at `value` with words at its right end.
-fn mark(frame: &Frame, axis: &Axis, value: f64, words: &str) -> String {
-    let y = frame.y(axis, value);
-    format!("<path class=\"mark\" d=\"M{:.1} {y:.1}H{:.1}\"/>", frame.left, frame.right)
-        + &text(frame.right, y - 5.0, "note end halo", words)
+/// Horizontal lines with their words at the right of the plot area, moved apart where they would overlap.
+fn marks(frame: &Frame, axis: &Axis, marks: &[(f64, String)]) -> String {
+    let mut sorted: Vec<(f64, &str)> = marks.iter().map(|(v, words)| (frame.y(axis, *v), words.as_str())).collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut svg, mut free_from) = (String::new(), f64::NEG_INFINITY);
+    for (y, words) in sorted {
+        let at = y.max(free_from);
+        free_from = at + 15.0;
+        svg += &format!("<path class=\"mark\" d=\"M{:.1} {y:.1}H{:.1}\"/>", frame.left, frame.right + 4.0);
+        svg += &text(frame.right + 8.0, at + 4.0, "note", words);
+    }
+    svg
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The charts of the report.
 
 use super::super::Table;
-use super::super::plot::{BarChart, Bars, Line, LineChart, short};
+use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
 use super::folder::RunFolder;
 use super::motion::{UnitMotion, mean_and_deviation};
 
@@ -23,7 +23,7 @@ pub fn displacements(run: &RunFolder) -> String {
     };
     let mut marks = Vec::new();
     if let Some(distance) = summary.damage_distance_m {
-        marks.push((distance, format!("damage distance {} m", short(distance, 3))));
+        marks.push((distance, format!("damage {} m", short(distance, 3))));
     }
     if let Some(mean) = summary.mean_displacement_m {
         marks.push((mean, format!("mean {} m", short(mean, 3))));
@@ -129,10 +129,7 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
         lines.extend(column_line(run.gauges.as_ref(), name, "particles", 0, false));
         let at = place(gauge).map_or(String::new(), |x| format!(" at x = {} m", short(x, 3)));
         let chart = line_chart(&format!("{gauge}{at}"), "elevation \u{03b7} [m]", lines, HALF);
-        charts.push(format!(
-            "<figure>{chart}<figcaption>{}{at}</figcaption></figure>",
-            super::super::plot::escape(gauge)
-        ));
+        charts.push(format!("<figure><figcaption>{}{at}</figcaption>{chart}</figure>", escape(gauge)));
     }
     charts.extend(other_gauges(run.gauges.as_ref()));
     charts
@@ -142,9 +139,8 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
 fn other_gauges(table: Option<&Table>) -> Vec<String> {
     let Some(table) = table else { return Vec::new() };
     let mut charts = Vec::new();
-    let figure = |chart: String, name: &str| {
-        format!("<figure>{chart}<figcaption>{}</figcaption></figure>", super::super::plot::escape(name))
-    };
+    let figure =
+        |chart: String, name: &str| format!("<figure><figcaption>{}</figcaption>{chart}</figure>", escape(name));
     for column in table.names() {
         if let Some(gauge) = column.strip_suffix("_p_pa") {
             let lines = column_line(Some(table), column, "", 0, false).into_iter().collect();

@@ -26,7 +26,7 @@ pub fn write_report(run_dir: &Path) -> Result<PathBuf, OutputError> {
 }
 
 /// A whole page with the style sheet in it.
-pub(super) fn page(title: &str, body: &str) -> String {
+pub(in crate::output) fn page(title: &str, body: &str) -> String {
     let title = escape(title);
     let style = include_str!("style.css");
     format!(

@@ -179,8 +179,8 @@ fn forces(run: &RunFolder) -> String {
     let content = format!(
         "<p>Force of the water without the force of still water, which is the mean over the first 0.2 s. Where there are \
          many units, the band is one standard deviation to either side of their mean.</p>\n\
-         <div class=\"pair\">\n<figure>{along}<figcaption>Along the flume, positive to the shore</figcaption></figure>\n\
-         <figure>{up}<figcaption>Upwards</figcaption></figure>\n</div>\n\
+         <div class=\"pair\">\n<figure><figcaption>Along the flume, positive to the shore</figcaption>{along}</figure>\n\
+         <figure><figcaption>Upwards</figcaption>{up}</figure>\n</div>\n\
          <figure>{contact}<figcaption>Force of bed and neighbours together. {} contact events with the bed and {} between \
          units; largest force in one event {} N, largest approach velocity {} m/s.</figcaption></figure>\n",
         grouped(contacts.with_bed),

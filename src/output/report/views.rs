@@ -71,7 +71,7 @@ impl Window {
 
     /// Ends the clipped drawing and puts the axis along the flume under it.
     fn close(&self) -> String {
-        let axis = Axis::tight("", self.x, 8);
+        let axis = Axis::tight("", self.x, ((self.right() - self.left) / 60.0) as usize);
         let y = self.bottom();
         let mut svg = format!("</g><path class=\"axis\" d=\"M{:.1} {y:.1}H{:.1}\"/>", self.left, self.right());
         for tick in axis.ticks() {

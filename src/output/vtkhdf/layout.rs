@@ -42,7 +42,8 @@ pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5R
         let group = root.create_group(name)?;
         new_list::<i64>(&group, "NumberOfCells", STEP_CHUNK)?;
         new_list::<i64>(&group, "NumberOfConnectivityIds", STEP_CHUNK)?;
-        new_list::<i64>(&group, "Offsets", LONG_CHUNK)?;
+        // The reader wants the leading 0 even where there are no cells.
+        append_rows(&new_list::<i64>(&group, "Offsets", LONG_CHUNK)?, &[0_i64])?;
         new_list::<i64>(&group, "Connectivity", LONG_CHUNK)?;
     }
     let point_data = root.create_group("PointData")?;

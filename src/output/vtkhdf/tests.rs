@@ -36,6 +36,7 @@ fn the_number_of_particles_may_change_from_step_to_step() {
     assert_eq!(list(&file, "Steps/PointDataOffsets/pressure"), [0, 5, 8, 15, 15]);
     assert_eq!(list(&file, "Steps/CellOffsets"), [0; 20]);
     assert_eq!(list(&file, "Vertices/Offsets"), (0..=7).collect::<Vec<_>>());
+    assert_eq!(list(&file, "Lines/Offsets"), [0]);
     assert_eq!(list(&file, "Vertices/Connectivity"), (0..7).collect::<Vec<_>>());
     let pressure: Vec<f32> = file.dataset("VTKHDF/PointData/pressure").unwrap().read_raw().unwrap();
     assert_eq!(pressure[5..8], [100.0, 101.0, 102.0]);
