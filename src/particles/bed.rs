@@ -95,8 +95,13 @@ impl Across {
         self.width / f64::from(self.count)
     }
 
+    /// From y to the nearest place between the sides [m].
+    pub fn to_inside(&self, y: f64) -> f64 {
+        y.clamp(0.0, self.width) - y
+    }
+
     /// y of the particles of an extruded sheet [m]; behind side walls it goes on for `layers`.
-    fn rows(&self, layers: u32) -> Vec<f64> {
+    pub fn rows(&self, layers: u32) -> Vec<f64> {
         let beyond = if self.walls { i64::from(layers) } else { 0 };
         (-beyond..i64::from(self.count) + beyond).map(|j| (j as f64 + 0.5) * self.spacing()).collect()
     }
@@ -111,7 +116,7 @@ pub fn outline_particles(outline: &Outline, across: &Across, dp: f64, layers: u3
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
-                to_surface: DVec3::new(to_outline.x, y.clamp(0.0, across.width) - y, to_outline.y),
+                to_surface: DVec3::new(to_outline.x, across.to_inside(y), to_outline.y),
                 volume: length * dp * across.spacing(),
             });
         }

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
+
+use crate::rigid::BodyState;
 
 /// Boundary particles in a fixed order: bed and walls, then the piston, then unit after unit.
 #[derive(Debug, Clone, Default)]
@@ -38,19 +40,6 @@ pub struct BoundaryParticle {
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
-}
-
-/// Position and motion of a rigid body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
-    /// Centre of mass [m].
-    pub position: DVec3,
-    /// Rotation from the body's axes to the world's.
-    pub rotation: DQuat,
-    /// Velocity of the centre of mass [m/s].
-    pub velocity: DVec3,
-    /// Angular velocity in world axes [rad/s].
-    pub angular_velocity: DVec3,
 }
 
 impl Boundary {
@@ -122,7 +111,7 @@ impl Boundary {
     }
 
     /// Put a unit where its body is.
-    pub fn move_unit(&mut self, unit: usize, motion: &Motion) {
+    pub fn move_unit(&mut self, unit: usize, motion: &BodyState) {
         for particle in self.units[unit].clone() {
             let arm = motion.rotation * self.anchor[particle];
             self.position[particle] = motion.position + arm;
@@ -134,6 +123,8 @@ impl Boundary {
 
 #[cfg(test)]
 mod tests {
+    use glam::DQuat;
+
     use super::*;
 
     #[test]
@@ -143,7 +134,7 @@ mod tests {
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         boundary.move_unit(
             1,
-            &Motion {
+            &BodyState {
                 position: DVec3::new(5.0, 0.0, 0.0),
                 rotation: quarter,
                 velocity: DVec3::Z,

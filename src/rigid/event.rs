@@ -44,6 +44,14 @@ pub fn begin(key: ContactKey, time: f64, point: DVec3, v_n: f64, v_t: DVec3) -> 
 }
 
 impl ContactEvent {
+    /// The other body, counted from 0; none for bed and walls.
+    pub fn partner_unit(&self) -> Option<u32> {
+        match self.partner {
+            Feature::Unit { body, .. } => Some(body),
+            Feature::Ground { .. } | Feature::Wall { .. } => None,
+        }
+    }
+
     /// Adds the force [N] of a step `dt` [s] that ends at `time`.
     pub fn add(&mut self, force: DVec3, dt: f64, time: f64) {
         self.peak_force = self.peak_force.max(force.length());

@@ -1,1 +1,0 @@
-//! The coupled loop.

@@ -1,0 +1,190 @@
+//! The coupled loop: water, wavemaker, units, contact.
+//!
+//! | file | what it does |
+//! | --- | --- |
+//! | [`setup`] | makes a simulation of a case |
+//! | this one | one step, in the order of the algorithm |
+//! | [`failure`] | what can go wrong in a step, and finding out where |
+//! | [`statistics`] | what is kept of a run besides its series |
+//! | [`recorder`] | writes the series and snapshots |
+//! | [`checkpoint`] | state to and from HDF5 |
+//! | [`run`] | the loop with outputs, checkpoints and stop rules |
+//! | [`summary`] | the run in a few numbers |
+
+pub mod checkpoint;
+pub mod failure;
+pub mod progress;
+pub mod recorder;
+pub mod run;
+pub mod setup;
+pub mod statistics;
+pub mod summary;
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::{
+    case::Case,
+    geometry::armour_unit::ArmourUnit,
+    particles::{boundary::Boundary, water::Water},
+    rigid::{BodyState, Load, RigidWorld},
+    sph::{sampling::Sampler, step::Solver},
+    waves::{ml_piston::MlPiston, record::FlumeRecord},
+};
+use failure::Failure;
+use statistics::Statistics;
+
+/// A case in motion.
+pub struct Simulation {
+    /// The case.
+    pub case: Arc<Case>,
+    /// The flume model's run, if there is a wave.
+    pub flume: Option<FlumeRecord>,
+    /// The water.
+    pub water: Water,
+    /// Bed, walls, wavemaker and units as particles.
+    pub boundary: Boundary,
+    /// The units as bodies, if there are any.
+    pub units: Option<Units>,
+    /// Time since the particles started [s].
+    pub time: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Flume time at which the particles started [s].
+    pub start: f64,
+    /// What is kept of the run.
+    pub statistics: Statistics,
+    solver: Solver,
+    piston: Option<MlPiston>,
+    /// Box that no particle may leave [m].
+    bounds: [DVec3; 2],
+}
+
+/// The armour units.
+pub struct Units {
+    /// Their shape.
+    pub shape: Arc<ArmourUnit>,
+    /// Their bodies.
+    pub world: RigidWorld,
+    /// Where they stood at the start.
+    pub start: Vec<BodyState>,
+    /// Force and torque of the water on each, at the last half step.
+    pub fluid_loads: Vec<Load>,
+}
+
+impl Simulation {
+    /// First half of a step: neighbours, boundary densities and rates of the present state. Gauges can be read after
+    /// it. Returns the time step [s].
+    ///
+    /// # Errors
+    /// If the state has become impossible.
+    pub fn begin_step(&mut self) -> Result<f64, Failure> {
+        self.solver.sort_and_list(&mut self.water, &self.boundary);
+        self.solver.boundary_densities(&self.water, &mut self.boundary);
+        self.solver.rates();
+        let limits = self.solver.limits();
+        let dt = limits.time_step(&self.solver.parameters);
+        if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
+            return Err(failure::not_finite(self));
+        }
+        Ok(dt)
+    }
+
+    /// Second half of a step of length `dt` [s]: predictor, rates at the half step, corrector, units.
+    ///
+    /// # Errors
+    /// If a particle has left the domain, or units have gone too deep into each other or the bed.
+    pub fn finish_step(&mut self, dt: f64) -> Result<(), Failure> {
+        let (piston, units, half_time) = (&self.piston, &self.units, self.flume_time() + 0.5 * dt);
+        self.solver.predict(dt, &self.water, &mut self.boundary, |boundary| {
+            move_piston(boundary, piston.as_ref(), half_time);
+            if let Some(units) = units {
+                units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
+            }
+        });
+        self.solver.rates();
+        self.solver.correct(dt, &mut self.water, &mut self.boundary);
+        self.advance_units(dt)?;
+        self.time += dt;
+        self.steps += 1;
+        self.statistics.count_step(dt);
+        self.place_boundary();
+        failure::find_escape(self).map_or(Ok(()), Err)
+    }
+
+    /// The units' bodies over a step under the load of the water at its middle; held at first.
+    fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
+        let Some(units) = &mut self.units else { return Ok(()) };
+        let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
+        let loads = self.solver.unit_loads(&self.boundary, &centres);
+        units.fluid_loads = loads.into_iter().map(|(force, torque)| Load { force, torque }).collect();
+        if self.time >= self.case.numerics.hold_units {
+            units.world.advance(dt, &units.fluid_loads).map_err(Failure::Contact)?;
+            self.statistics.count_loads(&units.fluid_loads, units.world.contact_loads());
+        }
+        Ok(())
+    }
+
+    /// Put wavemaker and units where they are now.
+    pub fn place_boundary(&mut self) {
+        move_piston(&mut self.boundary, self.piston.as_ref(), self.flume_time());
+        if let Some(units) = &self.units {
+            units.states().iter().enumerate().for_each(|(k, s)| self.boundary.move_unit(k, s));
+        }
+    }
+
+    /// Time of the flume model [s].
+    pub fn flume_time(&self) -> f64 {
+        self.start + self.time
+    }
+
+    /// The water, to be measured; valid after [`Self::begin_step`].
+    pub fn sampler(&self) -> Sampler<'_> {
+        let parameters = &self.solver.parameters;
+        Sampler {
+            grid: &self.solver.grid,
+            bins: self.solver.water_bins(),
+            water: &self.water,
+            kernel: parameters.kernel,
+            tait: parameters.tait,
+        }
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &Solver {
+        &self.solver
+    }
+}
+
+impl Units {
+    /// Places and motions.
+    pub fn states(&self) -> &[BodyState] {
+        self.world.states()
+    }
+
+    /// Horizontal distance of each unit from where it stood [m].
+    pub fn displacements(&self) -> Vec<f64> {
+        let moved = |(now, start): (&BodyState, &BodyState)| (now.position - start.position).truncate().length();
+        self.states().iter().zip(&self.start).map(moved).collect()
+    }
+}
+
+fn move_piston(boundary: &mut Boundary, piston: Option<&MlPiston>, flume_time: f64) {
+    let Some(piston) = piston else { return };
+    let motion = |row: u32| {
+        let row = row as usize;
+        (piston.displacement_m(row, flume_time), piston.velocity_m_s(row, flume_time))
+    };
+    boundary.move_piston(motion);
+}
+
+/// A body after a time [s] at its present velocities.
+fn drifted(state: &BodyState, dt: f64) -> BodyState {
+    let turn = glam::DQuat::from_scaled_axis(state.angular_velocity * dt);
+    BodyState {
+        position: state.position + dt * state.velocity,
+        rotation: (turn * state.rotation).normalize(),
+        ..*state
+    }
+}

@@ -1,0 +1,102 @@
+//! Progress of a run on the terminal.
+
+use std::{
+    io::IsTerminal,
+    time::{Duration, Instant},
+};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::Simulation;
+
+/// Without a terminal, a line this often.
+const LINE_INTERVAL: Duration = Duration::from_secs(30);
+
+/// A bar on a terminal, a line now and then elsewhere; on standard error, so that standard output stays clean.
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    duration: f64,
+    begun: Instant,
+    begun_at: f64,
+    begun_steps: u64,
+    last_line: Instant,
+}
+
+impl Progress {
+    /// Progress of a run that lasts `duration` [s] of simulated time at most.
+    pub fn new(simulation: &Simulation, quiet: bool) -> Self {
+        let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
+        let on_terminal = std::io::stderr().is_terminal() && !quiet;
+        Self {
+            bar: on_terminal.then(|| ProgressBar::new(1000).with_style(style)),
+            duration: simulation.case.stop.duration,
+            begun: Instant::now(),
+            begun_at: simulation.time,
+            begun_steps: simulation.steps,
+            // In quiet mode no line ever becomes due.
+            last_line: if quiet { Instant::now() + Duration::from_secs(u64::from(u32::MAX)) } else { Instant::now() },
+        }
+    }
+
+    /// Show where the run is.
+    pub fn update(&mut self, simulation: &Simulation, dt: f64) {
+        if self.bar.is_none() && self.last_line.elapsed() < LINE_INTERVAL {
+            return;
+        }
+        let wall = self.begun.elapsed().as_secs_f64();
+        let rate = (simulation.steps - self.begun_steps) as f64 / wall.max(1e-9);
+        let done = (simulation.time - self.begun_at) / wall.max(1e-9);
+        let left = (self.duration - simulation.time) / done.max(1e-12);
+        let message = format!(
+            "{:.2} of {:.2} s, {:.1} steps/s, dt {:.2e} s, {} particles, {} left{}",
+            simulation.time,
+            self.duration,
+            rate,
+            dt,
+            simulation.water.len() + simulation.boundary.len(),
+            readable(left),
+            moved(simulation),
+        );
+        match &self.bar {
+            Some(bar) => {
+                bar.set_position((1000.0 * simulation.time / self.duration) as u64);
+                bar.set_message(message);
+            }
+            None => {
+                eprintln!("{message}");
+                self.last_line = Instant::now();
+            }
+        }
+    }
+
+    /// Wall clock of this session [s].
+    pub fn wall(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Take the bar away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// How far the units have moved, in a few characters.
+fn moved(simulation: &Simulation) -> String {
+    let Some(units) = &simulation.units else { return String::new() };
+    let displacements = units.displacements();
+    let mean = displacements.iter().sum::<f64>() / displacements.len().max(1) as f64;
+    format!(", units moved {:.1} mm on average", 1e3 * mean)
+}
+
+/// A duration as people say it.
+pub fn readable(seconds: f64) -> String {
+    match seconds {
+        s if !s.is_finite() => "unknown time".to_owned(),
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}

@@ -1,0 +1,381 @@
+//! Series and snapshots of a run: gauges, units, contacts, energy as tables; water and units for ParaView.
+//!
+//! Every time is that of the flume: 0 when the paddle starts.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Simulation, Units};
+use crate::{
+    case::{Case, Gauge, Quantity},
+    output::{
+        Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically,
+    },
+    rigid::ContactEvent,
+    waves::record::FlumeRecord,
+};
+
+const WATER_FIELDS: [(&str, FieldKind); 4] = [
+    ("velocity", FieldKind::Vector),
+    ("pressure", FieldKind::Scalar),
+    ("density", FieldKind::Scalar),
+    ("id", FieldKind::Integer),
+];
+
+const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
+
+/// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RecorderState {
+    /// Rows of the series.
+    series: u64,
+    /// Steps of the moving surfaces.
+    surfaces: u64,
+    /// Steps of the water.
+    water: u64,
+    /// Checkpoints.
+    pub checkpoints: u64,
+    /// Bytes of the tables.
+    bytes: [u64; 4],
+}
+
+/// Open output files of a run.
+pub struct Recorder {
+    state: RecorderState,
+    gauges: CsvSeries,
+    units: CsvSeries,
+    contacts: CsvSeries,
+    energy: CsvSeries,
+    water: Option<PolyDataSeries>,
+    surfaces: Option<PolyDataSeries>,
+}
+
+const GAUGES_FILE: &str = "gauges.csv";
+const UNITS_FILE: &str = "units.csv";
+const CONTACTS_FILE: &str = "contacts.csv";
+const ENERGY_FILE: &str = "energy.csv";
+const WATER_FILE: &str = "fluid.vtkhdf";
+const SURFACES_FILE: &str = "units.vtkhdf";
+
+impl Recorder {
+    /// New files in the run folder, and those that do not change: case, bed profile, shape of the unit, flume gauges.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
+        let case = &simulation.case;
+        write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
+        profile.append_rows(case.flume.profile.points())?;
+        if let Some(units) = &simulation.units {
+            surface_of(units).write(&dir.join(UnitSurface::FILE))?;
+        }
+        if let Some(record) = &simulation.flume {
+            write_flume_gauges(case, record, &dir.join("flume_gauges.csv"))?;
+        }
+        let output = &case.output;
+        let water = |_| PolyDataSeries::create(&dir.join(WATER_FILE), Cells::Vertices, &WATER_FIELDS);
+        let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
+        let mut recorder = Self {
+            state: RecorderState::default(),
+            gauges: CsvSeries::create(&dir.join(GAUGES_FILE), &gauge_columns(case))?,
+            units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
+            contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
+            energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::ENERGY)?,
+            water: output.fluid_interval.map(water).transpose()?,
+            surfaces: output.units_interval.filter(|_| simulation.units.is_some()).map(surfaces).transpose()?,
+        };
+        recorder.note_lengths();
+        Ok(recorder)
+    }
+
+    /// The files of an interrupted run, cut to where they stood at its checkpoint.
+    ///
+    /// # Errors
+    /// If a file is missing or shorter than it was.
+    pub fn reopen(simulation: &Simulation, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        let output = &simulation.case.output;
+        let water = |_| {
+            let path = dir.join(WATER_FILE);
+            PolyDataSeries::open_and_truncate(&path, Cells::Vertices, &WATER_FIELDS, state.water as usize)
+        };
+        let surfaces = |_| {
+            let path = dir.join(SURFACES_FILE);
+            PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &UNIT_FIELDS, state.surfaces as usize)
+        };
+        Ok(Self {
+            gauges: table(GAUGES_FILE, state.bytes[0])?,
+            units: table(UNITS_FILE, state.bytes[1])?,
+            contacts: table(CONTACTS_FILE, state.bytes[2])?,
+            energy: table(ENERGY_FILE, state.bytes[3])?,
+            water: output.fluid_interval.map(water).transpose()?,
+            surfaces: output.units_interval.filter(|_| simulation.units.is_some()).map(surfaces).transpose()?,
+            state,
+        })
+    }
+
+    /// Where the outputs stand.
+    pub fn state(&self) -> &RecorderState {
+        &self.state
+    }
+
+    /// Count a checkpoint; its number is part of it.
+    pub fn count_checkpoint(&mut self) -> &RecorderState {
+        self.state.checkpoints += 1;
+        &self.state
+    }
+
+    /// Write what is due at the present time, between the two halves of a step.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_due(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+        let (time, case) = (simulation.time, simulation.case.clone());
+        if is_due(self.state.series, Some(case.output.series_interval), time) {
+            self.record_series(simulation)?;
+            self.state.series += 1;
+        }
+        if is_due(self.state.surfaces, case.output.units_interval, time) {
+            self.record_surfaces(simulation)?;
+            self.state.surfaces += 1;
+        }
+        if is_due(self.state.water, case.output.fluid_interval, time) {
+            self.record_water(simulation)?;
+            self.state.water += 1;
+        }
+        self.note_lengths();
+        Ok(())
+    }
+
+    /// Write everything once more at the end of the run.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_end(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+        self.record_series(simulation)?;
+        self.record_surfaces(simulation)?;
+        self.record_water(simulation)?;
+        if let Some(units) = &simulation.units {
+            let offset = contact_clock(simulation, units);
+            let running: Vec<ContactEvent> = units.world.running_events().copied().collect();
+            for event in &running {
+                self.contacts.append(&contact_row(event, offset))?;
+            }
+            running.iter().for_each(|event| count_contact(simulation, event));
+        }
+        Ok(())
+    }
+
+    fn note_lengths(&mut self) {
+        self.state.bytes = [&self.gauges, &self.units, &self.contacts, &self.energy].map(CsvSeries::bytes);
+    }
+
+    fn record_series(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+        let time = simulation.flume_time();
+        self.gauges.append(&gauge_row(simulation))?;
+        self.energy.append(&energy_row(simulation))?;
+        let Some(units) = &mut simulation.units else { return Ok(()) };
+        let events = units.world.take_events();
+        let contacts = units.world.contact_loads();
+        for (number, state) in units.states().iter().enumerate() {
+            let (fluid, contact) = (&units.fluid_loads[number], &contacts[number]);
+            let mut row = vec![time, (number + 1) as f64];
+            row.extend(state.position.to_array());
+            row.extend(state.rotation.to_array());
+            let vectors =
+                [state.velocity, state.angular_velocity, fluid.force, fluid.torque, contact.force, contact.torque];
+            row.extend(vectors.iter().flat_map(|v| v.to_array()));
+            self.units.append(&row)?;
+        }
+        let offset = simulation.units.as_ref().map_or(0.0, |units| contact_clock(simulation, units));
+        for event in &events {
+            self.contacts.append(&contact_row(event, offset))?;
+            count_contact(simulation, event);
+        }
+        Ok(())
+    }
+
+    fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let (Some(series), Some(units)) = (&mut self.surfaces, &simulation.units) else { return Ok(()) };
+        let solid = units.shape.solid();
+        let (mut points, mut triangles) = (Vec::new(), Vec::new());
+        let (mut velocity, mut number) = (Vec::new(), Vec::new());
+        for (unit, state) in units.states().iter().enumerate() {
+            let first = points.len() as u32;
+            triangles.extend(solid.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
+            for &vertex in solid.vertices() {
+                let arm = state.rotation * vertex;
+                points.push((state.position + arm).as_vec3().to_array());
+                velocity.push((state.velocity + state.angular_velocity.cross(arm)).as_vec3().to_array());
+                number.push(unit as i32 + 1);
+            }
+        }
+        let values = [FieldValues::Vector(&velocity), FieldValues::Integer(&number)];
+        series.append(simulation.flume_time(), &points, &triangles, &values)
+    }
+
+    fn record_water(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let Some(series) = &mut self.water else { return Ok(()) };
+        let (water, tait) = (&simulation.water, &simulation.solver().parameters.tait);
+        let points: Vec<[f32; 3]> = water.position.iter().map(|p| p.as_vec3().to_array()).collect();
+        let velocity: Vec<[f32; 3]> = water.velocity.iter().map(|v| v.as_vec3().to_array()).collect();
+        let pressure: Vec<f32> = water.density.iter().map(|&rho| tait.pressure(rho) as f32).collect();
+        let density: Vec<f32> = water.density.iter().map(|&rho| rho as f32).collect();
+        let id: Vec<i32> = water.id.iter().map(|&id| id as i32).collect();
+        let values = [
+            FieldValues::Vector(&velocity),
+            FieldValues::Scalar(&pressure),
+            FieldValues::Scalar(&density),
+            FieldValues::Integer(&id),
+        ];
+        series.append(simulation.flume_time(), &points, &[], &values)
+    }
+}
+
+/// Whether an output that was written `count` times at an interval [s] is due.
+pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
+    // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
+    interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
+}
+
+fn surface_of(units: &Units) -> UnitSurface {
+    let solid = units.shape.solid();
+    UnitSurface {
+        vertices_m: solid.vertices().iter().map(|v| v.to_array()).collect(),
+        triangles: solid.triangles().to_vec(),
+    }
+}
+
+/// Gauges that the particles can read.
+fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
+    case.gauges.iter().filter(|gauge| gauge.in_domain)
+}
+
+fn gauge_columns(case: &Case) -> Vec<String> {
+    let names = wet_gauges(case).flat_map(|gauge| match gauge.quantity {
+        Quantity::Elevation => vec![columns::elevation(&gauge.name)],
+        Quantity::Pressure => vec![columns::pressure(&gauge.name)],
+        Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
+    });
+    ["time_s".to_owned()].into_iter().chain(names).collect()
+}
+
+/// Dry gauges leave their fields empty.
+fn gauge_row(simulation: &Simulation) -> Vec<f64> {
+    let (case, sampler) = (&simulation.case, simulation.sampler());
+    let mut row = vec![simulation.flume_time()];
+    for gauge in wet_gauges(case) {
+        let at = glam::DVec3::from_array(gauge.at);
+        let sample = || sampler.sample(at);
+        match gauge.quantity {
+            Quantity::Elevation => {
+                let (bed, top) = (case.flume.profile.z(at.x), case.domain.top_z);
+                let level = sampler.surface(at.truncate(), bed, top);
+                row.push(level.map_or(f64::NAN, |z| z - case.flume.still_level));
+            }
+            Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),
+            Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),
+        }
+    }
+    row
+}
+
+fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Result<(), OutputError> {
+    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let names: Vec<String> =
+        ["time_s".to_owned()].into_iter().chain(gauges.map(|gauge| columns::elevation(&gauge.name))).collect();
+    let mut series = CsvSeries::create(path, &names)?;
+    let row = |(k, &time): (usize, &f64)| -> Vec<f64> {
+        [time].into_iter().chain(record.gauge_elevations_m.iter().map(|gauge| gauge[k])).collect()
+    };
+    series.append_rows(record.times_s().iter().enumerate().map(row))
+}
+
+fn energy_row(simulation: &Simulation) -> [f64; 6] {
+    let energy = simulation.energy();
+    [
+        simulation.flume_time(),
+        energy.kinetic,
+        energy.potential,
+        energy.internal,
+        energy.units_kinetic,
+        energy.units_potential,
+    ]
+}
+
+/// Energy of water and units [J]; heights count from z = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyOf {
+    /// Kinetic energy of the water.
+    pub kinetic: f64,
+    /// Potential energy of the water.
+    pub potential: f64,
+    /// Energy of compression of the water.
+    pub internal: f64,
+    /// Kinetic energy of the units.
+    pub units_kinetic: f64,
+    /// Potential energy of the units.
+    pub units_potential: f64,
+}
+
+impl EnergyOf {
+    /// All of it [J].
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential + self.internal + self.units_kinetic + self.units_potential
+    }
+}
+
+impl Simulation {
+    /// Energy of water and units.
+    pub fn energy(&self) -> EnergyOf {
+        let (water, parameters) = (&self.water, &self.solver().parameters);
+        let mut energy = EnergyOf { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
+        for i in 0..water.len() {
+            energy.kinetic += 0.5 * water.mass[i] * water.velocity[i].length_squared();
+            energy.potential += water.mass[i] * parameters.gravity * water.position[i].z;
+            energy.internal += water.mass[i] * parameters.tait.internal_energy(water.density[i]);
+        }
+        if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
+            let inertia = units.shape.inertia(of_case.mass);
+            for state in units.states() {
+                let spin = state.rotation.inverse() * state.angular_velocity;
+                energy.units_kinetic +=
+                    0.5 * of_case.mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
+                energy.units_potential += of_case.mass * parameters.gravity * state.position.z;
+            }
+        }
+        energy
+    }
+}
+
+/// From the clock of the contacts, which starts when the units are let go, to that of the flume [s].
+fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
+    simulation.flume_time() - units.world.time()
+}
+
+fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 11] {
+    let [x, y, z] = event.point;
+    [
+        event.start + offset,
+        event.end + offset,
+        f64::from(event.body + 1),
+        event.partner_unit().map_or(0.0, |unit| f64::from(unit + 1)),
+        x,
+        y,
+        z,
+        event.approach_normal,
+        event.approach_tangential,
+        event.peak_force,
+        glam::DVec3::from_array(event.impulse).length(),
+    ]
+}
+
+fn count_contact(simulation: &mut Simulation, event: &ContactEvent) {
+    let statistics = &mut simulation.statistics;
+    let with_unit = usize::from(event.partner_unit().is_some());
+    statistics.contacts[event.body as usize][with_unit] += 1;
+    statistics.peak_contact = statistics.peak_contact.max(event.peak_force);
+    statistics.fastest_contact = statistics.fastest_contact.max(event.approach_normal);
+}

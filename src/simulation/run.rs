@@ -1,0 +1,137 @@
+//! The loop of a run: steps, outputs, checkpoints, stop rules.
+
+use std::{
+    path::Path,
+    sync::{Arc, atomic::{AtomicBool, Ordering}},
+};
+
+use thiserror::Error;
+
+use super::{
+    Simulation, checkpoint,
+    failure::Failure,
+    progress::Progress,
+    recorder::{Recorder, is_due},
+    setup::SetupError,
+    summary::summarise,
+};
+use crate::{
+    case::Case,
+    output::{OutputError, Stopped, Summary, write_report},
+};
+
+/// Why a run ended early.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The case cannot be set up.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// A file cannot be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The computation went astray; the state before the failing step is kept.
+    #[error("{failure}\nThe state is kept in {kept}; the last regular checkpoint is not touched.")]
+    Failed {
+        /// What happened.
+        failure: Failure,
+        /// Where the state lies.
+        kept: String,
+    },
+}
+
+/// How a run is to be made.
+#[derive(Debug, Clone, Default)]
+pub struct RunOptions {
+    /// No progress.
+    pub quiet: bool,
+    /// Set from outside to end the run at the next step with a checkpoint.
+    pub interrupted: Arc<AtomicBool>,
+}
+
+/// Run a case into an existing, empty folder.
+///
+/// # Errors
+/// If the case cannot be set up, a file cannot be written, or the computation goes astray.
+pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
+    let simulation = Simulation::new(case)?;
+    let recorder = Recorder::create(&simulation, dir)?;
+    drive(simulation, recorder, dir, options)
+}
+
+/// Go on with a run from its last checkpoint.
+///
+/// # Errors
+/// As [`run`], and if the checkpoint is not one of the case.
+pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
+    let mut simulation = Simulation::new(case)?;
+    let state = checkpoint::read(&mut simulation, dir)?;
+    let recorder = Recorder::reopen(&simulation, dir, state)?;
+    drive(simulation, recorder, dir, options)
+}
+
+/// Step until a stop rule holds.
+fn drive(
+    mut simulation: Simulation,
+    mut recorder: Recorder,
+    dir: &Path,
+    options: &RunOptions,
+) -> Result<Summary, RunError> {
+    let case = simulation.case.clone();
+    let mut progress = Progress::new(&simulation, options.quiet);
+    let wall_before = simulation.statistics.wall_s;
+    let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
+    simulation.statistics.energy_start = Some(energy_start);
+    loop {
+        let dt = match simulation.begin_step() {
+            Ok(dt) => dt,
+            Err(failure) => return Err(keep_failed(&simulation, &recorder, dir, failure)),
+        };
+        simulation.statistics.wall_s = wall_before + progress.wall();
+        if let Some(stopped) = stop_rule(&mut simulation, options) {
+            if stopped != Stopped::Interrupted {
+                recorder.record_end(&mut simulation)?;
+            }
+            checkpoint::write(&simulation, recorder.state(), dir, checkpoint::FILE)?;
+            progress.finish();
+            let summary = summarise(&simulation, stopped, dir)?;
+            summary.write(dir)?;
+            write_report(dir)?;
+            return Ok(summary);
+        }
+        recorder.record_due(&mut simulation)?;
+        // The first one is due at the first interval: the start can be made anew from the case.
+        if is_due(recorder.state().checkpoints + 1, case.output.checkpoint_interval, simulation.time) {
+            checkpoint::write(&simulation, recorder.count_checkpoint(), dir, checkpoint::FILE)?;
+        }
+        if let Err(failure) = simulation.finish_step(dt) {
+            return Err(keep_failed(&simulation, &recorder, dir, failure));
+        }
+        progress.update(&simulation, dt);
+    }
+}
+
+/// Keep the state of a failed run beside the last good checkpoint.
+fn keep_failed(simulation: &Simulation, recorder: &Recorder, dir: &Path, failure: Failure) -> RunError {
+    let kept = match checkpoint::write(simulation, recorder.state(), dir, checkpoint::FAILED_FILE) {
+        Ok(()) => dir.join(checkpoint::FAILED_FILE).display().to_string(),
+        Err(error) => format!("no file ({error})"),
+    };
+    RunError::Failed { failure, kept }
+}
+
+/// Whether the run is over, and why.
+fn stop_rule(simulation: &mut Simulation, options: &RunOptions) -> Option<Stopped> {
+    if options.interrupted.load(Ordering::Relaxed) {
+        return Some(Stopped::Interrupted);
+    }
+    let stop = &simulation.case.stop;
+    if simulation.time >= stop.duration {
+        return Some(Stopped::Duration);
+    }
+    let (rule, units) = (stop.at_rest.as_ref()?, simulation.units.as_ref()?);
+    let at_rest = units.states().iter().all(|state| state.velocity.length() < rule.speed);
+    let since = &mut simulation.statistics.at_rest_since;
+    *since = if at_rest { since.or(Some(simulation.time)) } else { None };
+    let long_enough = since.is_some_and(|since| simulation.time - since >= rule.hold);
+    (simulation.time >= rule.not_before && long_enough).then_some(Stopped::AtRest)
+}

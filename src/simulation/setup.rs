@@ -1,0 +1,344 @@
+//! From a validated case to particles, bodies and wavemaker at the start.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use thiserror::Error;
+
+use super::{Simulation, Units, statistics::Statistics};
+use crate::{
+    case::{self, Case, Quantity, Start, Wave},
+    geometry::{
+        armour_unit::{ArmourUnit, ArmourUnitError},
+        profile::Profile,
+    },
+    particles::{
+        bed::{Across, Outline, outline_particles, side_wall_particles},
+        boundary::{Boundary, BoundaryParticle},
+        fill::{Basin, clear_solid},
+        unit::{LEAST_DEPTH, unit_particles},
+        water::Water,
+    },
+    rigid::{self, BodyShape, BodyState, Friction, Ground, RigidError, RigidSetup, RigidWorld},
+    sph::{
+        density_diffusion::Diffusion,
+        equation_of_state::Tait,
+        kernel::Wendland,
+        parameters::{BoundaryCondition, Parameters},
+        step::Solver,
+    },
+    waves::{
+        flume::{self, FlumeError, FlumeSetup},
+        ml_piston::{MlPiston, start_time},
+        record::FlumeRecord,
+        solitary::SolitaryWave,
+    },
+};
+
+/// Time between records of the flume model and knots of the piston [s]: a solitary wave of these flumes takes seconds to
+/// pass.
+const FLUME_INTERVAL: f64 = 0.02;
+
+/// The flume's flow is recorded this far beyond both ends of the particles [m]: the piston's particles wander.
+const FLUME_MARGIN: f64 = 1.5;
+
+/// Longest flume time that is looked through for the arrival of the wave, as a multiple of the time that a long wave
+/// takes from the paddle to the particles.
+const ARRIVAL_ALLOWANCE: f64 = 2.5;
+
+/// Why a case cannot be set up.
+#[derive(Debug, Error)]
+pub enum SetupError {
+    /// The flume model failed.
+    #[error(transparent)]
+    Flume(#[from] FlumeError),
+    /// The unit cannot be built.
+    #[error(transparent)]
+    Unit(#[from] ArmourUnitError),
+    /// The units cannot stand where the case puts them.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+}
+
+/// Parameters of the SPH scheme.
+pub fn parameters(case: &Case) -> Parameters {
+    let (fluid, numerics) = (&case.fluid, &case.numerics);
+    let periodic = case.domain.sides == case::Sides::Periodic;
+    Parameters {
+        dp: case.domain.dp,
+        kernel: Wendland::new(numerics.h),
+        tait: tait(case),
+        alpha: numerics.alpha,
+        diffusion: Diffusion::new(
+            numerics.delta,
+            numerics.h,
+            fluid.sound_speed,
+            fluid.rho0,
+            fluid.gamma,
+            fluid.gravity,
+        ),
+        gravity: fluid.gravity,
+        cfl: numerics.cfl,
+        boundary: match numerics.boundary {
+            case::Boundary::Dbc => BoundaryCondition::Dynamic,
+            case::Boundary::Mdbc => BoundaryCondition::ModifiedDynamic,
+        },
+        periodic_width: periodic.then_some(case.domain.width),
+    }
+}
+
+fn tait(case: &Case) -> Tait {
+    Tait { rho0: case.fluid.rho0, c0: case.fluid.sound_speed, gamma: case.fluid.gamma }
+}
+
+/// Run the flume model of the case, if it has a wave, for as long as the particles will run.
+///
+/// # Errors
+/// If the flume model fails.
+pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
+    let Wave::Solitary(wave) = &case.wave else { return Ok(None) };
+    let [x0, x1] = case.domain.x;
+    let mean_depth = 0.5 * (wave.depth + case.flume.still_depth(x0));
+    let arrival = ARRIVAL_ALLOWANCE * x0 / (case.fluid.gravity * mean_depth).sqrt();
+    let latest_start = match wave.start {
+        Start::At(start) => start,
+        Start::AtShare(_) => arrival,
+    };
+    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let record = flume::run(&FlumeSetup {
+        profile: case.flume.profile.clone(),
+        still_level_m: case.flume.still_level,
+        gravity_m_s2: case.fluid.gravity,
+        wave: SolitaryWave {
+            height_m: wave.height,
+            depth_m: wave.depth,
+            gravity: case.fluid.gravity,
+            theory: wave.theory,
+        },
+        layers: wave.layers,
+        cell_m: wave.flume_cell,
+        gauges_x_m: gauges.map(|gauge| gauge.at[0]).collect(),
+        window_x_m: [x0 - FLUME_MARGIN, x1 + FLUME_MARGIN],
+        record_interval_s: FLUME_INTERVAL,
+        end_s: latest_start + case.stop.duration,
+    })?;
+    Ok(Some(record))
+}
+
+/// Flume time at which the particles start [s].
+pub fn particle_start(case: &Case, record: &FlumeRecord) -> f64 {
+    match &case.wave {
+        Wave::None => 0.0,
+        Wave::Solitary(wave) => match wave.start {
+            Start::At(start) => start,
+            Start::AtShare(share) => start_time(record, case.domain.x[0], share),
+        },
+    }
+}
+
+/// Levels z of the rows of the multi-layer piston [m], from the bed to the top of the walls.
+pub fn piston_rows(case: &Case) -> Vec<f64> {
+    let (bed, dp) = (case.flume.profile.z(case.domain.x[0]), case.domain.dp);
+    (0..).map(|row| bed + (f64::from(row) + 0.5) * dp).take_while(|&z| z < case.domain.top_z).collect()
+}
+
+/// The multi-layer piston of the case's wave.
+pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
+    let end = (start + case.stop.duration).max(start + FLUME_INTERVAL);
+    MlPiston::from_record(record, case.domain.x[0], &piston_rows(case), start, end, FLUME_INTERVAL)
+}
+
+impl Simulation {
+    /// The case at its start.
+    ///
+    /// # Errors
+    /// If the flume model fails or the units cannot stand where they should.
+    pub fn new(case: Arc<Case>) -> Result<Self, SetupError> {
+        let flume = run_flume(&case)?;
+        let start = flume.as_ref().map_or(0.0, |record| particle_start(&case, record));
+        let piston = flume.as_ref().map(|record| ml_piston(&case, record, start));
+        let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
+
+        let across = across(&case);
+        let shape_particles = units.as_ref().map_or_else(Vec::new, |units| particles_of(&units.shape, case.domain.dp));
+        let count = units.as_ref().map_or(0, |units| units.states().len());
+        let boundary = Boundary::new(
+            &fixed_particles(&case, &across, piston.is_some()),
+            &piston.as_ref().map_or_else(Vec::new, |piston| piston_particles(&case, &across, piston)),
+            &shape_particles,
+            count,
+            case.fluid.rho0,
+        );
+        let mut water = fill(&case, &across, flume.as_ref(), start);
+        if let Some(units) = &units {
+            clear_units(&mut water, units, &case);
+        }
+
+        let [low, high] = bounds(&case);
+        let mut simulation = Self {
+            solver: Solver::new(parameters(&case), low, high),
+            statistics: Statistics::new(count),
+            bounds: [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)],
+            case,
+            flume,
+            water,
+            boundary,
+            units,
+            time: 0.0,
+            steps: 0,
+            start,
+            piston,
+        };
+        simulation.place_boundary();
+        Ok(simulation)
+    }
+}
+
+fn across(case: &Case) -> Across {
+    Across {
+        width: case.domain.width,
+        count: case.domain.ny as u32,
+        walls: case.domain.sides == case::Sides::Walls,
+    }
+}
+
+/// Box round everything that can hold water or boundary particles [m].
+fn bounds(case: &Case) -> [DVec3; 2] {
+    let margin = (case.numerics.boundary_layers as f64 + 2.0) * case.domain.dp;
+    let beyond = if case.domain.sides == case::Sides::Walls { margin } else { 0.0 };
+    let [x0, x1] = case.domain.x;
+    [
+        DVec3::new(x0 - margin, -beyond, case.domain.bottom_z - margin),
+        DVec3::new(x1 + margin, case.domain.width + beyond, case.domain.top_z + margin),
+    ]
+}
+
+/// Corner points of the bed between two x, the ends included.
+fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DVec2> {
+    let inner = profile.points().iter().filter(move |p| p[0] > from && p[0] < to);
+    let points: Vec<DVec2> = inner.map(|&p| DVec2::from_array(p)).collect();
+    let end = |x: f64| DVec2::new(x, profile.z(x));
+    [end(from)].into_iter().chain(points).chain([end(to)])
+}
+
+/// Bed, mound, end walls and side walls.
+fn fixed_particles(case: &Case, across: &Across, piston: bool) -> Vec<BoundaryParticle> {
+    let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
+    let [x0, x1] = domain.x;
+    // Under the piston the bed goes on for the layers of the piston.
+    let bed_start = if piston { x0 - f64::from(layers) * domain.dp } else { x0 };
+    let mut points: Vec<DVec2> = Vec::new();
+    if !piston {
+        points.push(DVec2::new(x0, domain.top_z));
+    }
+    points.extend(bed_between(&case.flume.profile, bed_start, x1));
+    points.push(DVec2::new(x1, domain.top_z));
+    let mut particles = outline_particles(&Outline::new(points), across, domain.dp, layers);
+    let bed = |x: f64| case.flume.profile.z(x);
+    let sides = basin(case, across, &bed, &|_| domain.top_z, &|_, _| DVec2::ZERO).side_section(domain.top_z);
+    particles.extend(side_wall_particles(&sides, across, layers));
+    particles
+}
+
+/// The layers of the multi-layer piston with their rows.
+fn piston_particles(case: &Case, across: &Across, piston: &MlPiston) -> Vec<(u32, BoundaryParticle)> {
+    let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
+    let mut particles = Vec::new();
+    for (row, &z) in piston.row_heights_m().iter().enumerate() {
+        for layer in 0..layers {
+            let behind = (f64::from(layer) + 0.5) * dp;
+            for y in across.rows(layers) {
+                particles.push((row as u32, BoundaryParticle {
+                    position: DVec3::new(case.domain.x[0] - behind, y, z),
+                    to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
+                    volume: dp * dp * across.spacing(),
+                }));
+            }
+        }
+    }
+    particles
+}
+
+fn basin<'a>(
+    case: &Case,
+    across: &Across,
+    bed: &'a dyn Fn(f64) -> f64,
+    surface: &'a dyn Fn(f64) -> f64,
+    velocity: &'a dyn Fn(f64, f64) -> DVec2,
+) -> Basin<'a> {
+    let x = match case.domain.water {
+        case::Water::StillLevel => case.domain.x,
+        case::Water::Block { x, .. } => x,
+    };
+    Basin { x, across: *across, dp: case.domain.dp, bed, surface, velocity, gravity: case.fluid.gravity }
+}
+
+/// The water: a block, still water, or the flow of the flume model at the start.
+fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -> Water {
+    let bed = |x: f64| case.flume.profile.z(x);
+    let surface = |x: f64| match (case.domain.water, flume) {
+        (case::Water::Block { top_z, .. }, _) => top_z,
+        (case::Water::StillLevel, Some(record)) => record.surface_level_m(x, start),
+        (case::Water::StillLevel, None) => case.flume.still_level,
+    };
+    let velocity = |x: f64, z: f64| flume.map_or(DVec2::ZERO, |record| record.velocity(x, z, start).into());
+    basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
+}
+
+/// Bodies of the units, standing on the bed.
+fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
+    let shape = Arc::new(ArmourUnit::tetrapod(units.height, case.contact.rounding_share)?);
+    let stand = |placement: &case::Placement| {
+        let z = case.flume.profile.z(placement.x) + shape.standing_height();
+        BodyState::at_rest(DVec3::new(placement.x, placement.y, z), shape.standing_rotation(placement.azimuth))
+    };
+    let start: Vec<BodyState> = units.placements.iter().map(stand).collect();
+    let material = |index: usize| {
+        let case::Material { young_modulus, poisson_ratio, restitution, .. } = case.materials[index];
+        rigid::Material { young_modulus, poisson_ratio, restitution }
+    };
+    let (unit_ground, unit_unit) = (units.friction_ground, units.friction_unit);
+    let world = RigidWorld::new(RigidSetup {
+        shape: BodyShape::of_unit(&shape, units.mass),
+        bodies: start.clone(),
+        material: material(units.material),
+        ground: Some(Ground { profile: case.flume.profile.clone(), material: material(units.ground_material) }),
+        sides: match case.domain.sides {
+            case::Sides::Periodic => rigid::Sides::Periodic { width: case.domain.width },
+            case::Sides::Walls => rigid::Sides::Walls { width: case.domain.width },
+        },
+        end_walls: Some(case.domain.x),
+        wall_material: material(units.ground_material),
+        friction: Friction { unit_unit, unit_ground, unit_wall: unit_ground },
+        gravity: DVec3::NEG_Z * case.fluid.gravity,
+    })?;
+    let fluid_loads = vec![rigid::Load::default(); start.len()];
+    Ok(Units { shape, world, start, fluid_loads })
+}
+
+/// Particles of one unit in its own axes.
+pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
+    let solid = shape.solid();
+    let [low, high] = solid.bounds();
+    unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)
+}
+
+/// Take out the water where the units stand, periodic images included.
+fn clear_units(water: &mut Water, units: &Units, case: &Case) {
+    let (solid, least) = (units.shape.solid(), LEAST_DEPTH * case.domain.dp);
+    let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
+    let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
+    for state in units.states() {
+        for image in &images {
+            let centre = state.position + DVec3::Y * (image * case.domain.width);
+            clear_solid(water, least, |point| {
+                let from_centre = point - centre;
+                if from_centre.length_squared() > reach * reach {
+                    return (point, f64::INFINITY);
+                }
+                let (nearest, distance) = solid.project(state.rotation.inverse() * from_centre);
+                (centre + state.rotation * nearest, distance)
+            });
+        }
+    }
+}

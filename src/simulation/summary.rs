@@ -1,0 +1,117 @@
+//! A run in a few numbers.
+
+use std::path::Path;
+
+use super::Simulation;
+use crate::{
+    case::{Quantity, Sides, Wave},
+    output::{
+        ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, Stopped, Summary, Table,
+        TimeStepSummary, UnitSummary, WaveSummary, columns,
+    },
+};
+
+/// Summary of a run whose series lie in `dir`.
+///
+/// # Errors
+/// If the gauge tables cannot be read.
+pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Result<Summary, OutputError> {
+    let (case, statistics) = (&simulation.case, &simulation.statistics);
+    let counts = particle_counts(simulation);
+    let steps_run = statistics.steps.max(1) as f64;
+    let mut summary = Summary {
+        title: case.title.clone(),
+        breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
+        case_hash: case.hash.clone(),
+        wave: wave(&case.wave),
+        gauges: gauges(simulation, dir)?,
+        contacts: ContactSummary {
+            with_bed: statistics.contacts.iter().map(|c| c[0]).sum(),
+            between_units: statistics.contacts.iter().map(|c| c[1]).sum(),
+            peak_force_n: statistics.peak_contact,
+            peak_normal_velocity_m_s: statistics.fastest_contact,
+        },
+        energy: statistics.energy_start.map(|start_j| EnergySummary { start_j, end_j: simulation.energy().total() }),
+        assumptions: case.assumptions.clone(),
+        particles: counts.water + counts.bed + counts.wavemaker + counts.units,
+        particle_counts: counts,
+        dp_m: case.domain.dp,
+        speed_of_sound_m_s: case.fluid.sound_speed,
+        still_water_level_m: case.flume.still_level,
+        domain_x_m: case.domain.x,
+        domain_width_m: case.domain.width,
+        side_walls: case.domain.sides == Sides::Walls,
+        steps: simulation.steps,
+        simulated_s: simulation.time,
+        start_s: simulation.start,
+        time_step_s: TimeStepSummary {
+            min: statistics.shortest_step,
+            mean: simulation.time / steps_run,
+            max: statistics.longest_step,
+        },
+        stopped,
+        execution: Execution {
+            wall_s: statistics.wall_s,
+            steps_per_s: steps_run / statistics.wall_s.max(1e-9),
+            threads: rayon::current_num_threads(),
+            created: None,
+        },
+        ..Summary::default()
+    };
+    if let Some(units) = &case.units {
+        summary.set_units(units_of(simulation, units.damage_distance), units.damage_distance);
+    }
+    Ok(summary)
+}
+
+fn particle_counts(simulation: &Simulation) -> ParticleCounts {
+    let boundary = &simulation.boundary;
+    ParticleCounts {
+        water: simulation.water.len() as u64,
+        bed: boundary.piston().start as u64,
+        wavemaker: boundary.piston().len() as u64,
+        units: (boundary.len() - boundary.walls().end) as u64,
+    }
+}
+
+fn wave(wave: &Wave) -> Option<WaveSummary> {
+    let Wave::Solitary(wave) = wave else { return None };
+    let theory = serde_json::to_value(wave.theory).ok().and_then(|t| t.as_str().map(str::to_owned));
+    Some(WaveSummary { kind: "solitary".to_owned(), theory: theory.unwrap_or_default(), height_m: wave.height })
+}
+
+fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
+    let Some(units) = &simulation.units else { return Vec::new() };
+    let statistics = &simulation.statistics;
+    let one = |(k, (now, start)): (usize, (&crate::rigid::BodyState, &crate::rigid::BodyState))| {
+        let turned = (now.rotation * start.rotation.inverse()).normalize();
+        let angle = 2.0 * turned.xyz().length().atan2(turned.w.abs());
+        let (from, to) = (start.position.to_array(), now.position.to_array());
+        UnitSummary {
+            peak_fluid_force_n: statistics.peak_fluid_force[k],
+            peak_contact_force_n: statistics.peak_contact_force[k],
+            bed_contacts: statistics.contacts[k][0],
+            unit_contacts: statistics.contacts[k][1],
+            ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), damage_distance)
+        }
+    };
+    units.states().iter().zip(&units.start).enumerate().map(one).collect()
+}
+
+/// Crests at the elevation gauges, from the series as written.
+fn gauges(simulation: &Simulation, dir: &Path) -> Result<Vec<GaugeSummary>, OutputError> {
+    let particles = Table::read_if_present(&dir.join("gauges.csv"))?;
+    let flume = Table::read_if_present(&dir.join("flume_gauges.csv"))?;
+    let crest = |table: &Option<Table>, name: &str| {
+        let series = table.as_ref()?.get(&columns::elevation(name))?;
+        series.iter().copied().filter(|eta| eta.is_finite()).reduce(f64::max)
+    };
+    let elevation = simulation.case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let summaries = elevation.map(|gauge| GaugeSummary {
+        name: gauge.name.clone(),
+        x_m: gauge.at[0],
+        crest_sph_m: crest(&particles, &gauge.name),
+        crest_flume_m: crest(&flume, &gauge.name),
+    });
+    Ok(summaries.collect())
+}
