@@ -35,7 +35,7 @@ pub struct Fudo {
 pub struct PublishedWave {
     /// Wave height in the offshore depth [m].
     pub height_m: f64,
-    /// Displacements of the 15 units for each of [`SERIES`] [m].
+    /// Displacements of the 15 units in EXP1, EXP2, EXP3, SPH1 and SPH2 [m].
     pub displacement_m: [Vec<f64>; 5],
     /// Resolution study, coarsest first.
     pub convergence: Vec<Resolution>,
