@@ -25,8 +25,9 @@ fn section(wave: &WaveComparison) -> String {
     html += &format!("<figure>{}</figure>\n", units_chart(wave));
     html += &format!(
         "<figure>{}<figcaption>Mean displacement against the distance between particles; the measured mean as a dashed \
-         line. The published values are from the resolution study, whose table gives (EXP &minus; SPH1) / EXP: the coarse \
-         runs move the units too little.</figcaption></figure>\n",
+         line. The published values are from the resolution study; its errors are read as \
+         (EXP &minus; SPH1) / EXP, the sign that agrees with the appendix at 5 mm. So read, the coarse runs move the units \
+         too little.</figcaption></figure>\n",
         resolution_chart(wave)
     );
     let remarks: String = wave.remarks().iter().map(|r| format!("<li>{}</li>\n", escape(r))).collect();

@@ -35,7 +35,7 @@ pub struct Fudo {
 pub struct PublishedWave {
     /// Wave height in the offshore depth [m].
     pub height_m: f64,
-    /// Displacements of the 15 units for each of [`SERIES`] [m].
+    /// Displacements of the 15 units in EXP1, EXP2, EXP3, SPH1 and SPH2 [m].
     pub displacement_m: [Vec<f64>; 5],
     /// Resolution study, coarsest first.
     pub convergence: Vec<Resolution>,
@@ -52,8 +52,8 @@ pub struct Resolution {
     pub runtime_h: f64,
     /// Deviation of the mean displacement from the measured one, (SPH1 - EXP) / EXP [%].
     ///
-    /// Table 6 prints it with the other sign: at 0.005 m it gives +4.4, +2.0 and +2.1 % where Tables A1 to A3 have SPH1
-    /// below the measurement by as much.
+    /// Table 6 does not define its error. At 0.005 m it prints +4.4, +2.0 and +2.1 % where Tables A1 to A3 have SPH1 below
+    /// the measurement by about as much, so its error is read as (EXP - SPH1) / EXP at every resolution.
     pub deviation_percent: f64,
 }
 
@@ -168,7 +168,7 @@ mod tests {
         for wave in Fudo::published().unwrap().waves {
             let from_appendix = 100.0 * (wave.mean_m(3) / wave.measured_mean_m() - 1.0);
             let printed = wave.convergence.iter().find(|r| r.dp_m == 0.005).unwrap().deviation_percent;
-            // The appendix has three decimals, which moves a mean of 0.1 m by up to half a per cent.
+            // The appendix has three decimals: at worst half a per cent in each of two means of 0.1 m.
             assert!((from_appendix - printed).abs() < 0.7, "{from_appendix} {printed}");
         }
     }
