@@ -91,7 +91,7 @@ fn summary(units: u32) -> Summary {
             peak_force_n: 31.4,
             peak_normal_velocity_m_s: 0.42,
         },
-        energy: Some(EnergySummary { start_j: -12.0, end_j: -3.5, wavemaker_work_j: 9.1 }),
+        energy: Some(EnergySummary { start_j: -12.0, end_j: -3.5 }),
         assumptions: vec![
             "Crest width of the mound 0.32 m: read from the measured displacements, no source gives it.".to_owned(),
             "Side slopes 1:2.".to_owned(),

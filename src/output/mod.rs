@@ -21,6 +21,7 @@ mod summary;
 mod table;
 mod unit_surface;
 mod vtkhdf;
+mod wave_page;
 
 pub use atomic::write_atomically;
 pub use compare::{Comparison, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare};
@@ -34,3 +35,4 @@ pub use summary::{
 pub use table::Table;
 pub use unit_surface::UnitSurface;
 pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries};
+pub use wave_page::{write_flume_gauges, write_wave_page};

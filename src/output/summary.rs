@@ -39,8 +39,6 @@ pub struct Summary {
     pub particles: u64,
     /// Number of particles of each kind.
     pub particle_counts: ParticleCounts,
-    /// Water particles that left the domain.
-    pub escaped_particles: u64,
     /// Distance between particles [m].
     pub dp_m: f64,
     /// Artificial speed of sound [m/s].
@@ -157,8 +155,6 @@ pub struct EnergySummary {
     pub start_j: f64,
     /// At the last moment [J].
     pub end_j: f64,
-    /// Work of the wavemaker on the water [J].
-    pub wavemaker_work_j: f64,
 }
 
 /// Number of particles of each kind.
@@ -194,8 +190,6 @@ pub enum Stopped {
     Duration,
     /// The units had come to rest.
     AtRest,
-    /// It was stopped from outside and can be resumed.
-    Interrupted,
 }
 
 /// Time and machine: the keys in which two runs of one case may differ.

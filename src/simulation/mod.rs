@@ -5,6 +5,7 @@
 //! | [`setup`] | makes a simulation of a case |
 //! | this one | one step, in the order of the algorithm |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
+//! | [`energy`] | energy of water and units |
 //! | [`statistics`] | what is kept of a run besides its series |
 //! | [`recorder`] | writes the series and snapshots |
 //! | [`checkpoint`] | state to and from HDF5 |
@@ -12,6 +13,7 @@
 //! | [`summary`] | the run in a few numbers |
 
 pub mod checkpoint;
+pub mod energy;
 pub mod failure;
 pub mod progress;
 pub mod recorder;
@@ -122,13 +124,16 @@ impl Simulation {
         if self.time >= self.case.numerics.hold_units {
             units.world.advance(dt, &units.fluid_loads).map_err(Failure::Contact)?;
             self.statistics.count_loads(&units.fluid_loads, units.world.contact_loads());
+        } else if self.time >= 0.5 * self.case.numerics.hold_units {
+            self.statistics.count_still_loads(&units.fluid_loads);
         }
         Ok(())
     }
 
     /// Put wavemaker and units where they are now.
     pub fn place_boundary(&mut self) {
-        move_piston(&mut self.boundary, self.piston.as_ref(), self.flume_time());
+        let flume_time = self.flume_time();
+        move_piston(&mut self.boundary, self.piston.as_ref(), flume_time);
         if let Some(units) = &self.units {
             units.states().iter().enumerate().for_each(|(k, s)| self.boundary.move_unit(k, s));
         }

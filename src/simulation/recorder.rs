@@ -11,9 +11,9 @@ use crate::{
     case::{Case, Gauge, Quantity},
     output::{
         Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically,
+        write_flume_gauges,
     },
     rigid::ContactEvent,
-    waves::record::FlumeRecord,
 };
 
 const WATER_FIELDS: [(&str, FieldKind); 4] = [
@@ -282,17 +282,6 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     row
 }
 
-fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Result<(), OutputError> {
-    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
-    let names: Vec<String> =
-        ["time_s".to_owned()].into_iter().chain(gauges.map(|gauge| columns::elevation(&gauge.name))).collect();
-    let mut series = CsvSeries::create(path, &names)?;
-    let row = |(k, &time): (usize, &f64)| -> Vec<f64> {
-        [time].into_iter().chain(record.gauge_elevations_m.iter().map(|gauge| gauge[k])).collect()
-    };
-    series.append_rows(record.times_s().iter().enumerate().map(row))
-}
-
 fn energy_row(simulation: &Simulation) -> [f64; 6] {
     let energy = simulation.energy();
     [
@@ -303,51 +292,6 @@ fn energy_row(simulation: &Simulation) -> [f64; 6] {
         energy.units_kinetic,
         energy.units_potential,
     ]
-}
-
-/// Energy of water and units [J]; heights count from z = 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EnergyOf {
-    /// Kinetic energy of the water.
-    pub kinetic: f64,
-    /// Potential energy of the water.
-    pub potential: f64,
-    /// Energy of compression of the water.
-    pub internal: f64,
-    /// Kinetic energy of the units.
-    pub units_kinetic: f64,
-    /// Potential energy of the units.
-    pub units_potential: f64,
-}
-
-impl EnergyOf {
-    /// All of it [J].
-    pub fn total(&self) -> f64 {
-        self.kinetic + self.potential + self.internal + self.units_kinetic + self.units_potential
-    }
-}
-
-impl Simulation {
-    /// Energy of water and units.
-    pub fn energy(&self) -> EnergyOf {
-        let (water, parameters) = (&self.water, &self.solver().parameters);
-        let mut energy = EnergyOf { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
-        for i in 0..water.len() {
-            energy.kinetic += 0.5 * water.mass[i] * water.velocity[i].length_squared();
-            energy.potential += water.mass[i] * parameters.gravity * water.position[i].z;
-            energy.internal += water.mass[i] * parameters.tait.internal_energy(water.density[i]);
-        }
-        if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
-            let inertia = units.shape.inertia(of_case.mass);
-            for state in units.states() {
-                let spin = state.rotation.inverse() * state.angular_velocity;
-                energy.units_kinetic +=
-                    0.5 * of_case.mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
-                energy.units_potential += of_case.mass * parameters.gravity * state.position.z;
-            }
-        }
-        energy
-    }
 }
 
 /// From the clock of the contacts, which starts when the units are let go, to that of the flume [s].

@@ -1,9 +1,6 @@
 //! The loop of a run: steps, outputs, checkpoints, stop rules.
 
-use std::{
-    path::Path,
-    sync::{Arc, atomic::{AtomicBool, Ordering}},
-};
+use std::{path::Path, sync::Arc};
 
 use thiserror::Error;
 
@@ -44,8 +41,6 @@ pub enum RunError {
 pub struct RunOptions {
     /// No progress.
     pub quiet: bool,
-    /// Set from outside to end the run at the next step with a checkpoint.
-    pub interrupted: Arc<AtomicBool>,
 }
 
 /// Run a case into an existing, empty folder.
@@ -87,10 +82,8 @@ fn drive(
             Err(failure) => return Err(keep_failed(&simulation, &recorder, dir, failure)),
         };
         simulation.statistics.wall_s = wall_before + progress.wall();
-        if let Some(stopped) = stop_rule(&mut simulation, options) {
-            if stopped != Stopped::Interrupted {
-                recorder.record_end(&mut simulation)?;
-            }
+        if let Some(stopped) = stop_rule(&mut simulation) {
+            recorder.record_end(&mut simulation)?;
             checkpoint::write(&simulation, recorder.state(), dir, checkpoint::FILE)?;
             progress.finish();
             let summary = summarise(&simulation, stopped, dir)?;
@@ -120,10 +113,7 @@ fn keep_failed(simulation: &Simulation, recorder: &Recorder, dir: &Path, failure
 }
 
 /// Whether the run is over, and why.
-fn stop_rule(simulation: &mut Simulation, options: &RunOptions) -> Option<Stopped> {
-    if options.interrupted.load(Ordering::Relaxed) {
-        return Some(Stopped::Interrupted);
-    }
+fn stop_rule(simulation: &mut Simulation) -> Option<Stopped> {
     let stop = &simulation.case.stop;
     if simulation.time >= stop.duration {
         return Some(Stopped::Duration);

@@ -1,5 +1,6 @@
 //! What is kept of a run besides its series.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::rigid::Load;
@@ -13,7 +14,10 @@ pub struct Statistics {
     pub shortest_step: f64,
     /// Longest step [s].
     pub longest_step: f64,
-    /// Largest force of the water on each unit, buoyancy included [N].
+    /// Sum of the water's force on each unit over the second half of the time that the units are held [N], and the
+    /// number of steps in it.
+    still_force: (Vec<[f64; 3]>, u64),
+    /// Largest force of the water on each unit beyond that of the still water [N].
     pub peak_fluid_force: Vec<f64>,
     /// Largest force of bed and neighbours on each unit [N].
     pub peak_contact_force: Vec<f64>,
@@ -35,6 +39,7 @@ impl Statistics {
     /// Statistics of a run with `units` units.
     pub fn new(units: usize) -> Self {
         Self {
+            still_force: (vec![[0.0; 3]; units], 0),
             peak_fluid_force: vec![0.0; units],
             peak_contact_force: vec![0.0; units],
             contacts: vec![[0; 2]; units],
@@ -49,12 +54,25 @@ impl Statistics {
         self.steps += 1;
     }
 
+    /// Count the loads of a step while the units are held.
+    pub fn count_still_loads(&mut self, fluid: &[Load]) {
+        let (sums, count) = &mut self.still_force;
+        sums.iter_mut().zip(fluid).for_each(|(sum, load)| *sum = (DVec3::from(*sum) + load.force).to_array());
+        *count += 1;
+    }
+
+    /// Mean force of the still water on a unit [N]; zero if the units were never held.
+    pub fn still_force(&self, unit: usize) -> DVec3 {
+        let (sums, count) = &self.still_force;
+        DVec3::from(sums[unit]) / (*count).max(1) as f64
+    }
+
     /// Count the loads of a step.
     pub fn count_loads(&mut self, fluid: &[Load], contact: &[Load]) {
-        let keep = |peaks: &mut [f64], loads: &[Load]| {
-            peaks.iter_mut().zip(loads).for_each(|(peak, load)| *peak = peak.max(load.force.length()));
-        };
-        keep(&mut self.peak_fluid_force, fluid);
-        keep(&mut self.peak_contact_force, contact);
+        for unit in 0..fluid.len() {
+            let beyond_still = (fluid[unit].force - self.still_force(unit)).length();
+            self.peak_fluid_force[unit] = self.peak_fluid_force[unit].max(beyond_still);
+            self.peak_contact_force[unit] = self.peak_contact_force[unit].max(contact[unit].force.length());
+        }
     }
 }

@@ -200,9 +200,8 @@ fn energy(run: &RunFolder) -> String {
     if let Some(energy) = &run.summary.energy {
         let change = energy.end_j - energy.start_j;
         words += &format!(
-            " Over the run the sum changed by {} J, while the wavemaker did {} J of work on the water.",
-            short(change, 2),
-            short(energy.wavemaker_work_j, 2)
+            " Over the run the sum changed by {} J: the wavemaker's work less what is dissipated.",
+            short(change, 2)
         );
     }
     section("Energy", &format!("<figure>{chart}<figcaption>{words}</figcaption></figure>\n"))
@@ -222,7 +221,6 @@ fn facts(summary: &Summary) -> String {
     let stopped = match summary.stopped {
         Stopped::Duration => "simulated time of the case file over",
         Stopped::AtRest => "units at rest",
-        Stopped::Interrupted => "interrupted; the run can be resumed",
     };
     let mut rows = vec![
         (
@@ -237,7 +235,6 @@ fn facts(summary: &Summary) -> String {
             ),
         ),
         ("Distance between particles", format!("{} mm", short(1000.0 * summary.dp_m, 3))),
-        ("Water particles lost", grouped(summary.escaped_particles)),
         (
             "Domain",
             format!(

@@ -1,0 +1,132 @@
+//! `breakwater run` and `breakwater resume`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Trouble, fresh_folder, load, stem};
+use crate::{
+    case::Case,
+    output::{Stopped, Summary},
+    simulation::{
+        progress::readable,
+        run::{RunError, RunOptions, resume, run},
+    },
+};
+
+/// Run a case: wave, water, units, contact; tables, ParaView files, summary and report come into one folder.
+#[derive(Args)]
+pub struct RunArguments {
+    /// The case file.
+    case: PathBuf,
+    /// Folder of the results; without it, runs/<name of the case>.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Replace what the folder holds.
+    #[arg(long)]
+    overwrite: bool,
+    #[command(flatten)]
+    machine: MachineArguments,
+}
+
+/// Go on with an interrupted run from its last checkpoint; the end has the same bits as that of an unbroken run.
+#[derive(Args)]
+pub struct ResumeArguments {
+    /// Folder of the run.
+    dir: PathBuf,
+    #[command(flatten)]
+    machine: MachineArguments,
+}
+
+#[derive(Args)]
+struct MachineArguments {
+    /// Threads; without it, one a core. The results do not depend on it.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// No progress.
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl RunArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let case = load(&self.case)?;
+        let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
+        fresh_folder(&dir, self.overwrite)?;
+        let options = self.machine.prepare()?;
+        introduce(&case, &dir, options.quiet);
+        finish(run(case, &dir, &options), &dir)
+    }
+}
+
+impl ResumeArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let case = load(&self.dir.join("case.json"))?;
+        let options = self.machine.prepare()?;
+        introduce(&case, &self.dir, options.quiet);
+        finish(resume(case, &self.dir, &options), &self.dir)
+    }
+}
+
+impl MachineArguments {
+    /// Size the thread pool.
+    fn prepare(&self) -> Result<RunOptions, Trouble> {
+        let threads = self.threads.unwrap_or(0);
+        if self.threads == Some(0) || threads > 1024 {
+            return Err(Trouble::refused(format!("--threads {threads}: must be between 1 and 1024")));
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Trouble::failed)?;
+        Ok(RunOptions { quiet: self.quiet })
+    }
+}
+
+fn introduce(case: &Case, dir: &Path, quiet: bool) {
+    if quiet {
+        return;
+    }
+    let estimate = case.estimate();
+    eprintln!("{}", case.title);
+    eprintln!(
+        "  about {:.0} thousand particles, dp = {} m, {} s in about {:.0} steps on {} threads",
+        estimate.particles() / 1e3,
+        case.domain.dp,
+        case.stop.duration,
+        estimate.steps,
+        rayon::current_num_threads()
+    );
+    for assumption in &case.assumptions {
+        eprintln!("  assumed: {assumption}");
+    }
+    eprintln!("  results in {}", dir.display());
+}
+
+/// Say how a run ended.
+fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<(), Trouble> {
+    let summary = match ended {
+        Ok(summary) => summary,
+        Err(error @ RunError::Setup(_)) => return Err(Trouble::refused(error)),
+        Err(error) => return Err(Trouble::failed(error)),
+    };
+    let why = match summary.stopped {
+        Stopped::Duration => "time of the case over",
+        Stopped::AtRest => "units at rest",
+    };
+    println!(
+        "{:.2} s simulated in {} steps and {} ({why})",
+        summary.simulated_s,
+        summary.steps,
+        readable(summary.execution.wall_s)
+    );
+    for unit in &summary.units {
+        let damaged = if unit.damaged { ", damaged" } else { "" };
+        println!("  unit {:2}: moved {:.3} m{damaged}", unit.unit, unit.displacement_m);
+    }
+    if let (Some(mean), Some(ratio)) = (summary.mean_displacement_m, summary.damage_ratio) {
+        println!("  mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio);
+    }
+    println!("report: {}", dir.join("report.html").display());
+    if summary.wave.is_some() && !summary.units.is_empty() {
+        println!("beside the Fudo experiment: breakwater compare {}", dir.display());
+    }
+    Ok(())
+}

@@ -1,0 +1,48 @@
+//! Energy of water and units.
+
+use super::Simulation;
+
+/// Energy of water and units [J]; heights count from z = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyOf {
+    /// Kinetic energy of the water.
+    pub kinetic: f64,
+    /// Potential energy of the water.
+    pub potential: f64,
+    /// Energy of compression of the water.
+    pub internal: f64,
+    /// Kinetic energy of the units.
+    pub units_kinetic: f64,
+    /// Potential energy of the units.
+    pub units_potential: f64,
+}
+
+impl EnergyOf {
+    /// All of it [J].
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential + self.internal + self.units_kinetic + self.units_potential
+    }
+}
+
+impl Simulation {
+    /// Energy of water and units.
+    pub fn energy(&self) -> EnergyOf {
+        let (water, parameters) = (&self.water, &self.solver().parameters);
+        let mut energy = EnergyOf { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
+        for i in 0..water.len() {
+            energy.kinetic += 0.5 * water.mass[i] * water.velocity[i].length_squared();
+            energy.potential += water.mass[i] * parameters.gravity * water.position[i].z;
+            energy.internal += water.mass[i] * parameters.tait.internal_energy(water.density[i]);
+        }
+        if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
+            let inertia = units.shape.inertia(of_case.mass);
+            for state in units.states() {
+                let spin = state.rotation.inverse() * state.angular_velocity;
+                energy.units_kinetic +=
+                    0.5 * of_case.mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
+                energy.units_potential += of_case.mass * parameters.gravity * state.position.z;
+            }
+        }
+        energy
+    }
+}
