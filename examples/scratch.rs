@@ -78,10 +78,21 @@ fn main() {
                 cnt += 1.0;
                 worst = worst.max(e.abs());
             }
-            let k = (0..water.len()).max_by(|&a, &b| water.velocity[a].length().total_cmp(&water.velocity[b].length())).unwrap();
+            let k = (0..water.len())
+                .max_by(|&a, &b| water.velocity[a].length().total_cmp(&water.velocity[b].length()))
+                .unwrap();
             let kb = (0..boundary.len()).max_by(|&a, &b| boundary.density[a].total_cmp(&boundary.density[b])).unwrap();
             let km = (0..boundary.len()).min_by(|&a, &b| boundary.density[a].total_cmp(&boundary.density[b])).unwrap();
-            println!("  fastest {:.4} v {:.3}  boundary max {:.1} at {:.4} min {:.1} at {:.4} (n {:.4})", water.position[k], water.velocity[k], boundary.density[kb], boundary.position[kb], boundary.density[km], boundary.position[km], boundary.to_surface[km]);
+            println!(
+                "  fastest {:.4} v {:.3}  boundary max {:.1} at {:.4} min {:.1} at {:.4} (n {:.4})",
+                water.position[k],
+                water.velocity[k],
+                boundary.density[kb],
+                boundary.position[kb],
+                boundary.density[km],
+                boundary.position[km],
+                boundary.to_surface[km]
+            );
             let zmax = water.position.iter().map(|p| p.z).fold(0.0, f64::max);
             println!(
                 "t {t:.3} n {n} dt {dt:.3e} ke {ke:.3e} vmax {vmax:.4} p rms {:.4} worst {worst:.4} ztop {:.5} list {:.0}",

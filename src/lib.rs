@@ -16,6 +16,9 @@
 //!
 //! SI units throughout. Axes: x from the wavemaker to the shore, y across the flume, z upwards.
 
+// Units stand in brackets in every description; rustdoc would read `[m]` as a link to something called m.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod case;
 pub mod cli;
 pub mod geometry;

@@ -23,7 +23,12 @@ impl InitArguments {
         }
         write_atomically(&self.file, crate::case::template_text().as_bytes()).map_err(Trouble::failed)?;
         write_atomically(&schema, crate::case::schema_text().as_bytes()).map_err(Trouble::failed)?;
-        println!("{} and {} written; next: breakwater check {}", self.file.display(), schema.display(), self.file.display());
+        println!(
+            "{} and {} written; next: breakwater check {}",
+            self.file.display(),
+            schema.display(),
+            self.file.display()
+        );
         Ok(())
     }
 }

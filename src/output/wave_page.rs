@@ -32,7 +32,12 @@ pub fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Res
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write_wave_page(case: &Case, record: &FlumeRecord, piston: &MlPiston, dir: &Path) -> Result<PathBuf, OutputError> {
+pub fn write_wave_page(
+    case: &Case,
+    record: &FlumeRecord,
+    piston: &MlPiston,
+    dir: &Path,
+) -> Result<PathBuf, OutputError> {
     let path = dir.join("wave.html");
     let lead = format!(
         "Layered model of the whole flume, {} layers; wavemaker of the particles at x = {} m from flume time {} s",

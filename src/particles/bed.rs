@@ -34,6 +34,32 @@ impl Outline {
             .expect("an outline has pieces")
     }
 
+    /// Normal into the water at the place of the outline nearest to `point`, if that is nearer than `least` [m] or the
+    /// point lies behind the outline.
+    pub fn normal_within(&self, point: DVec2, least: f64) -> Option<DVec2> {
+        let far = |piece: &[DVec2]| {
+            let normal = left_normal(piece);
+            // A point in front of a piece and further from its line than `least` is not concerned by it.
+            (point - piece[0]).dot(normal) > least
+        };
+        if self.points.windows(2).all(far) {
+            return None;
+        }
+        let mut best: Option<(f64, DVec2)> = None;
+        for piece in self.points.windows(2) {
+            let along = piece[1] - piece[0];
+            let t = ((point - piece[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            let offset = point - (piece[0] + t * along);
+            // Of two pieces that meet in the nearest corner the one that the point is further behind decides.
+            let side = offset.dot(left_normal(piece));
+            let signed = if side < 0.0 { -offset.length() } else { offset.length() };
+            if best.is_none_or(|(nearest, _)| signed.abs() < f64::abs(nearest) - 1e-12) {
+                best = Some((signed, left_normal(piece)));
+            }
+        }
+        best.filter(|(signed, _)| *signed < least).map(|(_, normal)| normal)
+    }
+
     /// Points behind the outline at distances (k + 1/2) dp for k below `layers`, about dp apart: the point, and the
     /// length of outline that it stands for [m].
     fn layers(&self, dp: f64, layers: u32) -> Vec<(DVec2, f64)> {

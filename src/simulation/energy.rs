@@ -28,7 +28,8 @@ impl Simulation {
     /// Energy of water and units.
     pub fn energy(&self) -> EnergyOf {
         let (water, parameters) = (&self.water, &self.solver().parameters);
-        let mut energy = EnergyOf { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
+        let mut energy =
+            EnergyOf { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
         for i in 0..water.len() {
             energy.kinetic += 0.5 * water.mass[i] * water.velocity[i].length_squared();
             energy.potential += water.mass[i] * parameters.gravity * water.position[i].z;

@@ -52,15 +52,13 @@ pub enum Failure {
 /// Name the particle whose state or rate is not finite.
 pub(super) fn not_finite(simulation: &Simulation) -> Failure {
     let water = &simulation.water;
-    let bad = (0..water.len()).find(|&i| {
-        !(water.position[i].is_finite() && water.velocity[i].is_finite() && water.density[i].is_finite())
-    });
+    let bad = (0..water.len())
+        .find(|&i| !(water.position[i].is_finite() && water.velocity[i].is_finite() && water.density[i].is_finite()));
     let (what, place) = match bad {
         Some(i) => (format!("the state of particle {} is not a finite number", water.id[i]), water.position[i]),
         None => {
-            let fastest = (0..water.len()).max_by(|&a, &b| {
-                water.velocity[a].length_squared().total_cmp(&water.velocity[b].length_squared())
-            });
+            let fastest = (0..water.len())
+                .max_by(|&a, &b| water.velocity[a].length_squared().total_cmp(&water.velocity[b].length_squared()));
             let place = fastest.map_or(DVec3::NAN, |i| water.position[i]);
             ("a rate is not a finite number".to_owned(), place)
         }

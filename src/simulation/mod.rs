@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`setup`] | makes a simulation of a case |
 //! | this one | one step, in the order of the algorithm |
+//! | `impermeable` | keeping water out of solids |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
 //! | [`energy`] | energy of water and units |
 //! | [`statistics`] | what is kept of a run besides its series |
@@ -15,6 +16,7 @@
 pub mod checkpoint;
 pub mod energy;
 pub mod failure;
+mod impermeable;
 pub mod progress;
 pub mod recorder;
 pub mod run;
@@ -29,7 +31,7 @@ use glam::DVec3;
 use crate::{
     case::Case,
     geometry::armour_unit::ArmourUnit,
-    particles::{boundary::Boundary, water::Water},
+    particles::{bed::Outline, boundary::Boundary, water::Water},
     rigid::{BodyState, Load, RigidWorld},
     sph::{sampling::Sampler, step::Solver},
     waves::{ml_piston::MlPiston, record::FlumeRecord},
@@ -59,6 +61,8 @@ pub struct Simulation {
     pub statistics: Statistics,
     solver: Solver,
     piston: Option<MlPiston>,
+    /// Bed, mound and end walls.
+    outline: Outline,
     /// Box that no particle may leave [m].
     bounds: [DVec3; 2],
 }
@@ -93,7 +97,8 @@ impl Simulation {
         Ok(dt)
     }
 
-    /// Second half of a step of length `dt` [s]: predictor, rates at the half step, corrector, units.
+    /// Second half of a step of length `dt` [s]: predictor, rates at the half step, corrector, loads,
+    /// impermeable surfaces, units.
     ///
     /// # Errors
     /// If a particle has left the domain, or units have gone too deep into each other or the bed.
@@ -107,6 +112,8 @@ impl Simulation {
         });
         self.solver.rates();
         self.solver.correct(dt, &mut self.water, &mut self.boundary);
+        self.sum_unit_loads(dt);
+        self.keep_water_out(dt);
         self.advance_units(dt)?;
         self.time += dt;
         self.steps += 1;
@@ -115,12 +122,17 @@ impl Simulation {
         failure::find_escape(self).map_or(Ok(()), Err)
     }
 
-    /// The units' bodies over a step under the load of the water at its middle; held at first.
-    fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
-        let Some(units) = &mut self.units else { return Ok(()) };
+    /// Forces and torques of the water on the units at the half step.
+    fn sum_unit_loads(&mut self, dt: f64) {
+        let Some(units) = &mut self.units else { return };
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
         let loads = self.solver.unit_loads(&self.boundary, &centres);
         units.fluid_loads = loads.into_iter().map(|(force, torque)| Load { force, torque }).collect();
+    }
+
+    /// The units' bodies over a step under the loads of the water; at first they are held.
+    fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
+        let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
             units.world.advance(dt, &units.fluid_loads).map_err(Failure::Contact)?;
             self.statistics.count_loads(&units.fluid_loads, units.world.contact_loads());

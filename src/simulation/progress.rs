@@ -25,7 +25,8 @@ pub struct Progress {
 impl Progress {
     /// Progress of a run that lasts `duration` [s] of simulated time at most.
     pub fn new(simulation: &Simulation, quiet: bool) -> Self {
-        let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
+        let style =
+            ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
         let on_terminal = std::io::stderr().is_terminal() && !quiet;
         Self {
             bar: on_terminal.then(|| ProgressBar::new(1000).with_style(style)),

@@ -159,11 +159,11 @@ impl Simulation {
         let piston = flume.as_ref().map(|record| ml_piston(&case, record, start));
         let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
 
-        let across = across(&case);
+        let (across, outline) = (across(&case), outline(&case, piston.is_some()));
         let shape_particles = units.as_ref().map_or_else(Vec::new, |units| particles_of(&units.shape, case.domain.dp));
         let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
-            &fixed_particles(&case, &across, piston.is_some()),
+            &fixed_particles(&case, &outline, &across),
             &piston.as_ref().map_or_else(Vec::new, |piston| piston_particles(&case, &across, piston)),
             &shape_particles,
             count,
@@ -188,6 +188,7 @@ impl Simulation {
             steps: 0,
             start,
             piston,
+            outline,
         };
         simulation.place_boundary();
         Ok(simulation)
@@ -195,11 +196,7 @@ impl Simulation {
 }
 
 fn across(case: &Case) -> Across {
-    Across {
-        width: case.domain.width,
-        count: case.domain.ny as u32,
-        walls: case.domain.sides == case::Sides::Walls,
-    }
+    Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
 /// Box round everything that can hold water or boundary particles [m].
@@ -221,19 +218,23 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Bed, mound, end walls and side walls.
-fn fixed_particles(case: &Case, across: &Across, piston: bool) -> Vec<BoundaryParticle> {
-    let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
-    let [x0, x1] = domain.x;
-    // Under the piston the bed goes on for the layers of the piston.
-    let bed_start = if piston { x0 - f64::from(layers) * domain.dp } else { x0 };
+/// Bed, mound and end walls; where a piston stands, the bed goes on under its layers instead of the seaward wall.
+fn outline(case: &Case, piston: bool) -> Outline {
+    let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
+    let bed_start = if piston { x0 - (case.numerics.boundary_layers as f64) * case.domain.dp } else { x0 };
     let mut points: Vec<DVec2> = Vec::new();
     if !piston {
-        points.push(DVec2::new(x0, domain.top_z));
+        points.push(DVec2::new(x0, top));
     }
     points.extend(bed_between(&case.flume.profile, bed_start, x1));
-    points.push(DVec2::new(x1, domain.top_z));
-    let mut particles = outline_particles(&Outline::new(points), across, domain.dp, layers);
+    points.push(DVec2::new(x1, top));
+    Outline::new(points)
+}
+
+/// Particles of bed, mound, end walls and side walls.
+fn fixed_particles(case: &Case, outline: &Outline, across: &Across) -> Vec<BoundaryParticle> {
+    let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
+    let mut particles = outline_particles(outline, across, domain.dp, layers);
     let bed = |x: f64| case.flume.profile.z(x);
     let sides = basin(case, across, &bed, &|_| domain.top_z, &|_, _| DVec2::ZERO).side_section(domain.top_z);
     particles.extend(side_wall_particles(&sides, across, layers));
@@ -248,11 +249,14 @@ fn piston_particles(case: &Case, across: &Across, piston: &MlPiston) -> Vec<(u32
         for layer in 0..layers {
             let behind = (f64::from(layer) + 0.5) * dp;
             for y in across.rows(layers) {
-                particles.push((row as u32, BoundaryParticle {
-                    position: DVec3::new(case.domain.x[0] - behind, y, z),
-                    to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
-                    volume: dp * dp * across.spacing(),
-                }));
+                particles.push((
+                    row as u32,
+                    BoundaryParticle {
+                        position: DVec3::new(case.domain.x[0] - behind, y, z),
+                        to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
+                        volume: dp * dp * across.spacing(),
+                    },
+                ));
             }
         }
     }

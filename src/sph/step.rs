@@ -34,6 +34,8 @@ pub struct Solver {
     water: Group,
     walls: Group,
     units: Group,
+    /// Bed, walls and units near each unit.
+    gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
     half: Water,
@@ -95,6 +97,7 @@ impl Solver {
             water: Group::default(),
             walls: Group::default(),
             units: Group::default(),
+            gap_lists: NeighbourLists::default(),
             records: Vec::new(),
             ghosts: GhostNodes::default(),
             half: Water::default(),
@@ -128,7 +131,10 @@ impl Solver {
         lists.build(grid, &w.bins, &w.sorted, &everything, reach);
         let only_water = [Group::sources(w)];
         units.lists.build(grid, &units.bins, &units.sorted, &only_water, reach);
-        if self.parameters.boundary == BoundaryCondition::Dynamic {
+        if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
+            let solids = [walls.sources(), units.sources()];
+            self.gap_lists.build(grid, &units.bins, &units.sorted, &solids, reach);
+        } else {
             walls.lists.build(grid, &walls.bins, &walls.sorted, &only_water, reach);
         }
         w.lists = lists;
@@ -160,7 +166,8 @@ impl Solver {
         let (of_water, of_boundary) = self.records.split_at_mut(water.position.len());
         let (of_walls, of_units) = of_boundary.split_at_mut(boundary.walls().len());
         of_water.par_iter_mut().enumerate().with_min_len(PIECE).for_each(|(i, out)| {
-            *out = record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true);
+            *out =
+                record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true);
         });
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let density = if half && !diffuses { &self.half_density } else { &boundary.density };
@@ -194,10 +201,12 @@ impl Solver {
 
     /// Rates of water, units and, under DBC, walls from the records as they stand.
     pub fn rates(&mut self) {
-        let Self { pairs, records, water, walls, units, parameters, .. } = self;
+        let Self { pairs, records, water, walls, units, parameters, gap_lists, .. } = self;
         pairs.rates(&water.lists, records, 0, &mut water.rates);
         pairs.rates(&units.lists, records, units.first_record, &mut units.rates);
-        if parameters.boundary == BoundaryCondition::Dynamic {
+        if parameters.boundary == BoundaryCondition::ModifiedDynamic {
+            pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
+        } else {
             pairs.rates(&walls.lists, records, walls.first_record, &mut walls.rates);
         }
     }

@@ -1,0 +1,152 @@
+//! Water does not flow through solids.
+//!
+//! mDBC gives a boundary the pressure of the water in front of it; it has no barrier of its own, and a water particle
+//! that was thrown against an edge or into the wedge under a unit can sink through. Therefore the kinematic condition
+//! of an impermeable surface is imposed on the few particles nearer to a surface than [`NEAREST`]: the part of their
+//! velocity that would take them further towards it, relative to the surface, is taken away. In calm water particles
+//! stay half a particle distance away and none is concerned. What a unit takes from the water in this way is given to
+//! it as an impulse.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::{Simulation, Units};
+use crate::{
+    case::Sides,
+    geometry::convex_part::ConvexPart,
+    particles::{bed::Outline, water::Water},
+    rigid::{BodyState, Load},
+    sph::grid::{Bins, Grid},
+    waves::ml_piston::MlPiston,
+};
+
+/// Distance from a surface, in particle distances, at which the approach of a particle ends: half of that of calm water.
+pub const NEAREST: f64 = 0.25;
+
+impl Simulation {
+    /// Take away the velocities into bed, walls, wavemaker and units at the end of a step of length `dt` [s]; the units'
+    /// share is added to their loads.
+    pub(super) fn keep_water_out(&mut self, dt: f64) {
+        let nearest = NEAREST * self.case.domain.dp;
+        let flume_time = self.flume_time() + dt;
+        keep_out_of_walls(&mut self.water, &self.outline, nearest);
+        if self.case.domain.sides == Sides::Walls {
+            keep_out_of_sides(&mut self.water, self.case.domain.width, nearest);
+        }
+        if let Some(piston) = &self.piston {
+            keep_out_of_piston(&mut self.water, piston, self.case.domain.dp, nearest, flume_time);
+        }
+        let Some(units) = &mut self.units else { return };
+        let (grid, bins) = (&self.solver.grid, self.solver.water_bins());
+        let impulses = keep_out_of_units(&mut self.water, units, grid, bins, nearest);
+        for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
+            load.force += impulse.force / dt;
+            load.torque += impulse.torque / dt;
+        }
+    }
+}
+
+/// The velocity without its part against the unit `normal`.
+fn without_approach(velocity: DVec3, normal: DVec3) -> DVec3 {
+    velocity - velocity.dot(normal).min(0.0) * normal
+}
+
+fn keep_out_of_walls(water: &mut Water, outline: &Outline, nearest: f64) {
+    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
+        let place = DVec2::new(position.x, position.z);
+        if let Some(normal) = outline.normal_within(place, nearest) {
+            *velocity = without_approach(*velocity, DVec3::new(normal.x, 0.0, normal.y));
+        }
+    });
+}
+
+fn keep_out_of_sides(water: &mut Water, width: f64, nearest: f64) {
+    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
+        if position.y < nearest {
+            velocity.y = velocity.y.max(0.0);
+        }
+        if position.y > width - nearest {
+            velocity.y = velocity.y.min(0.0);
+        }
+    });
+}
+
+fn keep_out_of_piston(water: &mut Water, piston: &MlPiston, dp: f64, nearest: f64, flume_time: f64) {
+    let rows: Vec<[f64; 2]> = (0..piston.row_heights_m().len())
+        .map(|row| [piston.displacement_m(row, flume_time), piston.velocity_m_s(row, flume_time)])
+        .collect();
+    let furthest = rows.iter().map(|row| row[0]).fold(0.0, f64::max) + piston.place_m() + nearest;
+    let lowest = piston.row_heights_m()[0];
+    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
+        if position.x > furthest {
+            return;
+        }
+        let row = ((position.z - lowest) / dp).round().clamp(0.0, (rows.len() - 1) as f64) as usize;
+        let [displacement, speed] = rows[row];
+        if position.x < piston.place_m() + displacement + nearest {
+            velocity.x = velocity.x.max(speed);
+        }
+    });
+}
+
+/// Returns the impulse on each unit [N s] and its moment about the centre of mass [N m s].
+fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: &Bins, nearest: f64) -> Vec<Load> {
+    let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
+    let keep_out = |state: &BodyState| {
+        let mut impulse = Load::default();
+        for particle in candidates(grid, bins, state.position, reach) {
+            let mut arm = water.position[particle] - state.position;
+            if let Some(width) = grid.periodic_width {
+                arm.y -= width * (arm.y / width).round();
+            }
+            let Some(normal) = normal_within(units.shape.parts(), state, arm, nearest) else { continue };
+            let surface = state.velocity + state.angular_velocity.cross(arm);
+            let velocity = surface + without_approach(water.velocity[particle] - surface, normal);
+            let taken = water.mass[particle] * (water.velocity[particle] - velocity);
+            water.velocity[particle] = velocity;
+            impulse.force += taken;
+            impulse.torque += arm.cross(taken);
+        }
+        impulse
+    };
+    units.states().iter().map(keep_out).collect()
+}
+
+/// Radius of the sphere about the centre of mass that holds the part [m].
+fn reach_of(part: &ConvexPart) -> f64 {
+    let (centre, radius) = part.bounding_sphere();
+    centre.length() + radius
+}
+
+/// Outward normal of the unit where a point at `arm` [m] from its centre is nearer to its surface than `nearest` [m].
+fn normal_within(parts: &[ConvexPart], state: &BodyState, arm: DVec3, nearest: f64) -> Option<DVec3> {
+    let local = state.rotation.inverse() * arm;
+    let distances = parts.iter().map(|part| (part, part.distance(local)));
+    let (part, distance) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    // From the part's core outwards; in the core itself, away from the centre of mass.
+    let outwards = (local - part.nearest(local)).try_normalize().or(local.try_normalize())?;
+    (distance < nearest).then(|| state.rotation * outwards)
+}
+
+/// Water particles in the bins round a place; they have hardly moved since they were sorted.
+fn candidates<'a>(grid: &Grid, bins: &'a Bins, centre: DVec3, reach: f64) -> impl Iterator<Item = usize> + use<'a> {
+    let [nx, ny, _] = grid.count;
+    let margin = reach + 0.5 * grid.size.x;
+    let along = |axis: usize| grid.along(axis, centre[axis] - margin)..=grid.along(axis, centre[axis] + margin);
+    let (x, z) = (along(0), along(2));
+    let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { along(1) };
+    let rows = z.flat_map(move |iz| y.clone().map(move |iy| (iz * ny + iy) * nx));
+    rows.flat_map(move |row| bins.start[row + x.start()] as usize..bins.start[row + x.end() + 1] as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_approach_is_taken_away() {
+        let normal = DVec3::Z;
+        assert_eq!(without_approach(DVec3::new(1.0, 2.0, -3.0), normal), DVec3::new(1.0, 2.0, 0.0));
+        assert_eq!(without_approach(DVec3::new(1.0, 2.0, 3.0), normal), DVec3::new(1.0, 2.0, 3.0));
+    }
+}
