@@ -299,7 +299,7 @@ impl Default for OutputFile {
 pub struct StopFile {
     /// Simulated time at most [s], counted from the start of the particles.
     pub duration_s: f64,
-    /// End earlier when every unit that has moved has been at rest for a while.
+    /// End earlier when every unit has been at rest for a while.
     #[serde(default)]
     pub at_rest: Option<AtRestFile>,
 }
@@ -308,7 +308,7 @@ pub struct StopFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AtRestFile {
-    /// A unit slower than this is at rest [m/s].
+    /// A unit whose centre and tips are slower than this is at rest [m/s].
     pub speed_m_s: f64,
     /// For how long all must be at rest [s].
     pub for_s: f64,

@@ -105,17 +105,44 @@ fn stem(path: &std::path::Path) -> String {
     path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Make a folder for results: new, or empty, or emptied of an earlier run if the user says so.
+/// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
+const RESULT_FILES: [&str; 19] = [
+    "case.json",
+    "checkpoint.h5",
+    "compare.csv",
+    "compare.html",
+    "contacts.csv",
+    "energy.csv",
+    "failed.h5",
+    "fluid.vtkhdf",
+    "flume_gauges.csv",
+    "gauges.csv",
+    "ml_piston_velx.csv",
+    "picture.svg",
+    "profile.csv",
+    "report.html",
+    "summary.json",
+    "unit_surface.json",
+    "units.csv",
+    "units.vtkhdf",
+    "wave.html",
+];
+
+/// Make a folder for results: new, or empty, or cleared of an earlier run's files if the user says so.
 fn fresh_folder(dir: &PathBuf, overwrite: bool) -> Result<(), Trouble> {
     let cannot = |error: std::io::Error| Trouble::refused(format!("{}: {error}", dir.display()));
     let occupied = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
-    match occupied && !overwrite {
-        true => Err(Trouble::refused(format!(
+    if occupied && !overwrite {
+        return Err(Trouble::refused(format!(
             "{}: the folder holds files already; choose another with --out DIR, or add --overwrite to replace them \
              (breakwater resume {} goes on with an interrupted run)",
             dir.display(),
             dir.display()
-        ))),
-        false => std::fs::create_dir_all(dir).map_err(cannot),
+        )));
     }
+    std::fs::create_dir_all(dir).map_err(cannot)?;
+    for file in RESULT_FILES.map(|name| dir.join(name)).iter().filter(|file| file.exists()) {
+        std::fs::remove_file(file).map_err(cannot)?;
+    }
+    Ok(())
 }

@@ -15,6 +15,7 @@ use super::{
 use crate::{
     case::Case,
     output::{OutputError, Stopped, Summary, write_report},
+    rigid::BodyState,
 };
 
 /// Why a run ended early.
@@ -119,7 +120,10 @@ fn stop_rule(simulation: &mut Simulation) -> Option<Stopped> {
         return Some(Stopped::Duration);
     }
     let (rule, units) = (stop.at_rest.as_ref()?, simulation.units.as_ref()?);
-    let at_rest = units.states().iter().all(|state| state.velocity.length() < rule.speed);
+    // The tips of a unit are about half its height away from its centre.
+    let tips = 0.5 * units.shape.height();
+    let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
+    let at_rest = units.states().iter().all(|state| speed(state) < rule.speed);
     let since = &mut simulation.statistics.at_rest_since;
     *since = if at_rest { since.or(Some(simulation.time)) } else { None };
     let long_enough = since.is_some_and(|since| simulation.time - since >= rule.hold);

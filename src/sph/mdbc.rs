@@ -25,6 +25,7 @@ use super::{
     records::{Record, split_position},
     solve::solve,
 };
+use crate::particles::boundary::Boundary;
 
 /// Smallest determinant of the scaled matrix, as a share of the determinant of a full neighbourhood with the same sum
 /// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles
@@ -61,21 +62,18 @@ struct NodeSums {
 }
 
 impl GhostNodes {
-    /// Find the density of each boundary particle and write it to `density` [kg/m3].
-    ///
-    /// `to_surface` leads from a particle to the surface [m], half the way to its ghost node.
+    /// Find the density of each boundary particle from the water round its ghost node.
     pub fn densities(
         &mut self,
         grid: &Grid,
         parameters: &Parameters,
         water: &Sources,
         records: &[Record],
-        positions: &[DVec3],
-        to_surface: &[DVec3],
-        density: &mut [f64],
+        boundary: &mut Boundary,
     ) {
+        let halves = boundary.position.iter().zip(&boundary.to_surface);
         self.points.clear();
-        self.points.extend(positions.iter().zip(to_surface).map(|(&position, &half)| position + 2.0 * half));
+        self.points.extend(halves.map(|(&position, &to_surface)| position + 2.0 * to_surface));
         self.bins.sort(grid, &self.points);
         self.sorted.clear();
         self.sorted.extend(self.bins.order.iter().map(|&i| self.points[i as usize]));
@@ -92,7 +90,7 @@ impl GhostNodes {
         });
         for (sums, &particle) in self.sums.iter().zip(&self.bins.order) {
             let particle = particle as usize;
-            density[particle] = sums.density_at(parameters, to_surface[particle]);
+            boundary.density[particle] = sums.density_at(parameters, boundary.to_surface[particle]);
         }
     }
 }

@@ -187,15 +187,7 @@ impl Solver {
         if self.parameters.boundary == BoundaryCondition::Dynamic {
             return;
         }
-        self.ghosts.densities(
-            &self.grid,
-            &self.parameters,
-            &self.water.sources(),
-            &self.records,
-            &boundary.position,
-            &boundary.to_surface,
-            &mut boundary.density,
-        );
+        self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
         self.fill_records(State::of(water), boundary, false);
     }
 
