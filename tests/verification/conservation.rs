@@ -25,7 +25,8 @@ fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
         end.kinetic
     );
     assert!(end.kinetic > 0.1 * start.potential);
-    assert!(rise < 1e-3 * start.potential);
+    // 1e-4 was reached: the waves of compression that run to and fro through the column do work on the bed and get it back.
+    assert!(rise < 3e-4 * start.potential);
     assert!(last < start.total());
     // The sum runs over the same masses, sorted otherwise: rounding.
     assert!((dam.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
