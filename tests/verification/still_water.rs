@@ -42,7 +42,7 @@ impl PressureError {
     }
 
     fn look(&mut self, simulation: &Simulation, end: f64) {
-        if simulation.time < 0.5 * end || simulation.steps % 5 != 0 {
+        if simulation.time < 0.5 * end || !simulation.steps.is_multiple_of(5) {
             return;
         }
         let sampler = simulation.sampler();
