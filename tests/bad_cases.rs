@@ -113,7 +113,6 @@ fn collect_pointers(value: &serde_json::Value, at: String, pointers: &mut Vec<St
 }
 
 #[test]
-#[ignore = "until the check command exists"]
 fn program_refuses_every_bad_case_with_exit_code_2() {
     for (path, expected) in bad_cases() {
         let run =

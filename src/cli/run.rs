@@ -9,6 +9,7 @@ use crate::{
     case::Case,
     output::{Stopped, Summary},
     simulation::{
+        checkpoint,
         progress::readable,
         run::{RunError, RunOptions, resume, run},
     },
@@ -52,8 +53,8 @@ impl RunArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.case)?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
-        fresh_folder(&dir, self.overwrite)?;
         let options = self.machine.prepare()?;
+        fresh_folder(&dir, self.overwrite)?;
         introduce(&case, &dir, options.quiet);
         finish(run(case, &dir, &options), &dir)
     }
@@ -62,6 +63,13 @@ impl RunArguments {
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.dir.join("case.json"))?;
+        let checkpoint = self.dir.join(checkpoint::FILE);
+        if !checkpoint.exists() {
+            return Err(Trouble::refused(format!(
+                "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater run",
+                checkpoint.display()
+            )));
+        }
         let options = self.machine.prepare()?;
         introduce(&case, &self.dir, options.quiet);
         finish(resume(case, &self.dir, &options), &self.dir)

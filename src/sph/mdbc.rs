@@ -44,6 +44,7 @@ pub struct GhostNodes {
     split: Vec<[f32; 4]>,
     lists: NeighbourLists,
     sums: Vec<NodeSums>,
+    portable: bool,
 }
 
 /// Sums over the water round one ghost node, lengths in h.
@@ -62,6 +63,11 @@ struct NodeSums {
 }
 
 impl GhostNodes {
+    /// Ghost nodes whose sums are taken without processor-specific instructions.
+    pub fn portable() -> Self {
+        Self { portable: true, lists: NeighbourLists::portable(), ..Self::default() }
+    }
+
     /// Find the density of each boundary particle from the water round its ghost node.
     pub fn densities(
         &mut self,
@@ -83,7 +89,8 @@ impl GhostNodes {
 
         self.sums.resize(self.sorted.len(), NodeSums::default());
         let (split, lists) = (&self.split, &self.lists);
-        let pairs = GhostLoop { parameters, bin_x: grid.size.x as f32, avx2_fma: has_avx2_fma() };
+        let avx2_fma = has_avx2_fma() && !self.portable;
+        let pairs = GhostLoop { parameters, bin_x: grid.size.x as f32, avx2_fma };
         self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
             let begin = number * CHUNK;
             pairs.chunk_sums(chunk, &split[begin..begin + sums.len()], records, sums);

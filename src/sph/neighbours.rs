@@ -114,9 +114,15 @@ impl SortedPositions {
 #[derive(Debug, Default)]
 pub struct NeighbourLists {
     chunks: Vec<Chunk>,
+    portable: bool,
 }
 
 impl NeighbourLists {
+    /// Lists that are built without processor-specific instructions.
+    pub fn portable() -> Self {
+        Self { portable: true, ..Self::default() }
+    }
+
     /// The chunks in the order of the targets.
     pub fn chunks(&self) -> &[Chunk] {
         &self.chunks
@@ -140,7 +146,7 @@ impl NeighbourLists {
     /// `targets` are sorted as `bins` says.
     pub fn build(&mut self, grid: &Grid, bins: &Bins, targets: &[DVec3], sources: &[Sources], reach: f64) {
         self.chunks.resize_with(targets.len().div_ceil(CHUNK), Chunk::default);
-        let avx2_fma = has_avx2_fma();
+        let avx2_fma = has_avx2_fma() && !self.portable;
         self.chunks.par_iter_mut().enumerate().for_each(|(number, chunk)| {
             let begin = number * CHUNK;
             let end = (begin + CHUNK).min(targets.len());

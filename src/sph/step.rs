@@ -109,7 +109,16 @@ impl Solver {
 
     /// The same solver without processor-specific instructions.
     pub fn portable(self) -> Self {
-        Self { pairs: self.pairs.portable(), ..self }
+        let group = || Group { lists: NeighbourLists::portable(), ..Group::default() };
+        Self {
+            pairs: self.pairs.portable(),
+            water: group(),
+            walls: group(),
+            units: group(),
+            gap_lists: NeighbourLists::portable(),
+            ghosts: GhostNodes::portable(),
+            ..self
+        }
     }
 
     /// Sort the water into bins and list the neighbours of every target for this step.

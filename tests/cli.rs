@@ -1,0 +1,289 @@
+//! The program as its users meet it: exit codes, messages, files, going on after an interruption.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+const FILES: [&str; 11] = [
+    "case.json",
+    "checkpoint.h5",
+    "contacts.csv",
+    "energy.csv",
+    "fluid.vtkhdf",
+    "gauges.csv",
+    "profile.csv",
+    "report.html",
+    "summary.json",
+    "units.csv",
+    "units.vtkhdf",
+];
+
+const TABLES: [&str; 5] = ["contacts.csv", "energy.csv", "gauges.csv", "profile.csv", "units.csv"];
+
+fn breakwater() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_breakwater"))
+}
+
+fn run(arguments: &[&str]) -> Output {
+    breakwater().args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The command must succeed; returns what it printed.
+fn succeed(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}\n{}", output.status, text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// The command must refuse its input with exit code 2 and without a panic; returns what it said.
+fn refuse(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(!message.trim().is_empty() && !message.contains("panicked"), "{arguments:?}: {message}");
+    message
+}
+
+fn path(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Water round one big Tetrapod that is let go after a moment: seconds, with contact and motion.
+fn tiny_case(folder: &Path) -> PathBuf {
+    let case = json!({
+        "title": "One unit in a tank",
+        "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.3, "material": "mortar" },
+        "domain": { "x_m": [0.0, 1.0], "width_m": 0.25, "sides": "periodic", "top_z_m": 0.5, "dp_m": 0.025,
+                    "water": { "kind": "block", "x_m": [0.0, 0.6], "top_z_m": 0.3 } },
+        "numerics": { "hold_units_s": 0.02 },
+        "units": { "shape": "tetrapod", "height_m": 0.2, "mass_kg": 5.0, "material": "mortar",
+                   "count": 1, "pitch_m": 0.25, "x_m": 0.75 },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.3 }],
+        "gauges": [
+            { "kind": "elevation", "name": "column", "x_m": 0.3 },
+            { "kind": "pressure", "name": "bed", "at_m": [0.3, 0.1, 0.0] },
+            { "kind": "velocity", "name": "front", "at_m": [0.6, 0.1, 0.05] }
+        ],
+        "output": { "fluid_interval_s": 0.05, "units_interval_s": 0.05, "series_interval_s": 0.005,
+                    "checkpoint_interval_s": 0.02 },
+        "stop": { "duration_s": 0.3 }
+    });
+    let file = folder.join("tiny.json");
+    std::fs::write(&file, serde_json::to_string_pretty(&case).unwrap()).unwrap();
+    file
+}
+
+fn read_json(file: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap()
+}
+
+/// The summary without the keys in which two runs of one case may differ.
+fn lasting_summary(dir: &Path) -> Value {
+    let mut summary = read_json(&dir.join("summary.json"));
+    for key in ["wall_s", "steps_per_s", "threads", "created"] {
+        summary.as_object_mut().unwrap().remove(key);
+    }
+    summary
+}
+
+fn assert_same_tables(a: &Path, b: &Path) {
+    for table in TABLES {
+        let [bytes_a, bytes_b] = [a, b].map(|dir| std::fs::read(dir.join(table)).unwrap());
+        assert!(bytes_a == bytes_b, "{table}: {} and {} differ", a.display(), b.display());
+    }
+    assert_eq!(lasting_summary(a), lasting_summary(b));
+}
+
+/// The bits of a dataset, as they are in the file.
+fn numbers(file: &Path, dataset: &str) -> Vec<u64> {
+    let values = hdf5_metno::File::open(file).unwrap().dataset(dataset).unwrap().read_raw::<f64>().unwrap();
+    values.into_iter().map(f64::to_bits).collect()
+}
+
+fn bad_cases() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_cases");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    files
+}
+
+#[test]
+fn run_refuses_every_bad_case_and_leaves_no_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for case in bad_cases() {
+        let message = refuse(&["run", path(&case), "--out", path(&out)]);
+        assert!(message.contains(path(&case)), "{message}");
+        assert!(!out.exists(), "{} left a folder", case.display());
+    }
+}
+
+#[test]
+fn run_refuses_bad_arguments_and_leaves_no_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
+    for threads in ["0", "100000", "-1", "many"] {
+        refuse(&["run", path(&case), "--out", path(&out), &format!("--threads={threads}")]);
+        assert!(!out.exists(), "--threads={threads} left a folder");
+    }
+    let message = refuse(&["run", path(&folder.path().join("no-such-case.json")), "--out", path(&out)]);
+    assert!(message.contains("no-such-case.json: cannot be read"), "{message}");
+    refuse(&["run"]);
+    refuse(&["swim", path(&case)]);
+    assert!(!out.exists());
+}
+
+#[test]
+fn init_writes_a_case_that_check_accepts() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("mine.json");
+    succeed(&["init", path(&case)]);
+    let checked = succeed(&["check", path(&case)]);
+    assert!(checked.contains("particles") && checked.contains("run time"), "{checked}");
+    let message = refuse(&["init", path(&case)]);
+    assert!(message.contains("exists already"), "{message}");
+}
+
+#[test]
+fn schema_prints_json() {
+    let schema: Value = serde_json::from_str(&succeed(&["schema"])).unwrap();
+    assert!(schema["properties"]["domain"].is_object() && schema["properties"]["flume"].is_object());
+}
+
+#[test]
+fn a_run_writes_what_it_promises() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
+    let printed = succeed(&["run", path(&case), "--out", path(&out), "--quiet"]);
+    assert!(printed.contains("0.30 s simulated") && printed.contains("report.html"), "{printed}");
+    for file in FILES {
+        let size = std::fs::metadata(out.join(file)).map(|data| data.len()).unwrap_or(0);
+        assert!(size > 0, "{file} is missing or empty");
+    }
+    let leftovers = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name());
+    let parts: Vec<_> = leftovers.filter(|name| name.to_string_lossy().ends_with(".part")).collect();
+    assert!(parts.is_empty(), "{parts:?}");
+    assert_eq!(std::fs::read(out.join("case.json")).unwrap(), std::fs::read(&case).unwrap());
+
+    let summary = read_json(&out.join("summary.json"));
+    for key in ["particles", "steps", "simulated_s", "wall_s", "damage_ratio", "mean_displacement_m"] {
+        assert!(summary[key].is_number(), "{key} is not at the top of the summary");
+    }
+    assert!(summary["units"][0]["displacement_m"].is_number() && summary["units"][0]["damaged"].is_boolean());
+    assert!((summary["simulated_s"].as_f64().unwrap() - 0.3).abs() < 1e-3);
+    // The surge has reached the unit and moved it.
+    assert!(summary["mean_displacement_m"].as_f64().unwrap() > 1e-3, "{}", summary["mean_displacement_m"]);
+    let rows = std::fs::read_to_string(out.join("gauges.csv")).unwrap().lines().count();
+    // Heading, 0 to 0.3 s every 0.005 s, the end.
+    assert!((61..=63).contains(&rows), "{rows} rows of gauges");
+
+    refuse_to_overwrite(&case, &out);
+    compare_needs_a_published_wave(&out);
+    report_is_made_anew(&out);
+}
+
+fn refuse_to_overwrite(case: &Path, out: &Path) {
+    let before = std::fs::read(out.join("summary.json")).unwrap();
+    let message = refuse(&["run", path(case), "--out", path(out)]);
+    assert!(message.contains("--overwrite") && message.contains("resume"), "{message}");
+    assert_eq!(std::fs::read(out.join("summary.json")).unwrap(), before);
+}
+
+fn compare_needs_a_published_wave(out: &Path) {
+    let message = refuse(&["compare", path(out)]);
+    assert!(message.contains("no wave"), "{message}");
+    assert!(!out.join("compare.html").exists());
+}
+
+fn report_is_made_anew(out: &Path) {
+    std::fs::remove_file(out.join("report.html")).unwrap();
+    succeed(&["report", path(out)]);
+    assert!(std::fs::read_to_string(out.join("report.html")).unwrap().contains("One unit in a tank"));
+}
+
+#[test]
+fn threads_do_not_change_the_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = tiny_case(folder.path());
+    let [one, two] = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        succeed(&["run", path(&case), "--out", path(&out), "--quiet", "--threads", threads]);
+        out
+    });
+    assert_eq!(read_json(&one.join("summary.json"))["threads"], 1);
+    assert_same_tables(&one, &two);
+}
+
+#[test]
+fn a_killed_run_goes_on_to_the_same_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = tiny_case(folder.path());
+    let [whole, killed] = ["whole", "killed"].map(|name| folder.path().join(name));
+    succeed(&["run", path(&case), "--out", path(&whole), "--quiet"]);
+
+    let mut child = breakwater()
+        .args(["run", path(&case), "--out", path(&killed), "--quiet"])
+        .stderr(Stdio::null())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = Instant::now();
+    while !killed.join("checkpoint.h5").exists() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    // Some rows beyond the checkpoint, which must not stay.
+    std::thread::sleep(Duration::from_millis(100));
+    child.kill().unwrap();
+    assert!(child.wait().unwrap().code().is_none(), "the run was over before it was killed");
+    assert!(!killed.join("summary.json").exists());
+
+    succeed(&["resume", path(&killed), "--quiet"]);
+    assert_same_tables(&whole, &killed);
+    for file in FILES {
+        assert!(killed.join(file).exists(), "{file} is missing after going on");
+    }
+    for file in ["fluid.vtkhdf", "units.vtkhdf"] {
+        for dataset in ["VTKHDF/Points", "VTKHDF/PointData/velocity", "VTKHDF/Steps/Values"] {
+            let [a, b] = [&whole, &killed].map(|dir| numbers(&dir.join(file), dataset));
+            assert!(!a.is_empty() && a == b, "{file}: {dataset} differs");
+        }
+    }
+}
+
+#[test]
+fn resume_of_what_is_no_run_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let message = refuse(&["resume", path(folder.path())]);
+    assert!(message.contains("case.json"), "{message}");
+    let message = refuse(&["resume", path(&folder.path().join("nowhere"))]);
+    assert!(message.contains("nowhere"), "{message}");
+}
+
+#[test]
+fn resume_before_the_first_checkpoint_says_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = tiny_case(folder.path());
+    std::fs::rename(&case, folder.path().join("case.json")).unwrap();
+    let message = refuse(&["resume", path(folder.path())]);
+    assert!(
+        message.contains("checkpoint.h5: there is no checkpoint") && message.contains("breakwater run"),
+        "{message}"
+    );
+}
+
+#[test]
+fn compare_and_report_of_what_is_no_run_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for command in ["compare", "report"] {
+        let message = refuse(&[command, path(folder.path())]);
+        assert!(message.contains("summary.json"), "{message}");
+    }
+}

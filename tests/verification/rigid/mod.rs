@@ -1,0 +1,75 @@
+//! Rigid bodies and contact against answers known from mechanics.
+
+mod friction;
+mod impact;
+mod rows;
+mod world;
+
+use breakwater::geometry::armour_unit::ArmourUnit;
+use breakwater::geometry::profile::Profile;
+use breakwater::rigid::{BodyShape, BodyState, Friction, Ground, Load, Material, RigidSetup, RigidWorld, Sides};
+use glam::{DQuat, DVec3};
+use std::f64::consts::PI;
+
+const G: f64 = 9.81;
+const HEIGHT: f64 = 0.077;
+const MASS: f64 = 0.3;
+const MORTAR: Material = Material { young_modulus: 1e8, poisson_ratio: 0.2, restitution: 0.5 };
+
+fn level() -> Profile {
+    Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]])
+}
+
+fn setup(shape: BodyShape, bodies: Vec<BodyState>, material: Material, friction: f64) -> RigidSetup {
+    RigidSetup {
+        shape,
+        bodies,
+        material,
+        ground: Some(Ground { profile: level(), material }),
+        sides: Sides::Open,
+        end_walls: None,
+        wall_material: material,
+        friction: Friction { unit_unit: 0.65, unit_ground: friction, unit_wall: friction },
+        gravity: DVec3::NEG_Z * G,
+    }
+}
+
+fn tetrapod() -> ArmourUnit {
+    ArmourUnit::tetrapod(HEIGHT, 0.05).unwrap()
+}
+
+/// Tetrapod on the level ground at (x, y), sunk in by about the overlap at rest.
+fn standing(unit: &ArmourUnit, x: f64, y: f64, azimuth: f64) -> BodyState {
+    BodyState::at_rest(DVec3::new(x, y, unit.standing_height() - 3.5e-5), unit.standing_rotation(azimuth))
+}
+
+fn run(world: &mut RigidWorld, duration: f64, dt: f64) {
+    let loads = vec![Load::default(); world.states().len()];
+    for _ in 0..(duration / dt).round() as usize {
+        world.advance(dt, &loads).unwrap();
+    }
+}
+
+/// Kinetic, potential and stored energy and everything that was lost [J].
+fn total_energy(world: &RigidWorld) -> f64 {
+    let e = world.energy();
+    e.kinetic + e.potential + e.elastic + e.friction + e.damping - e.load_work
+}
+
+fn ball(radius: f64, density: f64) -> BodyShape {
+    BodyShape::ball(radius, density * 4.0 / 3.0 * PI * radius.powi(3))
+}
+
+/// Ten Tetrapods above each other in a shaft, turned at will.
+fn heap(unit: &ArmourUnit) -> RigidSetup {
+    let body = |i: usize| {
+        let t = i as f64;
+        let place = DVec3::new(0.02 * (2.0 * t).sin(), 0.1 + 0.02 * (3.0 * t).cos(), 0.06 + 0.09 * t);
+        BodyState::at_rest(place, DQuat::from_euler(glam::EulerRot::XYZ, t, 2.3 * t, 0.7 * t))
+    };
+    RigidSetup {
+        sides: Sides::Walls { width: 0.2 },
+        end_walls: Some([-0.1, 0.1]),
+        ..setup(BodyShape::of_unit(unit, MASS), (0..10).map(body).collect(), MORTAR, 0.32)
+    }
+}

@@ -1,0 +1,170 @@
+//! Tanks of water, small and coarse, and how they are run.
+
+use std::sync::Arc;
+
+use breakwater::case::Case;
+use breakwater::geometry::solid::Solid;
+use breakwater::particles::bed::{Across, Outline, outline_particles};
+use breakwater::particles::boundary::{Boundary, BoundaryParticle};
+use breakwater::particles::fill::Basin;
+use breakwater::particles::water::Water;
+use breakwater::simulation::Simulation;
+use breakwater::sph::{
+    density_diffusion::Diffusion,
+    equation_of_state::Tait,
+    kernel::Wendland,
+    parameters::{BoundaryCondition, Parameters},
+    step::Solver,
+};
+use glam::{DVec2, DVec3};
+use serde_json::{Value, json};
+
+pub const GRAVITY: f64 = 9.81;
+pub const RHO0: f64 = 1000.0;
+
+/// Height of the Tetrapods of the Fudo experiment [m].
+pub const UNIT_HEIGHT: f64 = 0.077;
+
+/// The case of a JSON value at its start.
+pub fn simulation(case: &Value) -> Simulation {
+    let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(case)).unwrap()
+}
+
+/// Step until a time [s]; between the two halves of each step, when gauges can be read, `look` sees the state.
+pub fn run_until(simulation: &mut Simulation, end: f64, mut look: impl FnMut(&Simulation)) {
+    while simulation.time < end {
+        let dt = simulation.begin_step().unwrap();
+        look(simulation);
+        simulation.finish_step(dt).unwrap();
+    }
+}
+
+/// A number of steps.
+pub fn run_steps(simulation: &mut Simulation, steps: u32) {
+    for _ in 0..steps {
+        let dt = simulation.begin_step().unwrap();
+        simulation.finish_step(dt).unwrap();
+    }
+}
+
+/// A flat tank of still water with end walls and periodic sides.
+pub fn still_tank(length: f64, width: f64, depth: f64, dp: f64, duration: f64) -> Value {
+    json!({
+        "title": "Still water",
+        "flume": { "bed_m": [[0.0, 0.0], [length, 0.0]], "still_water_level_m": depth, "material": "mortar" },
+        "domain": {
+            "x_m": [0.0, length], "width_m": width, "sides": "periodic", "top_z_m": 1.5 * depth + 0.1, "dp_m": dp
+        },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.5 }],
+        "stop": { "duration_s": duration }
+    })
+}
+
+/// The same with a Tetrapod in its middle, held all the time.
+pub fn tank_with_held_unit(length: f64, depth: f64, dp: f64, duration: f64) -> Value {
+    let mut case = still_tank(length, length, depth, dp, duration);
+    case["units"] = json!({
+        "shape": "tetrapod", "height_m": UNIT_HEIGHT, "mass_kg": 0.3, "material": "mortar",
+        "count": 1, "pitch_m": length, "x_m": 0.5 * length
+    });
+    case["numerics"] = json!({ "hold_units_s": duration });
+    case
+}
+
+/// A dam of 1 m x 2 m that breaks in a tank of 4 m (Koshizuka & Oka 1996), 10 particles wide.
+pub fn dam_break(dp: f64, duration: f64) -> Value {
+    json!({
+        "title": "Dam break",
+        "flume": { "bed_m": [[0.0, 0.0], [4.0, 0.0]], "still_water_level_m": 2.0 },
+        "domain": {
+            "x_m": [0.0, 4.0], "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 3.0, "dp_m": dp,
+            "water": { "kind": "block", "x_m": [0.0, 1.0], "top_z_m": 2.0 }
+        },
+        "stop": { "duration_s": duration }
+    })
+}
+
+/// Parameters of the scheme with the constants of Mitsui et al. (2023), for a depth [m] that gives the speed of sound.
+pub fn parameters(dp: f64, depth: f64, gravity: f64, periodic_width: Option<f64>) -> Parameters {
+    let (h, c0) = (1.2 * 3f64.sqrt() * dp, 15.0 * (GRAVITY * depth).sqrt());
+    Parameters {
+        dp,
+        kernel: Wendland::new(h),
+        tait: Tait { rho0: RHO0, c0, gamma: 7.0 },
+        alpha: 0.04,
+        diffusion: Diffusion::new(0.1, h, c0, RHO0, 7.0, gravity),
+        gravity,
+        cfl: 0.2,
+        boundary: BoundaryCondition::ModifiedDynamic,
+        periodic_width,
+    }
+}
+
+/// Solver, water and boundary without the coupling round them.
+pub struct BareTank {
+    pub solver: Solver,
+    pub water: Water,
+    pub boundary: Boundary,
+}
+
+impl BareTank {
+    /// A square tank of still water with end walls and periodic sides, and `unit` as its one unit at the origin.
+    pub fn new(length: f64, depth: f64, dp: f64, unit: &[BoundaryParticle]) -> Self {
+        let parameters = parameters(dp, depth, GRAVITY, Some(length));
+        let across = Across { width: length, count: (length / dp).round() as u32, walls: false };
+        let basin = Basin {
+            x: [0.0, length],
+            across,
+            dp,
+            bed: &|_| 0.0,
+            surface: &|_| depth,
+            velocity: &|_, _| DVec2::ZERO,
+            gravity: GRAVITY,
+        };
+        let corners = [[0.0, 1.5 * depth], [0.0, 0.0], [length, 0.0], [length, 1.5 * depth]];
+        let fixed = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, 3);
+        let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
+        Self {
+            solver: Solver::new(parameters, -margin, DVec3::new(length, length, 1.5 * depth) + margin),
+            water: basin.fill(&parameters.tait),
+            boundary: Boundary::new(&fixed, &[], unit, usize::from(!unit.is_empty()), RHO0),
+        }
+    }
+
+    /// One step; `look` sees the state between its halves. Returns its length [s].
+    pub fn step(&mut self, look: impl FnOnce(&mut Self)) -> f64 {
+        self.solver.sort_and_list(&mut self.water, &self.boundary);
+        self.solver.boundary_densities(&self.water, &mut self.boundary);
+        self.solver.rates();
+        let dt = self.solver.limits().time_step(&self.solver.parameters);
+        look(self);
+        self.solver.predict(dt, &self.water, &mut self.boundary, |_| ());
+        self.solver.rates();
+        self.solver.correct(dt, &mut self.water, &mut self.boundary);
+        dt
+    }
+}
+
+/// Volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level), whose divergence is 1 and which does
+/// not cross the cut, through the surface below the level.
+pub fn volume_below(solid: &Solid, level: f64) -> f64 {
+    let vertices = solid.vertices();
+    solid.triangles().iter().map(|corners| flux_below(corners.map(|c| vertices[c as usize]), level)).sum()
+}
+
+fn flux_below(triangle: [DVec3; 3], level: f64) -> f64 {
+    let mut below: Vec<DVec3> = Vec::new();
+    for k in 0..3 {
+        let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+        if a.z < level {
+            below.push(a);
+        }
+        if (a.z < level) != (b.z < level) {
+            below.push(a.lerp(b, (level - a.z) / (b.z - a.z)));
+        }
+    }
+    let fan = (1..below.len().max(2) - 1).map(|k| [below[0], below[k], below[k + 1]]);
+    fan.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).z * ((a.z + b.z + c.z) / 3.0 - level)).sum()
+}

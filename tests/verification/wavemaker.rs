@@ -1,0 +1,73 @@
+//! From the flume model to the particles: the wavemaker's rows and the water at a hot start.
+
+use breakwater::simulation::{Simulation, setup::ml_piston};
+use glam::DVec2;
+use serde_json::{Value, json};
+
+use super::tanks::{run_until, simulation};
+
+const STILL_LEVEL: f64 = 0.4;
+
+/// A flat flume of 0.4 m of water with a wave of 8 cm, particles from 6 to 8 m, from a flume time [s] on.
+fn flume(start_s: f64, dp: f64) -> Value {
+    json!({
+        "title": "A solitary wave in a flat flume",
+        "flume": { "bed_m": [[0.0, 0.0], [16.0, 0.0]], "still_water_level_m": STILL_LEVEL },
+        "domain": { "x_m": [6.0, 8.0], "width_m": 0.32, "sides": "periodic", "top_z_m": 0.7, "dp_m": dp },
+        "wave": { "kind": "solitary", "height_m": 0.08, "start_s": start_s },
+        "stop": { "duration_s": 0.3 }
+    })
+}
+
+/// Flume time at which the crest passes x = 7 m, about [s].
+const PASSING: f64 = 5.2;
+
+#[test]
+fn rows_of_the_wavemaker_follow_the_multi_layer_piston() {
+    let mut simulation = simulation(&flume(PASSING - 0.8, 0.032));
+    let piston = ml_piston(&simulation.case, simulation.flume.as_ref().unwrap(), simulation.start);
+    let particles = simulation.boundary.piston();
+    let anchors = simulation.boundary.position[particles.clone()].to_vec();
+    assert!(!anchors.is_empty());
+    let mut furthest = 0.0_f64;
+    run_until(&mut simulation, 0.1, |_| ());
+    for (particle, anchor) in particles.zip(&anchors) {
+        let row = piston.row_heights_m().iter().position(|z| (z - anchor.z).abs() < 1e-9).unwrap();
+        let time = simulation.flume_time();
+        let moved = simulation.boundary.position[particle] - *anchor;
+        // 1e-12 m: rounding of a place some metres from the origin.
+        assert!((moved.x - piston.displacement_m(row, time)).abs() < 1e-12 && moved.y == 0.0 && moved.z == 0.0);
+        assert_eq!(simulation.boundary.velocity[particle].x, piston.velocity_m_s(row, time));
+        furthest = furthest.max(moved.x);
+    }
+    println!("wavemaker: furthest row has moved {:.1} mm", 1e3 * furthest);
+    assert!(furthest > 0.01);
+}
+
+fn elevation(simulation: &Simulation, x: f64) -> f64 {
+    simulation.sampler().surface(DVec2::new(x, 0.16), 0.0, 0.7).unwrap() - STILL_LEVEL
+}
+
+#[test]
+fn water_starts_as_the_flume_model_says() {
+    let dp = 0.032;
+    let mut simulation = simulation(&flume(PASSING, dp));
+    let dt = simulation.begin_step().unwrap();
+    let record = simulation.flume.as_ref().unwrap();
+    let mut worst = [0.0_f64; 2];
+    for x in [6.5, 7.0, 7.5] {
+        let (particles, flume) = (elevation(&simulation, x), record.elevation(x, PASSING));
+        let sample = simulation.sampler().sample(glam::DVec3::new(x, 0.16, 0.2)).unwrap();
+        let (u, _) = record.velocity(x, 0.2, PASSING);
+        println!(
+            "x = {x} m: elevation {particles:.4}, flume {flume:.4} m; u {:.4}, flume {u:.4} m/s",
+            sample.velocity.x
+        );
+        worst[0] = worst[0].max((particles - flume).abs());
+        worst[1] = worst[1].max((sample.velocity.x - u).abs());
+    }
+    assert!(record.elevation(7.0, PASSING) > 0.03);
+    assert!(worst[0] < 0.1 * dp);
+    assert!(worst[1] < 1e-3);
+    simulation.finish_step(dt).unwrap();
+}
