@@ -128,9 +128,7 @@ fn summary(units: u32) -> Summary {
 fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
     summary(units).write(folder)?;
     let mut profile = CsvSeries::create(&folder.join("profile.csv"), &columns::PROFILE)?;
-    for corner in [[19.0, 0.0], [38.73, 0.658], [38.84, 0.717], [39.16, 0.717], [39.25, 0.675], [45.0, 0.867]] {
-        profile.append(&corner)?;
-    }
+    profile.append_rows(CORNERS)?;
     let names = [columns::elevation("WG6"), columns::elevation("WG7"), columns::pressure("P1")];
     let velocity = columns::velocity("ADV");
     let gauge_columns: Vec<&str> =
@@ -151,7 +149,8 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
             let push = hump(t, 2.6, 1.6 + 0.05 * f64::from(unit)) - hump(t, 4.0, 0.5);
             let touch = if (2.0..4.2).contains(&t) { 3.0 + (70.0 * t + f64::from(unit)).sin() } else { 1.9 };
             let mut row = vec![t, f64::from(unit), x, y, z, q[0], q[1], q[2], q[3]];
-            row.extend([0.0; 6]);
+            let after = pose(unit, t + 0.01).0;
+            row.extend([(after[0] - x) / 0.01, (after[1] - y) / 0.01, (after[2] - z) / 0.01, 0.0, 0.0, 0.0]);
             row.extend([push, 0.0, 1.0 + 0.4 * push, 0.0, 0.0, 0.0, -0.3 * touch, 0.0, touch, 0.0, 0.0, 0.0]);
             if let Some(motion) = &mut motion {
                 motion.append(&row)?;
@@ -164,18 +163,46 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Fluid and unit surfaces with a number of particles that changes.
-fn write_paraview(folder: &Path) -> Result<(), OutputError> {
-    let fields = [("velocity", FieldKind::Vector), ("pressure", FieldKind::Scalar), ("kind", FieldKind::Integer)];
+/// Bed with mound.
+const CORNERS: [[f64; 2]; 6] =
+    [[19.0, 0.0], [38.73, 0.658], [38.84, 0.717], [39.16, 0.717], [39.25, 0.675], [45.0, 0.867]];
+
+fn bed(x: f64) -> f64 {
+    let piece = CORNERS.windows(2).find(|piece| x <= piece[1][0]).unwrap();
+    piece[0][1] + (piece[1][1] - piece[0][1]) * (x - piece[0][0]) / (piece[1][0] - piece[0][0])
+}
+
+/// A few layers of water particles about the middle of the flume; their number changes as the hump passes.
+fn write_water(folder: &Path, width: f64) -> Result<(), OutputError> {
+    let fields = [("velocity", FieldKind::Vector), ("pressure", FieldKind::Scalar), ("id", FieldKind::Integer)];
     let mut fluid = PolyDataSeries::create(&folder.join("fluid.vtkhdf"), Cells::Vertices, &fields)?;
-    for step in 0..5_u16 {
-        let count = [1000, 900, 1100, 0, 20_000][usize::from(step)];
-        let points: Vec<[f32; 3]> = (0..count).map(|i| [i as f32 * 1e-3, f32::from(step), 0.5]).collect();
-        let pressure: Vec<f32> = points.iter().map(|p| 1000.0 * f32::from(step) + p[0]).collect();
-        let kind = vec![i32::from(step); count];
-        let values = [FieldValues::Vector(&points), FieldValues::Scalar(&pressure), FieldValues::Integer(&kind)];
-        fluid.append(0.1 * f64::from(step), &points, &[], &values)?;
+    for time in [0.0, 1.0, 2.0, 2.6, 3.0, 4.0, 8.0] {
+        let (mut points, mut velocity) = (Vec::new(), Vec::new());
+        for i in 0..600 {
+            let x = 37.5 + 0.005 * (f64::from(i) + 0.5);
+            let eta = hump(time - (x - 39.0) / 3.0, 2.6, 0.061);
+            for k in 0..200 {
+                let z = bed(x) + 0.005 * (f64::from(k) + 0.5);
+                for layer in -2..2 {
+                    if z < 0.8 + eta {
+                        let y = 0.5 * width + 0.005 * (f64::from(layer) + 0.5);
+                        points.push([x as f32, y as f32, z as f32]);
+                        velocity.push([18.0 * eta as f32, 0.0, 0.0]);
+                    }
+                }
+            }
+        }
+        let pressure = vec![0.0; points.len()];
+        let id: Vec<i32> = (0..points.len() as i32).collect();
+        let values = [FieldValues::Vector(&velocity), FieldValues::Scalar(&pressure), FieldValues::Integer(&id)];
+        fluid.append(time, &points, &[], &values)?;
     }
+    Ok(())
+}
+
+/// Water, and surfaces of the units.
+fn write_paraview(folder: &Path, width: f64) -> Result<(), OutputError> {
+    write_water(folder, width)?;
     let surface = four_legs();
     let mut units =
         PolyDataSeries::create(&folder.join("units.vtkhdf"), Cells::Triangles, &[("unit", FieldKind::Integer)])?;
@@ -194,7 +221,7 @@ fn the_report_shows_units_gauges_and_assumptions() {
     for units in [2, 15] {
         let folder = fresh(&format!("run_{units}"));
         write_run(&folder, units).unwrap();
-        write_paraview(&folder).unwrap();
+        write_paraview(&folder, 0.08 * f64::from(units)).unwrap();
         let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
         for words in
             ["Damage ratio", "Mean displacement", "Side view after the wave", "WG7", "Side slopes 1:2.", "units.vtkhdf"]
@@ -204,7 +231,49 @@ fn the_report_shows_units_gauges_and_assumptions() {
         assert!(!html.contains("NaN") && !html.contains("inf "), "a number is missing");
         assert!(!html.contains("http://") && !html.contains("https://") && !html.contains("<script"), "self-contained");
         assert_eq!(html.matches("<svg").count(), html.matches("</svg>").count());
+        // A mail takes it.
+        assert!(html.len() < 3_000_000, "{} bytes", html.len());
     }
+}
+
+#[test]
+fn the_report_shows_the_wave_at_the_units() {
+    let folder = fresh("run_wave");
+    write_run(&folder, 2).unwrap();
+    write_paraview(&folder, 0.16).unwrap();
+    let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
+    let moments = [
+        "<strong>0 s.</strong> The start",
+        "<strong>2.6 s.</strong> Near the largest mean force of the water along the flume",
+        "<strong>3 s.</strong> Near the moment at which the units move fastest",
+        "<strong>8 s.</strong> The end",
+    ];
+    let places: Vec<usize> = moments.iter().map(|words| html.find(words).expect(words)).collect();
+    assert!(places.is_sorted(), "the moments stand in the order of time");
+    // The middle of the flume lies between two layers; the one above it is drawn.
+    assert!(html.contains("less than 3.8 mm from y = 0.0825 m") && html.contains("picture.svg"));
+
+    let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
+    assert!(picture.starts_with("<svg xmlns=") && picture.contains("Flume time 2.6 s. Near the largest"));
+    assert!(!picture.contains("var(") && !picture.contains("NaN"), "colours and numbers are its own");
+    let classes = picture.split("class=\"").skip(1).flat_map(|rest| rest.split('"').next().unwrap().split(' '));
+    for class in classes.filter(|class| *class != "unit") {
+        let styled = [" {", ","].iter().any(|after| picture.contains(&format!(".{class}{after}")));
+        assert!(styled, "{class} has its style in the picture itself");
+    }
+}
+
+#[test]
+fn the_wave_is_shown_without_units_but_not_without_water() {
+    let folder = fresh("wave_0");
+    write_run(&folder, 0).unwrap();
+    let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
+    assert!(!html.contains("The wave ") && !folder.join("picture.svg").exists());
+    write_water(&folder, 0.08).unwrap();
+    let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
+    assert!(html.contains("The wave in the flume") && html.contains("<strong>8 s.</strong> The end"));
+    let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
+    assert!(picture.contains("Flume time 8 s. The end of the run."));
 }
 
 #[test]

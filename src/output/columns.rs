@@ -1,6 +1,6 @@
 //! Names of the columns in the tables of a run folder, units in the names.
 //!
-//! `time_s` is the time of the flume in every table: 0 when the paddle starts. The particles start later.
+//! `time_s` is the time of the flume in every table: 0 when the paddle starts.
 
 /// `units.csv`: one row for each unit and moment. `unit` counts from 1; position and orientation (quaternion) are those
 /// of the centre of mass and the body axes; `fluid_*` is what the water does, `contact_*` what bed and neighbours do,

@@ -1,3 +1,4 @@
+//! What a run writes, what is read back from it, and the pages made of both.
 //!
 //! | file of a run folder | written with | holds |
 //! | --- | --- | --- |
@@ -7,6 +8,7 @@
 //! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | motion and forces of the units, contact events, energy |
 //! | `unit_surface.json` | [`UnitSurface`] | the unit's surface about its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
+//! | `report.html`, `picture.svg` | [`write_report`] | the report, and one moment of the run as a picture |
 //!
 //! The column names of the tables are in [`columns`].
 
@@ -34,5 +36,5 @@ pub use summary::{
 };
 pub use table::Table;
 pub use unit_surface::UnitSurface;
-pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries};
+pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries, WaterSnapshot, WaterSnapshots};
 pub use wave_page::{write_flume_gauges, write_wave_page};

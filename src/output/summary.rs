@@ -83,7 +83,7 @@ pub struct UnitSummary {
     pub end_m: [f64; 3],
     /// Angle of the single rotation from first to last orientation [deg], 0 to 180.
     pub rotation_deg: f64,
-    /// Largest force of the water, the force at the start taken off [N].
+    /// Largest force of the water beyond the mean force of the still water [N].
     pub peak_fluid_force_n: f64,
     /// Largest force of bed and neighbours together [N].
     pub peak_contact_force_n: f64,

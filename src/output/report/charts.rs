@@ -125,14 +125,28 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
     for name in names {
         let gauge = name.trim_end_matches("_eta_m");
         let mut lines = Vec::new();
-        lines.extend(column_line(run.flume_gauges.as_ref(), name, "flume model", 5, true));
-        lines.extend(column_line(run.gauges.as_ref(), name, "particles", 0, false));
+        let particles = column_line(run.gauges.as_ref(), name, "particles", 0, false);
+        let shown = shown_time(run.gauges.as_ref(), particles.is_some());
+        lines.extend(column_line(run.flume_gauges.as_ref(), name, "flume model", 5, true).map(|mut line| {
+            line.points.retain(|p| shown[0] <= p[0] && p[0] <= shown[1]);
+            line
+        }));
+        lines.extend(particles);
         let at = place(gauge).map_or(String::new(), |x| format!(" at x = {} m", short(x, 3)));
         let chart = line_chart(&format!("{gauge}{at}"), "elevation \u{03b7} [m]", lines, HALF);
         charts.push(format!("<figure><figcaption>{}{at}</figcaption>{chart}</figure>", escape(gauge)));
     }
     charts.extend(other_gauges(run.gauges.as_ref()));
     charts
+}
+
+/// The time over which the flume model is shown [s]: that of the particles and half as long before and after it; where
+/// there are no particles at the gauge, all that came before the end of the run.
+fn shown_time(particles: Option<&Table>, at_gauge: bool) -> [f64; 2] {
+    let times = particles.and_then(|table| table.get("time_s")).unwrap_or_default();
+    let (Some(start), Some(end)) = (times.first(), times.last()) else { return [f64::MIN, f64::MAX] };
+    let beside = 0.5 * (end - start);
+    if at_gauge { [start - beside, end + beside] } else { [f64::MIN, *end] }
 }
 
 /// Pressure and velocity gauges.
@@ -180,7 +194,7 @@ pub fn energy(run: &RunFolder) -> String {
 fn line_chart(title: &str, y_label: &str, lines: Vec<Line>, size: [f64; 2]) -> String {
     LineChart {
         title: title.to_owned(),
-        x_label: "time [s]".to_owned(),
+        x_label: "flume time [s]".to_owned(),
         y_label: y_label.to_owned(),
         lines,
         marks: Vec::new(),

@@ -1,6 +1,6 @@
 //! What the report reads from a run folder.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::super::{OutputError, Summary, Table, UnitSurface};
 use super::motion::{UnitMotion, motions};
@@ -8,6 +8,8 @@ use super::motion::{UnitMotion, motions};
 /// The contents of a run folder; what a run does not write is absent.
 #[derive(Debug)]
 pub struct RunFolder {
+    /// The folder.
+    pub dir: PathBuf,
     /// `summary.json`.
     pub summary: Summary,
     /// Bed with mound as corner points [x, z] [m].
@@ -22,11 +24,14 @@ pub struct RunFolder {
     pub energy: Option<Table>,
     /// Surface of a unit about its centre of mass.
     pub surface: Option<UnitSurface>,
-    /// Names of the files in the folder.
-    pub files: Vec<String>,
 }
 
 impl RunFolder {
+    /// The particles of the water.
+    pub const WATER: &str = "fluid.vtkhdf";
+    /// One moment of the run as a picture of its own.
+    pub const PICTURE: &str = "picture.svg";
+
     /// Reads a run folder; only `summary.json` must be there.
     ///
     /// # Errors
@@ -40,11 +45,6 @@ impl RunFolder {
         };
         let surface_path = run_dir.join(UnitSurface::FILE);
         let surface = surface_path.exists().then(|| UnitSurface::read(&surface_path)).transpose()?;
-        let mut files: Vec<String> = std::fs::read_dir(run_dir)
-            .map_err(OutputError::io(run_dir))?
-            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-            .collect();
-        files.sort();
         Ok(Self {
             summary,
             profile,
@@ -53,7 +53,12 @@ impl RunFolder {
             motions: table("units.csv")?.map_or(Ok(Vec::new()), |units| motions(&units))?,
             energy: table("energy.csv")?,
             surface,
-            files,
+            dir: run_dir.to_owned(),
         })
+    }
+
+    /// Whether the folder holds a file of this name.
+    pub fn has(&self, file: &str) -> bool {
+        self.dir.join(file).exists()
     }
 }

@@ -3,13 +3,15 @@
 use super::super::plot::{escape, short};
 use super::super::{Stopped, Summary, UnitSummary};
 use super::folder::RunFolder;
+use super::moments::Moments;
 use super::{charts, views};
 
 /// What stands between `<main>` and `</main>`.
-pub fn body(run: &RunFolder) -> String {
+pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     let mut html = header(&run.summary);
     html += &key_figures(&run.summary);
     html += &section("Units before and after the wave", &views::views(run));
+    html += &moments.map_or(String::new(), |moments| section(moments.heading(), &moments.section()));
     html += &displacement(run);
     html += &water(run);
     html += &forces(run);
@@ -55,7 +57,7 @@ fn key_figures(summary: &Summary) -> String {
         }
         let force = summary.units.iter().max_by(|a, b| a.peak_fluid_force_n.total_cmp(&b.peak_fluid_force_n));
         if let Some(unit) = force {
-            let weightless = "beyond the force of still water".to_owned();
+            let weightless = "beyond the mean force of the still water".to_owned();
             keys.push(("Largest force of the water", format!("{} N", short(unit.peak_fluid_force_n, 2)), weightless));
         }
     } else {
@@ -119,7 +121,7 @@ fn unit_table(summary: &Summary) -> String {
          <th>Peak contact force [N]</th><th>Contacts with bed</th><th>Contacts with units</th></tr></thead>\n<tbody>\n{rows}\
          <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"8\"></td></tr>\n</tbody></table></div>\n\
          <figcaption>Direction seen from above: 0 is straight to the shore, positive towards larger y. The force of the \
-         water is counted from its value in still water.</figcaption>\n",
+         water is that beyond the mean force of the still water.</figcaption>\n",
         summary.damaged(),
         summary.units.len()
     )
@@ -177,7 +179,7 @@ fn forces(run: &RunFolder) -> String {
     }
     let contacts = &run.summary.contacts;
     let content = format!(
-        "<p>Force of the water without the force of still water, which is the mean over the first 0.2 s. Where there are \
+        "<p>Force of the water beyond that of the still water, which is here the mean over the first 0.2 s. Where there are \
          many units, the band is one standard deviation to either side of their mean.</p>\n\
          <div class=\"pair\">\n<figure><figcaption>Along the flume, positive to the shore</figcaption>{along}</figure>\n\
          <figure><figcaption>Upwards</figcaption>{up}</figure>\n</div>\n\
@@ -287,9 +289,10 @@ fn facts(summary: &Summary) -> String {
 }
 
 /// What the files of a run folder hold, in the order of the list.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 11] = [
+    (RunFolder::PICTURE, "one moment of the wave at the units as a picture of its own"),
     (
-        "fluid.vtkhdf",
+        RunFolder::WATER,
         "particles of the water with velocity, pressure and density: open in ParaView 5.12 or later, show as <em>Point Gaussian</em>, colour by velocity",
     ),
     ("units.vtkhdf", "moving surfaces of the units: open in ParaView together with the water"),
@@ -304,10 +307,11 @@ const FILES: [(&str, &str); 10] = [
 ];
 
 fn files(run: &RunFolder) -> String {
-    let rows: String = (FILES.iter().filter(|(name, _)| run.files.iter().any(|file| file == name)))
+    let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
         .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
         .collect();
-    let words = "<p>Tables are plain CSV in SI units, the unit is in each column's name.</p>\n";
+    let words = "<p>Tables are plain CSV in SI units, the unit is in each column's name; times are flume times, 0 when the \
+                 paddle starts.</p>\n";
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
 }
 

@@ -15,7 +15,10 @@ use self::layout::{
 };
 use super::OutputError;
 
+pub use self::snapshots::{WaterSnapshot, WaterSnapshots};
+
 mod layout;
+mod snapshots;
 #[cfg(test)]
 mod tests;
 

@@ -1,0 +1,115 @@
+//! A piece of the flume on paper, with one scale for both directions and an axis for each.
+
+use super::super::plot::{Axis, escape, short};
+
+/// Width of a drawing [px].
+pub const WIDTH: f64 = 920.0;
+/// Height of a window at most [px].
+const MAX_HEIGHT: f64 = 560.0;
+/// Room for the vertical axis, and for half a number at the right end of the other one [px].
+const MARGINS: [f64; 2] = [58.0, 14.0];
+/// Room for half a number above the window, and for the axis along the flume below it [px].
+const TOP: f64 = 8.0;
+const BELOW: f64 = 40.0;
+
+/// A piece of the flume on paper.
+pub struct Window {
+    /// Along the flume [m].
+    pub x: [f64; 2],
+    /// Upwards on the paper: z or y [m].
+    pub up: [f64; 2],
+    /// Pixels of a metre [px/m].
+    pub scale: f64,
+    left: f64,
+}
+
+impl Window {
+    /// The window over these ranges [m], as large as fits.
+    pub fn new(x: [f64; 2], up: [f64; 2]) -> Self {
+        let room = WIDTH - MARGINS[0] - MARGINS[1];
+        let scale = (room / (x[1] - x[0])).min(MAX_HEIGHT / (up[1] - up[0]));
+        let left = MARGINS[0] + 0.5 * (room - scale * (x[1] - x[0]));
+        Self { x, up, scale, left }
+    }
+
+    /// Where a place of the flume [m] is on the paper [px].
+    pub fn at(&self, x: f64, up: f64) -> [f64; 2] {
+        [self.left + (x - self.x[0]) * self.scale, TOP + (self.up[1] - up) * self.scale]
+    }
+
+    /// Left, top, right and bottom edge [px].
+    pub fn edges(&self) -> [f64; 4] {
+        let ([left, top], [right, bottom]) = (self.at(self.x[0], self.up[1]), self.at(self.x[1], self.up[0]));
+        [left, top, right, bottom]
+    }
+
+    /// Whether a place [m] is inside.
+    pub fn holds(&self, x: f64, up: f64) -> bool {
+        self.x[0] <= x && x <= self.x[1] && self.up[0] <= up && up <= self.up[1]
+    }
+
+    /// Height of the drawing with its axes [px].
+    pub fn height(&self) -> f64 {
+        self.edges()[3] + BELOW
+    }
+
+    /// A drawing cut at the edges of the window, with the axes; `id` names the edges and is unique on its page.
+    pub fn framed(&self, id: &str, up_label: &str, drawing: &str) -> String {
+        let [left, top, right, bottom] = self.edges();
+        let (w, h) = (right - left, bottom - top);
+        format!(
+            "<clipPath id=\"{id}\"><rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"/></clipPath>\
+             <g clip-path=\"url(#{id})\">\n{drawing}</g>\n{}{}\n",
+            self.axis_along(),
+            self.axis_up(up_label)
+        )
+    }
+
+    fn axis_along(&self) -> String {
+        let [left, _, right, bottom] = self.edges();
+        let axis = Axis::tight("", self.x, ((right - left) / 60.0) as usize);
+        let mut svg = format!("<path class=\"axis\" d=\"M{left:.1} {bottom:.1}H{right:.1}\"/>");
+        for tick in axis.ticks() {
+            let x = self.at(tick, 0.0)[0];
+            svg += &format!("<path class=\"axis\" d=\"M{x:.1} {bottom:.1}v5\"/>");
+            svg += &label(x, bottom + 18.0, "tick mid", &axis.number(tick));
+        }
+        let words = "x along the flume [m], the wave comes from the left";
+        svg + &label(0.5 * (left + right), bottom + 35.0, "label mid", words)
+    }
+
+    fn axis_up(&self, words: &str) -> String {
+        let [left, top, _, bottom] = self.edges();
+        let axis = Axis::tight("", self.up, ((bottom - top) / 40.0) as usize);
+        let mut svg = format!("<path class=\"axis\" d=\"M{left:.1} {top:.1}V{bottom:.1}\"/>");
+        for tick in axis.ticks() {
+            let y = self.at(0.0, tick)[1];
+            svg += &format!("<path class=\"axis\" d=\"M{left:.1} {y:.1}h-5\"/>");
+            svg += &label(left - 9.0, y + 4.0, "tick end", &axis.number(tick));
+        }
+        let (x, middle) = (left - 44.0, 0.5 * (top + bottom));
+        let words = escape(words);
+        svg + &format!(
+            "<text class=\"label mid\" transform=\"translate({x:.1} {middle:.1}) rotate(-90)\">{words}</text>"
+        )
+    }
+}
+
+/// A drawing as wide as the page.
+pub fn svg(title: &str, height: f64, content: &str) -> String {
+    let title = escape(title);
+    format!(
+        "<svg class=\"view\" viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\" aria-label=\"{title}\"><title>{title}</title>\n\
+         {content}</svg>\n"
+    )
+}
+
+/// Words in a drawing.
+pub fn label(x: f64, y: f64, class: &str, words: &str) -> String {
+    format!("<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escape(words))
+}
+
+/// A place on the paper in the words of a path.
+pub fn path_point([x, y]: [f64; 2]) -> String {
+    format!("{} {}", short(x, 1).replace('\u{2212}', "-"), short(y, 1).replace('\u{2212}', "-"))
+}

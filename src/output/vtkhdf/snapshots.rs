@@ -1,0 +1,92 @@
+//! Reading the water of a run back, moment by moment.
+
+use std::path::{Path, PathBuf};
+
+use hdf5_metno::File;
+
+use super::super::OutputError;
+use super::layout::{Hdf5Result, unlocked};
+
+/// The moments in a file of particles with their velocity, as [`super::PolyDataSeries`] writes it.
+#[derive(Debug)]
+pub struct WaterSnapshots {
+    path: PathBuf,
+    file: File,
+    times_s: Vec<f64>,
+    /// Number of particles of each moment, and where their points and velocities start.
+    counts: Vec<usize>,
+    point_starts: Vec<usize>,
+    velocity_starts: Vec<usize>,
+}
+
+/// The particles at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WaterSnapshot {
+    /// Position of each particle [m].
+    pub points_m: Vec<[f32; 3]>,
+    /// Velocity of each particle [m/s].
+    pub velocity_m_s: Vec<[f32; 3]>,
+}
+
+impl WaterSnapshots {
+    /// Opens the file; it may still be growing.
+    ///
+    /// # Errors
+    /// If it cannot be read, or holds no velocity.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        Self::index(path).map_err(OutputError::hdf5(path))
+    }
+
+    fn index(path: &Path) -> Hdf5Result<Self> {
+        let file = unlocked().open(path)?;
+        let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
+        let list = |name: &str| -> Hdf5Result<Vec<usize>> {
+            let values = file.dataset(&format!("VTKHDF/{name}"))?.read_raw::<i64>()?;
+            Ok(values.into_iter().map(|v| usize::try_from(v).unwrap_or(0)).collect())
+        };
+        let mut times_s = file.dataset("VTKHDF/Steps/Values")?.read_raw::<f64>()?;
+        times_s.truncate(usize::try_from(present).unwrap_or(0));
+        Ok(Self {
+            path: path.to_owned(),
+            times_s,
+            counts: list("NumberOfPoints")?,
+            point_starts: list("Steps/PointOffsets")?,
+            velocity_starts: list("Steps/PointDataOffsets/velocity")?,
+            file,
+        })
+    }
+
+    /// Time of each moment [s].
+    pub fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    /// The moment nearest to a time [s]; none in a file without moments.
+    pub fn nearest(&self, time_s: f64) -> Option<usize> {
+        let distance = |step: &usize| (self.times_s[*step] - time_s).abs();
+        (0..self.times_s.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Reads one moment.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    ///
+    /// # Panics
+    /// If there are not so many moments.
+    pub fn read(&self, step: usize) -> Result<WaterSnapshot, OutputError> {
+        assert!(step < self.times_s.len(), "{}: no moment {step}", self.path.display());
+        let rows = |name: &str, start: usize| -> Hdf5Result<Vec<[f32; 3]>> {
+            let dataset = self.file.dataset(&format!("VTKHDF/{name}"))?;
+            let rows = dataset.read_slice_2d::<f32, _>((start..start + self.counts[step], ..))?;
+            Ok(rows.outer_iter().map(|row| [row[0], row[1], row[2]]).collect())
+        };
+        let read = || -> Hdf5Result<WaterSnapshot> {
+            Ok(WaterSnapshot {
+                points_m: rows("Points", self.point_starts[step])?,
+                velocity_m_s: rows("PointData/velocity", self.velocity_starts[step])?,
+            })
+        };
+        read().map_err(OutputError::hdf5(&self.path))
+    }
+}
