@@ -52,6 +52,19 @@ pub enum SetupError {
     /// The flume model failed.
     #[error(transparent)]
     Flume(#[from] FlumeError),
+    /// The water carries the wavemaker onto the mound.
+    #[error(
+        "domain.x_m[0] = {place}: the wavemaker follows the water and would travel {travel:.2} m, to x = {:.2} m, over the \
+         toe of the mound at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
+    )]
+    WavemakerReachesMound {
+        /// Where it starts [m].
+        place: f64,
+        /// How far it would travel [m].
+        travel: f64,
+        /// Toe of the mound [m].
+        toe: f64,
+    },
     /// The unit cannot be built.
     #[error(transparent)]
     Unit(#[from] ArmourUnitError),
@@ -157,6 +170,9 @@ impl Simulation {
         let flume = run_flume(&case)?;
         let start = flume.as_ref().map_or(0.0, |record| particle_start(&case, record));
         let piston = flume.as_ref().map(|record| ml_piston(&case, record, start));
+        if let Some(piston) = &piston {
+            check_travel(&case, piston)?;
+        }
         let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, piston.is_some()));
@@ -193,6 +209,17 @@ impl Simulation {
         simulation.place_boundary();
         Ok(simulation)
     }
+}
+
+/// Refuse a wavemaker that would be carried over the seaward toe of the mound before the run ends.
+fn check_travel(case: &Case, piston: &MlPiston) -> Result<(), SetupError> {
+    let Some(mound) = &case.flume.mound else { return Ok(()) };
+    let place = case.domain.x[0];
+    let before_crest = case.flume.profile.points().iter().rfind(|point| point[0] < mound.crest_x[0]);
+    let toe = before_crest.map_or(mound.crest_x[0], |point| point[0]);
+    let rows = 0..piston.row_heights_m().len();
+    let travel = rows.map(|row| piston.displacement_m(row, piston.end_s())).fold(0.0, f64::max);
+    if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
 }
 
 fn across(case: &Case) -> Across {
