@@ -94,6 +94,10 @@ impl Simulation {
         if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
             return Err(failure::not_finite(self));
         }
+        if self.steps == 0 {
+            // There is no half step yet that the first row of the series could show the loads of.
+            self.sum_unit_loads(0.0);
+        }
         Ok(dt)
     }
 
