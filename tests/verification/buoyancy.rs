@@ -93,8 +93,9 @@ impl Deviation {
     }
 }
 
-// What was reached with 8 particles in the height of a unit, rounded up, so that a change for the worse shows. A surface
-// that is misplaced by dp / 30 all round makes 3 % of the volume of a ball as large as the unit, and more of a Tetrapod.
+// What was reached with 8 particles in the height of a unit, rounded up, so that a change for the worse shows. A
+// surface that is misplaced by dp / 30 all round makes 3 % of the volume of a ball as large as the unit, and more of a
+// Tetrapod.
 
 #[test]
 fn standing_submerged() {

@@ -92,7 +92,8 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
         start.1.length(),
     );
     // 1e-8: the two forces of a pair are rounded to single precision one by one, 6e-8 of each, and the errors average
-    // out over thousands of particles and hundreds of steps; 1e-9 was reached. Angular momentum: forces act along the line between the particles at the half step.
+    // out over thousands of particles and hundreds of steps; 1e-9 was reached. Angular
+    // momentum: forces act along the line between the particles at the half step.
     assert!(moved < 1e-8 * pushed);
     assert!(turned < 1e-8 * pushed * radius);
 }
