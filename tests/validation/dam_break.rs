@@ -9,7 +9,8 @@ const MEASURED: &str = "../shared/data/koshizuka_oka1996/dam_tip_position.txt";
 /// Times until which tips are compared [s]: the end wall at 4 m is not yet felt.
 const LATEST: f64 = 0.7;
 
-/// The experiment lifts a gate, the computation has none: until about this time [s] the measured tip lags 0.04 s behind.
+/// The experiment lifts a gate, the computation has none: until about this time [s] the measured tip lags 0.04 s
+/// behind.
 const GATE: f64 = 0.44;
 
 /// Times [s] and positions of the tip [m] as measured, `None` where the data do not lie beside the crate.
@@ -76,8 +77,8 @@ fn largest_deviations(dp: f64) -> Option<[f64; 2]> {
 fn tip_of_the_dam_break_coarse() {
     let Some([gate, free]) = largest_deviations(0.04) else { return };
     println!("largest deviation {:.1} % up to {GATE} s, {:.1} % afterwards", 100.0 * gate, 100.0 * free);
-    // 5.0 % was reached after the gate: 0.13 m, three particle distances. 12 %: a lag of 0.04 s at the speed of the tip there,
-    // 4 m/s.
+    // 5.0 % was reached after the gate: 0.13 m, three particle distances. 12 %: a lag of 0.04 s at the speed of the tip
+    // there, 4 m/s.
     assert!(free < 0.06 && gate < 0.12);
 }
 

@@ -1,6 +1,6 @@
 //! The program against published measurements. Run with `--release`.
 //!
-//! The measurements are read in place, from `../shared/data` beside the crate; where they are missing a test says so and
-//! skips.
+//! The measurements are read in place, from `../shared/data` beside the crate; where they are missing a test says so
+//! and skips.
 
 mod dam_break;

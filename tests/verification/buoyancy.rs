@@ -15,8 +15,8 @@ const LENGTH: f64 = 0.24;
 /// Simulated time [s]; the first half is left to the water to settle.
 const DURATION: f64 = 0.3;
 
-/// Mean force on a unit [N] over the second half of a run, as shares of Archimedes' force: the vertical one less 1, and the
-/// horizontal one.
+/// Mean force on a unit over the second half of a run, as shares of Archimedes' force [-]: the vertical one less 1, and
+/// the horizontal one.
 #[derive(Debug, Clone, Copy)]
 struct Deviation {
     vertical: f64,
@@ -93,9 +93,9 @@ impl Deviation {
     }
 }
 
-// What was reached with 8 particles in the height of a unit, rounded up, so that a change for the worse shows. Of a surface
-// that is two particles away everywhere, the water's distance to it decides: a tenth of dp more or less all round is 4 % of
-// a volume of 8 dp in height.
+// What was reached with 8 particles in the height of a unit, rounded up, so that a change for the worse shows. A
+// surface that is misplaced by dp / 30 all round makes 3 % of the volume of a ball as large as the unit, and more of a
+// Tetrapod.
 
 #[test]
 fn standing_submerged() {

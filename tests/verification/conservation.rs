@@ -25,7 +25,7 @@ fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
         end.kinetic
     );
     assert!(end.kinetic > 0.1 * start.potential);
-    // 1e-4 was reached: the waves of compression that run to and fro through the column do work on the bed and get it back.
+    // 1e-4 was reached: waves of compression run to and fro through the column, do work on the bed and get it back.
     assert!(rise < 3e-4 * start.potential);
     assert!(last < start.total());
     // The sum runs over the same masses, sorted otherwise: rounding.
@@ -85,13 +85,15 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     let moved = (momentum(&water) - start.0).length();
     let turned = (angular_momentum(&water) - start.1).length();
     println!(
-        "drop: {} particles, {steps} steps, momentum {:.3} kg m/s changed by {moved:.1e}, angular momentum {:.2e} kg m2/s by {turned:.1e}; impulses of {pushed:.2} N s were exchanged",
+        "drop: {} particles, {steps} steps, momentum {:.3} kg m/s changed by {moved:.1e}, \
+         angular momentum {:.2e} kg m2/s by {turned:.1e}; impulses of {pushed:.2} N s were exchanged",
         water.len(),
         start.0.length(),
         start.1.length(),
     );
-    // The two forces of a pair are rounded to single precision one by one, 6e-8 of each, and the errors average out over
-    // a thousand particles and steps. Angular momentum: forces act along the line between the particles at the half step.
+    // 1e-8: the two forces of a pair are rounded to single precision one by one, 6e-8 of each, and the errors average
+    // out over thousands of particles and hundreds of steps; 1e-9 was reached. Angular
+    // momentum: forces act along the line between the particles at the half step.
     assert!(moved < 1e-8 * pushed);
     assert!(turned < 1e-8 * pushed * radius);
 }
