@@ -160,6 +160,14 @@ impl Simulation {
         self.start + self.time
     }
 
+    /// Place of the foremost row of the wavemaker [m], if there is one.
+    pub fn wavemaker_front(&self) -> Option<f64> {
+        let piston = self.piston.as_ref()?;
+        let rows = 0..piston.row_heights_m().len();
+        let travel = rows.map(|row| piston.displacement_m(row, self.flume_time())).fold(f64::MIN, f64::max);
+        Some(piston.place_m() + travel)
+    }
+
     /// The water, to be measured; valid after [`Self::begin_step`].
     pub fn sampler(&self) -> Sampler<'_> {
         let parameters = &self.solver.parameters;

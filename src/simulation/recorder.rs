@@ -262,17 +262,18 @@ fn gauge_columns(case: &Case) -> Vec<String> {
     ["time_s".to_owned()].into_iter().chain(names).collect()
 }
 
-/// Dry gauges leave their fields empty.
+/// Dry gauges leave their fields empty, and so do those that the wavemaker has come near to or passed.
 fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     let (case, sampler) = (&simulation.case, simulation.sampler());
+    let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
     let mut row = vec![simulation.flume_time()];
     for gauge in wet_gauges(case) {
         let at = glam::DVec3::from_array(gauge.at);
-        let sample = || sampler.sample(at);
+        let sample = || sampler.sample(at).filter(|_| at.x > wet_from);
         match gauge.quantity {
             Quantity::Elevation => {
                 let (bed, top) = (case.flume.profile.z(at.x), case.domain.top_z);
-                let level = sampler.surface(at.truncate(), bed, top);
+                let level = sampler.surface(at.truncate(), bed, top).filter(|_| at.x > wet_from);
                 row.push(level.map_or(f64::NAN, |z| z - case.flume.still_level));
             }
             Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),
