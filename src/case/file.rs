@@ -154,7 +154,8 @@ pub struct FluidFile {
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
     /// Speed of sound as a multiple of sqrt(g d), d the largest still depth in the domain [-]. Ten keeps the changes of
-    /// density below one per cent as long as the water is slower than a long wave.
+    /// density below one per cent as long as the water is slower than a long wave; fifteen keeps the weight of the
+    /// compressed water within a quarter of a per cent.
     pub sound_speed_factor: f64,
     /// Polytropic exponent gamma of Tait's equation [-].
     pub tait_exponent: f64,
@@ -162,7 +163,7 @@ pub struct FluidFile {
 
 impl Default for FluidFile {
     fn default() -> Self {
-        Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: 10.0, tait_exponent: 7.0 }
+        Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: 15.0, tait_exponent: 7.0 }
     }
 }
 
