@@ -3,8 +3,8 @@
 //! `time_s` is the time of the flume in every table: 0 when the paddle starts.
 
 /// `units.csv`: one row for each unit and moment. `unit` counts from 1; position and orientation (quaternion) are those
-/// of the centre of mass and the body axes; `fluid_*` is what the water does, `contact_*` what bed and neighbours do,
-/// forces [N] and torques [N m] about the centre of mass.
+/// of the centre of mass and the body axes at that moment; `fluid_*` is what the water does, `contact_*` what bed and
+/// neighbours do, forces [N] and torques [N m] about the centre of mass, as means over the time since the row before.
 pub const UNITS: [&str; 27] = [
     "time_s",
     "unit",

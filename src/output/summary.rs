@@ -83,9 +83,9 @@ pub struct UnitSummary {
     pub end_m: [f64; 3],
     /// Angle of the single rotation from first to last orientation [deg], 0 to 180.
     pub rotation_deg: f64,
-    /// Largest force of the water beyond the mean force of the still water [N].
+    /// Largest force of the water beyond the mean force of the still water, as a mean over an interval of the series [N].
     pub peak_fluid_force_n: f64,
-    /// Largest force of bed and neighbours together [N].
+    /// Largest force of bed and neighbours together, as such a mean [N].
     pub peak_contact_force_n: f64,
     /// Number of contact events with the bed.
     pub bed_contacts: u64,

@@ -9,7 +9,7 @@ use glam::DVec3;
 use hdf5_metno::{File, Group, types::VarLenUnicode};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use super::{Simulation, recorder::RecorderState, statistics::Statistics};
+use super::{Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics};
 use crate::{output::OutputError, rigid::RigidSnapshot};
 
 /// Name of the checkpoint in a run folder.
@@ -19,7 +19,7 @@ pub const FILE: &str = "checkpoint.h5";
 pub const FAILED_FILE: &str = "failed.h5";
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 type Hdf5Result<T> = hdf5_metno::Result<T>;
 
@@ -34,6 +34,7 @@ struct Scalars {
     recorder: RecorderState,
     rigid: Option<RigidSnapshot>,
     fluid_loads: Vec<[[f64; 3]; 2]>,
+    mean_loads: MeanLoads,
 }
 
 /// Write the state to `file` in the run folder: to a temporary name first, synced, then renamed.
@@ -54,6 +55,7 @@ pub fn write(simulation: &Simulation, recorder: &RecorderState, dir: &Path, file
         fluid_loads: units.map_or_else(Vec::new, |units| {
             units.fluid_loads.iter().map(|load| [load.force.to_array(), load.torque.to_array()]).collect()
         }),
+        mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
     };
     let text = serde_json::to_string(&scalars).map_err(OutputError::json(&path))?;
     write_arrays(simulation, &text, &temporary).map_err(OutputError::hdf5(&temporary))?;
@@ -113,6 +115,7 @@ pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, Ou
             load.force = DVec3::from_array(force);
             load.torque = DVec3::from_array(torque);
         }
+        units.mean_loads = scalars.mean_loads;
     }
     simulation.place_boundary();
     Ok(scalars.recorder)

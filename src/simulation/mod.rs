@@ -7,6 +7,7 @@
 //! | `impermeable` | keeping water out of solids |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
 //! | [`energy`] | energy of water and units |
+//! | [`mean_loads`] | loads on the units as the series show them |
 //! | [`statistics`] | what is kept of a run besides its series |
 //! | [`recorder`] | writes the series and snapshots |
 //! | [`checkpoint`] | state to and from HDF5 |
@@ -17,6 +18,7 @@ pub mod checkpoint;
 pub mod energy;
 pub mod failure;
 mod impermeable;
+pub mod mean_loads;
 pub mod progress;
 pub mod recorder;
 pub mod run;
@@ -37,6 +39,7 @@ use crate::{
     waves::{ml_piston::MlPiston, record::FlumeRecord},
 };
 use failure::Failure;
+use mean_loads::MeanLoads;
 use statistics::Statistics;
 
 /// A case in motion.
@@ -77,6 +80,8 @@ pub struct Units {
     pub start: Vec<BodyState>,
     /// Force and torque of the water on each, at the last half step.
     pub fluid_loads: Vec<Load>,
+    /// What the next row of the series will show of the loads.
+    pub mean_loads: MeanLoads,
 }
 
 impl Simulation {
@@ -139,10 +144,10 @@ impl Simulation {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
             units.world.advance(dt, &units.fluid_loads).map_err(Failure::Contact)?;
-            self.statistics.count_loads(&units.fluid_loads, units.world.contact_loads());
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
         }
+        units.mean_loads.add(dt, &units.fluid_loads, units.world.contact_loads());
         Ok(())
     }
 

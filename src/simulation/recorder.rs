@@ -178,9 +178,16 @@ impl Recorder {
         self.energy.append(&energy_row(simulation))?;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
-        let contacts = units.world.contact_loads();
+        let means = units.mean_loads.take();
+        let free = simulation.time > simulation.case.numerics.hold_units;
         for (number, state) in units.states().iter().enumerate() {
-            let (fluid, contact) = (&units.fluid_loads[number], &contacts[number]);
+            // No step has been made before the first row.
+            let now = || [units.fluid_loads[number], units.world.contact_loads()[number]];
+            let loads = means.as_ref().map_or_else(now, |means| means[number]);
+            if free {
+                simulation.statistics.count_mean_loads(number, loads);
+            }
+            let [fluid, contact] = loads;
             let mut row = vec![time, (number + 1) as f64];
             row.extend(state.position.to_array());
             row.extend(state.rotation.to_array());

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-use super::{Simulation, Units, statistics::Statistics};
+use super::{Simulation, Units, mean_loads::MeanLoads, statistics::Statistics};
 use crate::{
     case::{self, Case, Quantity, Start, Wave},
     geometry::{
@@ -343,8 +343,8 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
         friction: Friction { unit_unit, unit_ground, unit_wall: unit_ground },
         gravity: DVec3::NEG_Z * case.fluid.gravity,
     })?;
-    let fluid_loads = vec![rigid::Load::default(); start.len()];
-    Ok(Units { shape, world, start, fluid_loads })
+    let (fluid_loads, mean_loads) = (vec![rigid::Load::default(); start.len()], MeanLoads::new(start.len()));
+    Ok(Units { shape, world, start, fluid_loads, mean_loads })
 }
 
 /// Particles of one unit in its own axes.

@@ -17,9 +17,10 @@ pub struct Statistics {
     /// Sum of the water's force on each unit over the second half of the time that the units are held [N], and the
     /// number of steps in it.
     still_force: (Vec<[f64; 3]>, u64),
-    /// Largest force of the water on each unit beyond that of the still water [N].
+    /// Largest force of the water on each unit beyond that of the still water, as a mean over an interval of the series
+    /// [N].
     pub peak_fluid_force: Vec<f64>,
-    /// Largest force of bed and neighbours on each unit [N].
+    /// Largest force of bed and neighbours on each unit, as such a mean [N].
     pub peak_contact_force: Vec<f64>,
     /// Contacts of each unit with the bed and with other units.
     pub contacts: Vec<[u64; 2]>,
@@ -67,12 +68,10 @@ impl Statistics {
         DVec3::from(sums[unit]) / (*count).max(1) as f64
     }
 
-    /// Count the loads of a step.
-    pub fn count_loads(&mut self, fluid: &[Load], contact: &[Load]) {
-        for unit in 0..fluid.len() {
-            let beyond_still = (fluid[unit].force - self.still_force(unit)).length();
-            self.peak_fluid_force[unit] = self.peak_fluid_force[unit].max(beyond_still);
-            self.peak_contact_force[unit] = self.peak_contact_force[unit].max(contact[unit].force.length());
-        }
+    /// Count the mean loads of water and contact on a unit over an interval of the series.
+    pub fn count_mean_loads(&mut self, unit: usize, [fluid, contact]: [Load; 2]) {
+        let beyond_still = (fluid.force - self.still_force(unit)).length();
+        self.peak_fluid_force[unit] = self.peak_fluid_force[unit].max(beyond_still);
+        self.peak_contact_force[unit] = self.peak_contact_force[unit].max(contact.force.length());
     }
 }
