@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::{
     grid::{Bins, Grid},
-    lanes::{Avx2, Lanes, Portable, has_avx2_fma},
+    lanes::{InstructionSet, Lanes, WithLanes},
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists, Sources},
     parameters::Parameters,
     rates::lanes_of,
@@ -44,7 +44,6 @@ pub struct GhostNodes {
     split: Vec<[f32; 4]>,
     lists: NeighbourLists,
     sums: Vec<NodeSums>,
-    portable: bool,
 }
 
 /// Sums over the water round one ghost node, lengths in h.
@@ -63,9 +62,9 @@ struct NodeSums {
 }
 
 impl GhostNodes {
-    /// Ghost nodes whose sums are taken without processor-specific instructions.
-    pub fn portable() -> Self {
-        Self { portable: true, lists: NeighbourLists::portable(), ..Self::default() }
+    /// Ghost nodes whose sums are taken with an instruction set.
+    pub fn new(instructions: InstructionSet) -> Self {
+        Self { lists: NeighbourLists::new(instructions), ..Self::default() }
     }
 
     /// Find the density of each boundary particle from the water round its ghost node.
@@ -89,11 +88,11 @@ impl GhostNodes {
 
         self.sums.resize(self.sorted.len(), NodeSums::default());
         let (split, lists) = (&self.split, &self.lists);
-        let avx2_fma = has_avx2_fma() && !self.portable;
-        let pairs = GhostLoop { parameters, bin_x: grid.size.x as f32, avx2_fma };
+        let bin_x = grid.size.x as f32;
         self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
             let begin = number * CHUNK;
-            pairs.chunk_sums(chunk, &split[begin..begin + sums.len()], records, sums);
+            let nodes = &split[begin..begin + sums.len()];
+            lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, records, sums });
         });
         for (sums, &particle) in self.sums.iter().zip(&self.bins.order) {
             let particle = particle as usize;
@@ -102,114 +101,89 @@ impl GhostNodes {
     }
 }
 
-struct GhostLoop<'a> {
+/// The sums of one chunk of nodes.
+struct ChunkSums<'a> {
     parameters: &'a Parameters,
     bin_x: f32,
-    avx2_fma: bool,
+    chunk: &'a Chunk,
+    nodes: &'a [[f32; 4]],
+    records: &'a [Record],
+    sums: &'a mut [NodeSums],
 }
 
-impl GhostLoop<'_> {
-    fn chunk_sums(&self, chunk: &Chunk, nodes: &[[f32; 4]], records: &[Record], sums: &mut [NodeSums]) {
-        #[cfg(target_arch = "x86_64")]
-        if self.avx2_fma {
-            // SAFETY: `has_avx2_fma` has asked the processor.
-            return unsafe { chunk_sums_avx2_fma(self, chunk, nodes, records, sums) };
-        }
-        chunk_sums::<Portable>(self, chunk, nodes, records, sums);
-    }
-}
+impl WithLanes for ChunkSums<'_> {
+    type Output = ();
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn chunk_sums_avx2_fma(
-    pairs: &GhostLoop,
-    chunk: &Chunk,
-    nodes: &[[f32; 4]],
-    records: &[Record],
-    sums: &mut [NodeSums],
-) {
-    chunk_sums::<Avx2>(pairs, chunk, nodes, records, sums);
-}
-
-#[inline(always)]
-fn chunk_sums<L: Lanes>(
-    pairs: &GhostLoop,
-    chunk: &Chunk,
-    nodes: &[[f32; 4]],
-    records: &[Record],
-    sums: &mut [NodeSums],
-) {
-    for (cluster, neighbours) in chunk.clusters() {
-        let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-        if neighbours.is_empty() {
-            sums[members].fill(NodeSums::default());
-            continue;
-        }
-        let lanes = cluster_sums::<L>(pairs, cluster, nodes, neighbours, records).map(L::to_array);
-        for (lane, node) in sums[members].iter_mut().enumerate() {
-            *node = NodeSums {
-                value: std::array::from_fn(|k| lanes[k][lane]),
-                value_f: lanes[4][lane],
-                first: std::array::from_fn(|k| lanes[5 + k][lane]),
-                second: std::array::from_fn(|k| lanes[8 + k][lane]),
-                first_f: std::array::from_fn(|k| lanes[14 + k][lane]),
-            };
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        for (cluster, neighbours) in self.chunk.clusters() {
+            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+            if neighbours.is_empty() {
+                self.sums[members].fill(NodeSums::default());
+                continue;
+            }
+            let lanes = self.cluster_sums::<L>(cluster, neighbours).map(L::to_array);
+            for (lane, node) in self.sums[members].iter_mut().enumerate() {
+                *node = NodeSums {
+                    value: std::array::from_fn(|k| lanes[k][lane]),
+                    value_f: lanes[4][lane],
+                    first: std::array::from_fn(|k| lanes[5 + k][lane]),
+                    second: std::array::from_fn(|k| lanes[8 + k][lane]),
+                    first_f: std::array::from_fn(|k| lanes[14 + k][lane]),
+                };
+            }
         }
     }
 }
 
-#[inline(always)]
-fn cluster_sums<L: Lanes>(
-    pairs: &GhostLoop,
-    cluster: &Cluster,
-    nodes: &[[f32; 4]],
-    neighbours: &[u32],
-    records: &[Record],
-) -> [L; 17] {
-    let kernel = &pairs.parameters.kernel;
-    let width = pairs.parameters.periodic_width.unwrap_or(0.0) as f32;
-    let splat = L::splat;
-    let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, nodes, |n| n[k]));
-    let (per_h, minus_h2) = (splat(1.0 / kernel.h as f32), splat(-(kernel.h * kernel.h) as f32));
-    let per_width = splat(if width > 0.0 { 1.0 / width } else { 0.0 });
+impl ChunkSums<'_> {
+    #[inline(always)]
+    fn cluster_sums<L: Lanes>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 17] {
+        let kernel = &self.parameters.kernel;
+        let width = self.parameters.periodic_width.unwrap_or(0.0) as f32;
+        let splat = L::splat;
+        let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, self.nodes, |n| n[k]));
+        let (per_h, minus_h2) = (splat(1.0 / kernel.h as f32), splat(-(kernel.h * kernel.h) as f32));
+        let per_width = splat(if width > 0.0 { 1.0 / width } else { 0.0 });
 
-    let mut sums = [splat(0.0); 17];
-    for &j in neighbours {
-        let b = &records[j as usize];
-        let rx = (splat(b.bin_x) - node[0]).mul_add(splat(pairs.bin_x), splat(b.x) - node[1]);
-        let mut ry = splat(b.y) - node[2];
-        ry = ry - splat(width) * (ry * per_width).round();
-        let rz = splat(b.z) - node[3];
-        let closeness = kernel.closeness(rx.mul_add(rx, ry.mul_add(ry, rz * rz)).sqrt());
-        let (x, y, z) = (rx * per_h, ry * per_h, rz * per_h);
-        let (volume, f) = (splat(b.volume), splat(b.excess_density));
-        let wv = kernel.value(closeness) * volume;
-        let gv = kernel.gradient_factor(closeness) * minus_h2 * volume;
-        let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-        let terms = [
-            wv,
-            wv * x,
-            wv * y,
-            wv * z,
-            wv * f,
-            gx,
-            gy,
-            gz,
-            gx * x,
-            gy * y,
-            gz * z,
-            gx * y,
-            gx * z,
-            gy * z,
-            gx * f,
-            gy * f,
-            gz * f,
-        ];
-        for (sum, term) in sums.iter_mut().zip(terms) {
-            *sum += term;
+        let mut sums = [splat(0.0); 17];
+        for &j in neighbours {
+            let b = &self.records[j as usize];
+            let rx = (splat(b.bin_x) - node[0]).mul_add(splat(self.bin_x), splat(b.x) - node[1]);
+            let mut ry = splat(b.y) - node[2];
+            ry = ry - splat(width) * (ry * per_width).round();
+            let rz = splat(b.z) - node[3];
+            let closeness = kernel.closeness(rx.mul_add(rx, ry.mul_add(ry, rz * rz)).sqrt());
+            let (x, y, z) = (rx * per_h, ry * per_h, rz * per_h);
+            let (volume, f) = (splat(b.volume), splat(b.excess_density));
+            let wv = kernel.value(closeness) * volume;
+            let gv = kernel.gradient_factor(closeness) * minus_h2 * volume;
+            let (gx, gy, gz) = (gv * x, gv * y, gv * z);
+            let terms = [
+                wv,
+                wv * x,
+                wv * y,
+                wv * z,
+                wv * f,
+                gx,
+                gy,
+                gz,
+                gx * x,
+                gy * y,
+                gz * z,
+                gx * y,
+                gx * z,
+                gy * z,
+                gx * f,
+                gy * f,
+                gz * f,
+            ];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += term;
+            }
         }
+        sums
     }
-    sums
 }
 
 impl NodeSums {

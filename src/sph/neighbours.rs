@@ -1,4 +1,4 @@
-//! Clusters of up to eight neighbouring particles and their shared neighbour lists.
+//! Clusters of neighbouring particles, one a SIMD lane, and their shared neighbour lists.
 //!
 //! A candidate enters a cluster's list if it is near the cluster's box; lanes that it does not reach cost nothing but
 //! a multiplication by zero. The list is built once a step and serves both evaluations of the step, so it reaches a
@@ -9,21 +9,22 @@ use rayon::prelude::*;
 
 use super::{
     grid::{Bins, Grid},
-    lanes::{Avx2, LANES, Lanes, Portable, has_avx2_fma},
+    lanes::{InstructionSet, Lanes, MOST_LANES, WithLanes},
 };
 
 /// Targets of one task of the thread pool; clusters do not cross its ends.
 pub const CHUNK: usize = 512;
 
-/// A cluster has at most this many bins between its first and last particle, lest a loose row make a huge box.
-const LONGEST_CLUSTER: u32 = 4;
+/// A cluster has at most this many bins between its first and last particle for each of its lanes, lest a loose row
+/// make a huge box. Where water fills the bins, four particles lie in each.
+const LONGEST_CLUSTER: f32 = 0.5;
 
-/// Up to eight consecutive targets and the place of their neighbours.
+/// Consecutive targets, at most as many as there are lanes, and the place of their neighbours.
 #[derive(Debug, Clone, Copy)]
 pub struct Cluster {
     /// First target, counted from the start of the chunk.
     pub first: u32,
-    /// Number of targets, 1 to 8.
+    /// Number of targets, at least 1.
     pub len: u32,
     /// End of its neighbours in the chunk's list; they begin where those of the cluster before end.
     pub list_end: u32,
@@ -37,34 +38,6 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    #[inline(always)]
-    fn build<L: Lanes>(
-        &mut self,
-        grid: &Grid,
-        bins: &Bins,
-        targets: &[DVec3],
-        members: std::ops::Range<usize>,
-        sources: &[Sources],
-        reach: f64,
-    ) {
-        self.clusters.clear();
-        self.list.clear();
-        let mut first = members.start;
-        while first < members.end {
-            let end = cluster_end(grid, &bins.bin_at[..members.end], first);
-            let cluster_box = BoundingBox::of(grid, &targets[first..end]);
-            for source in sources {
-                cluster_box.list_near::<L>(grid, source, reach, &mut self.list);
-            }
-            self.clusters.push(Cluster {
-                first: (first - members.start) as u32,
-                len: (end - first) as u32,
-                list_end: self.list.len() as u32,
-            });
-            first = end;
-        }
-    }
-
     /// Each cluster with its neighbours.
     pub fn clusters(&self) -> impl Iterator<Item = (&Cluster, &[u32])> {
         let mut begin = 0;
@@ -99,14 +72,13 @@ impl SortedPositions {
         for (axis, values) in self.axes.iter_mut().enumerate() {
             values.clear();
             values.extend(points.iter().map(|point| (point[axis] - grid.low[axis]) as f32));
-            values.extend([0.0; LANES]);
+            values.extend([0.0; MOST_LANES]);
         }
     }
 
     #[inline(always)]
     fn load<L: Lanes>(&self, axis: usize, first: usize) -> L {
-        let values: &[f32; LANES] = self.axes[axis][first..first + LANES].try_into().expect("the arrays are padded");
-        L::from_array(*values)
+        L::load(&self.axes[axis][first..])
     }
 }
 
@@ -114,13 +86,18 @@ impl SortedPositions {
 #[derive(Debug, Default)]
 pub struct NeighbourLists {
     chunks: Vec<Chunk>,
-    portable: bool,
+    instructions: InstructionSet,
 }
 
 impl NeighbourLists {
-    /// Lists that are built without processor-specific instructions.
-    pub fn portable() -> Self {
-        Self { portable: true, ..Self::default() }
+    /// No lists yet; clusters will fill the lanes of an instruction set.
+    pub fn new(instructions: InstructionSet) -> Self {
+        Self { chunks: Vec::new(), instructions }
+    }
+
+    /// The instruction set whose lanes the clusters fill.
+    pub fn instructions(&self) -> InstructionSet {
+        self.instructions
     }
 
     /// The chunks in the order of the targets.
@@ -146,40 +123,58 @@ impl NeighbourLists {
     /// `targets` are sorted as `bins` says.
     pub fn build(&mut self, grid: &Grid, bins: &Bins, targets: &[DVec3], sources: &[Sources], reach: f64) {
         self.chunks.resize_with(targets.len().div_ceil(CHUNK), Chunk::default);
-        let avx2_fma = has_avx2_fma() && !self.portable;
+        let instructions = self.instructions;
         self.chunks.par_iter_mut().enumerate().for_each(|(number, chunk)| {
             let begin = number * CHUNK;
-            let end = (begin + CHUNK).min(targets.len());
-            #[cfg(target_arch = "x86_64")]
-            if avx2_fma {
-                // SAFETY: `has_avx2_fma` has asked the processor.
-                return unsafe { build_avx2_fma(chunk, grid, bins, targets, begin..end, sources, reach) };
-            }
-            chunk.build::<Portable>(grid, bins, targets, begin..end, sources, reach);
+            let members = begin..(begin + CHUNK).min(targets.len());
+            instructions.dispatch(Build { chunk, grid, bins, targets, members, sources, reach });
         });
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn build_avx2_fma(
-    chunk: &mut Chunk,
-    grid: &Grid,
-    bins: &Bins,
-    targets: &[DVec3],
+/// The clusters and lists of one chunk.
+struct Build<'a> {
+    chunk: &'a mut Chunk,
+    grid: &'a Grid,
+    bins: &'a Bins,
+    targets: &'a [DVec3],
     members: std::ops::Range<usize>,
-    sources: &[Sources],
+    sources: &'a [Sources<'a>],
     reach: f64,
-) {
-    chunk.build::<Avx2>(grid, bins, targets, members, sources, reach);
 }
 
-/// End of the cluster that starts at `first`: the same row, at most eight targets, not too long.
-fn cluster_end(grid: &Grid, bin_at: &[u32], first: usize) -> usize {
+impl WithLanes for Build<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { chunk, grid, bins, targets, members, sources, reach } = self;
+        chunk.clusters.clear();
+        chunk.list.clear();
+        let mut first = members.start;
+        while first < members.end {
+            let end = cluster_end(grid, &bins.bin_at[..members.end], first, L::COUNT);
+            let cluster_box = BoundingBox::of(grid, &targets[first..end]);
+            for source in sources {
+                cluster_box.list_near::<L>(grid, source, reach, &mut chunk.list);
+            }
+            chunk.clusters.push(Cluster {
+                first: (first - members.start) as u32,
+                len: (end - first) as u32,
+                list_end: chunk.list.len() as u32,
+            });
+            first = end;
+        }
+    }
+}
+
+/// End of the cluster that starts at `first`: the same row, at most as many targets as lanes, not too long.
+fn cluster_end(grid: &Grid, bin_at: &[u32], first: usize, lanes: usize) -> usize {
     let nx = grid.count[0] as u32;
     let row = bin_at[first] / nx;
-    let same = |bin: u32| bin / nx == row && bin - bin_at[first] < LONGEST_CLUSTER;
-    let most = (first + LANES).min(bin_at.len());
+    let longest = (LONGEST_CLUSTER * lanes as f32) as u32;
+    let same = |bin: u32| bin / nx == row && bin - bin_at[first] < longest;
+    let most = (first + lanes).min(bin_at.len());
     (first + 1..most).find(|&i| !same(bin_at[i])).unwrap_or(most)
 }
 
@@ -254,7 +249,7 @@ impl BoundingBox {
     }
 }
 
-/// The test whether points lie within reach of a box, eight at a time, in single precision; the reach is widened by
+/// The test whether points lie within reach of a box, as many at a time as there are lanes, in single precision; the reach is widened by
 /// its rounding.
 struct Near<L> {
     low: [L; 3],
@@ -282,13 +277,13 @@ impl<L: Lanes> Near<L> {
         }
     }
 
-    /// Append the numbers of the near points. Branch-free: the eight numbers are written, near ones first, and the
-    /// others are overwritten by what follows.
+    /// Append the numbers of the near points. Branch-free: as many numbers as lanes are written, near ones
+    /// first, and the others are overwritten by what follows.
     #[inline(always)]
     fn append(&self, positions: &SortedPositions, members: std::ops::Range<usize>, offset: u32, list: &mut Vec<u32>) {
         let mut len = list.len();
-        list.resize(len + members.len() + LANES, 0);
-        for first in members.clone().step_by(LANES) {
+        list.resize(len + members.len() + L::COUNT, 0);
+        for first in members.clone().step_by(L::COUNT) {
             let x = positions.load::<L>(0, first);
             let mut y = positions.load::<L>(1, first);
             // In a periodic flume, the image that is nearest to the box.
@@ -296,13 +291,9 @@ impl<L: Lanes> Near<L> {
             let z = positions.load::<L>(2, first);
             let (dx, dy, dz) = (self.outside(0, x), self.outside(1, y), self.outside(2, z));
             let distance2 = dx.mul_add(dx, dy.mul_add(dy, dz * dz));
-            let present = if members.end - first < LANES { (1 << (members.end - first)) - 1 } else { 0xff };
+            let present = (1_u32 << (members.end - first).min(L::COUNT)) - 1;
             let near = distance2.at_most(self.reach2) & present;
-            let base = offset + first as u32;
-            let out = &mut list[len..len + LANES];
-            for (out, &lane) in out.iter_mut().zip(&SET_BITS[near]) {
-                *out = base + u32::from(lane);
-            }
+            L::list_set_bits(near, offset + first as u32, &mut list[len..]);
             len += near.count_ones() as usize;
         }
         list.truncate(len);
@@ -313,26 +304,6 @@ impl<L: Lanes> Near<L> {
     fn outside(&self, axis: usize, value: L) -> L {
         (self.low[axis] - value).max(value - self.high[axis]).max(L::splat(0.0))
     }
-}
-
-/// The positions of the set bits of each byte, lowest first.
-static SET_BITS: [[u8; LANES]; 256] = set_bits();
-
-const fn set_bits() -> [[u8; LANES]; 256] {
-    let mut table = [[0; LANES]; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let (mut bit, mut count) = (0, 0);
-        while bit < LANES {
-            if byte >> bit & 1 == 1 {
-                table[byte][count] = bit as u8;
-                count += 1;
-            }
-            bit += 1;
-        }
-        byte += 1;
-    }
-    table
 }
 
 #[cfg(test)]
@@ -348,7 +319,7 @@ mod tests {
         (0..n).map(|_| DVec3::new(random(), random(), random()) * size).collect()
     }
 
-    fn every_pair_is_listed(periodic: Option<f64>) {
+    fn every_pair_is_listed(instructions: InstructionSet, periodic: Option<f64>) {
         let (dp, reach, size) = (0.05, 0.21, DVec3::new(2.0, 0.6, 0.7));
         let grid = Grid::new(DVec3::ZERO, size, dp, periodic);
         let points = scattered(3000, size);
@@ -357,7 +328,7 @@ mod tests {
         let sorted: Vec<DVec3> = bins.order.iter().map(|&i| points[i as usize]).collect();
         let mut positions = SortedPositions::default();
         positions.set(&grid, &sorted);
-        let mut lists = NeighbourLists::default();
+        let mut lists = NeighbourLists::new(instructions);
         let source = Sources { bins: &bins, positions: &positions, first_record: 0 };
         lists.build(&grid, &bins, &sorted, &[source], reach);
         let mut clustered = 0;
@@ -381,11 +352,11 @@ mod tests {
 
     #[test]
     fn every_neighbour_is_listed_once() {
-        every_pair_is_listed(None);
+        InstructionSet::available().into_iter().for_each(|set| every_pair_is_listed(set, None));
     }
 
     #[test]
     fn every_neighbour_is_listed_once_across_periodic_sides() {
-        every_pair_is_listed(Some(0.6));
+        InstructionSet::available().into_iter().for_each(|set| every_pair_is_listed(set, Some(0.6)));
     }
 }

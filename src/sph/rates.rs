@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::{
     continuity::compression,
-    lanes::{Avx2, LANES, Lanes, Portable, has_avx2_fma},
+    lanes::{Lanes, MOST_LANES, WithLanes},
     momentum::pair_stress,
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
     parameters::Parameters,
@@ -37,19 +37,13 @@ pub struct PairLoop {
     parameters: Parameters,
     bin_x: f32,
     width: f32,
-    avx2_fma: bool,
 }
 
 impl PairLoop {
     /// Loop over pairs in bins of length `bin_x` [m].
     pub fn new(parameters: Parameters, bin_x: f64) -> Self {
         let width = parameters.periodic_width.unwrap_or(0.0) as f32;
-        Self { parameters, bin_x: bin_x as f32, width, avx2_fma: has_avx2_fma() }
-    }
-
-    /// The same loop without processor-specific instructions.
-    pub fn portable(self) -> Self {
-        Self { avx2_fma: false, ..self }
+        Self { parameters, bin_x: bin_x as f32, width }
     }
 
     /// Rates of the targets, which are consecutive `records` from `first_target` on.
@@ -57,7 +51,7 @@ impl PairLoop {
         rates.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (rates, chunk))| {
             let begin = first_target + number * CHUNK;
             let targets = &records[begin..begin + rates.len()];
-            self.chunk_rates(chunk, targets, records, rates);
+            lists.instructions().dispatch(ChunkRates { pairs: self, chunk, targets, records, rates });
         });
     }
 
@@ -109,33 +103,32 @@ impl PairLoop {
         let rho_a = self.parameters.tait.rho0 + f64::from(a.excess_density);
         sum.map(|sum| -sum / rho_a)
     }
+}
 
-    fn chunk_rates(&self, chunk: &Chunk, targets: &[Record], records: &[Record], rates: &mut [Rate]) {
-        #[cfg(target_arch = "x86_64")]
-        if self.avx2_fma {
-            // SAFETY: `has_avx2_fma` has asked the processor.
-            return unsafe { chunk_rates_avx2_fma(self, chunk, targets, records, rates) };
+/// The rates of one chunk of targets.
+struct ChunkRates<'a> {
+    pairs: &'a PairLoop,
+    chunk: &'a Chunk,
+    targets: &'a [Record],
+    records: &'a [Record],
+    rates: &'a mut [Rate],
+}
+
+impl WithLanes for ChunkRates<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { pairs, chunk, targets, records, rates } = self;
+        for (cluster, neighbours) in chunk.clusters() {
+            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+            let sums = if pairs.width > 0.0 {
+                cluster_rates::<L, true>(pairs, cluster, targets, neighbours, records)
+            } else {
+                cluster_rates::<L, false>(pairs, cluster, targets, neighbours, records)
+            };
+            rates[members].copy_from_slice(&sums[..cluster.len as usize]);
         }
-        chunk_rates::<Portable>(self, chunk, targets, records, rates);
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn chunk_rates_avx2_fma(pairs: &PairLoop, chunk: &Chunk, targets: &[Record], records: &[Record], rates: &mut [Rate]) {
-    chunk_rates::<Avx2>(pairs, chunk, targets, records, rates);
-}
-
-#[inline(always)]
-fn chunk_rates<L: Lanes>(pairs: &PairLoop, chunk: &Chunk, targets: &[Record], records: &[Record], rates: &mut [Rate]) {
-    for (cluster, neighbours) in chunk.clusters() {
-        let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-        let sums = if pairs.width > 0.0 {
-            cluster_rates::<L, true>(pairs, cluster, targets, neighbours, records)
-        } else {
-            cluster_rates::<L, false>(pairs, cluster, targets, neighbours, records)
-        };
-        rates[members].copy_from_slice(&sums[..cluster.len as usize]);
     }
 }
 
@@ -143,7 +136,7 @@ fn chunk_rates<L: Lanes>(pairs: &PairLoop, chunk: &Chunk, targets: &[Record], re
 #[inline(always)]
 pub(super) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
     let last = cluster.len as usize - 1;
-    L::from_array(std::array::from_fn(|lane| f(&targets[cluster.first as usize + lane.min(last)])))
+    L::from_fn(|lane| f(&targets[cluster.first as usize + lane.min(last)]))
 }
 
 #[inline(always)]
@@ -153,7 +146,7 @@ fn cluster_rates<L: Lanes, const PERIODIC: bool>(
     targets: &[Record],
     neighbours: &[u32],
     records: &[Record],
-) -> [Rate; LANES] {
+) -> [Rate; MOST_LANES] {
     let Parameters { kernel, tait, alpha, diffusion, .. } = &pairs.parameters;
     let (h, alpha, rho0) = (kernel.h as f32, *alpha as f32, tait.rho0 as f32);
     let a = |f: fn(&Record) -> f32| lanes_of::<L, Record>(cluster, targets, f);

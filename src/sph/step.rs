@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::{
     grid::{Bins, Grid},
+    lanes::InstructionSet,
     mdbc::GhostNodes,
     neighbours::{NeighbourLists, SortedPositions, Sources},
     parameters::{BoundaryCondition, Parameters},
@@ -86,38 +87,31 @@ impl Group {
 }
 
 impl Solver {
-    /// Solver for the box from `low` to `high` [m].
+    /// Solver for the box from `low` to `high` [m], with the best instructions that the processor has.
     pub fn new(parameters: Parameters, low: DVec3, high: DVec3) -> Self {
+        Self::with_instructions(InstructionSet::best(), parameters, low, high)
+    }
+
+    /// The same with given instructions.
+    pub fn with_instructions(instructions: InstructionSet, parameters: Parameters, low: DVec3, high: DVec3) -> Self {
+        let lists = || NeighbourLists::new(instructions);
+        let group = || Group { lists: lists(), ..Group::default() };
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
         let pairs = PairLoop::new(parameters, grid.size.x);
         Self {
             parameters,
             grid,
             pairs,
-            water: Group::default(),
-            walls: Group::default(),
-            units: Group::default(),
-            gap_lists: NeighbourLists::default(),
+            water: group(),
+            walls: group(),
+            units: group(),
+            gap_lists: lists(),
             records: Vec::new(),
-            ghosts: GhostNodes::default(),
+            ghosts: GhostNodes::new(instructions),
             half: Water::default(),
             half_density: Vec::new(),
             sorted: Water::default(),
             unit_force: Vec::new(),
-        }
-    }
-
-    /// The same solver without processor-specific instructions.
-    pub fn portable(self) -> Self {
-        let group = || Group { lists: NeighbourLists::portable(), ..Group::default() };
-        Self {
-            pairs: self.pairs.portable(),
-            water: group(),
-            walls: group(),
-            units: group(),
-            gap_lists: NeighbourLists::portable(),
-            ghosts: GhostNodes::portable(),
-            ..self
         }
     }
 

@@ -13,6 +13,7 @@ use breakwater::sph::{
     density_diffusion::Diffusion,
     equation_of_state::Tait,
     kernel::Wendland,
+    lanes::InstructionSet,
     parameters::{BoundaryCondition, Parameters},
     step::Solver,
 };
@@ -112,6 +113,17 @@ pub struct BareTank {
 impl BareTank {
     /// A square tank of still water with end walls and periodic sides, and `unit` as its one unit at the origin.
     pub fn new(length: f64, depth: f64, dp: f64, unit: &[BoundaryParticle]) -> Self {
+        Self::with_instructions(InstructionSet::best(), length, depth, dp, unit)
+    }
+
+    /// The same, computed with given instructions.
+    pub fn with_instructions(
+        instructions: InstructionSet,
+        length: f64,
+        depth: f64,
+        dp: f64,
+        unit: &[BoundaryParticle],
+    ) -> Self {
         let parameters = parameters(dp, depth, GRAVITY, Some(length));
         let across = Across { width: length, count: (length / dp).round() as u32, walls: false };
         let basin = Basin {
@@ -127,7 +139,12 @@ impl BareTank {
         let fixed = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, 3);
         let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
         Self {
-            solver: Solver::new(parameters, -margin, DVec3::new(length, length, 1.5 * depth) + margin),
+            solver: Solver::with_instructions(
+                instructions,
+                parameters,
+                -margin,
+                DVec3::new(length, length, 1.5 * depth) + margin,
+            ),
             water: basin.fill(&parameters.tait),
             boundary: Boundary::new(&fixed, &[], unit, usize::from(!unit.is_empty()), RHO0),
         }
