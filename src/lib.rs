@@ -12,6 +12,7 @@
 //! | [`rigid`] | rigid armour units and their contact |
 //! | [`simulation`] | the coupled loop: water, units, outputs |
 //! | [`output`] | ParaView files, tables, checkpoints, summary, report, comparison |
+//! | [`bench`] | how fast the solver is on this machine |
 //! | [`cli`] | one file a subcommand |
 //!
 //! SI units throughout. Axes: x from the wavemaker to the shore, y across the flume, z upwards.
@@ -19,6 +20,7 @@
 // Units stand in brackets in every description; rustdoc would read `[m]` as a link to something called m.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod bench;
 pub mod case;
 pub mod cli;
 pub mod geometry;

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done, 1 the run went wrong, 2 the input is refused (nothing was written).
 
+mod bench;
 mod check;
 mod compare;
 mod init;
@@ -46,6 +47,7 @@ enum Command {
     Report(report::ReportArguments),
     Init(init::InitArguments),
     Schema(schema::SchemaArguments),
+    Bench(bench::BenchArguments),
 }
 
 /// Why a command ended without its result.
@@ -77,6 +79,7 @@ pub fn main() -> ExitCode {
         Command::Report(arguments) => arguments.execute(),
         Command::Init(arguments) => arguments.execute(),
         Command::Schema(arguments) => arguments.execute(),
+        Command::Bench(arguments) => arguments.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -23,6 +23,13 @@ impl Water {
         self.position.len()
     }
 
+    /// Bytes in use.
+    pub fn bytes(&self) -> usize {
+        let vectors = (self.position.capacity() + self.velocity.capacity()) * size_of::<DVec3>();
+        let numbers = (self.density.capacity() + self.mass.capacity()) * size_of::<f64>();
+        vectors + numbers + self.id.capacity() * size_of::<u32>()
+    }
+
     /// Whether there is no water.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()

@@ -91,7 +91,8 @@ impl Simulation {
     /// # Errors
     /// If the state has become impossible.
     pub fn begin_step(&mut self) -> Result<f64, Failure> {
-        self.solver.sort_and_list(&mut self.water, &self.boundary);
+        self.solver.sort(&mut self.water, &self.boundary);
+        self.solver.list(&self.water, &self.boundary);
         self.solver.boundary_densities(&self.water, &mut self.boundary);
         self.solver.rates();
         let limits = self.solver.limits();

@@ -75,6 +75,11 @@ pub struct Bins {
 }
 
 impl Bins {
+    /// Bytes in use.
+    pub fn bytes(&self) -> usize {
+        [&self.start, &self.order, &self.bin_at, &self.bin_of].map(|v| v.capacity() * size_of::<u32>()).iter().sum()
+    }
+
     /// Sort the points stably into the bins of `grid`.
     pub fn sort(&mut self, grid: &Grid, points: &[DVec3]) {
         use rayon::prelude::*;

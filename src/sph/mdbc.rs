@@ -67,6 +67,13 @@ impl GhostNodes {
         Self { lists: NeighbourLists::new(instructions), ..Self::default() }
     }
 
+    /// Bytes in use.
+    pub fn bytes(&self) -> usize {
+        let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
+        let sums = self.split.capacity() * size_of::<[f32; 4]>() + self.sums.capacity() * size_of::<NodeSums>();
+        points + sums + self.bins.bytes() + self.lists.bytes()
+    }
+
     /// Find the density of each boundary particle from the water round its ghost node.
     pub fn densities(
         &mut self,

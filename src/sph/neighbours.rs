@@ -76,6 +76,11 @@ impl SortedPositions {
         }
     }
 
+    /// Bytes in use.
+    pub fn bytes(&self) -> usize {
+        self.axes.iter().map(|axis| axis.capacity() * size_of::<f32>()).sum()
+    }
+
     #[inline(always)]
     fn load<L: Lanes>(&self, axis: usize, first: usize) -> L {
         L::load(&self.axes[axis][first..])

@@ -80,22 +80,42 @@ impl PairLoop {
         });
     }
 
+    /// Number of pairs of a target, the first of the `records`, and a neighbour within the kernel's support.
+    pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
+        let count = |(number, chunk): (usize, &Chunk)| {
+            let of_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
+                let first = number * CHUNK + cluster.first as usize;
+                let near =
+                    |a: &Record, j: &u32| self.distance(a, &records[*j as usize]).1 < self.parameters.kernel.support();
+                let of_target = |a| neighbours.iter().filter(|j| near(a, j)).count() as u64;
+                records[first..first + cluster.len as usize].iter().map(of_target).sum::<u64>()
+            };
+            chunk.clusters().map(of_cluster).sum::<u64>()
+        };
+        lists.chunks().par_iter().enumerate().map(count).sum()
+    }
+
+    /// Vector from b to a, its nearest image in a periodic flume, and its length [m].
+    fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
+        let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
+        let mut r = [
+            difference(a.bin_x, b.bin_x) * f64::from(self.bin_x) + difference(a.x, b.x),
+            difference(a.y, b.y),
+            difference(a.z, b.z),
+        ];
+        if let Some(width) = self.parameters.periodic_width {
+            r[1] -= width * (r[1] / width).round();
+        }
+        (r, r.iter().map(|r| r * r).sum::<f64>().sqrt())
+    }
+
     /// The pressure term of equation 1 for one target, in double precision so that inner forces cancel [m/s2].
     fn pressure_acceleration(&self, a: &Record, neighbours: &[u32], records: &[Record]) -> [f64; 3] {
         let kernel = &self.parameters.kernel;
         let mut sum = [0.0; 3];
         for &j in neighbours {
             let b = &records[j as usize];
-            let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
-            let mut r = [
-                difference(a.bin_x, b.bin_x) * f64::from(self.bin_x) + difference(a.x, b.x),
-                difference(a.y, b.y),
-                difference(a.z, b.z),
-            ];
-            if let Some(width) = self.parameters.periodic_width {
-                r[1] -= width * (r[1] / width).round();
-            }
-            let distance = r.iter().map(|r| r * r).sum::<f64>().sqrt();
+            let (r, distance) = self.distance(a, b);
             let g = kernel.gradient_factor(kernel.closeness(distance));
             let stress = pair_stress(f64::from(a.pressure), f64::from(b.pressure), 0.0) * f64::from(b.volume) * g;
             sum.iter_mut().zip(r).for_each(|(sum, r)| *sum += stress * r);

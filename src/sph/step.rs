@@ -1,6 +1,6 @@
 //! The symplectic position Verlet step (equations 7 to 9) as verbs; [`crate::simulation`] puts them in order:
 //!
-//! sort and list - boundary densities - rates - time step - predict - rates - correct
+//! sort - list - boundary densities - rates - time step - predict - rates - correct
 //!
 //! Equations 8.3, 8.4 and 9.2 are printed with the half-step values on their right-hand sides, which would count half
 //! a step twice; as in equation 7.2 and in Parshikov et al. (2000), the values at the start of the step stand here:
@@ -81,6 +81,11 @@ impl Group {
         self.rates.resize(positions.len(), Rate::default());
     }
 
+    fn bytes(&self) -> usize {
+        let of_targets = self.sorted.capacity() * size_of::<DVec3>() + self.rates.capacity() * size_of::<Rate>();
+        self.bins.bytes() + of_targets + self.near.bytes() + self.lists.bytes()
+    }
+
     fn sources(&self) -> Sources<'_> {
         Sources { bins: &self.bins, positions: &self.near, first_record: self.first_record as u32 }
     }
@@ -115,8 +120,8 @@ impl Solver {
         }
     }
 
-    /// Sort the water into bins and list the neighbours of every target for this step.
-    pub fn sort_and_list(&mut self, water: &mut Water, boundary: &Boundary) {
+    /// Sort the particles into bins, the water's arrays with them.
+    pub fn sort(&mut self, water: &mut Water, boundary: &Boundary) {
         let walls = boundary.walls();
         self.water.sort(&self.grid, &water.position);
         self.permute(water);
@@ -126,7 +131,10 @@ impl Solver {
         self.units.first_record = water.len() + walls.len();
         self.records.resize(water.len() + boundary.len(), Record::default());
         self.fill_records(State::of(water), boundary, false);
+    }
 
+    /// List the neighbours of every target for this step.
+    pub fn list(&mut self, water: &Water, boundary: &Boundary) {
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
         let mut lists = std::mem::take(&mut w.lists);
@@ -307,6 +315,28 @@ impl Solver {
     /// Mean number of listed neighbours of a water particle.
     pub fn mean_list_length(&self) -> f64 {
         self.water.lists.mean_length()
+    }
+
+    /// Mean number of neighbours of a water particle within the kernel's support.
+    pub fn mean_neighbours(&self) -> f64 {
+        self.pairs.count_within_support(&self.water.lists, &self.records) as f64 / self.water.rates.len().max(1) as f64
+    }
+
+    /// Bytes of the neighbour lists and of the records, which every evaluation reads.
+    pub fn bytes_read(&self) -> usize {
+        self.water.lists.bytes() + self.records.len() * size_of::<Record>()
+    }
+
+    /// Bytes in use besides the state of water and boundary.
+    pub fn bytes(&self) -> usize {
+        let groups: usize = [&self.water, &self.walls, &self.units].map(Group::bytes).iter().sum();
+        let records = self.records.capacity() * size_of::<Record>();
+        groups + self.gap_lists.bytes() + records + self.ghosts.bytes() + self.half.bytes() + self.sorted.bytes()
+    }
+
+    /// The instructions that it computes with.
+    pub fn instructions(&self) -> InstructionSet {
+        self.water.lists.instructions()
     }
 
     /// The sorted water of this step, for gauges.

@@ -70,7 +70,8 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     let start = (momentum(&water), angular_momentum(&water));
     let (mut time, mut pushed, mut steps) = (0.0, 0.0, 0);
     while time < 0.1 {
-        solver.sort_and_list(&mut water, &boundary);
+        solver.sort(&mut water, &boundary);
+        solver.list(&water, &boundary);
         solver.boundary_densities(&water, &mut boundary);
         solver.rates();
         let dt = solver.limits().time_step(&parameters);

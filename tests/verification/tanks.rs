@@ -152,7 +152,8 @@ impl BareTank {
 
     /// One step; `look` sees the state between its halves. Returns its length [s].
     pub fn step(&mut self, look: impl FnOnce(&mut Self)) -> f64 {
-        self.solver.sort_and_list(&mut self.water, &self.boundary);
+        self.solver.sort(&mut self.water, &self.boundary);
+        self.solver.list(&self.water, &self.boundary);
         self.solver.boundary_densities(&self.water, &mut self.boundary);
         self.solver.rates();
         let dt = self.solver.limits().time_step(&self.solver.parameters);

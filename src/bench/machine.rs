@@ -1,0 +1,97 @@
+//! What the machine can do at most: multiplications and additions, and memory traffic.
+
+use std::{hint::black_box, time::Instant};
+
+use rayon::prelude::*;
+
+use crate::sph::lanes::{InstructionSet, Lanes, WithLanes};
+
+/// Independent chains of operations, more than the latency of the unit times their number.
+const CHAINS: usize = 12;
+
+/// Numbers in each of the three arrays of the traffic test: well beyond the caches of a core.
+const NUMBERS: usize = 1 << 24;
+
+/// Measured peaks for 1, 2, ... threads.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    flops: Vec<f64>,
+    bandwidth: Vec<f64>,
+}
+
+impl Machine {
+    /// Measure with one to `threads` threads; takes about a second for each.
+    ///
+    /// # Errors
+    /// If the threads cannot be started.
+    pub fn measure(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let mut machine = Self { flops: Vec::new(), bandwidth: Vec::new() };
+        for count in 1..=threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build()?;
+            machine.flops.push(pool.install(|| peak_flops(count)));
+            machine.bandwidth.push(pool.install(peak_bandwidth));
+        }
+        Ok(machine)
+    }
+
+    /// Single-precision operations a second on a number of threads, a fused multiplication and addition being two.
+    pub fn flops(&self, threads: usize) -> f64 {
+        self.flops[threads - 1]
+    }
+
+    /// Bytes a second from and to memory on a number of threads.
+    pub fn bandwidth(&self, threads: usize) -> f64 {
+        self.bandwidth[threads - 1]
+    }
+}
+
+/// Chains of fused multiplications and additions; returns the number of operations.
+struct Chains {
+    rounds: u32,
+}
+
+impl WithLanes for Chains {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> f64 {
+        let (factor, summand) = (L::splat(black_box(0.999)), L::splat(black_box(0.001)));
+        let mut chains = [L::splat(black_box(1.0)); CHAINS];
+        for _ in 0..self.rounds {
+            for chain in &mut chains {
+                *chain = chain.mul_add(factor, summand);
+            }
+        }
+        let sum = chains.into_iter().reduce(|a, b| a + b).map(L::to_array);
+        black_box(sum);
+        2.0 * f64::from(self.rounds) * (CHAINS * L::COUNT) as f64
+    }
+}
+
+fn peak_flops(threads: usize) -> f64 {
+    let instructions = InstructionSet::best();
+    let once = |rounds: u32| {
+        let begin = Instant::now();
+        let operations: f64 =
+            (0..threads).into_par_iter().with_max_len(1).map(|_| instructions.dispatch(Chains { rounds })).sum();
+        operations / begin.elapsed().as_secs_f64()
+    };
+    best_of(|| once(4_000_000))
+}
+
+/// a = b + s c, counting the two arrays read and the one written.
+fn peak_bandwidth() -> f64 {
+    let (b, c) = (vec![1.0_f32; NUMBERS], vec![2.0_f32; NUMBERS]);
+    let mut a = vec![0.0_f32; NUMBERS];
+    let s = black_box(0.5);
+    best_of(|| {
+        let begin = Instant::now();
+        (&mut a, &b, &c).into_par_iter().with_min_len(1 << 16).for_each(|(a, b, c)| *a = s * c + b);
+        black_box(&a);
+        (3 * NUMBERS * size_of::<f32>()) as f64 / begin.elapsed().as_secs_f64()
+    })
+}
+
+fn best_of(mut measure: impl FnMut() -> f64) -> f64 {
+    (0..5).map(|_| measure()).fold(0.0, f64::max)
+}

@@ -1,0 +1,113 @@
+//! How fast the solver is on this machine: a block of water in a tank, whole steps, phase by phase.
+
+pub mod block;
+pub mod machine;
+
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use block::Block;
+use machine::Machine;
+
+/// Phases of a step in their order.
+pub const PHASES: [&str; 6] = ["sort", "list", "boundary densities", "rates", "predict", "correct"];
+
+/// Arithmetic operations of one pair of particles: the terms of equations 1 to 5 and the distance, a fused
+/// multiplication and addition counted as two. What the lanes outside the support do in vain is not counted.
+pub const FLOPS_PER_PAIR: f64 = 47.0;
+
+/// One measurement.
+#[derive(Debug, Clone, Serialize)]
+pub struct Measurement {
+    /// Still or moving water.
+    pub water: &'static str,
+    /// Number of threads.
+    pub threads: usize,
+    /// Water and boundary particles together.
+    pub particles: usize,
+    /// The water among them.
+    pub water_particles: usize,
+    /// Mean number of neighbours of a water particle within the support of the kernel.
+    pub neighbours_mean: f64,
+    /// Steps measured.
+    pub steps: u32,
+    /// Evaluations of the rates of all particles, per particle and second of whole steps; a step has two.
+    pub full_evaluations_per_s: f64,
+    /// Pairs within the support, per second of whole steps.
+    pub pairs_per_s: f64,
+    /// Useful operations as a share of the measured peak of the threads.
+    pub share_of_peak: f64,
+    /// The same during the pair loop alone.
+    pub share_of_peak_in_rates: f64,
+    /// What lists, records and state must at least move, as a share of the measured bandwidth of the threads.
+    pub share_of_bandwidth: f64,
+    /// Memory in use by the solver and the state, a particle [bytes].
+    pub bytes_per_particle: f64,
+    /// Share of each phase in the step.
+    pub phases: Vec<Phase>,
+}
+
+/// Time of a phase.
+#[derive(Debug, Clone, Serialize)]
+pub struct Phase {
+    /// What it does.
+    pub name: &'static str,
+    /// Share of the step [-].
+    pub share: f64,
+    /// Time a particle and step [ns].
+    pub ns_per_particle: f64,
+}
+
+/// Measure whole steps of a block on a number of threads for about `seconds`.
+///
+/// # Errors
+/// If the threads cannot be started.
+pub fn measure(
+    block: &mut Block,
+    threads: usize,
+    seconds: f64,
+    machine: &Machine,
+) -> Result<Measurement, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| measure_here(block, threads, seconds, machine)))
+}
+
+fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machine) -> Measurement {
+    // The first step allocates, the second one finds the caches as the others do.
+    let mut times = [Duration::ZERO; PHASES.len()];
+    block.step(&mut times);
+    block.step(&mut times);
+    times = [Duration::ZERO; PHASES.len()];
+    let (begin, mut steps) = (Instant::now(), 0);
+    while steps < 3 || begin.elapsed().as_secs_f64() < seconds {
+        block.step(&mut times);
+        steps += 1;
+    }
+    let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
+    let (particles, water_particles) = (block.particles(), block.water.len());
+    let neighbours_mean = block.solver.mean_neighbours();
+    let pairs = 2.0 * f64::from(steps) * neighbours_mean * water_particles as f64;
+    let evaluations = 2.0 * f64::from(steps) * particles as f64;
+    let rates = times[3].as_secs_f64();
+    let phase = |(name, time): (&&'static str, &Duration)| Phase {
+        name,
+        share: time.as_secs_f64() / total,
+        ns_per_particle: 1e9 * time.as_secs_f64() / (f64::from(steps) * particles as f64),
+    };
+    Measurement {
+        water: block.motion,
+        threads,
+        particles,
+        water_particles,
+        neighbours_mean,
+        steps,
+        full_evaluations_per_s: evaluations / total,
+        pairs_per_s: pairs / total,
+        share_of_peak: FLOPS_PER_PAIR * pairs / total / machine.flops(threads),
+        share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / rates / machine.flops(threads),
+        share_of_bandwidth: block.least_traffic() * f64::from(steps) / total / machine.bandwidth(threads),
+        bytes_per_particle: (block.solver.bytes() + block.state_bytes()) as f64 / particles as f64,
+        phases: PHASES.iter().zip(&times).map(phase).collect(),
+    }
+}
