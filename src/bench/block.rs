@@ -101,7 +101,7 @@ impl Block {
         end_phase(0);
         solver.list(water, boundary);
         end_phase(1);
-        solver.boundary_densities(water, boundary);
+        solver.boundary_densities(boundary);
         end_phase(2);
         solver.rates();
         end_phase(3);

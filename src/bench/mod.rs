@@ -30,6 +30,8 @@ pub struct Measurement {
     pub water_particles: usize,
     /// Mean number of neighbours of a water particle within the support of the kernel.
     pub neighbours_mean: f64,
+    /// Share of the lanes' work that is on pairs within the support.
+    pub useful_lanes: f64,
     /// Steps measured.
     pub steps: u32,
     /// Evaluations of the rates of all particles, per particle and second of whole steps; a step has two.
@@ -101,6 +103,7 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
         particles,
         water_particles,
         neighbours_mean,
+        useful_lanes: neighbours_mean / block.solver.lanes_per_target(),
         steps,
         full_evaluations_per_s: evaluations / total,
         pairs_per_s: pairs / total,

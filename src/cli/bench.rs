@@ -87,7 +87,8 @@ fn print(measured: &Measurement) {
         measured.bytes_per_particle
     );
     println!(
-        "  {:.0} % of the arithmetic peak ({:.0} % in the pair loop), at least {:.0} % of the memory bandwidth",
+        "  {:.0} % of the lanes useful; {:.0} % of the arithmetic peak ({:.0} % in the pair loop), at least {:.0} % of the memory bandwidth",
+        100.0 * measured.useful_lanes,
         100.0 * measured.share_of_peak,
         100.0 * measured.share_of_peak_in_rates,
         100.0 * measured.share_of_bandwidth

@@ -93,7 +93,7 @@ impl Simulation {
     pub fn begin_step(&mut self) -> Result<f64, Failure> {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.list(&self.water, &self.boundary);
-        self.solver.boundary_densities(&self.water, &mut self.boundary);
+        self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let limits = self.solver.limits();
         let dt = limits.time_step(&self.solver.parameters);

@@ -2,8 +2,9 @@
 
 use super::lanes::Real;
 
-/// m_b v_ab . grad_a W_ab [kg/(m3 s)] with m_b = V_b rho_b and v_ab . grad_a W_ab = (v_ab . r_ab) G.
+/// `sum` + m_b v_ab . grad_a W_ab [kg/(m3 s)] with m_b = rho_b V_b and v_ab . grad_a W_ab = (v_ab . r_ab) G;
+/// `gv` is G V_b.
 #[inline(always)]
-pub fn compression<R: Real>(volume_b: R, rho_b: R, v_dot_r: R, g: R) -> R {
-    volume_b * rho_b * v_dot_r * g
+pub fn add_compression<R: Real>(sum: R, rho_b: R, v_dot_r: R, gv: R) -> R {
+    (rho_b * gv).mul_add(v_dot_r, sum)
 }

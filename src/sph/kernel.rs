@@ -36,15 +36,38 @@ impl Wendland {
     /// W [1/m3] from the closeness 1 - q/2.
     #[inline(always)]
     pub fn value<R: Real>(&self, closeness: R) -> R {
+        R::splat(self.alpha) * self.shape(closeness)
+    }
+
+    /// W without its constant factor, [`Self::scale`], from the closeness 1 - q/2 [-].
+    #[inline(always)]
+    pub fn shape<R: Real>(&self, closeness: R) -> R {
         let square = closeness * closeness;
         // 2q + 1 = 5 - 4 (1 - q/2)
-        R::splat(self.alpha) * square * square * (R::splat(5.0) - R::splat(4.0) * closeness)
+        square * square * closeness.mul_add(R::splat(-4.0), R::splat(5.0))
+    }
+
+    /// alpha_D [1/m3].
+    pub fn scale(&self) -> f32 {
+        self.alpha
     }
 
     /// G [1/m5] from the closeness 1 - q/2: grad_a W_ab = G r_ab.
     #[inline(always)]
     pub fn gradient_factor<R: Real>(&self, closeness: R) -> R {
-        R::splat(self.gradient) * closeness * closeness * closeness
+        R::splat(self.gradient) * self.gradient_shape(closeness)
+    }
+
+    /// G without its constant factor, [`Self::gradient_scale`], from the closeness 1 - q/2 [-].
+    #[inline(always)]
+    pub fn gradient_shape<R: Real>(&self, closeness: R) -> R {
+        closeness * closeness * closeness
+    }
+
+    /// -5 alpha_D / h^2 [1/m5].
+    #[inline(always)]
+    pub fn gradient_scale(&self) -> f32 {
+        self.gradient
     }
 }
 

@@ -129,7 +129,12 @@ impl WithLanes for ChunkSums<'_> {
                 self.sums[members].fill(NodeSums::default());
                 continue;
             }
-            let lanes = self.cluster_sums::<L>(cluster, neighbours).map(L::to_array);
+            let lanes = if cluster.crosses_sides {
+                self.cluster_sums::<L, true>(cluster, neighbours)
+            } else {
+                self.cluster_sums::<L, false>(cluster, neighbours)
+            };
+            let lanes = lanes.map(L::to_array);
             for (lane, node) in self.sums[members].iter_mut().enumerate() {
                 *node = NodeSums {
                     value: std::array::from_fn(|k| lanes[k][lane]),
@@ -144,50 +149,73 @@ impl WithLanes for ChunkSums<'_> {
 }
 
 impl ChunkSums<'_> {
+    /// The sums of a cluster's nodes in the order of [`NodeSums`].
     #[inline(always)]
-    fn cluster_sums<L: Lanes>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 17] {
+    fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 17] {
         let kernel = &self.parameters.kernel;
-        let width = self.parameters.periodic_width.unwrap_or(0.0) as f32;
         let splat = L::splat;
         let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, self.nodes, |n| n[k]));
-        let (per_h, minus_h2) = (splat(1.0 / kernel.h as f32), splat(-(kernel.h * kernel.h) as f32));
-        let per_width = splat(if width > 0.0 { 1.0 / width } else { 0.0 });
+        let width = splat(self.parameters.periodic_width.unwrap_or(0.0) as f32);
+        let per_width = splat(self.parameters.periodic_width.map_or(0.0, |width| width.recip() as f32));
+        let bin_x = splat(self.bin_x);
 
         let mut sums = [splat(0.0); 17];
         for &j in neighbours {
             let b = &self.records[j as usize];
-            let rx = (splat(b.bin_x) - node[0]).mul_add(splat(self.bin_x), splat(b.x) - node[1]);
-            let mut ry = splat(b.y) - node[2];
-            ry = ry - splat(width) * (ry * per_width).round();
-            let rz = splat(b.z) - node[3];
-            let closeness = kernel.closeness(rx.mul_add(rx, ry.mul_add(ry, rz * rz)).sqrt());
-            let (x, y, z) = (rx * per_h, ry * per_h, rz * per_h);
-            let (volume, f) = (splat(b.volume), splat(b.excess_density));
-            let wv = kernel.value(closeness) * volume;
-            let gv = kernel.gradient_factor(closeness) * minus_h2 * volume;
-            let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-            let terms = [
-                wv,
-                wv * x,
-                wv * y,
-                wv * z,
-                wv * f,
-                gx,
-                gy,
-                gz,
-                gx * x,
-                gy * y,
-                gz * z,
-                gx * y,
-                gx * z,
-                gy * z,
-                gx * f,
-                gy * f,
-                gz * f,
-            ];
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum += term;
+            let x = (splat(b.bin_x) - node[0]).mul_add(bin_x, splat(b.x) - node[1]);
+            let mut y = splat(b.y) - node[2];
+            if PERIODIC {
+                y = y - width * (y * per_width).round();
             }
+            let z = splat(b.z) - node[3];
+            let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
+            let (volume, f) = (splat(b.volume), splat(b.excess_density));
+            // Constant factors of the sums come at the end.
+            let wv = kernel.shape(closeness) * volume;
+            let gv = kernel.gradient_shape(closeness) * volume;
+            let (gx, gy, gz) = (gv * x, gv * y, gv * z);
+            let products = [
+                (wv, x),
+                (wv, y),
+                (wv, z),
+                (wv, f),
+                (gv, x),
+                (gv, y),
+                (gv, z),
+                (gx, x),
+                (gy, y),
+                (gz, z),
+                (gx, y),
+                (gx, z),
+                (gy, z),
+                (gx, f),
+                (gy, f),
+                (gz, f),
+            ];
+            sums[0] += wv;
+            for (sum, (a, b)) in sums[1..].iter_mut().zip(products) {
+                *sum = a.mul_add(b, *sum);
+            }
+        }
+        let h = kernel.h as f32;
+        let (w, g) = (kernel.scale(), -kernel.gradient_scale() * h * h);
+        let of_w = [w, w / h, w / h, w / h, w];
+        let of_g = [
+            g / h,
+            g / h,
+            g / h,
+            g / (h * h),
+            g / (h * h),
+            g / (h * h),
+            g / (h * h),
+            g / (h * h),
+            g / (h * h),
+            g / h,
+            g / h,
+            g / h,
+        ];
+        for (sum, factor) in sums.iter_mut().zip(of_w.into_iter().chain(of_g)) {
+            *sum = *sum * splat(factor);
         }
         sums
     }

@@ -12,6 +12,9 @@ use super::{
     lanes::{InstructionSet, Lanes, MOST_LANES, WithLanes},
 };
 
+/// Smallest piece of an array that is worth a task of the thread pool.
+const PIECE: usize = 4096;
+
 /// Targets of one task of the thread pool; clusters do not cross its ends.
 pub const CHUNK: usize = 512;
 
@@ -26,6 +29,8 @@ pub struct Cluster {
     pub first: u32,
     /// Number of targets, at least 1.
     pub len: u32,
+    /// Whether neighbours may lie beyond the sides of a periodic flume.
+    pub crosses_sides: bool,
     /// End of its neighbours in the chunk's list; they begin where those of the cluster before end.
     pub list_end: u32,
 }
@@ -70,9 +75,9 @@ impl SortedPositions {
     /// Take over the positions; the arrays are padded so that a whole register can be read from any place.
     pub fn set(&mut self, grid: &Grid, points: &[DVec3]) {
         for (axis, values) in self.axes.iter_mut().enumerate() {
-            values.clear();
-            values.extend(points.iter().map(|point| (point[axis] - grid.low[axis]) as f32));
-            values.extend([0.0; MOST_LANES]);
+            values.resize(points.len() + MOST_LANES, 0.0);
+            let places = values.par_iter_mut().zip(points).with_min_len(PIECE);
+            places.for_each(|(value, point)| *value = (point[axis] - grid.low[axis]) as f32);
         }
     }
 
@@ -115,12 +120,12 @@ impl NeighbourLists {
         self.chunks.iter().map(|c| c.list.capacity() * 4 + c.clusters.capacity() * size_of::<Cluster>()).sum()
     }
 
-    /// Mean number of listed neighbours of a target.
-    pub fn mean_length(&self) -> f64 {
-        let (sum, targets) = self.chunks.iter().flat_map(Chunk::clusters).fold((0.0, 0.0), |(sum, targets), (c, l)| {
-            (sum + f64::from(c.len) * l.len() as f64, targets + f64::from(c.len))
-        });
-        if targets > 0.0 { sum / targets } else { 0.0 }
+    /// Pairs that are computed for a target, those in idle lanes included.
+    pub fn lanes_per_target(&self) -> f64 {
+        let clusters = || self.chunks.iter().flat_map(Chunk::clusters);
+        let listed: usize = clusters().map(|(_, list)| list.len()).sum();
+        let targets: u32 = clusters().map(|(cluster, _)| cluster.len).sum();
+        (listed * self.instructions.lanes()) as f64 / f64::from(targets.max(1))
     }
 
     /// Cluster the targets and list, for each cluster, the sources within `reach` [m] of its box.
@@ -166,6 +171,7 @@ impl WithLanes for Build<'_> {
             chunk.clusters.push(Cluster {
                 first: (first - members.start) as u32,
                 len: (end - first) as u32,
+                crosses_sides: cluster_box.crosses_sides(grid, reach),
                 list_end: chunk.list.len() as u32,
             });
             first = end;
@@ -217,6 +223,11 @@ impl BoundingBox {
                 near.append(source.positions, begin..end, source.first_record, list);
             }
         }
+    }
+
+    /// Whether the box can reach across the sides of a periodic flume.
+    fn crosses_sides(&self, grid: &Grid, reach: f64) -> bool {
+        grid.periodic_width.is_some_and(|width| self.low.y < reach || self.high.y > width - reach)
     }
 
     /// Bins along an axis that the box can reach.

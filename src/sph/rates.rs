@@ -11,13 +11,13 @@
 use rayon::prelude::*;
 
 use super::{
-    continuity::compression,
+    continuity::add_compression,
     lanes::{Lanes, MOST_LANES, WithLanes},
     momentum::pair_stress,
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
     parameters::Parameters,
     records::Record,
-    viscosity::{approach_speed, viscous_stress},
+    viscosity::{approach_rate, viscous_stress},
 };
 
 /// Sums of one target.
@@ -142,7 +142,7 @@ impl WithLanes for ChunkRates<'_> {
         let Self { pairs, chunk, targets, records, rates } = self;
         for (cluster, neighbours) in chunk.clusters() {
             let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-            let sums = if pairs.width > 0.0 {
+            let sums = if cluster.crosses_sides {
                 cluster_rates::<L, true>(pairs, cluster, targets, neighbours, records)
             } else {
                 cluster_rates::<L, false>(pairs, cluster, targets, neighbours, records)
@@ -155,8 +155,12 @@ impl WithLanes for ChunkRates<'_> {
 /// The members of a cluster, one a lane; missing ones repeat the last.
 #[inline(always)]
 pub(super) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
-    let last = cluster.len as usize - 1;
-    L::from_fn(|lane| f(&targets[cluster.first as usize + lane.min(last)]))
+    let members = &targets[cluster.first as usize..][..cluster.len as usize];
+    let mut values = [0.0; MOST_LANES];
+    values.iter_mut().zip(members).for_each(|(value, member)| *value = f(member));
+    let last = values[members.len() - 1];
+    values[members.len()..].fill(last);
+    L::load(&values)
 }
 
 #[inline(always)]
@@ -179,7 +183,7 @@ fn cluster_rates<L: Lanes, const PERIODIC: bool>(
 
     let zero = splat(0.0);
     let (mut force_x, mut force_y, mut force_z) = (zero, zero, zero);
-    let (mut compressions, mut diffusions, mut approach) = (zero, zero, zero);
+    let (mut compressions, mut diffusions, mut fastest) = (zero, zero, zero);
     for &j in neighbours {
         let b = &records[j as usize];
         let x_ab = (bin_a - splat(b.bin_x)).mul_add(splat(pairs.bin_x), x_a - splat(b.x));
@@ -190,27 +194,33 @@ fn cluster_rates<L: Lanes, const PERIODIC: bool>(
         let z_ab = z_a - splat(b.z);
         let r2 = x_ab.mul_add(x_ab, y_ab.mul_add(y_ab, z_ab * z_ab));
         let closeness = kernel.closeness(r2.sqrt());
-        let g = kernel.gradient_factor(closeness);
+        // Constant factors of the sums come at the end.
+        let g = kernel.gradient_shape(closeness);
+        let gv = g * splat(b.volume);
 
         let (vx_ab, vy_ab) = (vx_a - splat(b.velocity[0]), vy_a - splat(b.velocity[1]));
         let vz_ab = vz_a - splat(b.velocity[2]);
         let v_dot_r = vx_ab.mul_add(x_ab, vy_ab.mul_add(y_ab, vz_ab * z_ab));
-        let (volume_b, rho_b) = (splat(b.volume), splat(rho0 + b.excess_density));
+        let excess_b = splat(b.excess_density);
+        let rho_b = splat(rho0) + excess_b;
 
-        let mu = approach_speed(h, v_dot_r, r2);
-        approach = approach.max(mu.abs().where_positive(closeness));
-        let viscous = viscous_stress(alpha, mu, c_a, splat(b.sound_speed), rho_a, rho_b);
-        let stress = pair_stress(p_a, splat(b.pressure), viscous) * (volume_b * g);
+        let approach = approach_rate(h, v_dot_r, r2);
+        fastest = fastest.max(approach.abs().where_positive(closeness));
+        let viscous = viscous_stress(alpha, h, approach, c_a, splat(b.sound_speed), rho_a, rho_b);
+        let stress = pair_stress(p_a, splat(b.pressure), viscous) * gv;
         force_x = stress.mul_add(x_ab, force_x);
         force_y = stress.mul_add(y_ab, force_y);
         force_z = stress.mul_add(z_ab, force_z);
-        compressions += compression(volume_b, rho_b, v_dot_r, g);
-        diffusions += diffusion.term(excess_a, splat(b.excess_density), z_ab, g, splat(b.diffusive_volume));
+        compressions = add_compression(compressions, rho_b, v_dot_r, gv);
+        let diffusive_gv = g * splat(b.diffusive_volume);
+        diffusions = diffusive_gv.mul_add(diffusion.excess(excess_a, excess_b, z_ab), diffusions);
     }
 
-    let minus_per_mass = splat(-1.0) / rho_a;
+    let scale = splat(kernel.gradient_scale());
+    let minus_per_mass = -scale / rho_a;
     let [ax, ay, az] = [force_x, force_y, force_z].map(|force| (force * minus_per_mass).to_array());
-    let (density, approach) = ((compressions + diffusions).to_array(), approach.to_array());
+    let density = (scale * diffusions.mul_add(splat(diffusion.factor()), compressions)).to_array();
+    let approach = (splat(h) * fastest).to_array();
     std::array::from_fn(|lane| Rate {
         acceleration: [ax[lane], ay[lane], az[lane]],
         density: density[lane],

@@ -130,7 +130,7 @@ impl Solver {
         self.walls.first_record = water.len();
         self.units.first_record = water.len() + walls.len();
         self.records.resize(water.len() + boundary.len(), Record::default());
-        self.fill_records(State::of(water), boundary, false);
+        self.fill_water_records(State::of(water));
     }
 
     /// List the neighbours of every target for this step.
@@ -172,16 +172,21 @@ impl Solver {
         kernel.support() + (speed * step).min(kernel.h)
     }
 
-    fn fill_records(&mut self, water: State, boundary: &Boundary, half: bool) {
+    /// Records of the water at the start of a step or at its half.
+    fn fill_water_records(&mut self, water: State) {
         let (grid, parameters) = (&self.grid, &self.parameters);
-        let (of_water, of_boundary) = self.records.split_at_mut(water.position.len());
-        let (of_walls, of_units) = of_boundary.split_at_mut(boundary.walls().len());
-        of_water.par_iter_mut().enumerate().with_min_len(PIECE).for_each(|(i, out)| {
+        let records = self.records[..water.position.len()].par_iter_mut();
+        records.enumerate().with_min_len(PIECE).for_each(|(i, out)| {
             *out =
                 record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true);
         });
+    }
+
+    /// Records of the boundary with densities at the start of a step or at its half.
+    fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
+        let (grid, parameters) = (&self.grid, &self.parameters);
+        let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
-        let density = if half && !diffuses { &self.half_density } else { &boundary.density };
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(PIECE).for_each(|(out, &i)| {
                 let i = offset + i as usize;
@@ -194,12 +199,11 @@ impl Solver {
     }
 
     /// Density of the boundary particles from their ghost nodes (mDBC); under DBC it follows the continuity equation.
-    pub fn boundary_densities(&mut self, water: &Water, boundary: &mut Boundary) {
-        if self.parameters.boundary == BoundaryCondition::Dynamic {
-            return;
+    pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
+        if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
+            self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
         }
-        self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
-        self.fill_records(State::of(water), boundary, false);
+        self.fill_boundary_records(boundary, &boundary.density);
     }
 
     /// Rates of water, units and, under DBC, walls from the records as they stand.
@@ -245,8 +249,12 @@ impl Solver {
         self.half_boundary_density(half_dt, boundary);
         move_boundary(boundary);
         let half = std::mem::take(&mut self.half);
-        self.fill_records(State { mass: &water.mass, ..State::of(&half) }, boundary, true);
+        self.fill_water_records(State { mass: &water.mass, ..State::of(&half) });
         self.half = half;
+        let half_density = std::mem::take(&mut self.half_density);
+        let from_nodes = self.parameters.boundary == BoundaryCondition::ModifiedDynamic;
+        self.fill_boundary_records(boundary, if from_nodes { &boundary.density } else { &half_density });
+        self.half_density = half_density;
     }
 
     /// Equation 9.1 for the boundary particles of the dynamic boundary condition.
@@ -312,9 +320,9 @@ impl Solver {
         boundary.units().iter().zip(centres).map(load).collect()
     }
 
-    /// Mean number of listed neighbours of a water particle.
-    pub fn mean_list_length(&self) -> f64 {
-        self.water.lists.mean_length()
+    /// Pairs that are computed for a water particle, those in idle lanes included.
+    pub fn lanes_per_target(&self) -> f64 {
+        self.water.lists.lanes_per_target()
     }
 
     /// Mean number of neighbours of a water particle within the kernel's support.

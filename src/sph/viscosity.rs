@@ -4,20 +4,19 @@
 
 use super::lanes::Real;
 
-/// mu_ab [m/s], negative for particles that approach.
+/// mu_ab / h [1/s], negative for particles that approach.
 #[inline(always)]
-pub fn approach_speed<R: Real>(h: f32, v_dot_r: R, r2: R) -> R {
-    R::splat(h) * v_dot_r / (r2 + R::splat(0.01 * h * h))
+pub fn approach_rate<R: Real>(h: f32, v_dot_r: R, r2: R) -> R {
+    v_dot_r / (r2 + R::splat(0.01 * h * h))
 }
 
 /// rho_a rho_b Pi_ab [Pa]; never negative: it only resists approach.
 #[inline(always)]
-pub fn viscous_stress<R: Real>(alpha: f32, mu: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
-    let mean_c = R::splat(0.5) * (c_a + c_b);
-    // rho_a rho_b / rho_ab differs from the mean density by (rho_a - rho_b)^2 / 4 rho_ab, below 1e-5 of it in weakly
-    // compressible flow: less than single precision resolves in the sum.
-    let mean_rho = R::splat(0.5) * (rho_a + rho_b);
-    R::splat(-alpha) * mean_c * mean_rho * mu.min(R::splat(0.0))
+pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
+    // The two halves of the means in one constant. rho_a rho_b / rho_ab differs from the mean density by
+    // (rho_a - rho_b)^2 / 4 rho_ab, below 1e-5 of it in weakly compressible flow: less than single precision resolves
+    // in the sum.
+    (c_a + c_b) * (rho_a + rho_b) * (R::splat(-0.25 * alpha * h) * rate.min(R::splat(0.0)))
 }
 
 #[cfg(test)]
@@ -27,10 +26,10 @@ mod tests {
     #[test]
     fn resists_approach_only() {
         let h = 0.02_f32;
-        let closing = approach_speed(h, -1e-3_f64, 1e-4);
-        let parting = approach_speed(h, 1e-3_f64, 1e-4);
-        assert_eq!(viscous_stress(0.04, parting, 30.0, 30.0, 1000.0, 1000.0), 0.0);
-        let stress = viscous_stress(0.04, closing, 30.0, 30.0, 1000.0, 1010.0);
+        let closing = approach_rate(h, -1e-3_f64, 1e-4);
+        let parting = approach_rate(h, 1e-3_f64, 1e-4);
+        assert_eq!(viscous_stress(0.04, h, parting, 30.0, 30.0, 1000.0, 1000.0), 0.0);
+        let stress = viscous_stress(0.04, h, closing, 30.0, 30.0, 1000.0, 1010.0);
         // Equation 3 written out, times rho_a rho_b; 1e-4: the mean density above, and constants in single precision.
         let mu = 0.02 * -1e-3 / (1e-4 + 0.01 * 0.02 * 0.02);
         let exact = -0.04 * 30.0 * mu / 1005.0 * 1000.0 * 1010.0;

@@ -72,7 +72,7 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     while time < 0.1 {
         solver.sort(&mut water, &boundary);
         solver.list(&water, &boundary);
-        solver.boundary_densities(&water, &mut boundary);
+        solver.boundary_densities(&mut boundary);
         solver.rates();
         let dt = solver.limits().time_step(&parameters);
         let before = water.velocity.clone();

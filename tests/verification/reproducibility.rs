@@ -91,19 +91,6 @@ fn swell(instructions: InstructionSet) -> BareTank {
     tank
 }
 
-/// Eight lanes or sixteen: each particle adds up the same terms in the same order.
-#[test]
-fn wider_lanes_give_the_same_bits() {
-    if !InstructionSet::available().contains(&InstructionSet::Avx512) {
-        println!("skipped: this processor has no AVX-512");
-        return;
-    }
-    let [eight, sixteen] = [InstructionSet::Avx2, InstructionSet::Avx512].map(swell);
-    assert_eq!(eight.water.velocity, sixteen.water.velocity);
-    assert_eq!(eight.water.density, sixteen.water.density);
-    assert_eq!(eight.boundary.density, sixteen.boundary.density);
-}
-
 #[test]
 fn portable_and_simd_paths_agree_to_rounding() {
     if InstructionSet::best() == InstructionSet::Portable {

@@ -154,7 +154,7 @@ impl BareTank {
     pub fn step(&mut self, look: impl FnOnce(&mut Self)) -> f64 {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.list(&self.water, &self.boundary);
-        self.solver.boundary_densities(&self.water, &mut self.boundary);
+        self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let dt = self.solver.limits().time_step(&self.solver.parameters);
         look(self);

@@ -93,7 +93,8 @@ arithmetic!(
     Div div |a: Avx2, b: Avx2| Avx2(unsafe { _mm256_div_ps(a.0, b.0) })
 );
 
-/// Sixteen lanes of an AVX-512 register.
+/// Sixteen lanes of an AVX-512 register. Roots and quotients are estimates, corrected once by their residue: right to
+/// the last bit or one beside it. The instructions for the exact ones take longer than all other terms of a pair.
 #[derive(Debug, Clone, Copy)]
 pub struct Avx512(__m512);
 
@@ -140,7 +141,14 @@ impl Real for Avx512 {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(unsafe { _mm512_sqrt_ps(self.0) })
+        Self(unsafe {
+            // Where the estimate would be infinite, the root is as good as zero.
+            let x = _mm512_max_ps(self.0, _mm512_set1_ps(1e-30));
+            let estimate = _mm512_rsqrt14_ps(x);
+            let root = _mm512_mul_ps(x, estimate);
+            let residue = _mm512_fnmadd_ps(root, root, x);
+            _mm512_fmadd_ps(residue, _mm512_mul_ps(_mm512_set1_ps(0.5), estimate), root)
+        })
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -172,5 +180,16 @@ arithmetic!(
     Add add |a: Avx512, b: Avx512| Avx512(unsafe { _mm512_add_ps(a.0, b.0) }),
     Sub sub |a: Avx512, b: Avx512| Avx512(unsafe { _mm512_sub_ps(a.0, b.0) }),
     Mul mul |a: Avx512, b: Avx512| Avx512(unsafe { _mm512_mul_ps(a.0, b.0) }),
-    Div div |a: Avx512, b: Avx512| Avx512(unsafe { _mm512_div_ps(a.0, b.0) })
+    Div div |a: Avx512, b: Avx512| quotient(a, b)
 );
+
+/// For normal numbers; an infinite or zero divisor gives NaN.
+#[inline(always)]
+fn quotient(a: Avx512, b: Avx512) -> Avx512 {
+    Avx512(unsafe {
+        let estimate = _mm512_rcp14_ps(b.0);
+        let quotient = _mm512_mul_ps(a.0, estimate);
+        let residue = _mm512_fnmadd_ps(quotient, b.0, a.0);
+        _mm512_fmadd_ps(residue, estimate, quotient)
+    })
+}
