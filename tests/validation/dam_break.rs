@@ -91,7 +91,7 @@ impl Tips {
     }
 
     /// Largest deviation from potential flow after the first 0.1 s [-].
-    fn from_exact(&self, dp: f64) -> f64 {
+    fn deviation_from_exact(&self, dp: f64) -> f64 {
         let times = (5..=35).map(|k| f64::from(k) * INTERVAL);
         let deviations = times.map(|time| {
             let (computed, exact) = (self.at(time), exact_tip(time));
@@ -105,7 +105,7 @@ impl Tips {
     }
 
     /// Deviations from the measured tips, which are taken to be later by `lag` [s], [-].
-    fn from_measured(&self, measured: &[[f64; 2]], lag: f64) -> Vec<f64> {
+    fn deviations_from_measured(&self, measured: &[[f64; 2]], lag: f64) -> Vec<f64> {
         measured.iter().map(|[time, x]| self.at((time - lag).max(0.0)) / x - 1.0).collect()
     }
 }
@@ -118,17 +118,17 @@ fn largest(deviations: &[f64]) -> f64 {
 /// the smallest one from the measurement beyond its first point that a common lag leaves.
 fn compare(dp: f64) -> (f64, Option<f64>) {
     let tips = Tips::of(dp);
-    let from_exact = tips.from_exact(dp);
+    let from_exact = tips.deviation_from_exact(dp);
     println!("dp = {dp} m: at most {:.1} % from potential flow", 100.0 * from_exact);
     let Some(measured) = measured_tips() else { return (from_exact, None) };
     let percent =
         |deviations: &[f64]| deviations.iter().map(|d| format!("{:+.1}", 100.0 * d)).collect::<Vec<_>>().join(" ");
-    let raw = tips.from_measured(&measured, 0.0);
+    let raw = tips.deviations_from_measured(&measured, 0.0);
     println!("measured, as it is: {} %, at most {:.1} %", percent(&raw), 100.0 * largest(&raw));
     let lags = (0..=100).map(|ms| 1e-3 * f64::from(ms));
-    let left = |lag: f64| largest(&tips.from_measured(&measured, lag)[1..]);
+    let left = |lag: f64| largest(&tips.deviations_from_measured(&measured, lag)[1..]);
     let best = lags.min_by(|a, b| left(*a).total_cmp(&left(*b))).unwrap();
-    let shifted = tips.from_measured(&measured, best);
+    let shifted = tips.deviations_from_measured(&measured, best);
     println!("measured, {:.0} ms later: {} %, at most {:.1} %", 1e3 * best, percent(&shifted), 100.0 * left(best));
     (from_exact, Some(left(best)))
 }
