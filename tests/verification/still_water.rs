@@ -83,10 +83,9 @@ fn a_flat_tank_stays_hydrostatic() {
         calming.early,
         calming.late
     );
-    // 1 % is the aim; 1.25 % was reached on the bed and 0.75 % above it (over 1 s 1.1 and 0.6 %, with dp = 0.02 m and
-    // 0.015 m alike). Half of it is compression: by 0.4 % on the bed, c0 being 15 sqrt(g d). Particles start with the mass
-    // rho0 V and a larger density, so their volumes do not fill the tank, and the gradient must be the steeper for it.
-    assert!(largest < 0.015);
+    // 1 %: a seventh of what a particle distance of water weighs here. The weight of the compressed water is 0.2 % of it
+    // (g d / 2 c0^2, c0 being 15 sqrt(g d)); the kernel, cut off at the surface, makes most of the rest.
+    assert!(largest < 0.01);
     // It starts in equilibrium but for the kernel's truncation at the surface, and what that stirs up dies away.
     assert!(calming.late < 0.5 * calming.early);
     assert!((tank.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
