@@ -11,8 +11,9 @@ use crate::{
 };
 
 /// Full evaluations of a particle's rates per second and core that the estimate of the run time counts on; a step
-/// takes two. Measured on a 2-core machine with AVX2, rounded down.
-const EVALUATIONS_PER_S_AND_CORE: f64 = 0.9e6;
+/// takes two. `breakwater bench` says what a machine reaches: 1.5 million with AVX-512, of which gauges, outputs and
+/// contact take some.
+const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 
 /// Validate case files and print particles, memory, time step and an estimate of the run time.
 #[derive(Args)]
