@@ -118,12 +118,23 @@ fn free_half_submerged() {
     free(0.09, 0.1, 0.01).assert_below(0.04, 0.02);
 }
 
+/// The four of them: standing and free, submerged and half submerged.
+fn all(dp: f64) -> [Deviation; 4] {
+    [standing(0.16, dp), standing(0.04, dp), free(0.09, 0.18, dp), free(0.09, 0.1, dp)]
+}
+
+/// `cargo test --release --test verification -- --ignored --nocapture buoyancy::at_other_resolutions`
+#[test]
+#[ignore = "5 minutes on 2 cores"]
+fn at_other_resolutions() {
+    for (dp, vertical) in [(0.015, 0.15), (0.0075, 0.04)] {
+        all(dp).map(|deviation| deviation.assert_below(vertical, 0.05));
+    }
+}
+
 /// `cargo test --release --test verification -- --ignored --nocapture buoyancy::at_full_resolution`
 #[test]
 #[ignore = "20 minutes on 2 cores"]
 fn at_full_resolution() {
-    let dp = 0.005;
-    for deviation in [standing(0.16, dp), standing(0.04, dp), free(0.09, 0.18, dp), free(0.09, 0.1, dp)] {
-        deviation.assert_below(0.04, 0.01);
-    }
+    all(0.005).map(|deviation| deviation.assert_below(0.04, 0.01));
 }
