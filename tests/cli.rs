@@ -287,3 +287,25 @@ fn compare_and_report_of_what_is_no_run_are_refused() {
         assert!(message.contains("summary.json"), "{message}");
     }
 }
+
+/// Snapshots that the disk does not take end the run with the message of their file.
+#[cfg(unix)]
+#[test]
+fn a_disk_that_is_full_ends_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
+    let mut many_snapshots = read_json(&case);
+    many_snapshots["output"] = json!({ "fluid_interval_s": 0.002, "units_interval_s": 0.0 });
+    std::fs::write(&case, many_snapshots.to_string()).unwrap();
+    // No file may grow beyond 2400 blocks of 512 or 1024 bytes, a fifth of what the water would need. Ignoring the signal
+    // makes the limit an error of the write, as on a full disk.
+    let output = Command::new("sh")
+        .args(["-c", "trap '' XFSZ; ulimit -f 2400; exec \"$0\" run \"$1\" --out \"$2\" --quiet"])
+        .args([env!("CARGO_BIN_EXE_breakwater"), path(&case), path(&out)])
+        .output()
+        .unwrap();
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("fluid.vtkhdf: HDF5: "), "{message}");
+    assert!(!message.contains("panicked") && !out.join("summary.json").exists(), "{message}");
+}

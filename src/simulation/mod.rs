@@ -10,6 +10,7 @@
 //! | [`mean_loads`] | loads on the units as the series show them |
 //! | [`statistics`] | what is kept of a run besides its series |
 //! | [`recorder`] | writes the series and snapshots |
+//! | [`snapshots`] | moments of water and units for ParaView |
 //! | [`checkpoint`] | state to and from HDF5 |
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
 //! | [`summary`] | the run in a few numbers |
@@ -23,6 +24,7 @@ pub mod progress;
 pub mod recorder;
 pub mod run;
 pub mod setup;
+pub mod snapshots;
 pub mod statistics;
 pub mod summary;
 
