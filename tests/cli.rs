@@ -6,10 +6,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-const FILES: [&str; 11] = [
+const FILES: [&str; 12] = [
     "case.json",
     "checkpoint.h5",
     "contacts.csv",
+    "diagnostics.csv",
     "energy.csv",
     "fluid.vtkhdf",
     "gauges.csv",
@@ -20,7 +21,7 @@ const FILES: [&str; 11] = [
     "units.vtkhdf",
 ];
 
-const TABLES: [&str; 5] = ["contacts.csv", "energy.csv", "gauges.csv", "profile.csv", "units.csv"];
+const TABLES: [&str; 6] = ["contacts.csv", "diagnostics.csv", "energy.csv", "gauges.csv", "profile.csv", "units.csv"];
 
 fn breakwater() -> Command {
     Command::new(env!("CARGO_BIN_EXE_breakwater"))
@@ -146,7 +147,9 @@ fn init_writes_a_case_that_check_accepts() {
     let case = folder.path().join("mine.json");
     succeed(&["init", path(&case)]);
     let checked = succeed(&["check", path(&case)]);
-    assert!(checked.contains("particles") && checked.contains("run time"), "{checked}");
+    for line in ["particles", "files", "run time"] {
+        assert!(checked.contains(line), "{checked}");
+    }
     let message = refuse(&["init", path(&case)]);
     assert!(message.contains("exists already"), "{message}");
 }
@@ -184,9 +187,30 @@ fn a_run_writes_what_it_promises() {
     // Heading, 0 to 0.3 s every 0.005 s, the end.
     assert!((61..=63).contains(&rows), "{rows} rows of gauges");
 
+    // The surge runs at about 2 m/s, the speed of sound is 15 sqrt(9.81 x 0.3) = 25.7 m/s.
+    let mach = summary["largest_mach"].as_f64().unwrap();
+    assert!((0.03..0.3).contains(&mach), "{mach}");
+    assert_eq!(summary["warnings"].as_array().map(Vec::is_empty), Some(mach <= 0.1));
+    files_are_about_as_large_as_estimated(&case, &out);
     refuse_to_overwrite(&case, &out);
     compare_needs_a_published_wave(&out);
     report_is_made_anew(&out);
+}
+
+/// Within a factor of two: a file this small has large parts that are reserved and empty.
+fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
+    let estimate = breakwater::case::Case::load(case).unwrap().output_size();
+    let size = |file: &str| std::fs::metadata(out.join(file)).unwrap().len() as f64;
+    let tables = ["diagnostics.csv", "energy.csv", "gauges.csv", "units.csv"].map(size).iter().sum::<f64>();
+    let sizes = [
+        ("fluid.vtkhdf", size("fluid.vtkhdf"), estimate.fluid),
+        ("units.vtkhdf", size("units.vtkhdf"), estimate.units),
+        ("tables", tables, estimate.tables),
+        ("checkpoint.h5", size("checkpoint.h5"), estimate.checkpoint),
+    ];
+    for (file, size, estimate) in sizes {
+        assert!((0.5..2.0).contains(&(size / estimate)), "{file}: {size} bytes, {estimate} estimated");
+    }
 }
 
 fn refuse_to_overwrite(case: &Path, out: &Path) {

@@ -18,7 +18,7 @@ pub struct Output {
     pub fluid_box: Option<[[f64; 3]; 2]>,
     /// Interval of the units' surfaces [s].
     pub units_interval: Option<f64>,
-    /// Interval of gauges, motion, forces and energy [s].
+    /// Interval of gauges, motion, forces, energy and diagnostics [s].
     pub series_interval: f64,
     /// Interval of the checkpoints [s]; without it one is written at the end.
     pub checkpoint_interval: Option<f64>,

@@ -8,9 +8,10 @@ use crate::geometry::tetrapod;
 
 /// A number in a table with its comma [bytes]; measured over the tables of a run, 19.0 to 19.6.
 const BYTES_PER_NUMBER: f64 = 19.0;
-/// Columns of a unit in `units.csv` and of `energy.csv`.
+/// Columns of a unit in `units.csv`, of `energy.csv` and of `diagnostics.csv`.
 const UNIT_COLUMNS: f64 = 27.0;
 const ENERGY_COLUMNS: f64 = 6.0;
+const DIAGNOSTICS_COLUMNS: f64 = 9.0;
 /// A point in a snapshot: three f32 [bytes].
 const BYTES_PER_POINT: f64 = 12.0;
 /// What a cell costs once a file, for all snapshots alike: its offset and one or three corners, i64 [bytes].
@@ -88,7 +89,7 @@ impl Case {
         let of_gauge = |quantity: Quantity| if quantity == Quantity::Velocity { 3.0 } else { 1.0 };
         let gauges = self.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| of_gauge(gauge.quantity));
         let units = self.units.as_ref().map_or(0, |units| units.placements.len()) as f64;
-        let columns = 1.0 + gauges.sum::<f64>() + ENERGY_COLUMNS + UNIT_COLUMNS * units;
+        let columns = 1.0 + gauges.sum::<f64>() + ENERGY_COLUMNS + DIAGNOSTICS_COLUMNS + UNIT_COLUMNS * units;
         BYTES_PER_NUMBER * rows * columns
     }
 }
@@ -126,7 +127,7 @@ mod tests {
         let some = case(r#", "fluid_fields": ["velocity"]"#).output_size();
         assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
         assert_eq!(some.units, 0.0);
-        assert_eq!(some.tables, 19.0 * 12.0 * 7.0);
+        assert_eq!(some.tables, 19.0 * 12.0 * 16.0);
         assert_eq!(some.checkpoint, case("").output_size().checkpoint);
     }
 

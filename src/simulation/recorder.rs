@@ -1,4 +1,4 @@
-//! Series and snapshots of a run: gauges, units, contacts, energy as tables; water and units for ParaView.
+//! Series and snapshots of a run: gauges, units, contacts, energy, diagnostics as tables; water and units for ParaView.
 //!
 //! Rows of the tables are short and written at once. Snapshots and checkpoints are long: a thread of their own writes
 //! them, in the order in which they were given (see [`Writer`]), so that a checkpoint never counts a snapshot that is not in its
@@ -33,7 +33,7 @@ pub struct RecorderState {
     /// Checkpoints.
     pub checkpoints: u64,
     /// Bytes of the tables.
-    bytes: [u64; 4],
+    bytes: [u64; 5],
 }
 
 /// Open output files of a run.
@@ -44,6 +44,7 @@ pub struct Recorder {
     units: CsvSeries,
     contacts: CsvSeries,
     energy: CsvSeries,
+    diagnostics: CsvSeries,
     writer: Writer<SnapshotFiles>,
 }
 
@@ -51,6 +52,7 @@ const GAUGES_FILE: &str = "gauges.csv";
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
 const ENERGY_FILE: &str = "energy.csv";
+const DIAGNOSTICS_FILE: &str = "diagnostics.csv";
 
 impl Recorder {
     /// New files in the run folder, and those that do not change: case, bed profile, shape of the unit, flume gauges.
@@ -75,6 +77,7 @@ impl Recorder {
             units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
             contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
             energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::ENERGY)?,
+            diagnostics: CsvSeries::create(&dir.join(DIAGNOSTICS_FILE), &columns::DIAGNOSTICS)?,
             writer: Writer::spawn(SnapshotFiles::create(simulation, dir)?),
         };
         recorder.note_lengths();
@@ -93,6 +96,7 @@ impl Recorder {
             units: table(UNITS_FILE, state.bytes[1])?,
             contacts: table(CONTACTS_FILE, state.bytes[2])?,
             energy: table(ENERGY_FILE, state.bytes[3])?,
+            diagnostics: table(DIAGNOSTICS_FILE, state.bytes[4])?,
             writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water, state.surfaces)?),
             state,
         })
@@ -103,15 +107,15 @@ impl Recorder {
         &self.state
     }
 
-    /// Write what is due at the present time, between the two halves of a step.
+    /// Write what is due at the present time, between the two halves of a step of length `dt` [s].
     ///
     /// # Errors
     /// If a file cannot be written, or a snapshot or checkpoint given before could not.
-    pub fn record_due(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+    pub fn record_due(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         self.writer.check()?;
         let (time, case) = (simulation.time, simulation.case.clone());
         if is_due(self.state.series, Some(case.output.series_interval), time) {
-            self.record_series(simulation)?;
+            self.record_series(simulation, dt)?;
             self.state.series += 1;
         }
         if is_due(self.state.surfaces, case.output.units_interval, time) {
@@ -132,12 +136,13 @@ impl Recorder {
         Ok(())
     }
 
-    /// Write everything once more at the end of the run, and wait until all of it is in the files.
+    /// Write everything once more at the end of the run, and wait until all of it is in the files; `dt` is the length of
+    /// the step that would come [s].
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_end(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
-        self.record_series(simulation)?;
+    pub fn record_end(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        self.record_series(simulation, dt)?;
         if simulation.case.output.units_interval.is_some() {
             self.record_surfaces(simulation)?;
         }
@@ -165,14 +170,15 @@ impl Recorder {
     }
 
     fn note_lengths(&mut self) {
-        let tables = [&self.gauges, &self.units, &self.contacts, &self.energy];
+        let tables = [&self.gauges, &self.units, &self.contacts, &self.energy, &self.diagnostics];
         self.state.bytes = tables.map(CsvSeries::bytes);
     }
 
-    fn record_series(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+    fn record_series(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         let time = simulation.flume_time();
         self.gauges.append(&gauge_row(simulation))?;
         self.energy.append(&energy_row(simulation))?;
+        self.diagnostics.append(&simulation.diagnostics_row(dt))?;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
         let means = units.mean_loads.take();

@@ -77,6 +77,7 @@ fn drive(
     let wall_before = simulation.statistics.wall_s;
     let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
     simulation.statistics.energy_start = Some(energy_start);
+    let mut warnings_shown = simulation.statistics.warnings.len();
     loop {
         let dt = match simulation.begin_step() {
             Ok(dt) => dt,
@@ -84,17 +85,19 @@ fn drive(
         };
         simulation.statistics.wall_s = wall_before + progress.wall();
         if let Some(stopped) = stop_rule(&mut simulation) {
-            recorder.record_end(&mut simulation)?;
+            recorder.record_end(&mut simulation, dt)?;
             progress.finish();
             let summary = summarise(&simulation, stopped, dir)?;
             summary.write(dir)?;
             write_report(dir)?;
             return Ok(summary);
         }
-        recorder.record_due(&mut simulation)?;
+        recorder.record_due(&mut simulation, dt)?;
         if let Err(failure) = simulation.finish_step(dt) {
             return Err(keep_failed(&simulation, &mut recorder, dir, failure));
         }
+        simulation.statistics.warnings[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
+        warnings_shown = simulation.statistics.warnings.len();
         progress.update(&simulation, dt);
     }
 }
