@@ -9,7 +9,7 @@ use super::{Simulation, extremes::Extremes};
 use crate::{particles::water::Water, rigid::RigidError};
 
 /// Change of density at which the water is no longer water [-]: particles outside 700 to 1300 kg/m3 are what
-/// DualSPHysics drops from a run. A sound run stays within a few per cent, a few tenths of it in violent splashes.
+/// DualSPHysics drops from a run by default. A coarse dam break that struck a unit at Mach 0.17 stayed within 5 %.
 const LARGEST_COMPRESSION: f64 = 0.3;
 
 /// What is usually behind water that has become unstable.
