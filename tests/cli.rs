@@ -6,10 +6,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-const FILES: [&str; 11] = [
+const FILES: [&str; 12] = [
     "case.json",
     "checkpoint.h5",
     "contacts.csv",
+    "diagnostics.csv",
     "energy.csv",
     "fluid.vtkhdf",
     "gauges.csv",
@@ -20,7 +21,7 @@ const FILES: [&str; 11] = [
     "units.vtkhdf",
 ];
 
-const TABLES: [&str; 5] = ["contacts.csv", "energy.csv", "gauges.csv", "profile.csv", "units.csv"];
+const TABLES: [&str; 6] = ["contacts.csv", "diagnostics.csv", "energy.csv", "gauges.csv", "profile.csv", "units.csv"];
 
 fn breakwater() -> Command {
     Command::new(env!("CARGO_BIN_EXE_breakwater"))
@@ -146,7 +147,9 @@ fn init_writes_a_case_that_check_accepts() {
     let case = folder.path().join("mine.json");
     succeed(&["init", path(&case)]);
     let checked = succeed(&["check", path(&case)]);
-    assert!(checked.contains("particles") && checked.contains("run time"), "{checked}");
+    for line in ["particles", "files", "run time"] {
+        assert!(checked.contains(line), "{checked}");
+    }
     let message = refuse(&["init", path(&case)]);
     assert!(message.contains("exists already"), "{message}");
 }
@@ -184,9 +187,30 @@ fn a_run_writes_what_it_promises() {
     // Heading, 0 to 0.3 s every 0.005 s, the end.
     assert!((61..=63).contains(&rows), "{rows} rows of gauges");
 
+    // The surge runs at about 2 m/s, the speed of sound is 15 sqrt(9.81 x 0.3) = 25.7 m/s.
+    let mach = summary["largest_mach"].as_f64().unwrap();
+    assert!((0.03..0.3).contains(&mach), "{mach}");
+    assert_eq!(summary["warnings"].as_array().map(Vec::is_empty), Some(mach <= 0.1));
+    files_are_about_as_large_as_estimated(&case, &out);
     refuse_to_overwrite(&case, &out);
     compare_needs_a_published_wave(&out);
     report_is_made_anew(&out);
+}
+
+/// Within a factor of two: a file this small has large parts that are reserved and empty.
+fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
+    let estimate = breakwater::case::Case::load(case).unwrap().output_size();
+    let size = |file: &str| std::fs::metadata(out.join(file)).unwrap().len() as f64;
+    let tables = ["diagnostics.csv", "energy.csv", "gauges.csv", "units.csv"].map(size).iter().sum::<f64>();
+    let sizes = [
+        ("fluid.vtkhdf", size("fluid.vtkhdf"), estimate.fluid),
+        ("units.vtkhdf", size("units.vtkhdf"), estimate.units),
+        ("tables", tables, estimate.tables),
+        ("checkpoint.h5", size("checkpoint.h5"), estimate.checkpoint),
+    ];
+    for (file, size, estimate) in sizes {
+        assert!((0.5..2.0).contains(&(size / estimate)), "{file}: {size} bytes, {estimate} estimated");
+    }
 }
 
 fn refuse_to_overwrite(case: &Path, out: &Path) {
@@ -286,4 +310,26 @@ fn compare_and_report_of_what_is_no_run_are_refused() {
         let message = refuse(&[command, path(folder.path())]);
         assert!(message.contains("summary.json"), "{message}");
     }
+}
+
+/// Snapshots that the disk does not take end the run with the message of their file.
+#[cfg(unix)]
+#[test]
+fn a_disk_that_is_full_ends_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
+    let mut many_snapshots = read_json(&case);
+    many_snapshots["output"] = json!({ "fluid_interval_s": 0.002, "units_interval_s": 0.0 });
+    std::fs::write(&case, many_snapshots.to_string()).unwrap();
+    // No file may grow beyond 2400 blocks of 512 or 1024 bytes, a fifth of what the water would need. Ignoring the signal
+    // makes the limit an error of the write, as on a full disk.
+    let output = Command::new("sh")
+        .args(["-c", "trap '' XFSZ; ulimit -f 2400; exec \"$0\" run \"$1\" --out \"$2\" --quiet"])
+        .args([env!("CARGO_BIN_EXE_breakwater"), path(&case), path(&out)])
+        .output()
+        .unwrap();
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("fluid.vtkhdf: HDF5: "), "{message}");
+    assert!(!message.contains("panicked") && !out.join("summary.json").exists(), "{message}");
 }

@@ -96,6 +96,8 @@ fn summary(units: u32) -> Summary {
             "Crest width of the mound 0.32 m: read from the measured displacements, no source gives it.".to_owned(),
             "Side slopes 1:2.".to_owned(),
         ],
+        warnings: vec!["at 2.150 s water moved at 3.25 m/s".to_owned()],
+        largest_mach: Some(0.12),
         particles: 2_338_876,
         particle_counts: ParticleCounts { water: 1_800_000, bed: 500_000, wavemaker: 36_825, units: 2_051 },
         dp_m: 0.005,
@@ -223,9 +225,16 @@ fn the_report_shows_units_gauges_and_assumptions() {
         write_run(&folder, units).unwrap();
         write_paraview(&folder, 0.08 * f64::from(units)).unwrap();
         let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
-        for words in
-            ["Damage ratio", "Mean displacement", "Side view after the wave", "WG7", "Side slopes 1:2.", "units.vtkhdf"]
-        {
+        for words in [
+            "Damage ratio",
+            "Mean displacement",
+            "Side view after the wave",
+            "WG7",
+            "Side slopes 1:2.",
+            "units.vtkhdf",
+            "<li>at 2.150 s water moved at 3.25 m/s</li>",
+            "0.12 times the speed of sound",
+        ] {
             assert!(html.contains(words), "{words}");
         }
         assert!(!html.contains("NaN") && !html.contains("inf "), "a number is missing");

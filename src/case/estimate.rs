@@ -34,16 +34,22 @@ impl Estimate {
 }
 
 impl Case {
+    /// Ends [m] and level [m] of the water at the start.
+    pub(super) fn water_at_start(&self) -> ([f64; 2], f64) {
+        match self.domain.water {
+            Water::StillLevel => (self.domain.x, self.flume.still_level),
+            Water::Block { x, top_z } => (x, top_z),
+        }
+    }
+
     /// Size of the run.
     pub fn estimate(&self) -> Estimate {
         let domain = &self.domain;
         let profile = &self.flume.profile;
         let per_volume = 1.0 / (domain.dp * domain.dp * domain.dy);
         let thickness = self.numerics.boundary_layers as f64 * domain.dp;
-        let water_area = match domain.water {
-            Water::StillLevel => area_under(profile, domain.x, self.flume.still_level),
-            Water::Block { x, top_z } => area_under(profile, x, top_z),
-        };
+        let (water_x, water_top) = self.water_at_start();
+        let water_area = area_under(profile, water_x, water_top);
         let end_walls = domain.x.iter().map(|x| (domain.top_z - profile.z(*x)).max(0.0)).sum::<f64>();
         let bed = length_along(profile, domain.x);
         let mut solid = (bed + end_walls) * thickness * domain.width;
@@ -73,7 +79,7 @@ fn pieces(profile: &Profile, [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// Area between the ground and a level, where the ground is lower [m2].
-fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
+pub(super) fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
     let piece = |pair: &[[f64; 2]]| {
         let (a, b) = (level - pair[0][1], level - pair[1][1]);
         let length = pair[1][0] - pair[0][0];

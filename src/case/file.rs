@@ -286,11 +286,60 @@ pub struct OutputFile {
     pub series_interval_s: f64,
     /// Interval of the checkpoints in simulated time [s]; 0 writes one at the end only.
     pub checkpoint_interval_s: f64,
+    /// What the fluid snapshots hold of each water particle besides its place; each at most once. The report draws the
+    /// water only if `velocity` is among them.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(skip_serializing_if = "is_every_field")]
+    pub fluid_fields: Vec<FluidField>,
+    /// Two opposite corners [[x, y, z], [x, y, z]] of a box [m], the lower first: the fluid snapshots hold the water
+    /// particles inside it only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fluid_box_m: Option<[[f64; 3]; 2]>,
 }
 
 impl Default for OutputFile {
     fn default() -> Self {
-        Self { fluid_interval_s: 0.1, units_interval_s: 0.02, series_interval_s: 0.01, checkpoint_interval_s: 0.5 }
+        Self {
+            fluid_interval_s: 0.1,
+            units_interval_s: 0.02,
+            series_interval_s: 0.01,
+            checkpoint_interval_s: 0.5,
+            fluid_fields: FluidField::ALL.to_vec(),
+            fluid_box_m: None,
+        }
+    }
+}
+
+fn is_every_field(fields: &[FluidField]) -> bool {
+    fields == FluidField::ALL
+}
+
+/// What a fluid snapshot can hold of each water particle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FluidField {
+    /// Velocity [m/s], three numbers.
+    Velocity,
+    /// Pressure [Pa].
+    Pressure,
+    /// Density [kg/m3].
+    Density,
+    /// Number that the particle keeps throughout the run.
+    Id,
+}
+
+impl FluidField {
+    /// All of them, in the order in which they are written by default.
+    pub const ALL: [Self; 4] = [Self::Velocity, Self::Pressure, Self::Density, Self::Id];
+
+    /// Name in case files and in ParaView.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Pressure => "pressure",
+            Self::Density => "density",
+            Self::Id => "id",
+        }
     }
 }
 

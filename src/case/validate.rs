@@ -12,8 +12,9 @@ use super::gauges::{self, Gauge};
 use super::hash::fingerprint;
 use super::materials::{self, FrictionPair, Material};
 use super::numerics::{self, Fluid, Numerics};
+use super::output::{self, Output};
 use super::parse::parse;
-use super::run::{self, Contact, Output, Stop};
+use super::run::{self, Contact, Stop};
 use super::units::{self, Surroundings, Units};
 use super::wave::{self, Wave};
 
@@ -59,7 +60,7 @@ pub struct Case {
     pub contact: Contact,
     /// Points at which the water is measured.
     pub gauges: Vec<Gauge>,
-    /// Intervals of the outputs.
+    /// What is written, and how often.
     pub output: Output,
     /// When the run ends.
     pub stop: Stop,
@@ -130,7 +131,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let contact = run::validate_contact(&file.contact, check);
     let has_wave = !matches!(file.wave, WaveFile::None {});
     let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), has_wave, check);
-    let output = run::validate_output(&file.output, stop.duration, check);
+    let output = output::validate(&file.output, stop.duration, domain.as_ref(), check);
     let units = match units {
         None => None,
         Some(row) => Some(row?),

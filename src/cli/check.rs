@@ -15,7 +15,7 @@ use crate::{
 /// contact take some.
 const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 
-/// Validate case files and print particles, memory, time step and an estimate of the run time.
+/// Validate case files and print particles, memory, size of the files, time step and an estimate of the run time.
 #[derive(Args)]
 pub struct CheckArguments {
     /// Case files.
@@ -63,9 +63,28 @@ fn print(case: &Case) {
         case.domain.dp
     );
     println!("  memory      about {:.2} GB", estimate.bytes / 1e9);
+    let files = case.output_size();
+    println!(
+        "  files       about {}: fluid.vtkhdf {}, units.vtkhdf {}, tables {}, checkpoint {}",
+        size(files.total()),
+        size(files.fluid),
+        size(files.units),
+        size(files.tables),
+        size(files.checkpoint)
+    );
     println!(
         "  time step   about {:.2e} s, speed of sound {:.1} m/s; {:.0} steps for {} s",
         estimate.dt, case.fluid.sound_speed, estimate.steps, case.stop.duration
     );
     println!("  run time    about {} on {cores} cores", readable(seconds));
+}
+
+/// A number of bytes as people say it.
+fn size(bytes: f64) -> String {
+    match bytes {
+        b if b <= 0.0 => "none".to_owned(),
+        b if b < 0.995e6 => format!("{:.2} MB", b / 1e6),
+        b if b < 0.995e9 => format!("{:.0} MB", b / 1e6),
+        b => format!("{:.1} GB", b / 1e9),
+    }
 }

@@ -109,12 +109,13 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 19] = [
+const RESULT_FILES: [&str; 20] = [
     "case.json",
     "checkpoint.h5",
     "compare.csv",
     "compare.html",
     "contacts.csv",
+    "diagnostics.csv",
     "energy.csv",
     "failed.h5",
     "fluid.vtkhdf",

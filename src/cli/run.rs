@@ -9,7 +9,7 @@ use crate::{
     case::Case,
     output::{Stopped, Summary},
     simulation::{
-        checkpoint,
+        checkpoint::Checkpoint,
         progress::readable,
         run::{RunError, RunOptions, resume, run},
     },
@@ -63,7 +63,7 @@ impl RunArguments {
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.dir.join("case.json"))?;
-        let checkpoint = self.dir.join(checkpoint::FILE);
+        let checkpoint = self.dir.join(Checkpoint::FILE);
         if !checkpoint.exists() {
             return Err(Trouble::refused(format!(
                 "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater run",

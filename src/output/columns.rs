@@ -54,6 +54,22 @@ pub const CONTACTS: [&str; 11] = [
 pub const ENERGY: [&str; 6] =
     ["time_s", "kinetic_j", "potential_j", "internal_j", "units_kinetic_j", "units_potential_j"];
 
+/// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its
+/// change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all steps
+/// since the row before, `steps` counts from the start, `dt_s` is the length of the step that comes. `lost_particles` is
+/// 0 in a sound run.
+pub const DIAGNOSTICS: [&str; 9] = [
+    "time_s",
+    "volume_m3",
+    "volume_change_m3",
+    "largest_mach",
+    "lowest_density_kg_m3",
+    "highest_density_kg_m3",
+    "steps",
+    "dt_s",
+    "lost_particles",
+];
+
 /// `profile.csv`: corner points of the bed with the mound.
 pub const PROFILE: [&str; 2] = ["x_m", "z_m"];
 

@@ -6,11 +6,12 @@
 //! | `profile.csv` | [`CsvSeries`] | bed with mound: `x_m`, `z_m` |
 //! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | water at the gauges, by the particles and by the flume model |
 //! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | motion and forces of the units, contact events, energy |
+//! | `diagnostics.csv` | [`CsvSeries`] | whether the run is sound: volume, Mach number, densities, steps |
 //! | `unit_surface.json` | [`UnitSurface`] | the unit's surface about its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
 //! | `report.html`, `picture.svg` | [`write_report`] | the report, and one moment of the run as a picture |
 //!
-//! The column names of the tables are in [`columns`].
+//! The column names of the tables are in [`columns`]. What is long is written by a [`Writer`] while the run goes on.
 
 mod atomic;
 pub mod columns;
@@ -24,6 +25,7 @@ mod table;
 mod unit_surface;
 mod vtkhdf;
 mod wave_page;
+mod writer;
 
 pub use atomic::write_atomically;
 pub use compare::{Comparison, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare};
@@ -38,3 +40,4 @@ pub use table::Table;
 pub use unit_surface::UnitSurface;
 pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries, WaterSnapshot, WaterSnapshots};
 pub use wave_page::{write_flume_gauges, write_wave_page};
+pub use writer::Writer;

@@ -35,6 +35,12 @@ pub struct Summary {
     pub energy: Option<EnergySummary>,
     /// What had to be assumed because no source gives it.
     pub assumptions: Vec<String>,
+    /// What makes the result doubtful: warnings of the case file and of the run.
+    #[serde(default)]
+    pub warnings: Vec<String>,
+    /// Largest speed of the water over its speed of sound [-]; none in runs that did not record it.
+    #[serde(default)]
+    pub largest_mach: Option<f64>,
     /// Number of particles of all kinds.
     pub particles: u64,
     /// Number of particles of each kind.

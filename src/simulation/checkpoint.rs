@@ -10,16 +10,10 @@ use hdf5_metno::{File, Group, types::VarLenUnicode};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::{Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics};
-use crate::{output::OutputError, rigid::RigidSnapshot};
-
-/// Name of the checkpoint in a run folder.
-pub const FILE: &str = "checkpoint.h5";
-
-/// Name of the state at which a run failed.
-pub const FAILED_FILE: &str = "failed.h5";
+use crate::{output::OutputError, particles::water::Water, rigid::RigidSnapshot};
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 type Hdf5Result<T> = hdf5_metno::Result<T>;
 
@@ -37,49 +31,69 @@ struct Scalars {
     mean_loads: MeanLoads,
 }
 
-/// Write the state to `file` in the run folder: to a temporary name first, synced, then renamed.
-///
-/// # Errors
-/// If the file cannot be written.
-pub fn write(simulation: &Simulation, recorder: &RecorderState, dir: &Path, file: &str) -> Result<(), OutputError> {
-    let (path, temporary) = (dir.join(file), dir.join(format!("{file}.part")));
-    let units = simulation.units.as_ref();
-    let scalars = Scalars {
-        version: VERSION,
-        case_hash: simulation.case.hash.clone(),
-        time: simulation.time,
-        steps: simulation.steps,
-        statistics: simulation.statistics.clone(),
-        recorder: recorder.clone(),
-        rigid: units.map(|units| units.world.snapshot()),
-        fluid_loads: units.map_or_else(Vec::new, |units| {
-            units.fluid_loads.iter().map(|load| [load.force.to_array(), load.torque.to_array()]).collect()
-        }),
-        mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
-    };
-    let text = serde_json::to_string(&scalars).map_err(OutputError::json(&path))?;
-    write_arrays(simulation, &text, &temporary).map_err(OutputError::hdf5(&temporary))?;
-    let publish = || {
-        std::fs::File::open(&temporary)?.sync_all()?;
-        std::fs::rename(&temporary, &path)
-    };
-    publish().map_err(OutputError::io(&path))
+/// A copy of the state of a run, to be written while the run goes on.
+pub struct Checkpoint {
+    scalars: Scalars,
+    water: Water,
+    boundary_density: Vec<f64>,
 }
 
-fn write_arrays(simulation: &Simulation, text: &str, path: &Path) -> Hdf5Result<()> {
-    let file = File::create(path)?;
-    let text: VarLenUnicode = text.parse().map_err(|_| hdf5_metno::Error::from("the state holds a NUL character"))?;
-    file.new_attr::<VarLenUnicode>().create("state")?.write_scalar(&text)?;
-    let water = &simulation.water;
-    let group = file.create_group("water")?;
-    write_vectors(&group, "position_m", &water.position)?;
-    write_vectors(&group, "velocity_m_s", &water.velocity)?;
-    group.new_dataset_builder().with_data(&water.density[..]).create("density_kg_m3")?;
-    group.new_dataset_builder().with_data(&water.mass[..]).create("mass_kg")?;
-    group.new_dataset_builder().with_data(&water.id[..]).create("id")?;
-    let group = file.create_group("boundary")?;
-    group.new_dataset_builder().with_data(&simulation.boundary.density[..]).create("density_kg_m3")?;
-    file.close()
+impl Checkpoint {
+    /// Name of the checkpoint in a run folder.
+    pub const FILE: &str = "checkpoint.h5";
+
+    /// Name of the state at which a run failed.
+    pub const FAILED_FILE: &str = "failed.h5";
+
+    /// The state of now, with that of the outputs.
+    pub fn of(simulation: &Simulation, recorder: &RecorderState) -> Self {
+        let units = simulation.units.as_ref();
+        let scalars = Scalars {
+            version: VERSION,
+            case_hash: simulation.case.hash.clone(),
+            time: simulation.time,
+            steps: simulation.steps,
+            statistics: simulation.statistics.clone(),
+            recorder: recorder.clone(),
+            rigid: units.map(|units| units.world.snapshot()),
+            fluid_loads: units.map_or_else(Vec::new, |units| {
+                units.fluid_loads.iter().map(|load| [load.force.to_array(), load.torque.to_array()]).collect()
+            }),
+            mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
+        };
+        Self { scalars, water: simulation.water.clone(), boundary_density: simulation.boundary.density.clone() }
+    }
+
+    /// Write the state to `file` in the run folder: to a temporary name first, synced, then renamed.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, dir: &Path, file: &str) -> Result<(), OutputError> {
+        let (path, temporary) = (dir.join(file), dir.join(format!("{file}.part")));
+        let text = serde_json::to_string(&self.scalars).map_err(OutputError::json(&path))?;
+        self.write_arrays(&text, &temporary).map_err(OutputError::hdf5(&temporary))?;
+        let publish = || {
+            std::fs::File::open(&temporary)?.sync_all()?;
+            std::fs::rename(&temporary, &path)
+        };
+        publish().map_err(OutputError::io(&path))
+    }
+
+    fn write_arrays(&self, text: &str, path: &Path) -> Hdf5Result<()> {
+        let file = File::create(path)?;
+        let text: VarLenUnicode =
+            text.parse().map_err(|_| hdf5_metno::Error::from("the state holds a NUL character"))?;
+        file.new_attr::<VarLenUnicode>().create("state")?.write_scalar(&text)?;
+        let group = file.create_group("water")?;
+        write_vectors(&group, "position_m", &self.water.position)?;
+        write_vectors(&group, "velocity_m_s", &self.water.velocity)?;
+        group.new_dataset_builder().with_data(&self.water.density[..]).create("density_kg_m3")?;
+        group.new_dataset_builder().with_data(&self.water.mass[..]).create("mass_kg")?;
+        group.new_dataset_builder().with_data(&self.water.id[..]).create("id")?;
+        let group = file.create_group("boundary")?;
+        group.new_dataset_builder().with_data(&self.boundary_density[..]).create("density_kg_m3")?;
+        file.close()
+    }
 }
 
 /// Put a simulation of the same case into the state of the checkpoint; returns the state of the outputs.
@@ -87,7 +101,7 @@ fn write_arrays(simulation: &Simulation, text: &str, path: &Path) -> Hdf5Result<
 /// # Errors
 /// If there is no checkpoint, it is damaged, or it is one of another case.
 pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
-    let path = dir.join(FILE);
+    let path = dir.join(Checkpoint::FILE);
     let (text, arrays) = read_arrays(&path).map_err(OutputError::hdf5(&path))?;
     let scalars: Scalars = parse(&text, &path)?;
     if scalars.version != VERSION {

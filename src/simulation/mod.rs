@@ -7,15 +7,20 @@
 //! | `impermeable` | keeping water out of solids |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
 //! | [`energy`] | energy of water and units |
+//! | [`extremes`] | the fastest, the lightest and the densest water |
+//! | `diagnostics` | whether the run is sound |
 //! | [`mean_loads`] | loads on the units as the series show them |
 //! | [`statistics`] | what is kept of a run besides its series |
 //! | [`recorder`] | writes the series and snapshots |
+//! | [`snapshots`] | moments of water and units for ParaView |
 //! | [`checkpoint`] | state to and from HDF5 |
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
 //! | [`summary`] | the run in a few numbers |
 
 pub mod checkpoint;
+mod diagnostics;
 pub mod energy;
+pub mod extremes;
 pub mod failure;
 mod impermeable;
 pub mod mean_loads;
@@ -23,6 +28,7 @@ pub mod progress;
 pub mod recorder;
 pub mod run;
 pub mod setup;
+pub mod snapshots;
 pub mod statistics;
 pub mod summary;
 
@@ -111,7 +117,7 @@ impl Simulation {
     /// impermeable surfaces, units.
     ///
     /// # Errors
-    /// If a particle has left the domain, or units have gone too deep into each other or the bed.
+    /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the bed.
     pub fn finish_step(&mut self, dt: f64) -> Result<(), Failure> {
         let (piston, units, half_time) = (&self.piston, &self.units, self.flume_time() + 0.5 * dt);
         self.solver.predict(dt, &self.water, &mut self.boundary, |boundary| {
@@ -129,7 +135,7 @@ impl Simulation {
         self.steps += 1;
         self.statistics.count_step(dt);
         self.place_boundary();
-        failure::find_escape(self).map_or(Ok(()), Err)
+        self.watch_water()
     }
 
     /// Forces and torques of the water on the units at the half step.
@@ -144,7 +150,9 @@ impl Simulation {
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
-            units.world.advance(dt, &units.fluid_loads).map_err(Failure::Contact)?;
+            if let Err(error) = units.world.advance(dt, &units.fluid_loads) {
+                return Err(failure::of_units(self, error));
+            }
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
         }

@@ -70,6 +70,15 @@ impl Progress {
         }
     }
 
+    /// Show a warning, quiet or not.
+    pub fn warn(&self, warning: &str) {
+        let show = || eprintln!("warning: {warning}");
+        match &self.bar {
+            Some(bar) => bar.suspend(show),
+            None => show(),
+        }
+    }
+
     /// Wall clock of this session [s].
     pub fn wall(&self) -> f64 {
         self.begun.elapsed().as_secs_f64()

@@ -1,29 +1,25 @@
-//! Series and snapshots of a run: gauges, units, contacts, energy as tables; water and units for ParaView.
+//! Series and snapshots of a run: gauges, units, contacts, energy, diagnostics as tables; water and units for ParaView.
+//!
+//! Rows of the tables are short and written at once. Snapshots and checkpoints are long: a thread of their own writes
+//! them, in the order in which they were given (see [`Writer`]), so that a checkpoint never counts a snapshot that is not in its
+//! file yet.
 //!
 //! Every time is that of the flume: 0 when the paddle starts.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Simulation, Units};
+use super::{
+    Simulation, Units,
+    checkpoint::Checkpoint,
+    snapshots::{Frame, SnapshotFiles},
+};
 use crate::{
     case::{Case, Gauge, Quantity},
-    output::{
-        Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically,
-        write_flume_gauges,
-    },
+    output::{CsvSeries, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges},
     rigid::ContactEvent,
 };
-
-const WATER_FIELDS: [(&str, FieldKind); 4] = [
-    ("velocity", FieldKind::Vector),
-    ("pressure", FieldKind::Scalar),
-    ("density", FieldKind::Scalar),
-    ("id", FieldKind::Integer),
-];
-
-const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
 
 /// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -37,26 +33,26 @@ pub struct RecorderState {
     /// Checkpoints.
     pub checkpoints: u64,
     /// Bytes of the tables.
-    bytes: [u64; 4],
+    bytes: [u64; 5],
 }
 
 /// Open output files of a run.
 pub struct Recorder {
+    dir: PathBuf,
     state: RecorderState,
     gauges: CsvSeries,
     units: CsvSeries,
     contacts: CsvSeries,
     energy: CsvSeries,
-    water: Option<PolyDataSeries>,
-    surfaces: Option<PolyDataSeries>,
+    diagnostics: CsvSeries,
+    writer: Writer<SnapshotFiles>,
 }
 
 const GAUGES_FILE: &str = "gauges.csv";
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
 const ENERGY_FILE: &str = "energy.csv";
-const WATER_FILE: &str = "fluid.vtkhdf";
-const SURFACES_FILE: &str = "units.vtkhdf";
+const DIAGNOSTICS_FILE: &str = "diagnostics.csv";
 
 impl Recorder {
     /// New files in the run folder, and those that do not change: case, bed profile, shape of the unit, flume gauges.
@@ -74,17 +70,15 @@ impl Recorder {
         if let Some(record) = &simulation.flume {
             write_flume_gauges(case, record, &dir.join("flume_gauges.csv"))?;
         }
-        let output = &case.output;
-        let water = |_| PolyDataSeries::create(&dir.join(WATER_FILE), Cells::Vertices, &WATER_FIELDS);
-        let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
         let mut recorder = Self {
+            dir: dir.to_owned(),
             state: RecorderState::default(),
             gauges: CsvSeries::create(&dir.join(GAUGES_FILE), &gauge_columns(case))?,
             units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
             contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
             energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::ENERGY)?,
-            water: output.fluid_interval.map(water).transpose()?,
-            surfaces: output.units_interval.filter(|_| simulation.units.is_some()).map(surfaces).transpose()?,
+            diagnostics: CsvSeries::create(&dir.join(DIAGNOSTICS_FILE), &columns::DIAGNOSTICS)?,
+            writer: Writer::spawn(SnapshotFiles::create(simulation, dir)?),
         };
         recorder.note_lengths();
         Ok(recorder)
@@ -96,22 +90,14 @@ impl Recorder {
     /// If a file is missing or shorter than it was.
     pub fn reopen(simulation: &Simulation, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
         let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
-        let output = &simulation.case.output;
-        let water = |_| {
-            let path = dir.join(WATER_FILE);
-            PolyDataSeries::open_and_truncate(&path, Cells::Vertices, &WATER_FIELDS, state.water as usize)
-        };
-        let surfaces = |_| {
-            let path = dir.join(SURFACES_FILE);
-            PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &UNIT_FIELDS, state.surfaces as usize)
-        };
         Ok(Self {
+            dir: dir.to_owned(),
             gauges: table(GAUGES_FILE, state.bytes[0])?,
             units: table(UNITS_FILE, state.bytes[1])?,
             contacts: table(CONTACTS_FILE, state.bytes[2])?,
             energy: table(ENERGY_FILE, state.bytes[3])?,
-            water: output.fluid_interval.map(water).transpose()?,
-            surfaces: output.units_interval.filter(|_| simulation.units.is_some()).map(surfaces).transpose()?,
+            diagnostics: table(DIAGNOSTICS_FILE, state.bytes[4])?,
+            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water, state.surfaces)?),
             state,
         })
     }
@@ -121,20 +107,15 @@ impl Recorder {
         &self.state
     }
 
-    /// Count a checkpoint; its number is part of it.
-    pub fn count_checkpoint(&mut self) -> &RecorderState {
-        self.state.checkpoints += 1;
-        &self.state
-    }
-
-    /// Write what is due at the present time, between the two halves of a step.
+    /// Write what is due at the present time, between the two halves of a step of length `dt` [s].
     ///
     /// # Errors
-    /// If a file cannot be written.
-    pub fn record_due(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+    /// If a file cannot be written, or a snapshot or checkpoint given before could not.
+    pub fn record_due(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        self.writer.check()?;
         let (time, case) = (simulation.time, simulation.case.clone());
         if is_due(self.state.series, Some(case.output.series_interval), time) {
-            self.record_series(simulation)?;
+            self.record_series(simulation, dt)?;
             self.state.series += 1;
         }
         if is_due(self.state.surfaces, case.output.units_interval, time) {
@@ -146,17 +127,28 @@ impl Recorder {
             self.state.water += 1;
         }
         self.note_lengths();
+        // The first one is due at the first interval: the start can be made anew from the case.
+        if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
+            // Its number is part of it.
+            self.state.checkpoints += 1;
+            self.record_checkpoint(simulation)?;
+        }
         Ok(())
     }
 
-    /// Write everything once more at the end of the run.
+    /// Write everything once more at the end of the run, and wait until all of it is in the files; `dt` is the length of
+    /// the step that would come [s].
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_end(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
-        self.record_series(simulation)?;
-        self.record_surfaces(simulation)?;
-        self.record_water(simulation)?;
+    pub fn record_end(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        self.record_series(simulation, dt)?;
+        if simulation.case.output.units_interval.is_some() {
+            self.record_surfaces(simulation)?;
+        }
+        if simulation.case.output.fluid_interval.is_some() {
+            self.record_water(simulation)?;
+        }
         if let Some(units) = &simulation.units {
             let offset = contact_clock(simulation, units);
             let running: Vec<ContactEvent> = units.world.running_events().copied().collect();
@@ -165,17 +157,28 @@ impl Recorder {
             }
             running.iter().for_each(|event| count_contact(simulation, event));
         }
-        Ok(())
+        self.record_checkpoint(simulation)?;
+        self.writer.drain()
+    }
+
+    /// Wait until all snapshots and checkpoints given so far are in their files.
+    ///
+    /// # Errors
+    /// If one of them cannot be written.
+    pub fn drain(&mut self) -> Result<(), OutputError> {
+        self.writer.drain()
     }
 
     fn note_lengths(&mut self) {
-        self.state.bytes = [&self.gauges, &self.units, &self.contacts, &self.energy].map(CsvSeries::bytes);
+        let tables = [&self.gauges, &self.units, &self.contacts, &self.energy, &self.diagnostics];
+        self.state.bytes = tables.map(CsvSeries::bytes);
     }
 
-    fn record_series(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+    fn record_series(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         let time = simulation.flume_time();
         self.gauges.append(&gauge_row(simulation))?;
         self.energy.append(&energy_row(simulation))?;
+        self.diagnostics.append(&simulation.diagnostics_row(dt))?;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
         let means = units.mean_loads.take();
@@ -205,39 +208,19 @@ impl Recorder {
     }
 
     fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
-        let (Some(series), Some(units)) = (&mut self.surfaces, &simulation.units) else { return Ok(()) };
-        let solid = units.shape.solid();
-        let (mut points, mut triangles) = (Vec::new(), Vec::new());
-        let (mut velocity, mut number) = (Vec::new(), Vec::new());
-        for (unit, state) in units.states().iter().enumerate() {
-            let first = points.len() as u32;
-            triangles.extend(solid.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
-            for &vertex in solid.vertices() {
-                let arm = state.rotation * vertex;
-                points.push((state.position + arm).as_vec3().to_array());
-                velocity.push((state.velocity + state.angular_velocity.cross(arm)).as_vec3().to_array());
-                number.push(unit as i32 + 1);
-            }
-        }
-        let values = [FieldValues::Vector(&velocity), FieldValues::Integer(&number)];
-        series.append(simulation.flume_time(), &points, &triangles, &values)
+        let Some(units) = &simulation.units else { return Ok(()) };
+        let frame = Frame::of_surfaces(units, simulation.flume_time());
+        self.writer.give(move |files| files.append_surfaces(&frame))
     }
 
     fn record_water(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
-        let Some(series) = &mut self.water else { return Ok(()) };
-        let (water, tait) = (&simulation.water, &simulation.solver().parameters.tait);
-        let points: Vec<[f32; 3]> = water.position.iter().map(|p| p.as_vec3().to_array()).collect();
-        let velocity: Vec<[f32; 3]> = water.velocity.iter().map(|v| v.as_vec3().to_array()).collect();
-        let pressure: Vec<f32> = water.density.iter().map(|&rho| tait.pressure(rho) as f32).collect();
-        let density: Vec<f32> = water.density.iter().map(|&rho| rho as f32).collect();
-        let id: Vec<i32> = water.id.iter().map(|&id| id as i32).collect();
-        let values = [
-            FieldValues::Vector(&velocity),
-            FieldValues::Scalar(&pressure),
-            FieldValues::Scalar(&density),
-            FieldValues::Integer(&id),
-        ];
-        series.append(simulation.flume_time(), &points, &[], &values)
+        let frame = Frame::of_water(simulation);
+        self.writer.give(move |files| files.append_water(&frame))
+    }
+
+    fn record_checkpoint(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let (checkpoint, dir) = (Checkpoint::of(simulation, &self.state), self.dir.clone());
+        self.writer.give(move |_| checkpoint.write(&dir, Checkpoint::FILE))
     }
 }
 

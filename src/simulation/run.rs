@@ -5,10 +5,11 @@ use std::{path::Path, sync::Arc};
 use thiserror::Error;
 
 use super::{
-    Simulation, checkpoint,
+    Simulation,
+    checkpoint::{self, Checkpoint},
     failure::Failure,
     progress::Progress,
-    recorder::{Recorder, is_due},
+    recorder::Recorder,
     setup::SetupError,
     summary::summarise,
 };
@@ -72,42 +73,43 @@ fn drive(
     dir: &Path,
     options: &RunOptions,
 ) -> Result<Summary, RunError> {
-    let case = simulation.case.clone();
     let mut progress = Progress::new(&simulation, options.quiet);
     let wall_before = simulation.statistics.wall_s;
     let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
     simulation.statistics.energy_start = Some(energy_start);
+    let mut warnings_shown = simulation.statistics.warnings.len();
     loop {
         let dt = match simulation.begin_step() {
             Ok(dt) => dt,
-            Err(failure) => return Err(keep_failed(&simulation, &recorder, dir, failure)),
+            Err(failure) => return Err(keep_failed(&simulation, &mut recorder, dir, failure)),
         };
         simulation.statistics.wall_s = wall_before + progress.wall();
         if let Some(stopped) = stop_rule(&mut simulation) {
-            recorder.record_end(&mut simulation)?;
-            checkpoint::write(&simulation, recorder.state(), dir, checkpoint::FILE)?;
+            recorder.record_end(&mut simulation, dt)?;
             progress.finish();
             let summary = summarise(&simulation, stopped, dir)?;
             summary.write(dir)?;
             write_report(dir)?;
             return Ok(summary);
         }
-        recorder.record_due(&mut simulation)?;
-        // The first one is due at the first interval: the start can be made anew from the case.
-        if is_due(recorder.state().checkpoints + 1, case.output.checkpoint_interval, simulation.time) {
-            checkpoint::write(&simulation, recorder.count_checkpoint(), dir, checkpoint::FILE)?;
-        }
+        recorder.record_due(&mut simulation, dt)?;
         if let Err(failure) = simulation.finish_step(dt) {
-            return Err(keep_failed(&simulation, &recorder, dir, failure));
+            return Err(keep_failed(&simulation, &mut recorder, dir, failure));
         }
+        simulation.statistics.warnings[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
+        warnings_shown = simulation.statistics.warnings.len();
         progress.update(&simulation, dt);
     }
 }
 
-/// Keep the state of a failed run beside the last good checkpoint.
-fn keep_failed(simulation: &Simulation, recorder: &Recorder, dir: &Path, failure: Failure) -> RunError {
-    let kept = match checkpoint::write(simulation, recorder.state(), dir, checkpoint::FAILED_FILE) {
-        Ok(()) => dir.join(checkpoint::FAILED_FILE).display().to_string(),
+/// Keep the state of a failed run beside the last good checkpoint, and the outputs up to it.
+fn keep_failed(simulation: &Simulation, recorder: &mut Recorder, dir: &Path, failure: Failure) -> RunError {
+    let write = |recorder: &mut Recorder| {
+        recorder.drain()?;
+        Checkpoint::of(simulation, recorder.state()).write(dir, Checkpoint::FAILED_FILE)
+    };
+    let kept = match write(recorder) {
+        Ok(()) => dir.join(Checkpoint::FAILED_FILE).display().to_string(),
         Err(error) => format!("no file ({error})"),
     };
     RunError::Failed { failure, kept }

@@ -32,6 +32,14 @@ pub struct Statistics {
     pub at_rest_since: Option<f64>,
     /// Energy of water and units at the start [J].
     pub energy_start: Option<f64>,
+    /// Volume [m3] and number of particles of the water at the first row of the diagnostics.
+    pub water_start: Option<(f64, u64)>,
+    /// Largest speed of the water over its speed of sound c0 [-].
+    pub largest_mach: f64,
+    /// Largest Mach number [-], lowest and highest density [kg/m3] since the last row of the diagnostics.
+    water_since_row: Option<[f64; 3]>,
+    /// What the user has been warned of.
+    pub warnings: Vec<String>,
     /// Wall clock of all sessions of the run [s].
     pub wall_s: f64,
 }
@@ -53,6 +61,19 @@ impl Statistics {
         self.shortest_step = if self.steps == 0 { dt } else { self.shortest_step.min(dt) };
         self.longest_step = self.longest_step.max(dt);
         self.steps += 1;
+    }
+
+    /// Count the extremes of the water at the end of a step: Mach number [-], densities [kg/m3].
+    pub fn count_water(&mut self, mach: f64, lowest_density: f64, highest_density: f64) {
+        self.largest_mach = self.largest_mach.max(mach);
+        let [m, low, high] = self.water_since_row.unwrap_or([mach, lowest_density, highest_density]);
+        self.water_since_row = Some([m.max(mach), low.min(lowest_density), high.max(highest_density)]);
+    }
+
+    /// Largest Mach number [-], lowest and highest density [kg/m3] since the last call; `None` if no step was made
+    /// since.
+    pub fn take_water_since_row(&mut self) -> Option<[f64; 3]> {
+        self.water_since_row.take()
     }
 
     /// Count the loads of a step while the units are held.

@@ -33,6 +33,8 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         },
         energy: statistics.energy_start.map(|start_j| EnergySummary { start_j, end_j: simulation.energy().total() }),
         assumptions: case.assumptions.clone(),
+        warnings: case.warnings.iter().chain(&statistics.warnings).cloned().collect(),
+        largest_mach: Some(statistics.largest_mach),
         particles: counts.water + counts.bed + counts.wavemaker + counts.units,
         particle_counts: counts,
         dp_m: case.domain.dp,

@@ -27,6 +27,10 @@ const LEGEND: f64 = 60.0;
 const TITLE_SIZE: f64 = 19.0;
 const LETTER: f64 = 0.58;
 
+/// The snapshots reach the wavemaker if their water begins this near to it at the start, in particle distances; else
+/// they hold a box of the water.
+const AT_WAVEMAKER: f64 = 2.0;
+
 /// One moment of the run.
 struct Moment {
     time_s: f64,
@@ -49,7 +53,7 @@ pub struct Moments<'a> {
 }
 
 impl<'a> Moments<'a> {
-    /// Reads the moments of a run from the particles of its water; none if there are none.
+    /// Reads the moments of a run from the particles of its water; none if there are none, or none with velocities.
     ///
     /// # Errors
     /// If the file of the water cannot be read.
@@ -57,16 +61,21 @@ impl<'a> Moments<'a> {
         if !run.has(RunFolder::WATER) || run.summary.dp_m <= 0.0 {
             return Ok(None);
         }
-        let water = WaterSnapshots::open(&run.dir.join(RunFolder::WATER))?;
+        let Some(water) = WaterSnapshots::open(&run.dir.join(RunFolder::WATER))? else { return Ok(None) };
         let slab = Slab::in_the_middle(run.summary.domain_width_m, run.summary.dp_m);
         let x = along(run);
         let mut moments = Vec::new();
+        let mut shows_wavemaker = run.summary.wave.is_some();
         for Choice { step, words, pictured } in choices(run, &water) {
             let time_s = water.times_s()[step];
             let snapshot = water.read(step)?;
             let dots = slab.dots(&snapshot, x);
             let ends = range(snapshot.points_m.iter().map(|p| f64::from(p[0])));
-            let wavemaker_x = ends.filter(|_| run.summary.wave.is_some()).map(|[seaward, _]| seaward);
+            if step == 0 {
+                let at_wavemaker = run.summary.domain_x_m[0] + AT_WAVEMAKER * run.summary.dp_m;
+                shows_wavemaker &= ends.is_some_and(|[seaward, _]| seaward < at_wavemaker);
+            }
+            let wavemaker_x = ends.filter(|_| shows_wavemaker).map(|[seaward, _]| seaward);
             let poses = run.motions.iter().filter_map(|m| Some((m.unit, m.at(time_s)?))).collect();
             moments.push(Moment { time_s, words, pictured, dots, wavemaker_x, poses });
         }

@@ -16,6 +16,7 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     html += &water(run);
     html += &forces(run);
     html += &energy(run);
+    html += &warnings(&run.summary);
     html += &assumptions(&run.summary);
     html += &facts(&run.summary);
     html + &files(run)
@@ -209,6 +210,12 @@ fn energy(run: &RunFolder) -> String {
     section("Energy", &format!("<figure>{chart}<figcaption>{words}</figcaption></figure>\n"))
 }
 
+fn warnings(summary: &Summary) -> String {
+    let items: String = summary.warnings.iter().map(|warning| format!("<li>{}</li>\n", escape(warning))).collect();
+    let words = "<p>These may make the result doubtful.</p>\n";
+    section("Warnings", &if items.is_empty() { items } else { format!("{words}<ul>\n{items}</ul>\n") })
+}
+
 fn assumptions(summary: &Summary) -> String {
     let items: String = summary.assumptions.iter().map(|a| format!("<li>{}</li>\n", escape(a))).collect();
     if items.is_empty() {
@@ -276,6 +283,11 @@ fn facts(summary: &Summary) -> String {
             ),
         ),
     ];
+    if let Some(mach) = summary.largest_mach {
+        let words =
+            format!("{} times the speed of sound; up to 0.1 the water counts as incompressible", short(mach, 3));
+        rows.push(("Fastest water", words));
+    }
     if let Some(wave) = &summary.wave {
         let theory = if wave.theory.is_empty() { String::new() } else { format!(" ({})", wave.theory) };
         rows.push(("Wave", format!("{}{theory}, H = {} m", wave.kind, short(wave.height_m, 4))));
@@ -289,7 +301,7 @@ fn facts(summary: &Summary) -> String {
 }
 
 /// What the files of a run folder hold, in the order of the list.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     (RunFolder::PICTURE, "one moment of the wave at the units as a picture of its own"),
     (
         RunFolder::WATER,
@@ -301,6 +313,7 @@ const FILES: [(&str, &str); 11] = [
     ("gauges.csv", "water at the gauges, by the particles"),
     ("flume_gauges.csv", "water at the gauges, by the flume model"),
     ("energy.csv", "energy of water and units"),
+    ("diagnostics.csv", "whether the run is sound: volume, Mach number and densities of the water, time steps"),
     ("profile.csv", "bed with mound"),
     ("summary.json", "the numbers of this page for other programs"),
     ("case.json", "the case as it was run"),

@@ -29,16 +29,19 @@ pub struct WaterSnapshot {
 }
 
 impl WaterSnapshots {
-    /// Opens the file; it may still be growing.
+    /// Opens the file; it may still be growing. None if it holds no velocity.
     ///
     /// # Errors
-    /// If it cannot be read, or holds no velocity.
-    pub fn open(path: &Path) -> Result<Self, OutputError> {
+    /// If it cannot be read.
+    pub fn open(path: &Path) -> Result<Option<Self>, OutputError> {
         Self::index(path).map_err(OutputError::hdf5(path))
     }
 
-    fn index(path: &Path) -> Hdf5Result<Self> {
+    fn index(path: &Path) -> Hdf5Result<Option<Self>> {
         let file = unlocked().open(path)?;
+        if !file.group("VTKHDF/PointData")?.link_exists("velocity") {
+            return Ok(None);
+        }
         let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
         let list = |name: &str| -> Hdf5Result<Vec<usize>> {
             let values = file.dataset(&format!("VTKHDF/{name}"))?.read_raw::<i64>()?;
@@ -46,14 +49,14 @@ impl WaterSnapshots {
         };
         let mut times_s = file.dataset("VTKHDF/Steps/Values")?.read_raw::<f64>()?;
         times_s.truncate(usize::try_from(present).unwrap_or(0));
-        Ok(Self {
+        Ok(Some(Self {
             path: path.to_owned(),
             times_s,
             counts: list("NumberOfPoints")?,
             point_starts: list("Steps/PointOffsets")?,
             velocity_starts: list("Steps/PointDataOffsets/velocity")?,
             file,
-        })
+        }))
     }
 
     /// Time of each moment [s].

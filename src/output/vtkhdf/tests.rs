@@ -52,7 +52,7 @@ fn each_moment_reads_back() {
         append_particles(&mut series, step, count);
     }
     // The file is still open for writing, as during a run.
-    let snapshots = WaterSnapshots::open(&path).unwrap();
+    let snapshots = WaterSnapshots::open(&path).unwrap().unwrap();
     assert_eq!(snapshots.times_s(), [0.0, 0.1, 0.2, 0.1 * 3.0]);
     assert_eq!(snapshots.nearest(0.14), Some(1));
     assert_eq!(snapshots.nearest(9.0), Some(3));
@@ -61,6 +61,9 @@ fn each_moment_reads_back() {
     assert_eq!(water.velocity_m_s, water.points_m);
     assert!(snapshots.read(2).unwrap().points_m.is_empty());
     assert!(WaterSnapshots::open(&folder.path().join("none.vtkhdf")).is_err());
+    let path = folder.path().join("places.vtkhdf");
+    let _places = PolyDataSeries::create(&path, Cells::Vertices, &[("id", FieldKind::Integer)]).unwrap();
+    assert!(WaterSnapshots::open(&path).unwrap().is_none());
 }
 
 #[test]

@@ -1,0 +1,93 @@
+//! What is written and how often, validated.
+
+use super::check::{Checker, above, from, show};
+use super::domain::Domain;
+use super::file::{FluidField, OutputFile};
+
+/// Steps of one output at most: more would fill a disk with files nobody reads.
+const MOST_OUTPUTS: f64 = 1e6;
+
+/// The outputs; SI units, `None` where none is written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Interval of the fluid snapshots [s].
+    pub fluid_interval: Option<f64>,
+    /// What the fluid snapshots hold besides the places, each once.
+    pub fluid_fields: Vec<FluidField>,
+    /// Lower and upper corner of the box whose water the fluid snapshots hold [m]; without it, all water.
+    pub fluid_box: Option<[[f64; 3]; 2]>,
+    /// Interval of the units' surfaces [s].
+    pub units_interval: Option<f64>,
+    /// Interval of gauges, motion, forces, energy and diagnostics [s].
+    pub series_interval: f64,
+    /// Interval of the checkpoints [s]; without it one is written at the end.
+    pub checkpoint_interval: Option<f64>,
+}
+
+/// Validate the outputs of a run of `duration` [s].
+pub(super) fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check: &mut Checker) -> Output {
+    let shortest = duration / MOST_OUTPUTS;
+    let mut interval = |key: &str, value: f64| {
+        let path = format!("output.{key}");
+        if value == 0.0 {
+            return None;
+        }
+        let advice =
+            format!("write the time between two outputs, or 0 for none; a run can write {MOST_OUTPUTS:e} at most");
+        check.number(&path, value, from(shortest.max(0.0)).up_to(1e6), "s", &advice).then_some(value)
+    };
+    let fluid_interval = interval("fluid_interval_s", file.fluid_interval_s);
+    let units_interval = interval("units_interval_s", file.units_interval_s);
+    let checkpoint_interval = interval("checkpoint_interval_s", file.checkpoint_interval_s);
+    let series_range = if shortest > 0.0 { from(shortest) } else { above(0.0) };
+    check.number(
+        "output.series_interval_s",
+        file.series_interval_s,
+        series_range.up_to(1e6),
+        "s",
+        "the tables need an interval, e.g. 0.01",
+    );
+    validate_fields(&file.fluid_fields, check);
+    if let (Some(corners), Some(domain)) = (file.fluid_box_m, domain) {
+        validate_box(corners, domain, check);
+    }
+    Output {
+        fluid_interval,
+        fluid_fields: file.fluid_fields.clone(),
+        fluid_box: file.fluid_box_m,
+        units_interval,
+        series_interval: file.series_interval_s,
+        checkpoint_interval,
+    }
+}
+
+fn validate_fields(fields: &[FluidField], check: &mut Checker) {
+    for (index, field) in fields.iter().enumerate() {
+        if fields[..index].contains(field) {
+            check.refuse(
+                &format!("output.fluid_fields[{index}]"),
+                format!("{:?}", field.name()),
+                "different from the fields before it",
+                "leave out one of the two",
+            );
+        }
+    }
+}
+
+/// A box that holds no water at any time is not meant: it must have a size, and share some of it with the domain.
+fn validate_box([low, high]: [[f64; 3]; 2], domain: &Domain, check: &mut Checker) {
+    let Domain { x, width, bottom_z, top_z, .. } = *domain;
+    let inside = [("x", x), ("y", [0.0, width]), ("z", [bottom_z, top_z])];
+    for (axis, (name, domain)) in inside.into_iter().enumerate() {
+        if high[axis] <= low[axis] {
+            let path = format!("output.fluid_box_m[1][{axis}]");
+            let advice = "write the lower corner first, then the upper one";
+            check.refuse(&path, show(high[axis]), format!("> {} m, the {name} before it", show(low[axis])), advice);
+        } else if high[axis] <= domain[0] || low[axis] >= domain[1] {
+            let advice = "place the box where the water is, or leave it out to write all water";
+            let value = format!("{name} from {} to {}", show(low[axis]), show(high[axis]));
+            let allowed = format!("at least partly inside the domain, {} to {} m", show(domain[0]), show(domain[1]));
+            check.refuse("output.fluid_box_m", value, allowed, advice);
+        }
+    }
+}

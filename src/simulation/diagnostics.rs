@@ -1,0 +1,120 @@
+//! Whether a run is sound: what `diagnostics.csv` shows, and what the user is warned of.
+
+use glam::DVec3;
+
+use super::{
+    Simulation,
+    extremes::Extremes,
+    failure::{self, Failure, Particle},
+};
+
+/// Mach number above which the water is no longer nearly incompressible: the density changes with its square, and one
+/// per cent is what weakly compressible SPH allows itself (Monaghan 1994).
+pub const LARGEST_MACH: f64 = 0.1;
+
+impl Simulation {
+    /// Look at the water at the end of a step: stop at the impossible, keep the extremes, warn of the doubtful.
+    ///
+    /// # Errors
+    /// If a particle has left the domain, or its density is far off.
+    pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
+        if let Some(failure) = failure::find_escape(self) {
+            return Err(failure);
+        }
+        let Some(extremes) = Extremes::of(&self.water) else { return Ok(()) };
+        if let Some(failure) = failure::find_wrong_density(self, &extremes) {
+            return Err(failure);
+        }
+        let mach = extremes.fastest.0 / self.case.fluid.sound_speed;
+        if mach > LARGEST_MACH && self.statistics.largest_mach <= LARGEST_MACH {
+            self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
+        }
+        self.statistics.count_water(mach, extremes.lightest.0, extremes.densest.0);
+        Ok(())
+    }
+
+    /// A row of `diagnostics.csv`; `dt` is the length of the step that comes [s]. Mach number and densities are the
+    /// extremes since the last row.
+    pub(super) fn diagnostics_row(&mut self, dt: f64) -> [f64; 9] {
+        let volume = self.water_volume();
+        let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));
+        let of_now = |water| {
+            let extremes = Extremes::of(water)?;
+            Some([extremes.fastest.0 / self.case.fluid.sound_speed, extremes.lightest.0, extremes.densest.0])
+        };
+        let since_row = self.statistics.take_water_since_row();
+        let [mach, lowest, highest] = since_row.or_else(|| of_now(&self.water)).unwrap_or([f64::NAN; 3]);
+        let lost = start.1 as f64 - self.water.len() as f64;
+        [self.flume_time(), volume, volume - start.0, mach, lowest, highest, self.steps as f64, dt, lost]
+    }
+
+    /// Volume of the water, the sum of m / rho [m3].
+    fn water_volume(&self) -> f64 {
+        // One after the other, so that the last bit does not depend on the number of threads.
+        self.water.mass.iter().zip(&self.water.density).map(|(mass, density)| mass / density).sum()
+    }
+}
+
+fn mach_warning(simulation: &Simulation, fastest: &Particle) -> String {
+    let (case, DVec3 { x, y, z }) = (&simulation.case, fastest.place);
+    // As written in the case: three decimals take away the rounding.
+    let factor = case.fluid.sound_speed / (case.fluid.gravity * case.domain.depth).sqrt();
+    let factor = (1e3 * factor).round() / 1e3;
+    format!(
+        "at {:.3} s water moved at {:.2} m/s near x = {x:.3}, y = {y:.3}, z = {z:.3} m (particle {}), faster than a tenth of \
+         the speed of sound that the run gives to water, {:.1} m/s: water that fast is squeezed by one per cent and more, \
+         and pressures and forces where it strikes are doubtful. If it is more than spray, raise fluid.sound_speed_factor \
+         (now {}); the run takes longer in proportion",
+        simulation.flume_time(),
+        fastest.speed,
+        fastest.id,
+        case.fluid.sound_speed,
+        factor,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::failure::tests::tank, *};
+
+    #[test]
+    fn fast_water_is_warned_of_once_with_place_and_time() {
+        let mut simulation = tank();
+        let sound = simulation.case.fluid.sound_speed;
+        simulation.watch_water().unwrap();
+        assert!(simulation.statistics.warnings.is_empty());
+        simulation.water.velocity[7] = DVec3::X * 0.12 * sound;
+        simulation.watch_water().unwrap();
+        simulation.water.velocity[8] = DVec3::X * 0.2 * sound;
+        simulation.watch_water().unwrap();
+        let [warning] = &simulation.statistics.warnings[..] else { panic!("one warning") };
+        let DVec3 { x, y, z } = simulation.water.position[7];
+        assert!(warning.contains(&format!("near x = {x:.3}, y = {y:.3}, z = {z:.3} m")), "{warning}");
+        assert!(
+            warning.starts_with("at 0.000 s") && warning.contains("fluid.sound_speed_factor (now 15)"),
+            "{warning}"
+        );
+        assert!((simulation.statistics.largest_mach - 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_row_shows_the_extremes_since_the_row_before() {
+        let mut simulation = tank();
+        let sound = simulation.case.fluid.sound_speed;
+        let [_, volume, change, mach, lowest, highest, steps, dt, lost] = simulation.diagnostics_row(1e-4);
+        assert_eq!((change, mach, steps, dt, lost), (0.0, 0.0, 0.0, 1e-4, 0.0));
+        // 0.5 m x 0.2 m x 0.2 m of water, compressed a little; the mass is that of the water at rest.
+        assert!((volume / 0.02 - 1.0).abs() < 0.01, "{volume}");
+        assert!(lowest <= highest && lowest > 990.0);
+        simulation.water.velocity[3] = DVec3::Y * 0.05 * sound;
+        simulation.watch_water().unwrap();
+        simulation.water.velocity[3] = DVec3::ZERO;
+        simulation.watch_water().unwrap();
+        simulation.water.density.iter_mut().for_each(|rho| *rho *= 1.01);
+        let [_, _, change, mach, ..] = simulation.diagnostics_row(1e-4);
+        assert!((mach - 0.05).abs() < 1e-12);
+        assert!((change / volume + 0.01 / 1.01).abs() < 1e-12);
+        let [_, _, _, mach, ..] = simulation.diagnostics_row(1e-4);
+        assert_eq!(mach, 0.0);
+    }
+}
