@@ -155,6 +155,23 @@ fn init_writes_a_case_that_check_accepts() {
 }
 
 #[test]
+fn bench_writes_its_measurements() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bench.json");
+    succeed(&["bench", "--particles", "1000", "--seconds", "0.1", "--threads", "2", "--json", path(&file)]);
+    let measured = read_json(&file);
+    for key in ["particles", "neighbours_mean", "threads", "full_evaluations_per_s", "pairs_per_s", "share_of_peak"] {
+        assert!(measured[key].as_f64().is_some_and(|value| value > 0.0), "{key}: {measured:#}");
+    }
+    assert_eq!(measured["threads"], 2);
+    // Still and moving water on one and two threads.
+    assert_eq!(measured["measurements"].as_array().unwrap().len(), 4);
+    let shares = measured["phases"].as_array().unwrap().iter().map(|phase| phase["share"].as_f64().unwrap());
+    assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9);
+    refuse(&["bench", "--support", "20"]);
+}
+
+#[test]
 fn schema_prints_json() {
     let schema: Value = serde_json::from_str(&succeed(&["schema"])).unwrap();
     assert!(schema["properties"]["domain"].is_object() && schema["properties"]["flume"].is_object());

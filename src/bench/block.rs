@@ -13,11 +13,14 @@ use crate::{
         water::Water,
     },
     sph::{
-        density_diffusion::Diffusion,
+        density_diffusion::{DensityDiffusion, Diffusion},
         equation_of_state::Tait,
         kernel::Wendland,
+        lanes::InstructionSet,
         parameters::{BoundaryCondition, Parameters},
         step::Solver,
+        viscosity::Viscosity,
+        wall_slip::WallSlip,
     },
 };
 
@@ -41,19 +44,22 @@ pub struct Block {
 
 impl Block {
     /// A block of about so many water particles with 2h/dp as given, still or sloshing.
-    pub fn new(particles: usize, support_per_dp: f64, moving: bool) -> Self {
+    pub fn new(instructions: InstructionSet, particles: usize, support_per_dp: f64, moving: bool) -> Self {
         let count = (particles as f64).cbrt().round().max(8.0);
         let side = count * DP;
         let (h, c0) = (0.5 * support_per_dp * DP, 15.0 * (GRAVITY * side).sqrt());
+        let tait = Tait { rho0: RHO0, c0, gamma: 7.0 };
         let parameters = Parameters {
             dp: DP,
             kernel: Wendland::new(h),
-            tait: Tait { rho0: RHO0, c0, gamma: 7.0 },
-            alpha: 0.04,
-            diffusion: Diffusion::new(0.1, h, c0, RHO0, 7.0, GRAVITY),
+            tait,
+            viscosity: Viscosity::Artificial { alpha: 0.04 },
+            diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, GRAVITY),
             gravity: GRAVITY,
             cfl: 0.2,
             boundary: BoundaryCondition::ModifiedDynamic,
+            slip: WallSlip::Original,
+            shifting: None,
             periodic_width: Some(side),
         };
         let across = Across { width: side, count: count as u32, walls: false };
@@ -76,7 +82,12 @@ impl Block {
         let walls = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, DP, 3);
         let margin = DVec3::new(5.0 * DP, 0.0, 5.0 * DP);
         Self {
-            solver: Solver::new(parameters, -margin, DVec3::new(side, side, 1.5 * side) + margin),
+            solver: Solver::with_instructions(
+                instructions,
+                parameters,
+                -margin,
+                DVec3::new(side, side, 1.5 * side) + margin,
+            ),
             water: basin.fill(&parameters.tait),
             boundary: Boundary::new(&walls, &[], &[], 0, RHO0),
             motion: if moving { "moving" } else { "still" },

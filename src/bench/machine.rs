@@ -24,11 +24,11 @@ impl Machine {
     ///
     /// # Errors
     /// If the threads cannot be started.
-    pub fn measure(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+    pub fn measure(instructions: InstructionSet, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
         let mut machine = Self { flops: Vec::new(), bandwidth: Vec::new() };
         for count in 1..=threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build()?;
-            machine.flops.push(pool.install(|| peak_flops(count)));
+            machine.flops.push(pool.install(|| peak_flops(instructions, count)));
             machine.bandwidth.push(pool.install(peak_bandwidth));
         }
         Ok(machine)
@@ -68,8 +68,7 @@ impl WithLanes for Chains {
     }
 }
 
-fn peak_flops(threads: usize) -> f64 {
-    let instructions = InstructionSet::best();
+fn peak_flops(instructions: InstructionSet, threads: usize) -> f64 {
     let once = |rounds: u32| {
         let begin = Instant::now();
         let operations: f64 =

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::Trouble;
@@ -30,9 +30,32 @@ pub struct BenchArguments {
     /// Time for each measurement [s].
     #[arg(long, default_value_t = 5.0)]
     seconds: f64,
-    /// Write the measurements to this file too.
+    /// Instructions to compute with; the best that the processor has unless given.
+    #[arg(long, value_enum)]
+    instructions: Option<Instructions>,
+    /// Write the measurements to this file too: moving water on all threads, and the list of all.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Instructions {
+    /// Whatever the compiler makes of arrays of eight.
+    Portable,
+    /// Eight lanes of AVX2.
+    Avx2,
+    /// Sixteen lanes of AVX-512.
+    Avx512,
+}
+
+impl Instructions {
+    fn set(self) -> InstructionSet {
+        match self {
+            Self::Portable => InstructionSet::Portable,
+            Self::Avx2 => InstructionSet::Avx2,
+            Self::Avx512 => InstructionSet::Avx512,
+        }
+    }
 }
 
 impl BenchArguments {
@@ -45,8 +68,11 @@ impl BenchArguments {
         }
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = self.threads.map_or(cores, |threads| threads as usize);
-        let machine = Machine::measure(threads).map_err(Trouble::failed)?;
-        let instructions = InstructionSet::best();
+        let instructions = self.instructions.map_or_else(InstructionSet::best, Instructions::set);
+        if !InstructionSet::available().contains(&instructions) {
+            return Err(Trouble::refused(format!("--instructions: this processor does not have {instructions:?}")));
+        }
+        let machine = Machine::measure(instructions, threads).map_err(Trouble::failed)?;
         println!("{instructions:?}, {} lanes", instructions.lanes());
         for count in 1..=threads {
             println!(
@@ -58,14 +84,17 @@ impl BenchArguments {
         let mut measurements = Vec::new();
         for moving in [false, true] {
             for count in 1..=threads {
-                let mut block = Block::new(self.particles as usize, self.support, moving);
+                let mut block = Block::new(instructions, self.particles as usize, self.support, moving);
                 let measured = measure(&mut block, count, self.seconds, &machine).map_err(Trouble::failed)?;
                 print(&measured);
                 measurements.push(measured);
             }
         }
         let Some(path) = self.json else { return Ok(()) };
-        let text = json!({ "instructions": format!("{instructions:?}"), "measurements": measurements });
+        // The moving water on all threads, which is what a run is like; every measurement in the list.
+        let mut text = json!(measurements.last());
+        text["instructions"] = json!(format!("{instructions:?}"));
+        text["measurements"] = json!(measurements);
         write_atomically(&path, format!("{text:#}\n").as_bytes()).map_err(Trouble::refused)
     }
 }
