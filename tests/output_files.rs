@@ -145,7 +145,7 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
         let (eta6, eta7) = (hump(t, 1.6, 0.0575), hump(t, 2.7, 0.061));
         gauges.append(&[t, eta6 + ripple, eta7 + ripple, 780.0 + 9000.0 * eta7, 3.0 * eta7, 0.0, 0.3 * ripple])?;
         flume.append(&[t, eta6, eta7 + 0.001])?;
-        energy.append(&[t, 60.0 * eta6, -10.0 + 80.0 * eta7, 0.1 * t, 0.5 * eta7, -0.1 * t])?;
+        energy.append(&[t, 60.0 * eta6, -10.0 + 80.0 * eta7, 0.1 * t, 0.5 * eta7, -0.1 * t, t, -0.3 * t, -0.01 * t])?;
         for unit in 1..=units {
             let ([x, y, z], q) = pose(unit, t);
             let push = hump(t, 2.6, 1.6 + 0.05 * f64::from(unit)) - hump(t, 4.0, 0.5);

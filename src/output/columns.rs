@@ -50,9 +50,19 @@ pub const CONTACTS: [&str; 11] = [
     "impulse_n_s",
 ];
 
-/// `energy.csv`: energy of the water and of the units.
-pub const ENERGY: [&str; 6] =
-    ["time_s", "kinetic_j", "potential_j", "internal_j", "units_kinetic_j", "units_potential_j"];
+/// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start from
+/// bed, walls, wavemaker and units (by pressure), from viscosity and from density diffusion.
+pub const ENERGY: [&str; 9] = [
+    "time_s",
+    "kinetic_j",
+    "potential_j",
+    "internal_j",
+    "units_kinetic_j",
+    "units_potential_j",
+    "from_boundary_j",
+    "from_viscosity_j",
+    "from_diffusion_j",
+];
 
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its
 /// change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all steps

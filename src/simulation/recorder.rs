@@ -273,7 +273,10 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     row
 }
 
-fn energy_row(simulation: &Simulation) -> [f64; 6] {
+fn energy_row(simulation: &mut Simulation) -> [f64; 9] {
+    let powers = simulation.solver.powers(&simulation.water);
+    simulation.statistics.balance.add(simulation.time, powers);
+    let balance = simulation.statistics.balance;
     let energy = simulation.energy();
     [
         simulation.flume_time(),
@@ -282,6 +285,9 @@ fn energy_row(simulation: &Simulation) -> [f64; 6] {
         energy.internal,
         energy.units_kinetic,
         energy.units_potential,
+        balance.boundary,
+        balance.viscosity,
+        balance.diffusion,
     ]
 }
 

@@ -1,5 +1,6 @@
 //! What is kept of a run besides its series.
 
+use super::balance::Balance;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,8 @@ pub struct Statistics {
     pub at_rest_since: Option<f64>,
     /// Energy of water and units at the start [J].
     pub energy_start: Option<f64>,
+    /// Energy that the water received.
+    pub balance: Balance,
     /// Volume [m3] and number of particles of the water at the first row of the diagnostics.
     pub water_start: Option<(f64, u64)>,
     /// Largest speed of the water over its speed of sound c0 [-].

@@ -1,10 +1,11 @@
 //! What the scheme may not create or lose: mass, energy, momentum, angular momentum.
 
 use breakwater::particles::{boundary::Boundary, water::Water};
+use breakwater::simulation::balance::Balance;
 use breakwater::sph::step::Solver;
 use glam::DVec3;
 
-use super::tanks::{RHO0, dam_break, parameters, run_until, simulation};
+use super::tanks::{BareTank, GRAVITY, RHO0, dam_break, parameters, run_until, simulation};
 
 #[test]
 fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
@@ -97,4 +98,44 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     // momentum: forces act along the line between the particles at the half step.
     assert!(moved < 1e-8 * pushed);
     assert!(turned < 1e-8 * pushed * radius);
+}
+
+/// Water that sloshes in a tank: what its energy loses is what walls, viscosity and diffusion take.
+#[test]
+fn the_energy_balance_closes() {
+    let (side, dp) = (0.4, 0.02);
+    let mut tank = BareTank::new(side, 0.3, dp, &[]);
+    let wave = std::f64::consts::PI / side;
+    for (velocity, position) in tank.water.velocity.iter_mut().zip(&tank.water.position) {
+        let (x, z) = (wave * position.x, wave * position.z);
+        velocity.x = 0.4 * x.sin() * z.cos();
+        velocity.z = -0.4 * x.cos() * z.sin();
+    }
+    let energy = |tank: &BareTank| {
+        let (water, tait) = (&tank.water, tank.solver.parameters.tait);
+        let of = |i: usize| {
+            let kinetic = 0.5 * water.velocity[i].length_squared();
+            water.mass[i] * (kinetic + GRAVITY * water.position[i].z + tait.internal_energy(water.density[i]))
+        };
+        (0..water.len()).map(of).sum::<f64>()
+    };
+    let mut balance = Balance::default();
+    let (mut time, mut start, mut end) = (0.0, None, 0.0);
+    while time < 0.3 {
+        let now = time;
+        time += tank.step(|tank| {
+            balance.add(now, tank.solver.powers(&tank.water));
+            end = energy(tank);
+            start.get_or_insert(end);
+        });
+    }
+    let change = end - start.unwrap();
+    let left = change - (balance.boundary + balance.viscosity + balance.diffusion);
+    println!(
+        "energy changed by {change:.5} J: walls {:.5}, viscosity {:.5}, diffusion {:.5}, not explained {left:.5}",
+        balance.boundary, balance.viscosity, balance.diffusion
+    );
+    assert!(balance.viscosity < 0.0 && change < 0.0);
+    // 1 %: the step is of second order, and the powers are found at its start.
+    assert!(left.abs() < 0.01 * balance.viscosity.abs());
 }

@@ -1,0 +1,36 @@
+//! Who gave energy to the water so far, and who took it.
+//!
+//! Powers are evaluated at the rows of the series and integrated by the trapezoidal rule. What change of the water's
+//! energy they leave is that of the time integration, of this rule, and of velocities that were taken away at
+//! impermeable surfaces.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sph::power::Powers;
+
+/// Energy received by the water since the start [J]; part of every checkpoint.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Balance {
+    /// By pressure, from bed, walls, wavemaker and units.
+    pub boundary: f64,
+    /// From viscosity.
+    pub viscosity: f64,
+    /// From density diffusion.
+    pub diffusion: f64,
+    /// Time [s] and powers [W] of the last row.
+    last: Option<(f64, [f64; 3])>,
+}
+
+impl Balance {
+    /// Add what was received since the last row, from the powers at a time [s].
+    pub fn add(&mut self, time: f64, powers: Powers) {
+        let now = [powers.boundary, powers.viscosity, powers.diffusion];
+        if let Some((before, last)) = self.last {
+            let mean = |k: usize| 0.5 * (time - before) * (last[k] + now[k]);
+            self.boundary += mean(0);
+            self.viscosity += mean(1);
+            self.diffusion += mean(2);
+        }
+        self.last = Some((time, now));
+    }
+}

@@ -1,0 +1,50 @@
+//! Who gives energy to the water and who takes it, at one moment.
+//!
+//! Pairs of water particles exchange energy by pressure without gain or loss. So what pressure adds in all,
+//!
+//!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion,
+//!
+//! is the work of bed, walls, wavemaker and units; the same sum over what viscosity and diffusion add to the rates is
+//! theirs. Gravity moves energy between kinetic and potential only.
+
+use glam::DVec3;
+
+use super::{density_diffusion::Diffusion, rates::Rate, step::Solver, viscosity::Viscosity};
+use crate::particles::water::Water;
+
+/// Power received by the water [W].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Powers {
+    /// From bed, walls, wavemaker and units by pressure.
+    pub boundary: f64,
+    /// From viscosity; negative, but where moving walls drag the water along.
+    pub viscosity: f64,
+    /// From density diffusion.
+    pub diffusion: f64,
+}
+
+impl Solver {
+    /// Powers at the state whose rates were found last; `water` is that state, sorted.
+    pub fn powers(&self, water: &Water) -> Powers {
+        let parameters = self.parameters;
+        let pressure_only = self.rates_with(
+            match parameters.viscosity {
+                Viscosity::Artificial { .. } => Viscosity::Artificial { alpha: 0.0 },
+                Viscosity::Laminar { .. } => Viscosity::Laminar { nu: 0.0, turbulence: None },
+            },
+            Diffusion::none(),
+        );
+        let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
+        let mut powers = Powers::default();
+        for (a, (all, pressure)) in self.water_rates().iter().zip(&pressure_only).enumerate() {
+            let (mass, density) = (water.mass[a], water.density[a]);
+            // p / rho^2 [J m3/kg2].
+            let per_rate = parameters.tait.pressure(density) / (density * density);
+            let (of_all, of_pressure) = (f64::from(all.density), f64::from(pressure.density));
+            powers.boundary += mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure);
+            powers.viscosity += mass * water.velocity[a].dot(vector(all) - vector(pressure));
+            powers.diffusion += mass * per_rate * (of_all - of_pressure);
+        }
+        powers
+    }
+}
