@@ -3,8 +3,10 @@
 //! Keys carry their unit. Unknown keys are refused, so that a misspelt one is never ignored.
 //! `Case` is the validated form that the solvers see.
 
+mod numerics;
 mod objects;
 
+pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
     ContactFile, ElevationFile, FrictionFile, GaugeFile, MaterialFile, Orientation, PointFile, Shape, UnitsFile,
 };
@@ -165,50 +167,6 @@ impl Default for FluidFile {
     fn default() -> Self {
         Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: 15.0, tait_exponent: 7.0 }
     }
-}
-
-/// Constants of the SPH scheme; the defaults are those of Mitsui et al. (2023).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct NumericsFile {
-    /// h / (sqrt(3) dp) [-].
-    pub smoothing_factor: f64,
-    /// Artificial viscosity alpha [-] (equation 3).
-    pub viscosity_alpha: f64,
-    /// Density diffusion delta [-] (equation 4).
-    pub diffusion_delta: f64,
-    /// Courant number [-].
-    pub cfl: f64,
-    /// How walls, wavemaker and units act on the water.
-    pub boundary: Boundary,
-    /// Layers of particles in walls and bed.
-    pub boundary_layers: u32,
-    /// Time for which the units are held while the water comes to rest round them [s].
-    pub hold_units_s: f64,
-}
-
-impl Default for NumericsFile {
-    fn default() -> Self {
-        Self {
-            smoothing_factor: 1.2,
-            viscosity_alpha: 0.04,
-            diffusion_delta: 0.1,
-            cfl: 0.2,
-            boundary: Boundary::Mdbc,
-            boundary_layers: 3,
-            hold_units_s: 0.2,
-        }
-    }
-}
-
-/// Boundary condition of the SPH walls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Boundary {
-    /// Dynamic boundary condition (Crespo et al. 2007).
-    Dbc,
-    /// Modified dynamic boundary condition with ghost nodes (English et al. 2022).
-    Mdbc,
 }
 
 /// The wave that is sent down the flume.

@@ -26,7 +26,7 @@ mod wave;
 pub use domain::{Domain, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
-pub use file::{Boundary, FluidField, Shape, Sides, SolitaryTheory};
+pub use file::{Boundary, DensityDiffusion, FluidField, Shape, Sides, SolitaryTheory, Viscosity, WallSlip};
 pub use flume::{Flume, Mound};
 pub use gauges::{Gauge, Quantity};
 pub use materials::{FrictionPair, Material};

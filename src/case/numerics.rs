@@ -1,7 +1,7 @@
 //! Water and the constants of the SPH scheme, validated.
 
 use super::check::{Checker, from};
-use super::file::{Boundary, FluidFile, NumericsFile};
+use super::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
 
 /// Water; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,14 +21,24 @@ pub struct Fluid {
 pub struct Numerics {
     /// Smoothing length h = factor sqrt(3) dp [m]; the kernel reaches 2h.
     pub h: f64,
+    /// How the water resists shear.
+    pub viscosity: Viscosity,
     /// Artificial viscosity [-].
     pub alpha: f64,
+    /// Kinematic viscosity [m2/s].
+    pub nu: f64,
+    /// Kind of density diffusion.
+    pub density_diffusion: DensityDiffusion,
     /// Density diffusion [-].
     pub delta: f64,
+    /// Coefficient of particle shifting [-], 0 for none.
+    pub shifting: f64,
     /// Courant number [-].
     pub cfl: f64,
     /// Boundary condition of walls, wavemaker and units.
     pub boundary: Boundary,
+    /// Velocity that boundary particles show to the water.
+    pub wall_slip: WallSlip,
     /// Layers of particles in walls and bed.
     pub boundary_layers: usize,
     /// Time for which the units are held at the start [s].
@@ -84,6 +94,28 @@ pub(super) fn validate_numerics(
         "h = factor sqrt(3) dp; 1.2 is usual",
     );
     check.number("numerics.viscosity_alpha", file.viscosity_alpha, from(0.0).up_to(1.0), "", "0.01 to 0.1 is usual");
+    check.number(
+        "numerics.kinematic_viscosity_m2_s",
+        file.kinematic_viscosity_m2_s,
+        from(0.0).up_to(1.0),
+        "m2/s",
+        "water has 1e-6",
+    );
+    check.number(
+        "numerics.shifting_coefficient",
+        file.shifting_coefficient,
+        from(0.0).up_to(10.0),
+        "",
+        "0 for none; 2 is usual",
+    );
+    if file.wall_slip != WallSlip::Original && file.boundary == Boundary::Dbc {
+        check.refuse(
+            "numerics.wall_slip",
+            "a slip condition",
+            "\"original\" with \"dbc\"",
+            "set numerics.boundary to \"mdbc\"",
+        );
+    }
     check.number("numerics.diffusion_delta", file.diffusion_delta, from(0.0).up_to(1.0), "", "0.1 is usual");
     check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
     if !(1..=10).contains(&file.boundary_layers) {
@@ -110,10 +142,15 @@ pub(super) fn validate_numerics(
     }
     Some(Numerics {
         h,
+        viscosity: file.viscosity,
         alpha: file.viscosity_alpha,
+        nu: file.kinematic_viscosity_m2_s,
+        density_diffusion: file.density_diffusion,
         delta: file.diffusion_delta,
+        shifting: file.shifting_coefficient,
         cfl: file.cfl,
         boundary: file.boundary,
+        wall_slip: file.wall_slip,
         boundary_layers: file.boundary_layers as usize,
         hold_units: file.hold_units_s,
     })

@@ -2,11 +2,11 @@
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | [`setup`] | makes a simulation of a case |
+//! | [`setup`], [`scheme`] | make a simulation of a case |
 //! | this one | one step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
-//! | [`energy`] | energy of water and units |
+//! | [`energy`], [`balance`] | energy of water and units, and where it goes |
 //! | [`extremes`] | the fastest, the lightest and the densest water |
 //! | `diagnostics` | whether the run is sound |
 //! | [`mean_loads`] | loads on the units as the series show them |
@@ -17,6 +17,7 @@
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
 //! | [`summary`] | the run in a few numbers |
 
+pub mod balance;
 pub mod checkpoint;
 mod diagnostics;
 pub mod energy;
@@ -27,6 +28,7 @@ pub mod mean_loads;
 pub mod progress;
 pub mod recorder;
 pub mod run;
+pub mod scheme;
 pub mod setup;
 pub mod snapshots;
 pub mod statistics;

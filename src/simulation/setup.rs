@@ -5,7 +5,12 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-use super::{Simulation, Units, mean_loads::MeanLoads, statistics::Statistics};
+use super::{
+    Simulation, Units,
+    mean_loads::MeanLoads,
+    scheme::{parameters, tait},
+    statistics::Statistics,
+};
 use crate::{
     case::{self, Case, Quantity, Start, Wave},
     geometry::{
@@ -20,13 +25,7 @@ use crate::{
         water::Water,
     },
     rigid::{self, BodyShape, BodyState, Friction, Ground, RigidError, RigidSetup, RigidWorld},
-    sph::{
-        density_diffusion::Diffusion,
-        equation_of_state::Tait,
-        kernel::Wendland,
-        parameters::{BoundaryCondition, Parameters},
-        step::Solver,
-    },
+    sph::step::Solver,
     waves::{
         flume::{self, FlumeError, FlumeSetup},
         ml_piston::{MlPiston, start_time},
@@ -71,37 +70,6 @@ pub enum SetupError {
     /// The units cannot stand where the case puts them.
     #[error(transparent)]
     Rigid(#[from] RigidError),
-}
-
-/// Parameters of the SPH scheme.
-pub fn parameters(case: &Case) -> Parameters {
-    let (fluid, numerics) = (&case.fluid, &case.numerics);
-    let periodic = case.domain.sides == case::Sides::Periodic;
-    Parameters {
-        dp: case.domain.dp,
-        kernel: Wendland::new(numerics.h),
-        tait: tait(case),
-        alpha: numerics.alpha,
-        diffusion: Diffusion::new(
-            numerics.delta,
-            numerics.h,
-            fluid.sound_speed,
-            fluid.rho0,
-            fluid.gamma,
-            fluid.gravity,
-        ),
-        gravity: fluid.gravity,
-        cfl: numerics.cfl,
-        boundary: match numerics.boundary {
-            case::Boundary::Dbc => BoundaryCondition::Dynamic,
-            case::Boundary::Mdbc => BoundaryCondition::ModifiedDynamic,
-        },
-        periodic_width: periodic.then_some(case.domain.width),
-    }
-}
-
-fn tait(case: &Case) -> Tait {
-    Tait { rho0: case.fluid.rho0, c0: case.fluid.sound_speed, gamma: case.fluid.gamma }
 }
 
 /// Run the flume model of the case, if it has a wave, for as long as the particles will run.

@@ -6,11 +6,27 @@
 //! one, as in Molteni & Colagrossi (2009). And equation 5, rho_ab^H = rho0 g z_ab, is a pressure; its density follows
 //! from the equation of state: rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
 
-use super::lanes::Real;
+use super::{equation_of_state::Tait, lanes::Real};
+
+/// What is diffused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DensityDiffusion {
+    /// Nothing.
+    None,
+    /// The whole density (Molteni & Colagrossi 2009): rho^H = 0.
+    MolteniColagrossi,
+    /// The density beyond the hydrostatic one (Fourtakas et al. 2019).
+    Fourtakas,
+    /// What the renormalised gradients of both particles do not explain (Antuono et al. 2010):
+    /// rho_b - rho_a - (grad rho_a + grad rho_b) . r_ba / 2.
+    Antuono,
+}
 
 /// Constants of the diffusion term.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Diffusion {
+    /// What is diffused.
+    pub kind: DensityDiffusion,
     /// 2 delta h c0 [m2/s].
     strength: f32,
     /// rho0 g / c0^2 [kg/m4].
@@ -20,13 +36,22 @@ pub struct Diffusion {
 }
 
 impl Diffusion {
-    /// Constants from delta [-], h [m], c0 [m/s], rho0 [kg/m3], gamma [-] and g [m/s2].
-    pub fn new(delta: f64, h: f64, c0: f64, rho0: f64, gamma: f64, g: f64) -> Self {
+    /// Constants from delta [-], h [m], the equation of state and g [m/s2].
+    pub fn new(kind: DensityDiffusion, delta: f64, h: f64, tait: &Tait, g: f64) -> Self {
+        let Tait { rho0, c0, gamma } = *tait;
+        let delta = if kind == DensityDiffusion::None { 0.0 } else { delta };
+        let hydrostatic = if kind == DensityDiffusion::Fourtakas { rho0 * g / (c0 * c0) } else { 0.0 };
         Self {
+            kind,
             strength: (2.0 * delta * h * c0) as f32,
-            hydrostatic: (rho0 * g / (c0 * c0)) as f32,
+            hydrostatic: hydrostatic as f32,
             curvature: ((gamma - 1.0) * g / (2.0 * c0 * c0)) as f32,
         }
+    }
+
+    /// No diffusion.
+    pub fn none() -> Self {
+        Self { kind: DensityDiffusion::None, strength: 0.0, hydrostatic: 0.0, curvature: 0.0 }
     }
 
     /// rho_b - rho_a - rho_ab^H [kg/m3] over the height z_ab = z_a - z_b [m].
@@ -50,7 +75,8 @@ mod tests {
     #[test]
     fn series_of_the_hydrostatic_density_is_close_to_the_root() {
         let (rho0, c0, gamma, g) = (1000.0, 15.0, 7.0, 9.81);
-        let diffusion = Diffusion::new(0.1, 0.02, c0, rho0, gamma, g);
+        let tait = Tait { rho0, c0, gamma };
+        let diffusion = Diffusion::new(DensityDiffusion::Fourtakas, 0.1, 0.02, &tait, g);
         for z in [-0.04, -0.01, 0.02, 0.04_f64] {
             let root = rho0 * ((1.0 + gamma * g * z / (c0 * c0)).powf(1.0 / gamma) - 1.0);
             // 1e-4: the third term of the series, (gamma - 1)(2 gamma - 1)/6 (g z / c0^2)^2 = 4e-5.
@@ -60,7 +86,8 @@ mod tests {
 
     #[test]
     fn density_flows_from_dense_to_thin() {
-        let diffusion = Diffusion::new(0.1, 0.02, 15.0, 1000.0, 7.0, 9.81);
+        let tait = Tait { rho0: 1000.0, c0: 15.0, gamma: 7.0 };
+        let diffusion = Diffusion::new(DensityDiffusion::Fourtakas, 0.1, 0.02, &tait, 9.81);
         // G is negative inside the support.
         let g = -1e9;
         assert!(f64::from(diffusion.factor()) * diffusion.excess(0.0_f64, 1.0, 0.0) * g > 0.0);

@@ -17,6 +17,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{
+    ghost_velocity::VelocitySums,
     grid::{Bins, Grid},
     lanes::{InstructionSet, Lanes, WithLanes},
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists, Sources},
@@ -32,25 +33,31 @@ use crate::particles::boundary::Boundary;
 /// less than this.
 const LEAST_DETERMINANT: f64 = 0.01;
 
+/// Smallest piece of an array that is worth a task of the thread pool.
+const PIECE: usize = 1024;
+
 /// Sum of W V below which a node is dry: less than a lone particle gives from one dp away.
-const DRY: f64 = 0.01;
+pub(super) const DRY: f64 = 0.01;
 
 /// Ghost nodes, sorted into bins, and their sums.
 #[derive(Debug, Default)]
 pub struct GhostNodes {
     points: Vec<DVec3>,
-    bins: Bins,
+    pub(super) bins: Bins,
     sorted: Vec<DVec3>,
-    split: Vec<[f32; 4]>,
-    lists: NeighbourLists,
-    sums: Vec<NodeSums>,
+    pub(super) split: Vec<[f32; 4]>,
+    pub(super) lists: NeighbourLists,
+    pub(super) sums: Vec<NodeSums>,
+    /// Densities of the boundary particles in the order of the nodes [kg/m3].
+    densities: Vec<f64>,
+    pub(super) velocity_sums: Vec<VelocitySums>,
 }
 
 /// Sums over the water round one ghost node, lengths in h.
 #[derive(Debug, Clone, Copy, Default)]
-struct NodeSums {
+pub(super) struct NodeSums {
     /// sum W V (1, x, y, z).
-    value: [f32; 4],
+    pub(super) value: [f32; 4],
     /// sum W V f.
     value_f: f32,
     /// sum g V (x, y, z) with g = -G h^2.
@@ -70,7 +77,9 @@ impl GhostNodes {
     /// Bytes in use.
     pub fn bytes(&self) -> usize {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
-        let sums = self.split.capacity() * size_of::<[f32; 4]>() + self.sums.capacity() * size_of::<NodeSums>();
+        let sums = self.split.capacity() * size_of::<[f32; 4]>()
+            + self.sums.capacity() * size_of::<NodeSums>()
+            + self.velocity_sums.capacity() * size_of::<VelocitySums>();
         points + sums + self.bins.bytes() + self.lists.bytes()
     }
 
@@ -83,14 +92,22 @@ impl GhostNodes {
         records: &[Record],
         boundary: &mut Boundary,
     ) {
-        let halves = boundary.position.iter().zip(&boundary.to_surface);
-        self.points.clear();
-        self.points.extend(halves.map(|(&position, &to_surface)| position + 2.0 * to_surface));
+        let count = boundary.len();
+        self.points.resize(count, DVec3::ZERO);
+        (&mut self.points, &boundary.position, &boundary.to_surface)
+            .into_par_iter()
+            .with_min_len(PIECE)
+            .for_each(|(point, &position, &to_surface)| *point = position + 2.0 * to_surface);
         self.bins.sort(grid, &self.points);
-        self.sorted.clear();
-        self.sorted.extend(self.bins.order.iter().map(|&i| self.points[i as usize]));
-        self.split.clear();
-        self.split.extend(self.sorted.iter().map(|&point| split_position(grid, point)));
+        self.sorted.resize(count, DVec3::ZERO);
+        self.split.resize(count, [0.0; 4]);
+        let points = &self.points;
+        (&mut self.sorted, &mut self.split, &self.bins.order).into_par_iter().with_min_len(PIECE).for_each(
+            |(sorted, split, &i)| {
+                *sorted = points[i as usize];
+                *split = split_position(grid, *sorted);
+            },
+        );
         self.lists.build(grid, &self.bins, &self.sorted, std::slice::from_ref(water), parameters.kernel.support());
 
         self.sums.resize(self.sorted.len(), NodeSums::default());
@@ -101,9 +118,13 @@ impl GhostNodes {
             let nodes = &split[begin..begin + sums.len()];
             lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, records, sums });
         });
-        for (sums, &particle) in self.sums.iter().zip(&self.bins.order) {
-            let particle = particle as usize;
-            boundary.density[particle] = sums.density_at(parameters, boundary.to_surface[particle]);
+        self.densities.resize(count, 0.0);
+        (&mut self.densities, &self.sums, &self.bins.order)
+            .into_par_iter()
+            .with_min_len(PIECE)
+            .for_each(|(density, sums, &i)| *density = sums.density_at(parameters, boundary.to_surface[i as usize]));
+        for (&density, &i) in self.densities.iter().zip(&self.bins.order) {
+            boundary.density[i as usize] = density;
         }
     }
 }
@@ -231,7 +252,7 @@ impl NodeSums {
         }
         // From the node back to the particle, in h.
         let back = -2.0 * to_surface / parameters.kernel.h;
-        let excess = match self.value_and_gradient() {
+        let excess = match self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from)) {
             Some([f, fx, fy, fz]) => f + DVec3::new(fx, fy, fz).dot(back),
             None => {
                 let centroid_z = f64::from(self.value[3]) / occupied;
@@ -242,18 +263,12 @@ impl NodeSums {
         rho0 + excess
     }
 
-    /// Solution [f, h grad f] of the four equations, if they are well conditioned.
-    fn value_and_gradient(&self) -> Option<[f64; 4]> {
+    /// Solution [f, h grad f] of the four equations with the given left-hand sides, if they are well conditioned.
+    pub(super) fn value_and_gradient(&self, value_f: f64, [fx, fy, fz]: [f64; 3]) -> Option<[f64; 4]> {
         let [w, wx, wy, wz] = self.value.map(f64::from);
         let [gx, gy, gz] = self.first.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
-        let [fx, fy, fz] = self.first_f.map(f64::from);
-        let rows = [
-            [w, wx, wy, wz, f64::from(self.value_f)],
-            [gx, xx, xy, xz, fx],
-            [gy, xy, yy, yz, fy],
-            [gz, xz, yz, zz, fz],
-        ];
+        let rows = [[w, wx, wy, wz, value_f], [gx, xx, xy, xz, fx], [gy, xy, yy, yz, fy], [gz, xz, yz, zz, fz]];
         solve(rows, LEAST_DETERMINANT * w.powi(4))
     }
 }

@@ -5,12 +5,17 @@
 //! | [`kernel`] | quintic Wendland kernel |
 //! | [`momentum`] | 1: pressure acceleration |
 //! | [`continuity`] | 2: continuity |
-//! | [`viscosity`] | 3: artificial viscosity |
+//! | [`viscosity`] | 3: artificial viscosity; laminar viscosity |
+//! | [`turbulence`] | sub-particle-scale stress |
 //! | [`density_diffusion`] | 4 and 5: density diffusion |
 //! | [`equation_of_state`] | 6: Tait |
 //! | [`step`] | 7 to 9: symplectic position Verlet |
 //! | [`mdbc`] | section 2.2: density of boundary particles from ghost nodes |
+//! | [`ghost_velocity`], [`wall_slip`] | velocity of boundary particles from ghost nodes |
+//! | [`gradients`] | gradients of density and velocity, order of the particles |
+//! | [`shifting`] | particle shifting |
 //! | [`time_step`] | variable time step |
+//! | [`power`] | power of walls, viscosity, diffusion |
 //!
 //! Particles are sorted into [`grid`] bins each step; clusters of eight neighbours share one list of
 //! [`neighbours`] and fill the SIMD [`lanes`]. Every sum is gathered by the particle that owns it, in a fixed order:
@@ -19,6 +24,8 @@
 pub mod continuity;
 pub mod density_diffusion;
 pub mod equation_of_state;
+pub mod ghost_velocity;
+pub mod gradients;
 pub mod grid;
 pub mod kernel;
 pub mod lanes;
@@ -26,10 +33,14 @@ pub mod mdbc;
 pub mod momentum;
 pub mod neighbours;
 pub mod parameters;
+pub mod power;
 pub mod rates;
 pub mod records;
 pub mod sampling;
+pub mod shifting;
 pub mod solve;
 pub mod step;
 pub mod time_step;
+pub mod turbulence;
 pub mod viscosity;
+pub mod wall_slip;

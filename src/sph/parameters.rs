@@ -1,6 +1,9 @@
 //! Constants of the scheme, derived once from the case.
 
-use super::{density_diffusion::Diffusion, equation_of_state::Tait, kernel::Wendland};
+use super::{
+    density_diffusion::Diffusion, equation_of_state::Tait, kernel::Wendland, shifting::Shifting, viscosity::Viscosity,
+    wall_slip::WallSlip,
+};
 
 /// How boundary particles get their density.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,8 +23,8 @@ pub struct Parameters {
     pub kernel: Wendland,
     /// Equation of state.
     pub tait: Tait,
-    /// Artificial viscosity alpha [-].
-    pub alpha: f64,
+    /// Resistance to shear.
+    pub viscosity: Viscosity,
     /// Density diffusion.
     pub diffusion: Diffusion,
     /// Gravitational acceleration, downwards [m/s2].
@@ -30,6 +33,10 @@ pub struct Parameters {
     pub cfl: f64,
     /// Boundary condition.
     pub boundary: BoundaryCondition,
+    /// Velocity that boundary particles show to the water under mDBC.
+    pub slip: WallSlip,
+    /// Particle shifting, if any.
+    pub shifting: Option<Shifting>,
     /// Width across the flume if what leaves on one side enters on the other [m].
     pub periodic_width: Option<f64>,
 }

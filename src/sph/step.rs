@@ -10,6 +10,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{
+    density_diffusion::Diffusion,
+    gradients::Gradients,
     grid::{Bins, Grid},
     lanes::InstructionSet,
     mdbc::GhostNodes,
@@ -18,6 +20,8 @@ use super::{
     rates::{PairLoop, Rate},
     records::{Record, record},
     time_step::Limits,
+    viscosity::Viscosity,
+    wall_slip::WallSlip,
 };
 use crate::particles::{boundary::Boundary, water::Water};
 
@@ -39,6 +43,9 @@ pub struct Solver {
     gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
+    /// Velocity of the water at the ghost nodes; empty if the walls do not ask for it.
+    ghost_velocity: Vec<Option<DVec3>>,
+    gradients: Gradients,
     half: Water,
     half_density: Vec<f64>,
     sorted: Water,
@@ -113,6 +120,8 @@ impl Solver {
             gap_lists: lists(),
             records: Vec::new(),
             ghosts: GhostNodes::new(instructions),
+            ghost_velocity: Vec::new(),
+            gradients: Gradients::default(),
             half: Water::default(),
             half_density: Vec::new(),
             sorted: Water::default(),
@@ -184,14 +193,16 @@ impl Solver {
 
     /// Records of the boundary with densities at the start of a step or at its half.
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
-        let (grid, parameters) = (&self.grid, &self.parameters);
+        let (grid, parameters, ghost_velocity) = (&self.grid, &self.parameters, &self.ghost_velocity);
         let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(PIECE).for_each(|(out, &i)| {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
-                *out = record(grid, parameters, boundary.position[i], boundary.velocity[i], density[i], mass, diffuses);
+                let ghost = ghost_velocity.get(i).copied().flatten();
+                let velocity = parameters.slip.velocity(boundary.velocity[i], ghost, boundary.to_surface[i]);
+                *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
             });
         };
         fill(of_walls, &self.walls.bins.order, 0);
@@ -202,20 +213,41 @@ impl Solver {
     pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
+            if self.parameters.slip != WallSlip::Original {
+                let bin_x = self.grid.size.x as f32;
+                self.ghosts.velocities(&self.parameters, bin_x, &self.records, &mut self.ghost_velocity);
+            }
         }
         self.fill_boundary_records(boundary, &boundary.density);
     }
 
     /// Rates of water, units and, under DBC, walls from the records as they stand.
     pub fn rates(&mut self) {
-        let Self { pairs, records, water, walls, units, parameters, gap_lists, .. } = self;
-        pairs.rates(&water.lists, records, 0, &mut water.rates);
-        pairs.rates(&units.lists, records, units.first_record, &mut units.rates);
+        let Self { pairs, records, water, walls, units, parameters, gap_lists, gradients, .. } = self;
+        if Gradients::are_needed(parameters) {
+            gradients.compute(pairs, &water.lists, records, water.rates.len());
+        }
+        let extra = gradients.extra();
+        pairs.rates(&water.lists, records, extra, 0, &mut water.rates);
+        pairs.rates(&units.lists, records, extra, units.first_record, &mut units.rates);
         if parameters.boundary == BoundaryCondition::ModifiedDynamic {
             pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
         } else {
-            pairs.rates(&walls.lists, records, walls.first_record, &mut walls.rates);
+            pairs.rates(&walls.lists, records, extra, walls.first_record, &mut walls.rates);
         }
+    }
+
+    /// Rates of the water found last, in its order.
+    pub fn water_rates(&self) -> &[Rate] {
+        &self.water.rates
+    }
+
+    /// Rates of the water with another viscosity and diffusion.
+    pub(super) fn rates_with(&self, viscosity: Viscosity, diffusion: Diffusion) -> Vec<Rate> {
+        let pairs = self.pairs.with(Parameters { viscosity, diffusion, ..self.parameters });
+        let mut rates = vec![Rate::default(); self.water.rates.len()];
+        pairs.rates(&self.water.lists, &self.records, &[], 0, &mut rates);
+        rates
     }
 
     /// Largest acceleration and signal speed of the water.
@@ -282,14 +314,19 @@ impl Solver {
     /// Equations 8.3, 8.4 and 9.2: the state at the end of the step.
     pub fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary) {
         let gravity = DVec3::NEG_Z * self.parameters.gravity;
-        let (half, grid) = (&self.half, &self.grid);
+        let (half, grid, gradients, shifting) = (&self.half, &self.grid, &self.gradients, self.parameters.shifting);
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
             .with_min_len(PIECE)
             .for_each(|(i, (position, velocity, density, rate))| {
                 let end_velocity = *velocity + dt * (acceleration(rate) + gravity);
-                *position = grid.wrap(*position + 0.5 * dt * (*velocity + end_velocity));
+                let mut moved = 0.5 * dt * (*velocity + end_velocity);
+                if let Some(shifting) = shifting {
+                    let order = gradients.order(i);
+                    moved += shifting.shift(dt, end_velocity.length(), order.concentration_gradient, order.divergence);
+                }
+                *position = grid.wrap(*position + moved);
                 *velocity = end_velocity;
                 *density = end_density(*density, half.density[i], f64::from(rate.density), dt);
             });
@@ -339,7 +376,13 @@ impl Solver {
     pub fn bytes(&self) -> usize {
         let groups: usize = [&self.water, &self.walls, &self.units].map(Group::bytes).iter().sum();
         let records = self.records.capacity() * size_of::<Record>();
-        groups + self.gap_lists.bytes() + records + self.ghosts.bytes() + self.half.bytes() + self.sorted.bytes()
+        groups
+            + self.gap_lists.bytes()
+            + records
+            + self.ghosts.bytes()
+            + self.gradients.bytes()
+            + self.half.bytes()
+            + self.sorted.bytes()
     }
 
     /// The instructions that it computes with.

@@ -1,9 +1,10 @@
 //! Variable time step (Monaghan et al. 1999): dt = C min(dt_f, dt_cv),
+//! and, with laminar viscosity, at most h^2 / 8 nu (Morris et al. 1997);
 //! dt_f = min_a sqrt(h / |dv_a/dt|), dt_cv = min_a h / (c_a + max_b |h v_ab . r_ab / (r_ab^2 + 0.01 h^2)|).
 
 use rayon::prelude::*;
 
-use super::{parameters::Parameters, rates::Rate, records::Record};
+use super::{parameters::Parameters, rates::Rate, records::Record, viscosity::Viscosity};
 
 /// Largest acceleration and signal speed over the water.
 #[derive(Debug, Clone, Copy, Default)]
@@ -40,7 +41,11 @@ impl Limits {
         let h = parameters.kernel.h;
         let of_force = (h / self.acceleration).sqrt();
         let of_sound_and_viscosity = h / self.signal_speed;
-        parameters.cfl * of_force.min(of_sound_and_viscosity)
+        let courant = parameters.cfl * of_force.min(of_sound_and_viscosity);
+        match parameters.viscosity {
+            Viscosity::Laminar { nu, .. } if nu > 0.0 => courant.min(0.125 * h * h / nu),
+            _ => courant,
+        }
     }
 }
 

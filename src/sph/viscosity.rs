@@ -1,8 +1,28 @@
 //! Equation 3: artificial viscosity (Monaghan 1992),
 //! Pi_ab = -alpha c_ab mu_ab / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where v_ab . r_ab < 0, else 0;
 //! c_ab and rho_ab are means of the pair.
+//!
+//! Or the viscosity of the fluid itself (Lo & Shao 2002): the acceleration
+//! sum_b m_b 4 nu (r_ab . grad_a W_ab) / ((rho_a + rho_b) r_ab^2) v_ab.
 
-use super::lanes::Real;
+use super::{lanes::Real, turbulence::Smagorinsky};
+
+/// Resistance of the water to shear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Viscosity {
+    /// Equation 3.
+    Artificial {
+        /// alpha [-].
+        alpha: f64,
+    },
+    /// Of the fluid, with or without sub-particle-scale turbulence.
+    Laminar {
+        /// Kinematic viscosity nu [m2/s].
+        nu: f64,
+        /// Turbulence.
+        turbulence: Option<Smagorinsky>,
+    },
+}
 
 /// mu_ab / h [1/s], negative for particles that approach.
 #[inline(always)]
@@ -17,6 +37,13 @@ pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_
     // (rho_a - rho_b)^2 / 4 rho_ab, below 1e-5 of it in weakly compressible flow: less than single precision resolves
     // in the sum.
     (c_a + c_b) * (rho_a + rho_b) * (R::splat(-0.25 * alpha * h) * rate.min(R::splat(0.0)))
+}
+
+/// Factor of v_ab in the laminar acceleration times rho_a / (V_b G) [Pa s]. With grad_a W_ab = G r_ab the term has no
+/// singularity, and 0.01 h^2, which would take 1 % from the viscosity, is left out.
+#[inline(always)]
+pub fn laminar_factor<R: Real>(nu: f32, rho_a: R, rho_b: R) -> R {
+    R::splat(4.0 * nu) * rho_a * rho_b / (rho_a + rho_b)
 }
 
 #[cfg(test)]

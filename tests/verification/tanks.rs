@@ -10,12 +10,14 @@ use breakwater::particles::fill::Basin;
 use breakwater::particles::water::Water;
 use breakwater::simulation::Simulation;
 use breakwater::sph::{
-    density_diffusion::Diffusion,
+    density_diffusion::{DensityDiffusion, Diffusion},
     equation_of_state::Tait,
     kernel::Wendland,
     lanes::InstructionSet,
     parameters::{BoundaryCondition, Parameters},
     step::Solver,
+    viscosity::Viscosity,
+    wall_slip::WallSlip,
 };
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
@@ -90,15 +92,18 @@ pub fn dam_break(dp: f64, duration: f64) -> Value {
 /// Parameters of the scheme with the constants of Mitsui et al. (2023), for a depth [m] that gives the speed of sound.
 pub fn parameters(dp: f64, depth: f64, gravity: f64, periodic_width: Option<f64>) -> Parameters {
     let (h, c0) = (1.2 * 3f64.sqrt() * dp, 15.0 * (GRAVITY * depth).sqrt());
+    let tait = Tait { rho0: RHO0, c0, gamma: 7.0 };
     Parameters {
         dp,
         kernel: Wendland::new(h),
-        tait: Tait { rho0: RHO0, c0, gamma: 7.0 },
-        alpha: 0.04,
-        diffusion: Diffusion::new(0.1, h, c0, RHO0, 7.0, gravity),
+        tait,
+        viscosity: Viscosity::Artificial { alpha: 0.04 },
+        diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, gravity),
         gravity,
         cfl: 0.2,
         boundary: BoundaryCondition::ModifiedDynamic,
+        slip: WallSlip::Original,
+        shifting: None,
         periodic_width,
     }
 }
@@ -125,13 +130,25 @@ impl BareTank {
         unit: &[BoundaryParticle],
     ) -> Self {
         let parameters = parameters(dp, depth, GRAVITY, Some(length));
-        let across = Across { width: length, count: (length / dp).round() as u32, walls: false };
+        Self::of(instructions, parameters, [length, length, depth], &|_| depth, unit)
+    }
+
+    /// A tank of a length, width and mean depth [m] with a scheme and the surface z(x) [m].
+    pub fn of(
+        instructions: InstructionSet,
+        parameters: Parameters,
+        [length, width, depth]: [f64; 3],
+        surface: &dyn Fn(f64) -> f64,
+        unit: &[BoundaryParticle],
+    ) -> Self {
+        let dp = parameters.dp;
+        let across = Across { width, count: (width / dp).round() as u32, walls: false };
         let basin = Basin {
             x: [0.0, length],
             across,
             dp,
             bed: &|_| 0.0,
-            surface: &|_| depth,
+            surface,
             velocity: &|_, _| DVec2::ZERO,
             gravity: GRAVITY,
         };
@@ -143,10 +160,40 @@ impl BareTank {
                 instructions,
                 parameters,
                 -margin,
-                DVec3::new(length, length, 1.5 * depth) + margin,
+                DVec3::new(length, width, 1.5 * depth) + margin,
             ),
             water: basin.fill(&parameters.tait),
             boundary: Boundary::new(&fixed, &[], unit, usize::from(!unit.is_empty()), RHO0),
+        }
+    }
+
+    /// A square box of side `side`, `width` wide and periodic across, full of weightless water; `adjust` changes the
+    /// scheme.
+    pub fn closed(side: f64, width: f64, dp: f64, c0: f64, adjust: impl FnOnce(&mut Parameters)) -> Self {
+        let mut parameters = parameters(dp, side, 0.0, Some(width));
+        parameters.tait.c0 = c0;
+        parameters.diffusion =
+            Diffusion::new(DensityDiffusion::Fourtakas, 0.1, parameters.kernel.h, &parameters.tait, 0.0);
+        adjust(&mut parameters);
+        let across = Across { width, count: (width / dp).round() as u32, walls: false };
+        let basin = Basin {
+            x: [0.0, side],
+            across,
+            dp,
+            bed: &|_| 0.0,
+            surface: &|_| side,
+            velocity: &|_, _| DVec2::ZERO,
+            gravity: 0.0,
+        };
+        // Round all four walls, from the middle of the lid.
+        let (middle, s) = (0.5 * side, side);
+        let corners = [[middle, s], [0.0, s], [0.0, 0.0], [s, 0.0], [s, s], [middle, s]];
+        let fixed = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, 3);
+        let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
+        Self {
+            solver: Solver::new(parameters, -margin, DVec3::new(side, width, side) + margin),
+            water: basin.fill(&parameters.tait),
+            boundary: Boundary::new(&fixed, &[], &[], 0, RHO0),
         }
     }
 

@@ -1,0 +1,58 @@
+//! The SPH scheme of a case.
+
+use crate::{
+    case::{self, Case},
+    sph::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        equation_of_state::Tait,
+        kernel::Wendland,
+        parameters::{BoundaryCondition, Parameters},
+        shifting::Shifting,
+        turbulence::Smagorinsky,
+        viscosity::Viscosity,
+        wall_slip::WallSlip,
+    },
+};
+
+/// Parameters of the SPH scheme.
+pub fn parameters(case: &Case) -> Parameters {
+    let (fluid, numerics, dp) = (&case.fluid, &case.numerics, case.domain.dp);
+    let periodic = case.domain.sides == case::Sides::Periodic;
+    let tait = tait(case);
+    let diffusion = match numerics.density_diffusion {
+        case::DensityDiffusion::None => DensityDiffusion::None,
+        case::DensityDiffusion::MolteniColagrossi => DensityDiffusion::MolteniColagrossi,
+        case::DensityDiffusion::Fourtakas => DensityDiffusion::Fourtakas,
+        case::DensityDiffusion::Antuono => DensityDiffusion::Antuono,
+    };
+    let laminar = |turbulence| Viscosity::Laminar { nu: numerics.nu, turbulence };
+    Parameters {
+        dp,
+        kernel: Wendland::new(numerics.h),
+        viscosity: match numerics.viscosity {
+            case::Viscosity::Artificial => Viscosity::Artificial { alpha: numerics.alpha },
+            case::Viscosity::Laminar => laminar(None),
+            case::Viscosity::LaminarSps => laminar(Some(Smagorinsky::new(dp))),
+        },
+        diffusion: Diffusion::new(diffusion, numerics.delta, numerics.h, &tait, fluid.gravity),
+        tait,
+        slip: match numerics.wall_slip {
+            case::WallSlip::Original => WallSlip::Original,
+            case::WallSlip::NoSlip => WallSlip::NoSlip,
+            case::WallSlip::FreeSlip => WallSlip::FreeSlip,
+        },
+        shifting: (numerics.shifting > 0.0).then_some(Shifting { coefficient: numerics.shifting, h: numerics.h, dp }),
+        gravity: fluid.gravity,
+        cfl: numerics.cfl,
+        boundary: match numerics.boundary {
+            case::Boundary::Dbc => BoundaryCondition::Dynamic,
+            case::Boundary::Mdbc => BoundaryCondition::ModifiedDynamic,
+        },
+        periodic_width: periodic.then_some(case.domain.width),
+    }
+}
+
+/// Equation of state of the water.
+pub fn tait(case: &Case) -> Tait {
+    Tait { rho0: case.fluid.rho0, c0: case.fluid.sound_speed, gamma: case.fluid.gamma }
+}

@@ -1,0 +1,213 @@
+//! Gradients of density and velocity and the order of the particles, for the schemes that need them: with
+//! r_ba = r_b - r_a,
+//!
+//!   M      = sum_b V_b r_ba (x) grad_a W_ab,              the identity in a full and even neighbourhood
+//!   grad f = M^-1 sum_b V_b (f_b - f_a) grad_a W_ab,      exact for linear fields
+//!   grad C = sum_b V_b grad_a W_ab,                       zero in an even neighbourhood
+//!   div r  = tr M.
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::{
+    density_diffusion::DensityDiffusion,
+    lanes::{Lanes, WithLanes},
+    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
+    parameters::Parameters,
+    rates::{PairLoop, lanes_of},
+    records::Record,
+    viscosity::Viscosity,
+};
+
+/// Determinant of M below which a neighbourhood is too one-sided for it to be inverted: a quarter of a neighbourhood.
+const LEAST_DETERMINANT: f64 = 0.05;
+
+/// What neighbours need to know beyond the record; of boundary particles, nothing.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct Extra {
+    /// Renormalised gradient of the density [kg/m4].
+    pub density_gradient: [f32; 3],
+    /// Share of the target's gradient that stands for the neighbour's: 1 for boundary particles, which have none.
+    pub borrowed: f32,
+    /// tau / rho^2 of the sub-particle-scale turbulence: xx, yy, zz, xy, xz, yz [m5/(kg s2)].
+    pub stress: [f32; 6],
+}
+
+impl Extra {
+    const OF_BOUNDARY: Self = Self { density_gradient: [0.0; 3], borrowed: 1.0, stress: [0.0; 6] };
+}
+
+/// Order of the particles round one of them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Order {
+    /// grad C [1/m].
+    pub concentration_gradient: DVec3,
+    /// div r [-].
+    pub divergence: f64,
+}
+
+/// The gradients of the water.
+#[derive(Debug, Default)]
+pub struct Gradients {
+    sums: Vec<Sums>,
+    /// Of all records; empty if the scheme does not ask for it.
+    extra: Vec<Extra>,
+}
+
+/// Sums of one target.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    /// M: xx, yy, zz, xy, xz, yz.
+    moments: [f32; 6],
+    /// grad C [1/m].
+    concentration: [f32; 3],
+    /// sum V (rho_b - rho_a) grad W [kg/m4].
+    density: [f32; 3],
+    /// sum V (v_b - v_a)_i (grad W)_j [1/s].
+    velocity: [[f32; 3]; 3],
+}
+
+impl Gradients {
+    /// Whether a scheme needs them.
+    pub fn are_needed(parameters: &Parameters) -> bool {
+        Self::neighbours_need_them(parameters) || parameters.shifting.is_some()
+    }
+
+    fn neighbours_need_them(parameters: &Parameters) -> bool {
+        let turbulent = matches!(parameters.viscosity, Viscosity::Laminar { turbulence: Some(_), .. });
+        turbulent || parameters.diffusion.kind == DensityDiffusion::Antuono
+    }
+
+    /// Gradients of the water, the first `targets` of the records.
+    pub fn compute(&mut self, pairs: &PairLoop, lists: &NeighbourLists, records: &[Record], targets: usize) {
+        self.sums.resize(targets, Sums::default());
+        self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
+            let begin = number * CHUNK;
+            let targets = &records[begin..begin + sums.len()];
+            lists.instructions().dispatch(ChunkSums { pairs, chunk, targets, records, sums });
+        });
+        if Self::neighbours_need_them(&pairs.parameters) {
+            self.extra.resize(records.len(), Extra::OF_BOUNDARY);
+            let (of_water, of_boundary) = self.extra.split_at_mut(targets);
+            let parameters = &pairs.parameters;
+            (of_water, &self.sums, &records[..targets])
+                .into_par_iter()
+                .for_each(|(extra, sums, record)| *extra = sums.extra(parameters, record));
+            of_boundary.fill(Extra::OF_BOUNDARY);
+        }
+    }
+
+    /// What neighbours need to know, of all records.
+    pub fn extra(&self) -> &[Extra] {
+        &self.extra
+    }
+
+    /// Order of the particles round a target.
+    pub fn order(&self, target: usize) -> Order {
+        let sums = &self.sums[target];
+        Order {
+            concentration_gradient: DVec3::from_array(sums.concentration.map(f64::from)),
+            divergence: sums.moments[..3].iter().map(|&m| f64::from(m)).sum(),
+        }
+    }
+
+    /// Bytes in use.
+    pub fn bytes(&self) -> usize {
+        self.sums.capacity() * size_of::<Sums>() + self.extra.capacity() * size_of::<Extra>()
+    }
+}
+
+impl Sums {
+    /// M^-1, or the identity at an edge of the water.
+    fn renormalisation(&self) -> DMat3 {
+        let [xx, yy, zz, xy, xz, yz] = self.moments.map(f64::from);
+        let moments = DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz));
+        if moments.determinant() > LEAST_DETERMINANT { moments.inverse() } else { DMat3::IDENTITY }
+    }
+
+    fn extra(&self, parameters: &Parameters, record: &Record) -> Extra {
+        let renormalisation = self.renormalisation();
+        let corrected = |sum: [f32; 3]| renormalisation * DVec3::from_array(sum.map(f64::from));
+        let stress = match parameters.viscosity {
+            Viscosity::Laminar { turbulence: Some(turbulence), .. } => {
+                let gradient = self.velocity.map(|component| corrected(component).to_array());
+                turbulence.specific_stress(gradient, parameters.tait.rho0 + f64::from(record.excess_density))
+            }
+            _ => [0.0; 6],
+        };
+        Extra {
+            density_gradient: corrected(self.density).as_vec3().to_array(),
+            borrowed: 0.0,
+            stress: stress.map(|component| component as f32),
+        }
+    }
+}
+
+/// The sums of one chunk of targets.
+struct ChunkSums<'a> {
+    pairs: &'a PairLoop,
+    chunk: &'a Chunk,
+    targets: &'a [Record],
+    records: &'a [Record],
+    sums: &'a mut [Sums],
+}
+
+impl WithLanes for ChunkSums<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        for (cluster, neighbours) in self.chunk.clusters() {
+            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+            let lanes = self.cluster_sums::<L>(cluster, neighbours).map(L::to_array);
+            for (lane, sums) in self.sums[members].iter_mut().enumerate() {
+                let at = |k: usize| lanes[k][lane];
+                *sums = Sums {
+                    moments: std::array::from_fn(at),
+                    concentration: std::array::from_fn(|k| at(6 + k)),
+                    density: std::array::from_fn(|k| at(9 + k)),
+                    velocity: std::array::from_fn(|i| std::array::from_fn(|j| at(12 + 3 * i + j))),
+                };
+            }
+        }
+    }
+}
+
+impl ChunkSums<'_> {
+    /// The sums of a cluster in the order of [`Sums`].
+    #[inline(always)]
+    fn cluster_sums<L: Lanes>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 21] {
+        let kernel = &self.pairs.parameters.kernel;
+        let splat = L::splat;
+        let a: [L; 4] = self.pairs.split_positions(cluster, self.targets);
+        let velocity_a: [L; 3] =
+            std::array::from_fn(|k| lanes_of::<L, Record>(cluster, self.targets, |r| r.velocity[k]));
+        let excess_a: L = lanes_of(cluster, self.targets, |r: &Record| r.excess_density);
+        let mut sums = [splat(0.0); 21];
+        for &j in neighbours {
+            let b = &self.records[j as usize];
+            let [x, y, z] = self.pairs.difference(a, b);
+            let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
+            // Constant factors of the sums come at the end.
+            let gv = kernel.gradient_shape(closeness) * splat(b.volume);
+            let (gx, gy, gz) = (gv * x, gv * y, gv * z);
+            // r_ba = -r_ab makes the sign.
+            let of_moments = [(gx, x), (gy, y), (gz, z), (gx, y), (gx, z), (gy, z)];
+            for (sum, (g, r)) in sums[..6].iter_mut().zip(of_moments) {
+                *sum = *sum - g * r;
+            }
+            for (sum, g) in sums[6..9].iter_mut().zip([gx, gy, gz]) {
+                *sum += g;
+            }
+            let excess = splat(b.excess_density) - excess_a;
+            let [u, v, w]: [L; 3] = std::array::from_fn(|k| splat(b.velocity[k]) - velocity_a[k]);
+            for (f, sums) in [excess, u, v, w].into_iter().zip(sums[9..].chunks_exact_mut(3)) {
+                for (sum, g) in sums.iter_mut().zip([gx, gy, gz]) {
+                    *sum = f.mul_add(g, *sum);
+                }
+            }
+        }
+        sums.map(|sum| sum * splat(kernel.gradient_scale()))
+    }
+}

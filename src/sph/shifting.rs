@@ -1,0 +1,51 @@
+//! Particle shifting (Lind et al. 2012; Skillen et al. 2013): particles move by
+//!
+//!   dr = -A h |v| dt grad C,   C = sum_b V_b W_ab,
+//!
+//! from where they are dense to where they are sparse. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab
+//! falls below what a full neighbourhood has, the shift fades out.
+
+use glam::DVec3;
+
+/// div r of a particle at the surface, below which nothing is shifted [-].
+const SURFACE: f64 = 2.75;
+
+/// div r of a full neighbourhood in three dimensions [-].
+const FULL: f64 = 3.0;
+
+/// Longest shift as a share of the distance between particles.
+const LONGEST: f64 = 0.1;
+
+/// Constants of the shift.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shifting {
+    /// A [-].
+    pub coefficient: f64,
+    /// Smoothing length [m].
+    pub h: f64,
+    /// Distance between particles [m].
+    pub dp: f64,
+}
+
+impl Shifting {
+    /// Shift over a step of length `dt` [s], from speed [m/s], grad C [1/m] and div r [-].
+    pub fn shift(&self, dt: f64, speed: f64, concentration_gradient: DVec3, divergence: f64) -> DVec3 {
+        let inside = ((divergence - SURFACE) / (FULL - SURFACE)).clamp(0.0, 1.0);
+        let shift = -inside * self.coefficient * self.h * speed * dt * concentration_gradient;
+        shift.clamp_length_max(LONGEST * self.dp)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goes_down_the_concentration_and_not_at_the_surface() {
+        let shifting = Shifting { coefficient: 2.0, h: 0.02, dp: 0.01 };
+        let shift = shifting.shift(1e-4, 1.0, DVec3::X, 3.1);
+        assert!((shift - DVec3::X * -4e-6).length() < 1e-18);
+        assert_eq!(shifting.shift(1e-4, 1.0, DVec3::X, 2.5), DVec3::ZERO);
+        assert!(shifting.shift(1e-1, 1e3, DVec3::X, 3.0).length() <= 0.1 * 0.01 * (1.0 + 1e-12));
+    }
+}

@@ -1,0 +1,59 @@
+//! Sub-particle-scale turbulence (Gotoh et al. 2001; Dalrymple & Rogers 2006): Smagorinsky's eddy viscosity in the stress
+//!
+//!   tau = 2 nu_t rho (S - tr S / 3) - 2/3 rho C_I D^2 |S|^2,   nu_t = (C_s D)^2 |S|,   |S| = sqrt(2 S : S),
+//!
+//! S being the rate of strain, and in the acceleration sum_b m_b (tau_a / rho_a^2 + tau_b / rho_b^2) grad_a W_ab.
+
+/// Constants of the closure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Smagorinsky {
+    /// (C_s D)^2 [m2].
+    eddy: f64,
+    /// C_I D^2 [m2].
+    isotropic: f64,
+}
+
+impl Smagorinsky {
+    /// C_s = 0.12 and C_I = 0.0066, the filter as wide as the particles are apart: `dp` [m].
+    pub fn new(dp: f64) -> Self {
+        Self { eddy: (0.12 * dp).powi(2), isotropic: 0.0066 * dp * dp }
+    }
+
+    /// tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz, from the gradient d v_i / d x_j [1/s] and the density
+    /// [kg/m3].
+    pub fn specific_stress(&self, gradient: [[f64; 3]; 3], rho: f64) -> [f64; 6] {
+        let strain = |i: usize, j: usize| 0.5 * (gradient[i][j] + gradient[j][i]);
+        let square: f64 = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| strain(i, j).powi(2)).sum();
+        let magnitude = (2.0 * square).sqrt();
+        let viscosity = 2.0 * self.eddy * magnitude / rho;
+        let trace = (strain(0, 0) + strain(1, 1) + strain(2, 2)) / 3.0;
+        let pressure = 2.0 / 3.0 * self.isotropic * magnitude * magnitude / rho;
+        let normal = |i: usize| viscosity * (strain(i, i) - trace) - pressure;
+        let shear = |i: usize, j: usize| viscosity * strain(i, j);
+        [normal(0), normal(1), normal(2), shear(0, 1), shear(0, 2), shear(1, 2)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pure_shear_gives_the_eddy_viscosity_of_smagorinsky() {
+        let (dp, rate, rho) = (0.01, 5.0, 1000.0);
+        let mut gradient = [[0.0; 3]; 3];
+        gradient[0][2] = rate;
+        let stress = Smagorinsky::new(dp).specific_stress(gradient, rho);
+        // |S| is the shear rate: tau_xz = rho nu_t du/dz.
+        let expected = (0.12 * dp).powi(2) * rate * rate / rho;
+        assert!((stress[4] / expected - 1.0).abs() < 1e-12);
+        let isotropic = -2.0 / 3.0 * 0.0066 * dp * dp * rate * rate / rho;
+        assert!(stress[..3].iter().all(|normal| (normal / isotropic - 1.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn rotation_has_no_stress() {
+        let gradient = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+        assert_eq!(Smagorinsky::new(0.01).specific_stress(gradient, 1000.0), [0.0; 6]);
+    }
+}
