@@ -27,6 +27,7 @@ pub mod equation_of_state;
 pub mod ghost_velocity;
 pub mod gradients;
 pub mod grid;
+mod group;
 pub mod kernel;
 pub mod lanes;
 pub mod mdbc;

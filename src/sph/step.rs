@@ -13,9 +13,10 @@ use super::{
     density_diffusion::Diffusion,
     gradients::Gradients,
     grid::{Bins, Grid},
+    group::Group,
     lanes::InstructionSet,
     mdbc::GhostNodes,
-    neighbours::{NeighbourLists, SortedPositions, Sources},
+    neighbours::NeighbourLists,
     parameters::{BoundaryCondition, Parameters},
     rates::{PairLoop, Rate},
     records::{Record, record},
@@ -67,37 +68,6 @@ impl<'a> State<'a> {
     }
 }
 
-/// One of the three groups of particles in the records: water, walls (with bed and piston), units.
-#[derive(Debug, Default)]
-struct Group {
-    bins: Bins,
-    sorted: Vec<DVec3>,
-    near: SortedPositions,
-    lists: NeighbourLists,
-    rates: Vec<Rate>,
-    first_record: usize,
-}
-
-impl Group {
-    /// Sort positions into bins.
-    fn sort(&mut self, grid: &Grid, positions: &[DVec3]) {
-        self.bins.sort(grid, positions);
-        self.sorted.clear();
-        self.sorted.extend(self.bins.order.iter().map(|&i| grid.wrap(positions[i as usize])));
-        self.near.set(grid, &self.sorted);
-        self.rates.resize(positions.len(), Rate::default());
-    }
-
-    fn bytes(&self) -> usize {
-        let of_targets = self.sorted.capacity() * size_of::<DVec3>() + self.rates.capacity() * size_of::<Rate>();
-        self.bins.bytes() + of_targets + self.near.bytes() + self.lists.bytes()
-    }
-
-    fn sources(&self) -> Sources<'_> {
-        Sources { bins: &self.bins, positions: &self.near, first_record: self.first_record as u32 }
-    }
-}
-
 impl Solver {
     /// Solver for the box from `low` to `high` [m], with the best instructions that the processor has.
     pub fn new(parameters: Parameters, low: DVec3, high: DVec3) -> Self {
@@ -107,7 +77,7 @@ impl Solver {
     /// The same with given instructions.
     pub fn with_instructions(instructions: InstructionSet, parameters: Parameters, low: DVec3, high: DVec3) -> Self {
         let lists = || NeighbourLists::new(instructions);
-        let group = || Group { lists: lists(), ..Group::default() };
+        let group = || Group::new(instructions);
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
         let pairs = PairLoop::new(parameters, grid.size.x);
         Self {
@@ -383,11 +353,6 @@ impl Solver {
             + self.gradients.bytes()
             + self.half.bytes()
             + self.sorted.bytes()
-    }
-
-    /// The instructions that it computes with.
-    pub fn instructions(&self) -> InstructionSet {
-        self.water.lists.instructions()
     }
 
     /// The sorted water of this step, for gauges.

@@ -71,6 +71,7 @@ fn a_standing_wave_has_the_period_of_theory() {
     );
     assert!((seen.period / period - 1.0).abs() < 0.01);
     // The laminar term is nu laplace v, which is zero inside a flow without vorticity; the stress at the surface, which
-    // makes theory's decay, it does not know (Colagrossi et al. 2011). A third of theory was seen.
-    assert!(seen.decay > 0.0 && seen.decay < decay);
+    // makes theory's decay, it does not know (Colagrossi et al. 2011): a sixth of theory is seen here. What can be asked is
+    // that nothing else makes the wave decay faster than theory.
+    assert!(seen.decay > 0.0 && seen.decay < 1.1 * decay);
 }
