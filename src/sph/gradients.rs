@@ -35,7 +35,8 @@ pub struct Extra {
 }
 
 impl Extra {
-    const OF_BOUNDARY: Self = Self { density_gradient: [0.0; 3], borrowed: 1.0, stress: [0.0; 6] };
+    /// Of a boundary particle.
+    pub(super) const OF_BOUNDARY: Self = Self { density_gradient: [0.0; 3], borrowed: 1.0, stress: [0.0; 6] };
 }
 
 /// Order of the particles round one of them.
@@ -160,7 +161,12 @@ impl WithLanes for ChunkSums<'_> {
     fn run<L: Lanes>(self) {
         for (cluster, neighbours) in self.chunk.clusters() {
             let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-            let lanes = self.cluster_sums::<L>(cluster, neighbours).map(L::to_array);
+            let sums = if cluster.crosses_sides {
+                self.cluster_sums::<L, true>(cluster, neighbours)
+            } else {
+                self.cluster_sums::<L, false>(cluster, neighbours)
+            };
+            let lanes = sums.map(L::to_array);
             for (lane, sums) in self.sums[members].iter_mut().enumerate() {
                 let at = |k: usize| lanes[k][lane];
                 *sums = Sums {
@@ -177,7 +183,7 @@ impl WithLanes for ChunkSums<'_> {
 impl ChunkSums<'_> {
     /// The sums of a cluster in the order of [`Sums`].
     #[inline(always)]
-    fn cluster_sums<L: Lanes>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 21] {
+    fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 21] {
         let kernel = &self.pairs.parameters.kernel;
         let splat = L::splat;
         let a: [L; 4] = self.pairs.split_positions(cluster, self.targets);
@@ -187,7 +193,7 @@ impl ChunkSums<'_> {
         let mut sums = [splat(0.0); 21];
         for &j in neighbours {
             let b = &self.records[j as usize];
-            let [x, y, z] = self.pairs.difference(a, b);
+            let [x, y, z] = self.pairs.difference::<L, PERIODIC>(a, b);
             let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
             // Constant factors of the sums come at the end.
             let gv = kernel.gradient_shape(closeness) * splat(b.volume);

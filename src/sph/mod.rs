@@ -14,16 +14,18 @@
 //! | [`ghost_velocity`], [`wall_slip`] | velocity of boundary particles from ghost nodes |
 //! | [`gradients`] | gradients of density and velocity, order of the particles |
 //! | [`shifting`] | particle shifting |
+//! | `gap_pressure` | pressure on units through gaps without water particles |
 //! | [`time_step`] | variable time step |
 //! | [`power`] | power of walls, viscosity, diffusion |
 //!
-//! Particles are sorted into [`grid`] bins each step; clusters of eight neighbours share one list of
-//! [`neighbours`] and fill the SIMD [`lanes`]. Every sum is gathered by the particle that owns it, in a fixed order:
-//! the same bits for any number of threads.
+//! Particles are sorted into [`grid`] bins each step; clusters of as many as there are SIMD [`lanes`] share one list of
+//! [`neighbours`], and `pair_sums` adds a neighbour to all members at once. Every sum is gathered by the particle that
+//! owns it, in a fixed order: the same bits for any number of threads.
 
 pub mod continuity;
 pub mod density_diffusion;
 pub mod equation_of_state;
+mod gap_pressure;
 pub mod ghost_velocity;
 pub mod gradients;
 pub mod grid;
@@ -33,6 +35,7 @@ pub mod lanes;
 pub mod mdbc;
 pub mod momentum;
 pub mod neighbours;
+mod pair_sums;
 pub mod parameters;
 pub mod power;
 pub mod rates;

@@ -1,25 +1,17 @@
 //! Right-hand sides of equations 1 and 2: one pass over the neighbour lists gives the acceleration, the rate of the
 //! density and the largest approach speed of each target.
-//!
-//! A second, small pass gives the units what a gap too narrow for water particles carries. Where a foot stands on the
-//! bed, no particle fits below it; with the forces of the water alone its pressure would press on the foot from above
-//! and never from below, and hold the unit down with several times its weight. Water does reach such gaps and its
-//! pressure is continuous through them, so bed, walls and other units act on a unit with the pressure term of
-//! equation 1, their densities being those of the water near by (see [`super::mdbc`]). Viscosity is left out: dry
-//! friction is the contact's.
 
 use rayon::prelude::*;
 
 use super::{
-    continuity::add_compression,
     density_diffusion::DensityDiffusion,
     gradients::Extra,
     lanes::{Lanes, MOST_LANES, WithLanes},
-    momentum::pair_stress,
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
+    pair_sums::{Constants, Members, Sums, Terms},
     parameters::Parameters,
     records::Record,
-    viscosity::{Viscosity, approach_rate, laminar_factor, viscous_stress},
+    viscosity::Viscosity,
 };
 
 /// Sums of one target.
@@ -71,31 +63,6 @@ impl PairLoop {
         });
     }
 
-    /// Add the pressure of bed, walls and other units, across gaps that hold no water particles, to the accelerations
-    /// of the units; arguments as in [`Self::rates`].
-    ///
-    /// The unit's own particles are in the lists as well: their forces on each other cancel.
-    pub fn add_gap_pressure(
-        &self,
-        lists: &NeighbourLists,
-        records: &[Record],
-        first_target: usize,
-        rates: &mut [Rate],
-    ) {
-        rates.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (rates, chunk))| {
-            let begin = first_target + number * CHUNK;
-            let targets = &records[begin..begin + rates.len()];
-            for (cluster, neighbours) in chunk.clusters() {
-                for target in cluster.first as usize..(cluster.first + cluster.len) as usize {
-                    let acceleration = self.pressure_acceleration(&targets[target], neighbours, records);
-                    for (sum, part) in rates[target].acceleration.iter_mut().zip(acceleration) {
-                        *sum += part as f32;
-                    }
-                }
-            }
-        });
-    }
-
     /// Number of pairs of a target, the first of the `records`, and a neighbour within the kernel's support.
     pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
         let count = |(number, chunk): (usize, &Chunk)| {
@@ -118,20 +85,20 @@ impl PairLoop {
         of.map(|f| lanes_of(cluster, targets, f))
     }
 
-    /// r_ab [m] of the members of a cluster and a neighbour, its nearest image in a periodic flume.
+    /// r_ab [m] of the members of a cluster and a neighbour; its nearest image, if `PERIODIC`.
     #[inline(always)]
-    pub(super) fn difference<L: Lanes>(&self, a: [L; 4], b: &Record) -> [L; 3] {
+    pub(super) fn difference<L: Lanes, const PERIODIC: bool>(&self, a: [L; 4], b: &Record) -> [L; 3] {
         let splat = L::splat;
         let x = (a[0] - splat(b.bin_x)).mul_add(splat(self.bin_x), a[1] - splat(b.x));
         let mut y = a[2] - splat(b.y);
-        if self.width > 0.0 {
+        if PERIODIC {
             y = y - splat(self.width) * (y * splat(1.0 / self.width)).round();
         }
         [x, y, a[3] - splat(b.z)]
     }
 
     /// Vector from b to a, its nearest image in a periodic flume, and its length [m].
-    fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
+    pub(super) fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
         let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
         let mut r = [
             difference(a.bin_x, b.bin_x) * f64::from(self.bin_x) + difference(a.x, b.x),
@@ -142,21 +109,6 @@ impl PairLoop {
             r[1] -= width * (r[1] / width).round();
         }
         (r, r.iter().map(|r| r * r).sum::<f64>().sqrt())
-    }
-
-    /// The pressure term of equation 1 for one target, in double precision so that inner forces cancel [m/s2].
-    fn pressure_acceleration(&self, a: &Record, neighbours: &[u32], records: &[Record]) -> [f64; 3] {
-        let kernel = &self.parameters.kernel;
-        let mut sum = [0.0; 3];
-        for &j in neighbours {
-            let b = &records[j as usize];
-            let (r, distance) = self.distance(a, b);
-            let g = kernel.gradient_factor(kernel.closeness(distance));
-            let stress = pair_stress(f64::from(a.pressure), f64::from(b.pressure), 0.0) * f64::from(b.volume) * g;
-            sum.iter_mut().zip(r).for_each(|(sum, r)| *sum += stress * r);
-        }
-        let rho_a = self.parameters.tait.rho0 + f64::from(a.excess_density);
-        sum.map(|sum| -sum / rho_a)
     }
 }
 
@@ -170,16 +122,6 @@ struct ChunkRates<'a> {
     records: &'a [Record],
     extra: &'a [Extra],
     rates: &'a mut [Rate],
-}
-
-/// Terms that a loop over pairs is compiled for.
-trait Terms {
-    /// Density diffusion with renormalised gradients.
-    const ANTUONO: bool;
-    /// Laminar instead of artificial viscosity.
-    const LAMINAR: bool;
-    /// Sub-particle-scale stress besides.
-    const TURBULENT: bool;
 }
 
 struct Choice<const ANTUONO: bool, const LAMINAR: bool, const TURBULENT: bool>;
@@ -210,129 +152,37 @@ impl WithLanes for ChunkRates<'_> {
 impl ChunkRates<'_> {
     #[inline(always)]
     fn run_terms<L: Lanes, T: Terms>(self) {
+        let constants = Constants::new(&self.pairs.parameters);
         for (cluster, neighbours) in self.chunk.clusters() {
             let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-            let sums = if cluster.crosses_sides {
-                self.cluster_rates::<L, T, true>(cluster, neighbours)
+            let rates = if cluster.crosses_sides {
+                self.cluster_rates::<L, T, true>(&constants, cluster, neighbours)
             } else {
-                self.cluster_rates::<L, T, false>(cluster, neighbours)
+                self.cluster_rates::<L, T, false>(&constants, cluster, neighbours)
             };
-            self.rates[members].copy_from_slice(&sums[..cluster.len as usize]);
+            self.rates[members].copy_from_slice(&rates[..cluster.len as usize]);
         }
     }
 
     #[inline(always)]
     fn cluster_rates<L: Lanes, T: Terms, const PERIODIC: bool>(
         &self,
+        constants: &Constants,
         cluster: &Cluster,
         neighbours: &[u32],
     ) -> [Rate; MOST_LANES] {
         let Self { pairs, targets, records, .. } = self;
-        let Parameters { kernel, tait, viscosity, diffusion, .. } = &pairs.parameters;
-        let (h, rho0) = (kernel.h as f32, tait.rho0 as f32);
-        let (alpha, nu) = match viscosity {
-            Viscosity::Artificial { alpha } => (*alpha as f32, 0.0),
-            Viscosity::Laminar { nu, .. } => (0.0, *nu as f32),
-        };
-        let extra = |k: usize| &self.extra[self.begin + k];
-        let extra_a = |f: fn(&Extra) -> f32| {
-            L::from_fn(|lane| f(extra(cluster.first as usize + lane.min(cluster.len as usize - 1))))
-        };
-        let density_gradient_a: [L; 3] = if T::ANTUONO {
-            [extra_a(|e| e.density_gradient[0]), extra_a(|e| e.density_gradient[1]), extra_a(|e| e.density_gradient[2])]
-        } else {
-            [L::splat(0.0); 3]
-        };
-        let stress_a: [L; 6] = if T::TURBULENT {
-            [
-                extra_a(|e| e.stress[0]),
-                extra_a(|e| e.stress[1]),
-                extra_a(|e| e.stress[2]),
-                extra_a(|e| e.stress[3]),
-                extra_a(|e| e.stress[4]),
-                extra_a(|e| e.stress[5]),
-            ]
-        } else {
-            [L::splat(0.0); 6]
-        };
-        let a = |f: fn(&Record) -> f32| lanes_of::<L, Record>(cluster, targets, f);
-        let splat = L::splat;
-
-        let (bin_a, x_a, y_a, z_a) = (a(|r| r.bin_x), a(|r| r.x), a(|r| r.y), a(|r| r.z));
-        let (vx_a, vy_a, vz_a) = (a(|r| r.velocity[0]), a(|r| r.velocity[1]), a(|r| r.velocity[2]));
-        let (excess_a, p_a, c_a) = (a(|r| r.excess_density), a(|r| r.pressure), a(|r| r.sound_speed));
-        let rho_a = splat(rho0) + excess_a;
-
-        let zero = splat(0.0);
-        let (mut force_x, mut force_y, mut force_z) = (zero, zero, zero);
-        let (mut compressions, mut diffusions, mut fastest) = (zero, zero, zero);
-        for &j in neighbours {
-            let b = &records[j as usize];
-            let x_ab = (bin_a - splat(b.bin_x)).mul_add(splat(pairs.bin_x), x_a - splat(b.x));
-            let mut y_ab = y_a - splat(b.y);
-            if PERIODIC {
-                y_ab = y_ab - splat(pairs.width) * (y_ab * splat(1.0 / pairs.width)).round();
-            }
-            let z_ab = z_a - splat(b.z);
-            let r2 = x_ab.mul_add(x_ab, y_ab.mul_add(y_ab, z_ab * z_ab));
-            let closeness = kernel.closeness(r2.sqrt());
-            // Constant factors of the sums come at the end.
-            let g = kernel.gradient_shape(closeness);
-            let gv = g * splat(b.volume);
-
-            let (vx_ab, vy_ab) = (vx_a - splat(b.velocity[0]), vy_a - splat(b.velocity[1]));
-            let vz_ab = vz_a - splat(b.velocity[2]);
-            let v_dot_r = vx_ab.mul_add(x_ab, vy_ab.mul_add(y_ab, vz_ab * z_ab));
-            let excess_b = splat(b.excess_density);
-            let rho_b = splat(rho0) + excess_b;
-
-            let approach = approach_rate(h, v_dot_r, r2);
-            fastest = fastest.max(approach.abs().where_positive(closeness));
-            let viscous = if T::LAMINAR {
-                splat(0.0)
-            } else {
-                viscous_stress(alpha, h, approach, c_a, splat(b.sound_speed), rho_a, rho_b)
-            };
-            let stress = pair_stress(p_a, splat(b.pressure), viscous) * gv;
-            force_x = stress.mul_add(x_ab, force_x);
-            force_y = stress.mul_add(y_ab, force_y);
-            force_z = stress.mul_add(z_ab, force_z);
-            if T::LAMINAR {
-                let shear = laminar_factor(nu, rho_a, rho_b) * gv;
-                force_x = force_x - shear * vx_ab;
-                force_y = force_y - shear * vy_ab;
-                force_z = force_z - shear * vz_ab;
-            }
-            if T::TURBULENT {
-                let stress_b = &self.extra[j as usize].stress;
-                let [xx, yy, zz, xy, xz, yz]: [L; 6] = std::array::from_fn(|k| stress_a[k] + splat(stress_b[k]));
-                let factor = rho_a * rho_b * gv;
-                force_x = force_x - factor * (xx * x_ab + xy * y_ab + xz * z_ab);
-                force_y = force_y - factor * (xy * x_ab + yy * y_ab + yz * z_ab);
-                force_z = force_z - factor * (xz * x_ab + yz * y_ab + zz * z_ab);
-            }
-            compressions = add_compression(compressions, rho_b, v_dot_r, gv);
-            let diffusive_gv = g * splat(b.diffusive_volume);
-            let mut excess = diffusion.excess(excess_a, excess_b, z_ab);
-            if T::ANTUONO {
-                let extra_b = &self.extra[j as usize];
-                let share = splat(0.5 * (1.0 + extra_b.borrowed));
-                let slope = |k: usize| share.mul_add(density_gradient_a[k], splat(0.5 * extra_b.density_gradient[k]));
-                excess += slope(0).mul_add(x_ab, slope(1).mul_add(y_ab, slope(2) * z_ab));
-            }
-            diffusions = diffusive_gv.mul_add(excess, diffusions);
+        let place = pairs.split_positions(cluster, targets);
+        let extra = self.extra.get(self.begin..).unwrap_or_default();
+        let a = Members::<L>::new::<T>(constants, cluster, targets, extra);
+        let mut sums = Sums::zero();
+        for &number in neighbours {
+            let b = &records[number as usize];
+            let near = constants.near(pairs.difference::<L, PERIODIC>(place, b));
+            let extra_b = if T::ANTUONO || T::TURBULENT { &self.extra[number as usize] } else { &Extra::OF_BOUNDARY };
+            sums.add::<T>(constants, &a, &near, b, extra_b);
         }
-
-        let scale = splat(kernel.gradient_scale());
-        let minus_per_mass = -scale / rho_a;
-        let [ax, ay, az] = [force_x, force_y, force_z].map(|force| (force * minus_per_mass).to_array());
-        let density = (scale * diffusions.mul_add(splat(diffusion.factor()), compressions)).to_array();
-        let approach = (splat(h) * fastest).to_array();
-        std::array::from_fn(|lane| Rate {
-            acceleration: [ax[lane], ay[lane], az[lane]],
-            density: density[lane],
-            approach: approach[lane],
-        })
+        sums.rates(constants, &a)
     }
 }
 
