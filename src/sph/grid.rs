@@ -4,6 +4,13 @@
 //! row are then a compact cluster, which is what the SIMD lanes want.
 
 use glam::DVec3;
+use rayon::prelude::*;
+
+/// Points whose bins are found, and looked through, by one task.
+const PIECE: usize = 4096;
+
+/// Ranges of bins to sort for each thread: more than one, because bins above the water are empty.
+const TASKS_PER_THREAD: usize = 4;
 
 /// Rectangular bins over the domain. Particles outside are counted into the nearest bin.
 #[derive(Debug, Clone)]
@@ -72,38 +79,109 @@ pub struct Bins {
     /// Bin at each place of `order`.
     pub bin_at: Vec<u32>,
     bin_of: Vec<u32>,
+    /// Lowest and highest bin of each piece of the points.
+    extents: Vec<[u32; 2]>,
 }
 
 impl Bins {
     /// Bytes in use.
     pub fn bytes(&self) -> usize {
-        [&self.start, &self.order, &self.bin_at, &self.bin_of].map(|v| v.capacity() * size_of::<u32>()).iter().sum()
+        let numbers = [&self.start, &self.order, &self.bin_at, &self.bin_of];
+        numbers.map(|v| v.capacity() * size_of::<u32>()).iter().sum::<usize>()
+            + self.extents.capacity() * size_of::<[u32; 2]>()
     }
 
     /// Sort the points stably into the bins of `grid`.
+    ///
+    /// Every task owns a range of bins and looks through the pieces of the points that have any there: few, since the
+    /// points come nearly sorted from the step before. There is one stable order, whatever the number of tasks.
     pub fn sort(&mut self, grid: &Grid, points: &[DVec3]) {
-        use rayon::prelude::*;
         self.bin_of.resize(points.len(), 0);
         self.order.resize(points.len(), 0);
         self.bin_at.resize(points.len(), 0);
-        self.bin_of.par_iter_mut().zip(points).with_min_len(4096).for_each(|(bin, &point)| *bin = grid.bin(point));
-        self.start.clear();
+        self.extents.resize(points.len().div_ceil(PIECE), [0; 2]);
         self.start.resize(grid.bins() + 1, 0);
-        for &bin in &self.bin_of {
-            self.start[bin as usize + 1] += 1;
+        let pieces = self.bin_of.par_chunks_mut(PIECE).zip(points.par_chunks(PIECE)).zip(&mut self.extents);
+        pieces.for_each(|((bins, points), extent)| {
+            *extent = [u32::MAX, 0];
+            for (bin, &point) in bins.iter_mut().zip(points) {
+                *bin = grid.bin(point);
+                *extent = [extent[0].min(*bin), extent[1].max(*bin)];
+            }
+        });
+        let pieces = Pieces { bin_of: &self.bin_of, extents: &self.extents };
+        let tasks = TASKS_PER_THREAD * rayon::current_num_threads();
+        let span = grid.bins().div_ceil(tasks);
+        // start[b + 1] holds the number of points in bin b, then where the next of them goes, and in the end where the
+        // bin ends.
+        let (first, cursors) = self.start.split_first_mut().expect("a grid has a bin");
+        *first = 0;
+        cursors.par_chunks_mut(span).enumerate().for_each(|(task, counts)| {
+            counts.fill(0);
+            let first_bin = task * span;
+            pieces.each_in(first_bin..first_bin + counts.len(), |_, bin| counts[bin as usize - first_bin] += 1);
+        });
+        let mut total = 0;
+        for cursor in cursors.iter_mut() {
+            total += std::mem::replace(cursor, total);
         }
-        for bin in 0..grid.bins() {
-            self.start[bin + 1] += self.start[bin];
+        pieces.place(span, 0, cursors, 0, &mut self.order, &mut self.bin_at);
+    }
+}
+
+/// Points in pieces, by their bins.
+#[derive(Clone, Copy)]
+struct Pieces<'a> {
+    bin_of: &'a [u32],
+    extents: &'a [[u32; 2]],
+}
+
+impl Pieces<'_> {
+    /// Call `f` with each point in a range of bins and its bin.
+    fn each_in(self, bins: std::ops::Range<usize>, mut f: impl FnMut(u32, u32)) {
+        for (piece, (members, [lowest, highest])) in self.bin_of.chunks(PIECE).zip(self.extents).enumerate() {
+            if bins.start > *highest as usize || bins.end <= *lowest as usize {
+                continue;
+            }
+            for (point, &bin) in members.iter().enumerate() {
+                if bins.contains(&(bin as usize)) {
+                    f((piece * PIECE + point) as u32, bin);
+                }
+            }
         }
-        // `start` serves as the cursor and is shifted back afterwards: no second array.
-        for (point, &bin) in self.bin_of.iter().enumerate() {
-            let place = self.start[bin as usize] as usize;
-            self.order[place] = point as u32;
-            self.bin_at[place] = bin;
-            self.start[bin as usize] += 1;
+    }
+
+    /// Write the points of the bins from `first_bin` on, which `cursors` belong to, and their bins to `order` and
+    /// `bin_at`, which begin at place `begin`.
+    fn place(
+        self,
+        span: usize,
+        first_bin: usize,
+        cursors: &mut [u32],
+        begin: u32,
+        order: &mut [u32],
+        bin_at: &mut [u32],
+    ) {
+        let bins = cursors.len();
+        if bins > span {
+            let half = bins.div_ceil(span) / 2 * span;
+            let middle = cursors[half];
+            let (low_cursors, high_cursors) = cursors.split_at_mut(half);
+            let (low_order, high_order) = order.split_at_mut((middle - begin) as usize);
+            let (low_at, high_at) = bin_at.split_at_mut((middle - begin) as usize);
+            rayon::join(
+                || self.place(span, first_bin, low_cursors, begin, low_order, low_at),
+                || self.place(span, first_bin + half, high_cursors, middle, high_order, high_at),
+            );
+            return;
         }
-        self.start.copy_within(0..grid.bins(), 1);
-        self.start[0] = 0;
+        self.each_in(first_bin..first_bin + bins, |point, bin| {
+            let cursor = &mut cursors[bin as usize - first_bin];
+            let place = (*cursor - begin) as usize;
+            order[place] = point;
+            bin_at[place] = bin;
+            *cursor += 1;
+        });
     }
 }
 
@@ -111,14 +189,17 @@ impl Bins {
 mod tests {
     use super::*;
 
+    /// More than two pieces.
+    const COUNT: u32 = 9000;
+
     #[test]
     fn sorts_stably_and_keeps_everyone() {
         let grid = Grid::new(DVec3::ZERO, DVec3::splat(1.0), 0.1, None);
         let points: Vec<DVec3> =
-            (0..500).map(|i| DVec3::splat(f64::from(i * 7919 % 997) / 997.0) * DVec3::new(1.0, 0.7, 1.3)).collect();
+            (0..COUNT).map(|i| DVec3::splat(f64::from(i * 7919 % 9973) / 9973.0) * DVec3::new(1.0, 0.7, 1.3)).collect();
         let mut bins = Bins::default();
         bins.sort(&grid, &points);
-        assert_eq!(*bins.start.last().unwrap(), 500);
+        assert_eq!(*bins.start.last().unwrap(), COUNT);
         for bin in 0..grid.bins() {
             let range = bins.start[bin] as usize..bins.start[bin + 1] as usize;
             let members = &bins.order[range.clone()];

@@ -143,7 +143,10 @@ impl Solver {
 
     /// Kernel support, and as much more as two particles can approach each other in half a step [m].
     fn reach(&self, water: &Water, boundary: &Boundary) -> f64 {
-        let fastest = |v: &[DVec3]| v.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
+        let fastest = |v: &[DVec3]| {
+            let squares = v.par_iter().with_min_len(PIECE).map(|v| v.length_squared());
+            squares.reduce(|| 0.0, f64::max).sqrt()
+        };
         let speed = fastest(&water.velocity).max(fastest(&boundary.velocity));
         let Parameters { kernel, cfl, tait, .. } = &self.parameters;
         // The step is at most cfl h / c; c may lie a tenth below c0 in a splash. Each of the two moves speed dt / 2.
