@@ -2,14 +2,14 @@
 //! that hold the water or let it slide.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::{
-    lanes::{Lanes, WithLanes},
-    mdbc::{DRY, GhostNodes},
-    neighbours::{CHUNK, Chunk, Cluster},
+    lanes::Lanes,
+    mdbc::{
+        DRY, GhostNodes,
+        node_sums::{NodeTerms, Pair, sum_round_nodes},
+    },
     parameters::Parameters,
-    rates::lanes_of,
     records::Record,
 };
 
@@ -33,12 +33,7 @@ impl GhostNodes {
         out: &mut Vec<Option<DVec3>>,
     ) {
         self.velocity_sums.resize(self.sums.len(), VelocitySums::default());
-        let (split, lists) = (&self.split, &self.lists);
-        self.velocity_sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
-            let begin = number * CHUNK;
-            let nodes = &split[begin..begin + sums.len()];
-            lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, records, sums });
-        });
+        sum_round_nodes(parameters, bin_x, &self.split, &self.lists, records, &mut self.velocity_sums);
         out.resize(self.sums.len(), None);
         for (node, &particle) in self.bins.order.iter().enumerate() {
             out[particle as usize] = self.velocity(node);
@@ -59,64 +54,27 @@ impl GhostNodes {
     }
 }
 
-/// The sums of one chunk of nodes.
-struct ChunkSums<'a> {
-    parameters: &'a Parameters,
-    bin_x: f32,
-    chunk: &'a Chunk,
-    nodes: &'a [[f32; 4]],
-    records: &'a [Record],
-    sums: &'a mut [VelocitySums],
-}
-
-impl WithLanes for ChunkSums<'_> {
-    type Output = ();
-
+impl NodeTerms<12> for VelocitySums {
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for (cluster, neighbours) in self.chunk.clusters() {
-            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-            let lanes = self.cluster_sums::<L>(cluster, neighbours).map(L::to_array);
-            for (lane, node) in self.sums[members].iter_mut().enumerate() {
-                *node = VelocitySums {
-                    value: std::array::from_fn(|i| lanes[i][lane]),
-                    first: std::array::from_fn(|i| std::array::from_fn(|k| lanes[3 + 3 * i + k][lane])),
-                };
+    fn add<L: Lanes>(sums: &mut [L; 12], pair: &Pair<L>, b: &Record) {
+        let g = pair.r.map(|r| pair.gv * r);
+        for i in 0..3 {
+            let v = L::splat(b.velocity[i]);
+            sums[i] = pair.wv.mul_add(v, sums[i]);
+            for (sum, g) in sums[3 + 3 * i..6 + 3 * i].iter_mut().zip(g) {
+                *sum = g.mul_add(v, *sum);
             }
         }
     }
-}
 
-impl ChunkSums<'_> {
-    /// The sums of a cluster's nodes in the order of [`VelocitySums`].
-    #[inline(always)]
-    fn cluster_sums<L: Lanes>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 12] {
-        let kernel = &self.parameters.kernel;
-        let splat = L::splat;
-        let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, self.nodes, |n| n[k]));
-        let width = splat(self.parameters.periodic_width.unwrap_or(0.0) as f32);
-        let per_width = splat(self.parameters.periodic_width.map_or(0.0, |width| width.recip() as f32));
-        let mut sums = [splat(0.0); 12];
-        for &j in neighbours {
-            let b = &self.records[j as usize];
-            let x = (splat(b.bin_x) - node[0]).mul_add(splat(self.bin_x), splat(b.x) - node[1]);
-            let mut y = splat(b.y) - node[2];
-            y = y - width * (y * per_width).round();
-            let z = splat(b.z) - node[3];
-            let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
-            let wv = kernel.shape(closeness) * splat(b.volume);
-            let gv = kernel.gradient_shape(closeness) * splat(b.volume);
-            let g = [gv * x, gv * y, gv * z];
-            for i in 0..3 {
-                let v = splat(b.velocity[i]);
-                sums[i] = wv.mul_add(v, sums[i]);
-                for (sum, g) in sums[3 + 3 * i..6 + 3 * i].iter_mut().zip(g) {
-                    *sum = g.mul_add(v, *sum);
-                }
-            }
+    fn factors(w: f32, g: f32, h: f32) -> [f32; 12] {
+        std::array::from_fn(|k| if k < 3 { w } else { g / h })
+    }
+
+    fn of_sums(sums: [f32; 12]) -> Self {
+        Self {
+            value: std::array::from_fn(|i| sums[i]),
+            first: std::array::from_fn(|i| std::array::from_fn(|k| sums[3 + 3 * i + k])),
         }
-        let h = kernel.h as f32;
-        let (of_value, of_first) = (splat(kernel.scale()), splat(-kernel.gradient_scale() * h));
-        std::array::from_fn(|k| sums[k] * if k < 3 { of_value } else { of_first })
     }
 }

@@ -13,16 +13,18 @@
 //! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. A node
 //! without neighbours leaves its particle at the reference density: there is no water to press on.
 
+pub(super) mod node_sums;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
+use self::node_sums::{NodeTerms, Pair, sum_round_nodes};
 use super::{
     ghost_velocity::VelocitySums,
     grid::{Bins, Grid},
-    lanes::{InstructionSet, Lanes, WithLanes},
-    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists, Sources},
+    lanes::{InstructionSet, Lanes},
+    neighbours::{NeighbourLists, Sources},
     parameters::Parameters,
-    rates::lanes_of,
     records::{Record, split_position},
     solve::solve,
 };
@@ -111,13 +113,8 @@ impl GhostNodes {
         self.lists.build(grid, &self.bins, &self.sorted, std::slice::from_ref(water), parameters.kernel.support());
 
         self.sums.resize(self.sorted.len(), NodeSums::default());
-        let (split, lists) = (&self.split, &self.lists);
         let bin_x = grid.size.x as f32;
-        self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
-            let begin = number * CHUNK;
-            let nodes = &split[begin..begin + sums.len()];
-            lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, records, sums });
-        });
+        sum_round_nodes(parameters, bin_x, &self.split, &self.lists, records, &mut self.sums);
         self.densities.resize(count, 0.0);
         (&mut self.densities, &self.sums, &self.bins.order)
             .into_par_iter()
@@ -129,116 +126,40 @@ impl GhostNodes {
     }
 }
 
-/// The sums of one chunk of nodes.
-struct ChunkSums<'a> {
-    parameters: &'a Parameters,
-    bin_x: f32,
-    chunk: &'a Chunk,
-    nodes: &'a [[f32; 4]],
-    records: &'a [Record],
-    sums: &'a mut [NodeSums],
-}
-
-impl WithLanes for ChunkSums<'_> {
-    type Output = ();
-
+impl NodeTerms<17> for NodeSums {
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for (cluster, neighbours) in self.chunk.clusters() {
-            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
-            if neighbours.is_empty() {
-                self.sums[members].fill(NodeSums::default());
-                continue;
-            }
-            let lanes = if cluster.crosses_sides {
-                self.cluster_sums::<L, true>(cluster, neighbours)
-            } else {
-                self.cluster_sums::<L, false>(cluster, neighbours)
-            };
-            let lanes = lanes.map(L::to_array);
-            for (lane, node) in self.sums[members].iter_mut().enumerate() {
-                *node = NodeSums {
-                    value: std::array::from_fn(|k| lanes[k][lane]),
-                    value_f: lanes[4][lane],
-                    first: std::array::from_fn(|k| lanes[5 + k][lane]),
-                    second: std::array::from_fn(|k| lanes[8 + k][lane]),
-                    first_f: std::array::from_fn(|k| lanes[14 + k][lane]),
-                };
-            }
+    fn add<L: Lanes>(sums: &mut [L; 17], pair: &Pair<L>, b: &Record) {
+        let Pair { r: [x, y, z], wv, gv } = *pair;
+        let f = L::splat(b.excess_density);
+        let (gx, gy, gz) = (gv * x, gv * y, gv * z);
+        let of_value = [(wv, x), (wv, y), (wv, z), (wv, f)];
+        let of_first = [(gv, x), (gv, y), (gv, z)];
+        let of_second = [(gx, x), (gy, y), (gz, z), (gx, y), (gx, z), (gy, z)];
+        let of_first_f = [(gx, f), (gy, f), (gz, f)];
+        sums[0] += wv;
+        let products = of_value.into_iter().chain(of_first).chain(of_second).chain(of_first_f);
+        for (sum, (a, b)) in sums[1..].iter_mut().zip(products) {
+            *sum = a.mul_add(b, *sum);
         }
     }
-}
 
-impl ChunkSums<'_> {
-    /// The sums of a cluster's nodes in the order of [`NodeSums`].
-    #[inline(always)]
-    fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 17] {
-        let kernel = &self.parameters.kernel;
-        let splat = L::splat;
-        let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, self.nodes, |n| n[k]));
-        let width = splat(self.parameters.periodic_width.unwrap_or(0.0) as f32);
-        let per_width = splat(self.parameters.periodic_width.map_or(0.0, |width| width.recip() as f32));
-        let bin_x = splat(self.bin_x);
+    fn factors(w: f32, g: f32, h: f32) -> [f32; 17] {
+        std::array::from_fn(|k| match k {
+            0 | 4 => w,
+            1..4 => w / h,
+            8..14 => g / (h * h),
+            _ => g / h,
+        })
+    }
 
-        let mut sums = [splat(0.0); 17];
-        for &j in neighbours {
-            let b = &self.records[j as usize];
-            let x = (splat(b.bin_x) - node[0]).mul_add(bin_x, splat(b.x) - node[1]);
-            let mut y = splat(b.y) - node[2];
-            if PERIODIC {
-                y = y - width * (y * per_width).round();
-            }
-            let z = splat(b.z) - node[3];
-            let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
-            let (volume, f) = (splat(b.volume), splat(b.excess_density));
-            // Constant factors of the sums come at the end.
-            let wv = kernel.shape(closeness) * volume;
-            let gv = kernel.gradient_shape(closeness) * volume;
-            let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-            let products = [
-                (wv, x),
-                (wv, y),
-                (wv, z),
-                (wv, f),
-                (gv, x),
-                (gv, y),
-                (gv, z),
-                (gx, x),
-                (gy, y),
-                (gz, z),
-                (gx, y),
-                (gx, z),
-                (gy, z),
-                (gx, f),
-                (gy, f),
-                (gz, f),
-            ];
-            sums[0] += wv;
-            for (sum, (a, b)) in sums[1..].iter_mut().zip(products) {
-                *sum = a.mul_add(b, *sum);
-            }
+    fn of_sums(sums: [f32; 17]) -> Self {
+        Self {
+            value: std::array::from_fn(|k| sums[k]),
+            value_f: sums[4],
+            first: std::array::from_fn(|k| sums[5 + k]),
+            second: std::array::from_fn(|k| sums[8 + k]),
+            first_f: std::array::from_fn(|k| sums[14 + k]),
         }
-        let h = kernel.h as f32;
-        let (w, g) = (kernel.scale(), -kernel.gradient_scale() * h * h);
-        let of_w = [w, w / h, w / h, w / h, w];
-        let of_g = [
-            g / h,
-            g / h,
-            g / h,
-            g / (h * h),
-            g / (h * h),
-            g / (h * h),
-            g / (h * h),
-            g / (h * h),
-            g / (h * h),
-            g / h,
-            g / h,
-            g / h,
-        ];
-        for (sum, factor) in sums.iter_mut().zip(of_w.into_iter().chain(of_g)) {
-            *sum = *sum * splat(factor);
-        }
-        sums
     }
 }
 

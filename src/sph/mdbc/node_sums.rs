@@ -1,0 +1,112 @@
+//! Sums over the water round each ghost node: one loop, whatever is summed.
+
+use rayon::prelude::*;
+
+use crate::sph::{
+    lanes::{Lanes, WithLanes},
+    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
+    parameters::Parameters,
+    rates::lanes_of,
+    records::Record,
+};
+
+/// A node and a water particle round it.
+pub struct Pair<L> {
+    /// From the node to the particle [m].
+    pub r: [L; 3],
+    /// W V without the constant factor of W.
+    pub wv: L,
+    /// G V without the constant factor of G.
+    pub gv: L,
+}
+
+/// `N` sums over the water round a node.
+pub trait NodeTerms<const N: usize>: Copy + Default + Send {
+    /// Add what a particle contributes, without constant factors.
+    fn add<L: Lanes>(sums: &mut [L; N], pair: &Pair<L>, b: &Record);
+
+    /// Constant factors of the sums, from those of W and of -G h^2, with lengths in h [m].
+    fn factors(w: f32, g: f32, h: f32) -> [f32; N];
+
+    /// From the sums, in the order of [`NodeTerms::add`].
+    fn of_sums(sums: [f32; N]) -> Self;
+}
+
+/// Sums for nodes, given as [`crate::sph::records::split_position`] does, with the lists of their neighbours among the
+/// records and the length of a bin [m].
+pub fn sum_round_nodes<S: NodeTerms<N>, const N: usize>(
+    parameters: &Parameters,
+    bin_x: f32,
+    nodes: &[[f32; 4]],
+    lists: &NeighbourLists,
+    records: &[Record],
+    sums: &mut [S],
+) {
+    sums.par_chunks_mut(CHUNK).zip(lists.chunks()).zip(nodes.par_chunks(CHUNK)).for_each(|((sums, chunk), nodes)| {
+        lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, records, sums });
+    });
+}
+
+/// The sums of one chunk of nodes.
+struct ChunkSums<'a, S, const N: usize> {
+    parameters: &'a Parameters,
+    bin_x: f32,
+    chunk: &'a Chunk,
+    nodes: &'a [[f32; 4]],
+    records: &'a [Record],
+    sums: &'a mut [S],
+}
+
+impl<S: NodeTerms<N>, const N: usize> WithLanes for ChunkSums<'_, S, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        for (cluster, neighbours) in self.chunk.clusters() {
+            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+            if neighbours.is_empty() {
+                self.sums[members].fill(S::default());
+                continue;
+            }
+            let lanes = if cluster.crosses_sides {
+                self.cluster_sums::<L, true>(cluster, neighbours)
+            } else {
+                self.cluster_sums::<L, false>(cluster, neighbours)
+            };
+            let lanes = lanes.map(L::to_array);
+            for (lane, node) in self.sums[members].iter_mut().enumerate() {
+                *node = S::of_sums(std::array::from_fn(|k| lanes[k][lane]));
+            }
+        }
+    }
+}
+
+impl<S: NodeTerms<N>, const N: usize> ChunkSums<'_, S, N> {
+    #[inline(always)]
+    fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; N] {
+        let kernel = &self.parameters.kernel;
+        let splat = L::splat;
+        let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, self.nodes, |n| n[k]));
+        let width = splat(self.parameters.periodic_width.unwrap_or(0.0) as f32);
+        let per_width = splat(self.parameters.periodic_width.map_or(0.0, |width| width.recip() as f32));
+        let bin_x = splat(self.bin_x);
+
+        let mut sums = [splat(0.0); N];
+        for &j in neighbours {
+            let b = &self.records[j as usize];
+            let x = (splat(b.bin_x) - node[0]).mul_add(bin_x, splat(b.x) - node[1]);
+            let mut y = splat(b.y) - node[2];
+            if PERIODIC {
+                y = y - width * (y * per_width).round();
+            }
+            let z = splat(b.z) - node[3];
+            let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
+            let volume = splat(b.volume);
+            let (wv, gv) = (kernel.shape(closeness) * volume, kernel.gradient_shape(closeness) * volume);
+            S::add(&mut sums, &Pair { r: [x, y, z], wv, gv }, b);
+        }
+        let h = kernel.h as f32;
+        let factors = S::factors(kernel.scale(), -kernel.gradient_scale() * h * h, h);
+        std::array::from_fn(|k| sums[k] * splat(factors[k]))
+    }
+}
