@@ -1,6 +1,6 @@
 //! Water and the constants of the SPH scheme, validated.
 
-use super::check::{Checker, from};
+use super::check::{Checker, from, show};
 use super::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
 
 /// Water; SI units.
@@ -109,15 +109,13 @@ pub(super) fn validate_numerics(
         "0 for none; 2 is usual",
     );
     if file.wall_slip != WallSlip::Original && file.boundary == Boundary::Dbc {
-        check.refuse(
-            "numerics.wall_slip",
-            "a slip condition",
-            "\"original\" with \"dbc\"",
-            "set numerics.boundary to \"mdbc\"",
-        );
+        let slip = if file.wall_slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
+        check.refuse("numerics.wall_slip", slip, "\"original\" with \"dbc\"", "set numerics.boundary to \"mdbc\"");
     }
     check.number("numerics.diffusion_delta", file.diffusion_delta, from(0.0).up_to(1.0), "", "0.1 is usual");
     check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
+    refuse_unstable_diffusion(file, check);
+    warn_of_what_has_no_effect(file, check);
     if !(1..=10).contains(&file.boundary_layers) {
         check.refuse("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 cover the kernel's reach");
     }
@@ -154,4 +152,92 @@ pub(super) fn validate_numerics(
         boundary_layers: file.boundary_layers as usize,
         hold_units: file.hold_units_s,
     })
+}
+
+/// Density diffusion takes the shortest wave of the particles down at the rate 2 delta h c0 sum_b V_b |G_ab|, at most
+/// 7 delta c0 / h, for the kernel's |G| integrates to 7 / (2 h^2). The step multiplies what decays at a rate lambda by
+/// 1 - z + z^2 / 2 with z = lambda dt: it grows if z > 2, where dt = cfl h / c0.
+fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
+    let most = 2.0 / (7.0 * file.cfl);
+    if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > most {
+        check.refuse(
+            "numerics.diffusion_delta",
+            file.diffusion_delta,
+            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", show(most), file.cfl),
+            "more is unstable in time; 0.1 is usual",
+        );
+    }
+}
+
+/// Constants that were changed and that the chosen scheme does not read.
+fn warn_of_what_has_no_effect(file: &NumericsFile, check: &mut Checker) {
+    let usual = NumericsFile::default();
+    let artificial = file.viscosity == Viscosity::Artificial;
+    let no_diffusion = file.density_diffusion == DensityDiffusion::None;
+    let unread = [
+        (!artificial && file.viscosity_alpha != usual.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
+        (
+            artificial && file.kinematic_viscosity_m2_s != usual.kinematic_viscosity_m2_s,
+            "kinematic_viscosity_m2_s",
+            "viscosity is artificial",
+        ),
+        (
+            no_diffusion && file.diffusion_delta != usual.diffusion_delta && file.diffusion_delta != 0.0,
+            "diffusion_delta",
+            "density_diffusion is none",
+        ),
+    ];
+    for (_, key, reason) in unread.iter().filter(|(unread, ..)| *unread) {
+        check.warn(format!("numerics.{key} has no effect: numerics.{reason}"));
+    }
+    if file.viscosity == Viscosity::Laminar && file.kinematic_viscosity_m2_s == 0.0 {
+        check.warn("numerics.kinematic_viscosity_m2_s = 0: nothing damps the water; it has 1e-6 m2/s");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Warnings of a section, and whether it was accepted.
+    fn warnings(change: impl FnOnce(&mut NumericsFile)) -> (bool, Vec<String>) {
+        let mut file = NumericsFile::default();
+        change(&mut file);
+        let mut check = Checker::new("x.json");
+        let accepted = validate_numerics(&file, 0.01, 1.0, &mut check).is_some();
+        (accepted, check.warnings)
+    }
+
+    #[test]
+    fn constants_without_effect_are_named() {
+        assert_eq!(warnings(|_| ()), (true, vec![]));
+        let (accepted, of_nu) = warnings(|file| file.kinematic_viscosity_m2_s = 1e-3);
+        assert!(accepted && of_nu[0].starts_with("numerics.kinematic_viscosity_m2_s has no effect"), "{of_nu:?}");
+        let (accepted, of_alpha) = warnings(|file| {
+            file.viscosity = Viscosity::LaminarSps;
+            file.viscosity_alpha = 0.1;
+        });
+        assert!(accepted && of_alpha[0].starts_with("numerics.viscosity_alpha has no effect"), "{of_alpha:?}");
+        let (accepted, of_delta) = warnings(|file| {
+            file.density_diffusion = DensityDiffusion::None;
+            file.diffusion_delta = 0.2;
+        });
+        assert!(accepted && of_delta[0].starts_with("numerics.diffusion_delta has no effect"), "{of_delta:?}");
+        let (accepted, inviscid) = warnings(|file| {
+            file.viscosity = Viscosity::Laminar;
+            file.kinematic_viscosity_m2_s = 0.0;
+        });
+        assert!(accepted && inviscid[0].contains("nothing damps the water"), "{inviscid:?}");
+    }
+
+    #[test]
+    fn diffusion_may_be_as_fast_as_the_step_allows() {
+        assert!(warnings(|file| (file.diffusion_delta, file.cfl) = (0.57, 0.5)).0);
+        assert!(!warnings(|file| (file.diffusion_delta, file.cfl) = (0.58, 0.5)).0);
+        let without = |file: &mut NumericsFile| {
+            file.density_diffusion = DensityDiffusion::None;
+            (file.diffusion_delta, file.cfl) = (0.58, 0.5);
+        };
+        assert!(warnings(without).0);
+    }
 }

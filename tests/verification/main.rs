@@ -1,7 +1,11 @@
 //! The parts of the program, and all of it, against answers known from mechanics. Run with `--release`.
 
+mod blocks;
 mod buoyancy;
 mod conservation;
+mod convergence;
+mod lattice;
+mod operators;
 mod reproducibility;
 mod rigid;
 mod standing_wave;

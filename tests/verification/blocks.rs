@@ -1,0 +1,125 @@
+//! Blocks of water without weight and walls, and what the solver computes in them.
+
+use breakwater::particles::{boundary::Boundary, water::Water};
+use breakwater::sph::{
+    density_diffusion::{DensityDiffusion, Diffusion},
+    gradients::Gradients,
+    grid::{Bins, Grid},
+    kernel::Wendland,
+    lanes::InstructionSet,
+    neighbours::{NeighbourLists, SortedPositions, Sources},
+    parameters::Parameters,
+    rates::{PairLoop, Rate},
+    records::record,
+    step::Solver,
+    turbulence::Smagorinsky,
+    viscosity::Viscosity,
+};
+use glam::DVec3;
+
+use super::lattice::{gradient_factor, lattice_sum, points};
+use super::tanks::{RHO0, parameters};
+
+/// h / dp of Mitsui et al. (2023).
+pub const USUAL: f64 = 1.2 * 1.732_050_807_568_877_2;
+
+/// Share of dp by which jittered points move at most along each axis.
+pub const JITTER: f64 = 0.2;
+
+/// Distance between particles of the blocks [m].
+pub const DP: f64 = 0.01;
+
+/// Particles along each edge of the blocks.
+const EDGE: usize = 20;
+
+/// Scheme without viscosity and diffusion, without weight.
+pub fn ideal(dp: f64, periodic_width: Option<f64>) -> Parameters {
+    let mut parameters = parameters(dp, 0.2, 0.0, periodic_width);
+    parameters.viscosity = Viscosity::Artificial { alpha: 0.0 };
+    parameters.diffusion = Diffusion::none();
+    parameters
+}
+
+/// Water of given density and velocity at points, each particle of the volume dp^3.
+pub fn water(points: Vec<DVec3>, dp: f64, density: impl Fn(DVec3) -> f64, velocity: impl Fn(DVec3) -> DVec3) -> Water {
+    let density: Vec<f64> = points.iter().map(|&p| density(p)).collect();
+    Water {
+        velocity: points.iter().map(|&p| velocity(p)).collect(),
+        mass: density.iter().map(|rho| rho * dp.powi(3)).collect(),
+        id: (0..points.len() as u32).collect(),
+        position: points,
+        density,
+    }
+}
+
+/// A block of EDGE^3 particles about the origin.
+pub fn block(jitter: f64, density: impl Fn(DVec3) -> f64, velocity: impl Fn(DVec3) -> DVec3) -> Water {
+    let corner = DVec3::splat(-0.5 * DP * (EDGE - 1) as f64);
+    water(points(DP, [EDGE; 3], corner, jitter), DP, density, velocity)
+}
+
+/// Along how many axes the kernel does not reach beyond the block.
+pub fn whole_axes(point: DVec3) -> usize {
+    let reach = 2.0 * USUAL * DP + 2.0 * JITTER * DP;
+    point.to_array().iter().filter(|place| place.abs() + reach < 0.5 * DP * (EDGE - 1) as f64).count()
+}
+
+/// Whether the kernel lies within the block.
+pub fn inside(point: DVec3) -> bool {
+    whole_axes(point) == 3
+}
+
+/// Rates that the solver finds, and the water in their order.
+pub fn rates(parameters: Parameters, mut water: Water, low: DVec3, high: DVec3) -> (Water, Vec<Rate>) {
+    let mut boundary = Boundary::new(&[], &[], &[], 0, RHO0);
+    let mut solver = Solver::new(parameters, low, high);
+    solver.sort(&mut water, &boundary);
+    solver.list(&water, &boundary);
+    solver.boundary_densities(&mut boundary);
+    solver.rates();
+    let rates = solver.water_rates().to_vec();
+    (water, rates)
+}
+
+pub fn rates_of_block(water: Water) -> (Water, Vec<Rate>) {
+    rates(ideal(DP, None), water, DVec3::splat(-0.15), DVec3::splat(0.15))
+}
+
+/// Gradients that the solver finds for the schemes that need them, of the particles in the given order.
+pub fn gradients(parameters: Parameters, water: &Water, low: DVec3, high: DVec3) -> (Gradients, Vec<usize>) {
+    let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
+    let mut bins = Bins::default();
+    bins.sort(&grid, &water.position);
+    let order: Vec<usize> = bins.order.iter().map(|&i| i as usize).collect();
+    let sorted: Vec<DVec3> = order.iter().map(|&i| water.position[i]).collect();
+    let mut positions = SortedPositions::default();
+    positions.set(&grid, &sorted);
+    let mut lists = NeighbourLists::new(InstructionSet::best());
+    let sources = Sources { bins: &bins, positions: &positions, first_record: 0 };
+    lists.build(&grid, &bins, &sorted, &[sources], parameters.kernel.support());
+    let of = |&i: &usize| {
+        record(&grid, &parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true)
+    };
+    let records: Vec<_> = order.iter().map(of).collect();
+    let mut gradients = Gradients::default();
+    gradients.compute(&PairLoop::new(parameters, grid.size.x), &lists, &records, records.len());
+    (gradients, order)
+}
+
+pub fn gradients_of_block(water: &Water) -> (Gradients, Vec<usize>) {
+    let mut parameters = ideal(DP, None);
+    parameters.diffusion = Diffusion::new(DensityDiffusion::Antuono, 0.1, parameters.kernel.h, &parameters.tait, 0.0);
+    parameters.viscosity = Viscosity::Laminar { nu: 1e-6, turbulence: Some(Smagorinsky::new(DP)) };
+    gradients(parameters, water, DVec3::splat(-0.15), DVec3::splat(0.15))
+}
+
+pub fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), v| (sum + v * v, count + 1));
+    (sum / f64::from(count)).sqrt()
+}
+
+/// What a lattice adds to the first moment of the gradient, 1 in theory.
+pub fn lattice_error_of_gradient(factor: f64) -> f64 {
+    let kernel = Wendland::new(factor);
+    lattice_sum(&kernel, |r| -gradient_factor(&kernel, r.length()) * r.x * r.x) - 1.0
+}
