@@ -19,7 +19,7 @@ use super::{
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
     parameters::Parameters,
     records::Record,
-    viscosity::{Viscosity, approach_rate, laminar_factor, viscous_stress},
+    viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
 };
 
 /// Sums of one target.
@@ -180,6 +180,17 @@ trait Terms {
     const LAMINAR: bool;
     /// Sub-particle-scale stress besides.
     const TURBULENT: bool;
+    /// Monaghan & Gingold's viscosity instead of artificial viscosity.
+    const MONAGHAN_GINGOLD: bool = false;
+}
+
+struct MonaghanGingold<const ANTUONO: bool>;
+
+impl<const ANTUONO: bool> Terms for MonaghanGingold<ANTUONO> {
+    const ANTUONO: bool = ANTUONO;
+    const LAMINAR: bool = false;
+    const TURBULENT: bool = false;
+    const MONAGHAN_GINGOLD: bool = true;
 }
 
 struct Choice<const ANTUONO: bool, const LAMINAR: bool, const TURBULENT: bool>;
@@ -203,6 +214,8 @@ impl WithLanes for ChunkRates<'_> {
             (true, Viscosity::Laminar { turbulence: None, .. }) => self.run_terms::<L, Choice<true, true, false>>(),
             (false, Viscosity::Laminar { .. }) => self.run_terms::<L, Choice<false, true, true>>(),
             (true, Viscosity::Laminar { .. }) => self.run_terms::<L, Choice<true, true, true>>(),
+            (false, Viscosity::MonaghanGingold { .. }) => self.run_terms::<L, MonaghanGingold<false>>(),
+            (true, Viscosity::MonaghanGingold { .. }) => self.run_terms::<L, MonaghanGingold<true>>(),
         }
     }
 }
@@ -232,7 +245,7 @@ impl ChunkRates<'_> {
         let (h, rho0) = (kernel.h as f32, tait.rho0 as f32);
         let (alpha, nu) = match viscosity {
             Viscosity::Artificial { alpha } => (*alpha as f32, 0.0),
-            Viscosity::Laminar { nu, .. } => (0.0, *nu as f32),
+            Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } => (0.0, *nu as f32),
         };
         let extra = |k: usize| &self.extra[self.begin + k];
         let extra_a = |f: fn(&Extra) -> f32| {
@@ -290,6 +303,8 @@ impl ChunkRates<'_> {
             fastest = fastest.max(approach.abs().where_positive(closeness));
             let viscous = if T::LAMINAR {
                 splat(0.0)
+            } else if T::MONAGHAN_GINGOLD {
+                monaghan_gingold_stress(nu, approach, rho_a, rho_b)
             } else {
                 viscous_stress(alpha, h, approach, c_a, splat(b.sound_speed), rho_a, rho_b)
             };
