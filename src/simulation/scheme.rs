@@ -32,6 +32,7 @@ pub fn parameters(case: &Case) -> Parameters {
         viscosity: match numerics.viscosity {
             case::Viscosity::Artificial => Viscosity::Artificial { alpha: numerics.alpha },
             case::Viscosity::Laminar => laminar(None),
+            case::Viscosity::LaminarMonaghanGingold => Viscosity::MonaghanGingold { nu: numerics.nu },
             case::Viscosity::LaminarSps => laminar(Some(Smagorinsky::new(dp))),
         },
         diffusion: Diffusion::new(diffusion, numerics.delta, numerics.h, &tait, fluid.gravity),

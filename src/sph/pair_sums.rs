@@ -11,17 +11,68 @@ use super::{
     parameters::Parameters,
     rates::{Rate, lanes_of},
     records::Record,
-    viscosity::{Viscosity, approach_rate, laminar_factor, viscous_stress},
+    viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
 };
 
-/// Terms that a loop over pairs is compiled for.
-pub(super) trait Terms {
-    /// Density diffusion with renormalised gradients.
-    const ANTUONO: bool;
-    /// Laminar instead of artificial viscosity.
-    const LAMINAR: bool;
-    /// Sub-particle-scale stress besides.
-    const TURBULENT: bool;
+/// A viscosity that a loop over pairs is compiled for.
+pub(super) trait Resistance {
+    /// Whether there is a sub-particle-scale stress besides.
+    const TURBULENT: bool = false;
+
+    /// rho_a rho_b Pi_ab [Pa]: viscosity along the line between the particles.
+    #[inline(always)]
+    fn stress<L: Lanes>(_: &Constants, _approach: L, _a: &Members<L>, _b: &Record, _rho_b: L) -> L {
+        L::splat(0.0)
+    }
+
+    /// Factor of v_ab [Pa s]: viscosity along the difference of the velocities, if there is any.
+    #[inline(always)]
+    fn shear<L: Lanes>(_: &Constants, _rho_a: L, _rho_b: L) -> Option<L> {
+        None
+    }
+}
+
+/// Equation 3.
+pub(super) struct Artificial;
+
+impl Resistance for Artificial {
+    #[inline(always)]
+    fn stress<L: Lanes>(constants: &Constants, approach: L, a: &Members<L>, b: &Record, rho_b: L) -> L {
+        let &Constants { alpha, h, .. } = constants;
+        viscous_stress(alpha, h, approach, a.sound_speed, L::splat(b.sound_speed), a.density, rho_b)
+    }
+}
+
+/// Monaghan & Gingold (1983).
+pub(super) struct MonaghanGingold;
+
+impl Resistance for MonaghanGingold {
+    #[inline(always)]
+    fn stress<L: Lanes>(constants: &Constants, approach: L, a: &Members<L>, _: &Record, rho_b: L) -> L {
+        monaghan_gingold_stress(constants.nu, approach, a.density, rho_b)
+    }
+}
+
+/// Lo & Shao (2002).
+pub(super) struct Laminar;
+
+impl Resistance for Laminar {
+    #[inline(always)]
+    fn shear<L: Lanes>(constants: &Constants, rho_a: L, rho_b: L) -> Option<L> {
+        Some(laminar_factor(constants.nu, rho_a, rho_b))
+    }
+}
+
+/// The same with sub-particle-scale turbulence.
+pub(super) struct Turbulent;
+
+impl Resistance for Turbulent {
+    const TURBULENT: bool = true;
+
+    #[inline(always)]
+    fn shear<L: Lanes>(constants: &Constants, rho_a: L, rho_b: L) -> Option<L> {
+        Laminar::shear(constants, rho_a, rho_b)
+    }
 }
 
 /// Constants of the sums in single precision.
@@ -59,7 +110,10 @@ pub(super) struct Near<L> {
 
 /// Sums of the members, without the constant factors, which come at the end.
 pub(super) struct Sums<L> {
+    /// Along the lines between the particles.
     force: [L; 3],
+    /// Of laminar and turbulent stress. Small beside the pressure, it would lose its digits in the same sum.
+    shear: [L; 3],
     compression: L,
     diffusion: L,
     fastest: L,
@@ -70,7 +124,7 @@ impl Constants {
         let Parameters { kernel, diffusion, tait, viscosity, .. } = *parameters;
         let (alpha, nu) = match viscosity {
             Viscosity::Artificial { alpha } => (alpha, 0.0),
-            Viscosity::Laminar { nu, .. } => (0.0, nu),
+            Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } => (0.0, nu),
         };
         let (h, rho0) = (kernel.h as f32, tait.rho0 as f32);
         Self { kernel, diffusion, h, rho0, alpha: alpha as f32, nu: nu as f32 }
@@ -87,7 +141,12 @@ impl Constants {
 impl<L: Lanes> Members<L> {
     /// The members of `cluster` among the `targets`; `extra` are theirs, for schemes that have them.
     #[inline(always)]
-    pub(super) fn new<T: Terms>(constants: &Constants, cluster: &Cluster, targets: &[Record], extra: &[Extra]) -> Self {
+    pub(super) fn new<R: Resistance, const ANTUONO: bool>(
+        constants: &Constants,
+        cluster: &Cluster,
+        targets: &[Record],
+        extra: &[Extra],
+    ) -> Self {
         let a = |f: fn(&Record) -> f32| lanes_of::<L, Record>(cluster, targets, f);
         let excess_density = a(|r| r.excess_density);
         let nothing = L::splat(0.0);
@@ -100,11 +159,11 @@ impl<L: Lanes> Members<L> {
             density_gradient: [nothing; 3],
             stress: [nothing; 6],
         };
-        if T::ANTUONO {
+        if ANTUONO {
             members.density_gradient =
                 std::array::from_fn(|k| lanes_of(cluster, extra, |e: &Extra| e.density_gradient[k]));
         }
-        if T::TURBULENT {
+        if R::TURBULENT {
             members.stress = std::array::from_fn(|k| lanes_of(cluster, extra, |e: &Extra| e.stress[k]));
         }
         members
@@ -115,12 +174,12 @@ impl<L: Lanes> Sums<L> {
     #[inline(always)]
     pub(super) fn zero() -> Self {
         let zero = L::splat(0.0);
-        Self { force: [zero; 3], compression: zero, diffusion: zero, fastest: zero }
+        Self { force: [zero; 3], shear: [zero; 3], compression: zero, diffusion: zero, fastest: zero }
     }
 
     /// Add a neighbour `near`, whose record is `b`.
     #[inline(always)]
-    pub(super) fn add<T: Terms>(
+    pub(super) fn add<R: Resistance, const ANTUONO: bool>(
         &mut self,
         constants: &Constants,
         a: &Members<L>,
@@ -128,7 +187,7 @@ impl<L: Lanes> Sums<L> {
         b: &Record,
         extra_b: &Extra,
     ) {
-        let &Constants { kernel, diffusion, h, rho0, alpha, nu } = constants;
+        let &Constants { kernel, diffusion, h, rho0, .. } = constants;
         let splat = L::splat;
         let [x, y, z] = near.r;
         let g = kernel.gradient_shape(near.closeness);
@@ -140,37 +199,35 @@ impl<L: Lanes> Sums<L> {
 
         let approach = approach_rate(h, v_dot_r, near.r2);
         self.fastest = self.fastest.max(approach.abs().where_positive(near.closeness));
-        let viscous = if T::LAMINAR {
-            splat(0.0)
-        } else {
-            viscous_stress(alpha, h, approach, a.sound_speed, splat(b.sound_speed), a.density, rho_b)
-        };
-        let stress = pair_stress(a.pressure, splat(b.pressure), viscous) * gv;
-        self.add_force(stress, near.r);
-        if T::LAMINAR {
-            let shear = laminar_factor(nu, a.density, rho_b) * gv;
-            self.add_force(-shear, v);
+        let viscous = R::stress(constants, approach, a, b, rho_b);
+        add_to(&mut self.force, pair_stress(a.pressure, splat(b.pressure), viscous) * gv, near.r);
+        if let Some(shear) = R::shear(constants, a.density, rho_b) {
+            add_to(&mut self.shear, -shear * gv, v);
         }
-        if T::TURBULENT {
+        if R::TURBULENT {
             let factor = a.density * rho_b * gv;
             let [xx, yy, zz, xy, xz, yz]: [L; 6] = std::array::from_fn(|k| a.stress[k] + splat(extra_b.stress[k]));
             let along = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
-            self.add_force(-factor, along);
+            add_to(&mut self.shear, -factor, along);
         }
         self.compression = add_compression(self.compression, rho_b, v_dot_r, gv);
         let mut excess = diffusion.excess(a.excess_density, excess_b, z);
-        if T::ANTUONO {
+        if ANTUONO {
             excess += explained_by_gradients(a, near, extra_b);
         }
         self.diffusion = (g * splat(b.diffusive_volume)).mul_add(excess, self.diffusion);
     }
 
-    /// Add `factor` times a vector to -rho_a dv_a/dt.
+    /// Add the sums over other neighbours.
     #[inline(always)]
-    fn add_force(&mut self, factor: L, vector: [L; 3]) {
-        for (sum, component) in self.force.iter_mut().zip(vector) {
-            *sum = factor.mul_add(component, *sum);
+    pub(super) fn add_sums(&mut self, other: &Self) {
+        for k in 0..3 {
+            self.force[k] += other.force[k];
+            self.shear[k] += other.shear[k];
         }
+        self.compression += other.compression;
+        self.diffusion += other.diffusion;
+        self.fastest = self.fastest.max(other.fastest);
     }
 
     /// The rates of the members.
@@ -178,7 +235,8 @@ impl<L: Lanes> Sums<L> {
     pub(super) fn rates(&self, constants: &Constants, a: &Members<L>) -> [Rate; MOST_LANES] {
         let scale = L::splat(constants.kernel.gradient_scale());
         let minus_per_mass = -scale / a.density;
-        let [ax, ay, az] = self.force.map(|force| (force * minus_per_mass).to_array());
+        let [ax, ay, az]: [_; 3] =
+            std::array::from_fn(|k| ((self.force[k] + self.shear[k]) * minus_per_mass).to_array());
         let diffusion_factor = L::splat(constants.diffusion.factor());
         let density = (scale * self.diffusion.mul_add(diffusion_factor, self.compression)).to_array();
         let approach = (L::splat(constants.h) * self.fastest).to_array();
@@ -197,4 +255,12 @@ fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &Extra) -
     let slope = |k: usize| share.mul_add(a.density_gradient[k], L::splat(0.5 * b.density_gradient[k]));
     let [x, y, z] = near.r;
     slope(0).mul_add(x, slope(1).mul_add(y, slope(2) * z))
+}
+
+/// `sum` + `factor` times a vector.
+#[inline(always)]
+fn add_to<L: Lanes>(sum: &mut [L; 3], factor: L, vector: [L; 3]) {
+    for (sum, component) in sum.iter_mut().zip(vector) {
+        *sum = factor.mul_add(component, *sum);
+    }
 }

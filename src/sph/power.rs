@@ -31,6 +31,7 @@ impl Solver {
             match parameters.viscosity {
                 Viscosity::Artificial { .. } => Viscosity::Artificial { alpha: 0.0 },
                 Viscosity::Laminar { .. } => Viscosity::Laminar { nu: 0.0, turbulence: None },
+                Viscosity::MonaghanGingold { .. } => Viscosity::MonaghanGingold { nu: 0.0 },
             },
             Diffusion::none(),
         );

@@ -43,7 +43,9 @@ impl Limits {
         let of_sound_and_viscosity = h / self.signal_speed;
         let courant = parameters.cfl * of_force.min(of_sound_and_viscosity);
         match parameters.viscosity {
-            Viscosity::Laminar { nu, .. } if nu > 0.0 => courant.min(0.125 * h * h / nu),
+            Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } if nu > 0.0 => {
+                courant.min(0.125 * h * h / nu)
+            }
             _ => courant,
         }
     }

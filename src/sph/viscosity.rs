@@ -2,8 +2,17 @@
 //! Pi_ab = -alpha c_ab mu_ab / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where v_ab . r_ab < 0, else 0;
 //! c_ab and rho_ab are means of the pair.
 //!
-//! Or the viscosity of the fluid itself (Lo & Shao 2002): the acceleration
-//! sum_b m_b 4 nu (r_ab . grad_a W_ab) / ((rho_a + rho_b) r_ab^2) v_ab.
+//! Or the viscosity of the fluid itself, in one of two forms. Lo & Shao (2002), the acceleration
+//!
+//!   sum_b m_b 4 nu (r_ab . grad_a W_ab) / ((rho_a + rho_b) r_ab^2) v_ab,
+//!
+//! acts along the difference of the velocities; Monaghan & Gingold (1983), in D dimensions with K = 2 (D + 2),
+//!
+//!   sum_b m_b 2 K nu / (rho_a + rho_b) (v_ab . r_ab) / (r_ab^2 + 0.01 h^2) grad_a W_ab,
+//!
+//! along the line between the particles. Inside the water both tend to nu laplace v where div v = 0 (Espanol & Revenga
+//! 2003; Hu & Adams 2006). But only the second conserves angular momentum, and at a free surface it alone takes what the
+//! stress of a Newtonian fluid takes: 2 mu S : S a volume, and not mu |grad v|^2 (Colagrossi et al. 2011).
 
 use super::{lanes::Real, turbulence::Smagorinsky};
 
@@ -15,12 +24,17 @@ pub enum Viscosity {
         /// alpha [-].
         alpha: f64,
     },
-    /// Of the fluid, with or without sub-particle-scale turbulence.
+    /// Of the fluid (Lo & Shao 2002), with or without sub-particle-scale turbulence.
     Laminar {
         /// Kinematic viscosity nu [m2/s].
         nu: f64,
         /// Turbulence.
         turbulence: Option<Smagorinsky>,
+    },
+    /// Of the fluid (Monaghan & Gingold 1983).
+    MonaghanGingold {
+        /// Kinematic viscosity nu [m2/s].
+        nu: f64,
     },
 }
 
@@ -44,6 +58,13 @@ pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_
 #[inline(always)]
 pub fn laminar_factor<R: Real>(nu: f32, rho_a: R, rho_b: R) -> R {
     R::splat(4.0 * nu) * rho_a * rho_b / (rho_a + rho_b)
+}
+
+/// rho_a rho_b Pi_ab [Pa] of Monaghan & Gingold's form in three dimensions, Pi_ab = -20 nu / (rho_a + rho_b) times the
+/// [`approach_rate`] [1/s], of either sign: it resists parting as well.
+#[inline(always)]
+pub fn monaghan_gingold_stress<R: Real>(nu: f32, rate: R, rho_a: R, rho_b: R) -> R {
+    R::splat(-20.0 * nu) * rate * rho_a * rho_b / (rho_a + rho_b)
 }
 
 #[cfg(test)]

@@ -4,3 +4,4 @@
 //! and skips.
 
 mod dam_break;
+mod wall_pressure;

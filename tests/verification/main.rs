@@ -8,6 +8,7 @@ mod lattice;
 mod operators;
 mod reproducibility;
 mod rigid;
+mod solitary_wave;
 mod standing_wave;
 mod still_water;
 mod tanks;

@@ -75,8 +75,12 @@ impl Wave {
     fn loss_over(&self, depths: f64) -> f64 {
         let [first, last] = self.run();
         let loss = 1.0 - (last / first).powf(depths / self.travel);
-        println!("  {:.2} % of the height lost over {} d: {:.2} % over {depths} d",
-            100.0 * (1.0 - last / first), self.travel, 100.0 * loss);
+        println!(
+            "  {:.2} % of the height lost over {} d: {:.2} % over {depths} d",
+            100.0 * (1.0 - last / first),
+            self.travel,
+            100.0 * loss
+        );
         loss
     }
 }

@@ -58,10 +58,12 @@ impl Default for NumericsFile {
 pub enum Viscosity {
     /// Artificial viscosity (Monaghan 1992), equation 3.
     Artificial,
-    /// Viscosity of the fluid (Lo & Shao 2002).
+    /// Viscosity of the fluid (Lo & Shao 2002): too little friction in waves.
     Laminar,
     /// The same with sub-particle-scale turbulence (Dalrymple & Rogers 2006).
     LaminarSps,
+    /// Viscosity of the fluid (Monaghan & Gingold 1983): right at a free surface too.
+    LaminarMonaghanGingold,
 }
 
 /// Density diffusion.
