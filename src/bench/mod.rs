@@ -2,6 +2,7 @@
 
 pub mod block;
 pub mod machine;
+pub mod tank;
 
 use std::time::{Duration, Instant};
 
@@ -87,8 +88,8 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
         steps += 1;
     }
     let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
-    let (particles, water_particles) = (block.particles(), block.water.len());
-    let neighbours_mean = block.solver.mean_neighbours();
+    let (particles, water_particles) = (block.particles(), block.water_particles());
+    let neighbours_mean = block.solver().mean_neighbours();
     let pairs = 2.0 * f64::from(steps) * neighbours_mean * water_particles as f64;
     let evaluations = 2.0 * f64::from(steps) * particles as f64;
     let rates = times[3].as_secs_f64();
@@ -103,14 +104,14 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
         particles,
         water_particles,
         neighbours_mean,
-        useful_lanes: neighbours_mean / block.solver.lanes_per_target(),
+        useful_lanes: neighbours_mean / block.solver().lanes_per_target(),
         steps,
         full_evaluations_per_s: evaluations / total,
         pairs_per_s: pairs / total,
         share_of_peak: FLOPS_PER_PAIR * pairs / total / machine.flops(threads),
         share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / rates / machine.flops(threads),
         share_of_bandwidth: block.least_traffic() * f64::from(steps) / total / machine.bandwidth(threads),
-        bytes_per_particle: (block.solver.bytes() + block.state_bytes()) as f64 / particles as f64,
+        bytes_per_particle: (block.solver().bytes() + block.state_bytes()) as f64 / particles as f64,
         phases: PHASES.iter().zip(&times).map(phase).collect(),
     }
 }

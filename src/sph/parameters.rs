@@ -1,7 +1,11 @@
 //! Constants of the scheme, derived once from the case.
 
 use super::{
-    density_diffusion::Diffusion, equation_of_state::Tait, kernel::Wendland, shifting::Shifting, viscosity::Viscosity,
+    density_diffusion::{DensityDiffusion, Diffusion},
+    equation_of_state::Tait,
+    kernel::Wendland,
+    shifting::Shifting,
+    viscosity::Viscosity,
     wall_slip::WallSlip,
 };
 
@@ -39,4 +43,25 @@ pub struct Parameters {
     pub shifting: Option<Shifting>,
     /// Width across the flume if what leaves on one side enters on the other [m].
     pub periodic_width: Option<f64>,
+}
+
+impl Parameters {
+    /// The scheme of Mitsui et al. (2023) for a particle distance, a smoothing length [m], a speed of sound [m/s], a
+    /// gravity [m/s2] and, if the domain is periodic across, its width [m].
+    pub fn published(dp: f64, h: f64, c0: f64, gravity: f64, periodic_width: Option<f64>) -> Self {
+        let tait = Tait { rho0: 1000.0, c0, gamma: 7.0 };
+        Self {
+            dp,
+            kernel: Wendland::new(h),
+            tait,
+            viscosity: Viscosity::Artificial { alpha: 0.04 },
+            diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, gravity),
+            gravity,
+            cfl: 0.2,
+            boundary: BoundaryCondition::ModifiedDynamic,
+            slip: WallSlip::Original,
+            shifting: None,
+            periodic_width,
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use breakwater::bench::tank::Tank;
 use breakwater::case::Case;
 use breakwater::geometry::solid::Solid;
 use breakwater::particles::bed::{Across, Outline, outline_particles};
@@ -11,13 +12,9 @@ use breakwater::particles::water::Water;
 use breakwater::simulation::Simulation;
 use breakwater::sph::{
     density_diffusion::{DensityDiffusion, Diffusion},
-    equation_of_state::Tait,
-    kernel::Wendland,
     lanes::InstructionSet,
-    parameters::{BoundaryCondition, Parameters},
+    parameters::Parameters,
     step::Solver,
-    viscosity::Viscosity,
-    wall_slip::WallSlip,
 };
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
@@ -92,20 +89,7 @@ pub fn dam_break(dp: f64, duration: f64) -> Value {
 /// Parameters of the scheme with the constants of Mitsui et al. (2023), for a depth [m] that gives the speed of sound.
 pub fn parameters(dp: f64, depth: f64, gravity: f64, periodic_width: Option<f64>) -> Parameters {
     let (h, c0) = (1.2 * 3f64.sqrt() * dp, 15.0 * (GRAVITY * depth).sqrt());
-    let tait = Tait { rho0: RHO0, c0, gamma: 7.0 };
-    Parameters {
-        dp,
-        kernel: Wendland::new(h),
-        tait,
-        viscosity: Viscosity::Artificial { alpha: 0.04 },
-        diffusion: Diffusion::new(DensityDiffusion::Fourtakas, 0.1, h, &tait, gravity),
-        gravity,
-        cfl: 0.2,
-        boundary: BoundaryCondition::ModifiedDynamic,
-        slip: WallSlip::Original,
-        shifting: None,
-        periodic_width,
-    }
+    Parameters::published(dp, h, c0, gravity, periodic_width)
 }
 
 /// Solver, water and boundary without the coupling round them.
@@ -141,30 +125,10 @@ impl BareTank {
         surface: &dyn Fn(f64) -> f64,
         unit: &[BoundaryParticle],
     ) -> Self {
-        let dp = parameters.dp;
-        let across = Across { width, count: (width / dp).round() as u32, walls: false };
-        let basin = Basin {
-            x: [0.0, length],
-            across,
-            dp,
-            bed: &|_| 0.0,
-            surface,
-            velocity: &|_, _| DVec2::ZERO,
-            gravity: GRAVITY,
-        };
-        let corners = [[0.0, 1.5 * depth], [0.0, 0.0], [length, 0.0], [length, 1.5 * depth]];
-        let fixed = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, 3);
-        let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
-        Self {
-            solver: Solver::with_instructions(
-                instructions,
-                parameters,
-                -margin,
-                DVec3::new(length, width, 1.5 * depth) + margin,
-            ),
-            water: basin.fill(&parameters.tait),
-            boundary: Boundary::new(&fixed, &[], unit, usize::from(!unit.is_empty()), RHO0),
-        }
+        let still = |_, _| DVec2::ZERO;
+        let size = [length, width, depth];
+        let Tank { solver, water, boundary } = Tank::new(instructions, parameters, size, surface, &still, unit);
+        Self { solver, water, boundary }
     }
 
     /// A square box of side `side`, `width` wide and periodic across, full of weightless water; `adjust` changes the

@@ -1,0 +1,53 @@
+//! A tank of water with solver and walls and nothing round them, to be timed and tested.
+
+use glam::{DVec2, DVec3};
+
+use crate::{
+    particles::{
+        bed::{Across, Outline, outline_particles},
+        boundary::{Boundary, BoundaryParticle},
+        fill::Basin,
+        water::Water,
+    },
+    sph::{lanes::InstructionSet, parameters::Parameters, step::Solver},
+};
+
+/// Layers of particles in bed and walls.
+const LAYERS: u32 = 3;
+
+/// Water on a flat bed between two end walls, periodic across.
+pub struct Tank {
+    /// The solver.
+    pub solver: Solver,
+    /// The water.
+    pub water: Water,
+    /// Bed, walls and unit.
+    pub boundary: Boundary,
+}
+
+impl Tank {
+    /// A tank of a length, width and mean depth [m] whose walls are half as high again, with the surface z(x) [m] and the
+    /// velocity v(x, z) [m/s] of the water; `unit` are the particles of its one unit, if there are any.
+    pub fn new(
+        instructions: InstructionSet,
+        parameters: Parameters,
+        [length, width, depth]: [f64; 3],
+        surface: &dyn Fn(f64) -> f64,
+        velocity: &dyn Fn(f64, f64) -> DVec2,
+        unit: &[BoundaryParticle],
+    ) -> Self {
+        let Parameters { dp, gravity, tait, .. } = parameters;
+        let across = Across { width, count: (width / dp).round() as u32, walls: false };
+        let basin = Basin { x: [0.0, length], across, dp, bed: &|_| 0.0, surface, velocity, gravity };
+        let top = 1.5 * depth;
+        let corners = [[0.0, top], [0.0, 0.0], [length, 0.0], [length, top]];
+        let walls = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, LAYERS);
+        let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
+        let high = DVec3::new(length, width, top) + margin;
+        Self {
+            solver: Solver::with_instructions(instructions, parameters, -margin, high),
+            water: basin.fill(&tait),
+            boundary: Boundary::new(&walls, &[], unit, usize::from(!unit.is_empty()), tait.rho0),
+        }
+    }
+}
