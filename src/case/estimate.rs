@@ -1,10 +1,12 @@
 //! How large a case is, before any particle is made.
 
 use super::domain::Water;
-use super::file::Sides;
+use super::file::{Sides, Viscosity};
+use super::numerics::Numerics;
 use super::units;
 use super::validate::Case;
 use crate::geometry::profile::Profile;
+use crate::sph::time_step::viscous_limit;
 
 /// Memory of one particle with its neighbour lists [bytes].
 const BYTES_PER_PARTICLE: f64 = 600.0;
@@ -20,7 +22,7 @@ pub struct Estimate {
     pub units: f64,
     /// Memory [bytes].
     pub bytes: f64,
-    /// Time step from the speed of sound, cfl h / c0 [s].
+    /// Time step from the speed of sound, cfl h / c0, or from the viscosity, if that is less [s].
     pub dt: f64,
     /// Steps of the whole duration.
     pub steps: f64,
@@ -60,7 +62,9 @@ impl Case {
             self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * units::volume(row.shape, row.height));
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
-        let dt = self.numerics.cfl * self.numerics.h / self.fluid.sound_speed;
+        let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;
+        let courant = cfl * h / self.fluid.sound_speed;
+        let dt = if viscosity == Viscosity::Artificial { courant } else { courant.min(viscous_limit(h, nu)) };
         Estimate {
             fluid: fluid.round(),
             boundary: boundary.round(),

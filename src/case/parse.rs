@@ -28,8 +28,9 @@ pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
     }
 }
 
-/// Two things that the parser calls syntax errors are a key's: a number beyond the largest float, and the surplus
-/// entries of a list of fixed length (the text is then JSON to a reader who expects nothing).
+/// Three things that the parser calls syntax errors are a key's: a number beyond the largest float, something else where
+/// a name in quotes must stand, and the surplus entries of a list of fixed length (the text is then JSON to a reader who
+/// expects nothing).
 fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
     let key = |problem: &str, advice: &str| CaseError::Key {
         file: name.to_owned(),
@@ -40,10 +41,12 @@ fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &s
     };
     if without_place(error) == "number out of range" {
         key("number too large to be represented", "write a finite number")
-    } else if serde_json::from_str::<IgnoredAny>(text).is_ok() {
-        key("too many entries", "leave out the surplus; `breakwater schema` tells how many there must be")
-    } else {
+    } else if serde_json::from_str::<IgnoredAny>(text).is_err() {
         syntax(error, name)
+    } else if without_place(error) == "expected value" {
+        key("not one of the names", "write one in quotes; `breakwater schema` lists them")
+    } else {
+        key("too many entries", "leave out the surplus; `breakwater schema` tells how many there must be")
     }
 }
 

@@ -43,12 +43,15 @@ impl Limits {
         let of_sound_and_viscosity = h / self.signal_speed;
         let courant = parameters.cfl * of_force.min(of_sound_and_viscosity);
         match parameters.viscosity {
-            Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } if nu > 0.0 => {
-                courant.min(0.125 * h * h / nu)
-            }
-            _ => courant,
+            Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } => courant.min(viscous_limit(h, nu)),
+            Viscosity::Artificial { .. } => courant,
         }
     }
+}
+
+/// Largest step [s] that the diffusion of momentum allows, from h [m] and nu [m2/s]; infinite without viscosity.
+pub fn viscous_limit(h: f64, nu: f64) -> f64 {
+    0.125 * h * h / nu
 }
 
 fn larger_or_nan(a: f64, b: f64) -> f64 {
