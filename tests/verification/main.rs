@@ -2,6 +2,7 @@
 
 mod buoyancy;
 mod conservation;
+mod regular_waves;
 mod reproducibility;
 mod rigid;
 mod standing_wave;
