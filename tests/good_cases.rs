@@ -80,6 +80,15 @@ fn hash_sees_values_and_not_layout() {
 }
 
 #[test]
+fn the_usual_wavemaker_written_out_is_the_same_case() {
+    let text = template_text();
+    let explicit = text.replacen("\"wave\":", "\"wavemaker\": { \"kind\": \"ml_piston\" }, \"wave\":", 1);
+    assert_ne!(explicit, text);
+    let hash = |text: &str| Case::from_str(text, "template").unwrap().hash;
+    assert_eq!(hash(&explicit), hash(&text));
+}
+
+#[test]
 fn derived_numbers_are_those_of_the_published_run() {
     let case = case("fudo/H6.4-full.json");
     // Mitsui et al. 2023, section 4.1: h = 1.2 sqrt(3) dp = 0.0104 m at dp = 0.005 m.

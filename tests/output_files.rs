@@ -80,7 +80,12 @@ fn summary(units: u32) -> Summary {
         title: "Row of Tetrapods on a PVC mound, H = 4.5 cm".to_owned(),
         breakwater_version: "0.1.0".to_owned(),
         case_hash: "7d0c2f1b9a8e4c55".to_owned(),
-        wave: Some(WaveSummary { kind: "solitary".to_owned(), theory: "rayleigh".to_owned(), height_m: 0.045 }),
+        wave: Some(WaveSummary {
+            kind: "solitary".to_owned(),
+            theory: "rayleigh".to_owned(),
+            height_m: 0.045,
+            period_s: None,
+        }),
         gauges: vec![
             GaugeSummary { name: "WG6".to_owned(), x_m: 36.0, crest_sph_m: Some(0.0569), crest_flume_m: Some(0.0578) },
             GaugeSummary { name: "WG7".to_owned(), x_m: 38.7, crest_sph_m: None, crest_flume_m: Some(0.0611) },
@@ -145,7 +150,18 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
         let (eta6, eta7) = (hump(t, 1.6, 0.0575), hump(t, 2.7, 0.061));
         gauges.append(&[t, eta6 + ripple, eta7 + ripple, 780.0 + 9000.0 * eta7, 3.0 * eta7, 0.0, 0.3 * ripple])?;
         flume.append(&[t, eta6, eta7 + 0.001])?;
-        energy.append(&[t, 60.0 * eta6, -10.0 + 80.0 * eta7, 0.1 * t, 0.5 * eta7, -0.1 * t, t, -0.3 * t, -0.01 * t])?;
+        energy.append(&[
+            t,
+            60.0 * eta6,
+            -10.0 + 80.0 * eta7,
+            0.1 * t,
+            0.5 * eta7,
+            -0.1 * t,
+            t,
+            -0.3 * t,
+            -0.01 * t,
+            0.0,
+        ])?;
         for unit in 1..=units {
             let ([x, y, z], q) = pose(unit, t);
             let push = hump(t, 2.6, 1.6 + 0.05 * f64::from(unit)) - hump(t, 4.0, 0.5);

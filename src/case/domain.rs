@@ -1,6 +1,7 @@
 //! The part of the flume that is filled with particles, validated.
 
 use super::check::{Checker, above, from, show};
+use super::damping_zone::{self, DampingZone};
 use super::file::{DomainFile, Sides, WaterFile};
 use super::flume::Flume;
 
@@ -34,6 +35,8 @@ pub struct Domain {
     pub water: Water,
     /// Largest depth of the water at the start [m].
     pub depth: f64,
+    /// Where the water is slowed down, if anywhere.
+    pub damping_zone: Option<DampingZone>,
 }
 
 /// Where the water stands at the start; SI units.
@@ -85,6 +88,7 @@ pub(super) fn validate(
         }
     }
     let (water, depth) = validate_water(file, flume, check)?;
+    let damping_zone = file.damping_zone.map(|zone| damping_zone::validate(&zone, file.x_m, check));
     if check.count() > before {
         return None;
     }
@@ -103,6 +107,7 @@ pub(super) fn validate(
         nz: (lengths[2] / file.dp_m).ceil() as usize,
         water,
         depth,
+        damping_zone,
     })
 }
 

@@ -5,6 +5,7 @@
 
 mod numerics;
 mod objects;
+mod waves;
 
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
@@ -12,6 +13,8 @@ pub use objects::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use waves::{FlapFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile};
+pub(super) use waves::{default_flume_cell_m, default_layers, default_start_share};
 
 /// A breakwater case: a flume, the water in it, the wave and the armour units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -35,9 +38,13 @@ pub struct CaseFile {
     /// Constants of the SPH scheme.
     #[serde(default)]
     pub numerics: NumericsFile,
-    /// The wave that is sent down the flume.
+    /// The wave.
     #[serde(default)]
     pub wave: WaveFile,
+    /// What makes the wave in the particles, at the seaward end of the domain.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(default, skip_serializing_if = "WavemakerFile::is_default")]
+    pub wavemaker: WavemakerFile,
     /// The armour units; none for a flume with water alone.
     #[serde(default)]
     pub units: Option<UnitsFile>,
@@ -109,6 +116,26 @@ pub struct DomainFile {
     /// Where the water stands at the start.
     #[serde(default)]
     pub water: WaterFile,
+    /// Where the water is slowed down, so that waves do not come back from the end of the domain.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping_zone: Option<DampingZoneFile>,
+}
+
+/// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows as the square of the distance from
+/// 0 at the seaward end of the zone to `coefficient_per_s` at its shoreward end, and keeps that value beyond.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DampingZoneFile {
+    /// Seaward and shoreward end of the zone [m].
+    pub x_m: [f64; 2],
+    /// Rate at the shoreward end [1/s].
+    #[serde(default = "default_damping_per_s")]
+    pub coefficient_per_s: f64,
+}
+
+fn default_damping_per_s() -> f64 {
+    10.0
 }
 
 /// What closes the domain across the flume.
@@ -167,69 +194,6 @@ impl Default for FluidFile {
     fn default() -> Self {
         Self { density_kg_m3: 1000.0, gravity_m_s2: 9.81, sound_speed_factor: 15.0, tait_exponent: 7.0 }
     }
-}
-
-/// The wave that is sent down the flume.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
-pub enum WaveFile {
-    /// No wave: still water, or a dam break.
-    None {},
-    /// A solitary wave made by a piston at x = 0 of the flume, carried to the domain by the layered model.
-    Solitary(SolitaryFile),
-}
-
-impl Default for WaveFile {
-    fn default() -> Self {
-        Self::None {}
-    }
-}
-
-/// A solitary wave made by a piston at x = 0 of the flume.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SolitaryFile {
-    /// Height above the still water in the offshore depth [m].
-    pub height_m: f64,
-    /// Shape of the wave, and with it the piston's motion.
-    #[serde(default)]
-    pub theory: SolitaryTheory,
-    /// Layers of the non-hydrostatic flume model.
-    #[serde(default = "default_layers")]
-    pub layers: u32,
-    /// Cell of the flume model [m].
-    #[serde(default = "default_flume_cell_m")]
-    pub flume_cell_m: f64,
-    /// Flume time at which the particles start [s]; without it, when the velocity at the wavemaker's place
-    /// reaches `start_at_share` of its maximum.
-    #[serde(default)]
-    pub start_s: Option<f64>,
-    /// Share of the largest velocity at which the particles start [-].
-    #[serde(default = "default_start_share")]
-    pub start_at_share: f64,
-}
-
-fn default_layers() -> u32 {
-    2
-}
-
-fn default_flume_cell_m() -> f64 {
-    0.05
-}
-
-fn default_start_share() -> f64 {
-    0.03
-}
-
-/// Shape of a solitary wave (Goring & Raichlen 1980; Guizien & Barthelemy 2002).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SolitaryTheory {
-    /// k = sqrt(3H / 4d^3).
-    Boussinesq,
-    /// k = sqrt(3H / 4d^2(d+H)); nearer to the exact wave.
-    #[default]
-    Rayleigh,
 }
 
 /// What is written, and how often.

@@ -2,8 +2,9 @@
 
 use super::check::{Checker, show};
 use super::domain::Domain;
-use super::file::{GaugeFile, PointFile};
+use super::file::{GaugeFile, PointFile, WaveFile};
 use super::flume::Flume;
+use super::wavemaker::Wavemaker;
 
 /// Gauges in one case at most.
 const MOST_GAUGES: usize = 1000;
@@ -34,12 +35,33 @@ pub enum Quantity {
     Velocity,
 }
 
-/// Validate the gauges; `has_wave` tells whether there is a flume model to write those outside the domain.
+/// Where an elevation gauge may stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// In the whole flume: its model writes the gauges outside the domain.
+    Flume,
+    /// In the domain, there being no wave.
+    DomainWithoutWave,
+    /// In the domain, where the wave is made.
+    DomainWithPaddle,
+}
+
+impl Reach {
+    pub(super) fn of(wave: &WaveFile, wavemaker: Wavemaker) -> Self {
+        match wave {
+            WaveFile::None {} => Self::DomainWithoutWave,
+            _ if wavemaker == Wavemaker::MlPiston => Self::Flume,
+            _ => Self::DomainWithPaddle,
+        }
+    }
+}
+
+/// Validate the gauges.
 pub(super) fn validate(
     file: &[GaugeFile],
     flume: Option<&Flume>,
     domain: Option<&Domain>,
-    has_wave: bool,
+    reach: Reach,
     check: &mut Checker,
 ) -> Vec<Gauge> {
     if file.len() > MOST_GAUGES {
@@ -54,7 +76,7 @@ pub(super) fn validate(
         let (quantity, at) = match gauge {
             GaugeFile::Elevation(elevation) => {
                 let y = elevation.y_m.unwrap_or(0.5 * domain.width);
-                validate_elevation(&path, elevation.x_m, y, flume, domain, has_wave, check);
+                validate_elevation(&path, elevation.x_m, y, flume, domain, reach, check);
                 (Quantity::Elevation, [elevation.x_m, y, flume.still_level])
             }
             GaugeFile::Pressure(point) => (Quantity::Pressure, validate_point(&path, point, flume, domain, check)),
@@ -93,15 +115,13 @@ fn validate_names(file: &[GaugeFile], check: &mut Checker) {
     }
 }
 
-fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain, has_wave: bool, check: &mut Checker) {
-    let ends = if has_wave { flume.ends() } else { domain.x };
-    within(
-        &format!("{path}.x_m"),
-        x,
-        ends,
-        if has_wave { "the flume" } else { "the domain (there is no wave)" },
-        check,
-    );
+fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain, reach: Reach, check: &mut Checker) {
+    let (ends, place) = match reach {
+        Reach::Flume => (flume.ends(), "the flume"),
+        Reach::DomainWithoutWave => (domain.x, "the domain (there is no wave)"),
+        Reach::DomainWithPaddle => (domain.x, "the domain (the wave is made there)"),
+    };
+    within(&format!("{path}.x_m"), x, ends, place, check);
     within(&format!("{path}.y_m"), y, [0.0, domain.width], "the domain's width", check);
 }
 

@@ -4,6 +4,7 @@
 //! Solvers read the [`Case`] only.
 
 mod check;
+mod damping_zone;
 mod domain;
 mod error;
 mod estimate;
@@ -22,7 +23,9 @@ mod template;
 mod units;
 mod validate;
 mod wave;
+mod wavemaker;
 
+pub use damping_zone::DampingZone;
 pub use domain::{Domain, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
@@ -38,4 +41,5 @@ pub use schema::schema_text;
 pub use template::template_text;
 pub use units::{Placement, Units};
 pub use validate::Case;
-pub use wave::{SolitaryWave, Start, Wave};
+pub use wave::{RegularWave, SolitaryWave, Start, Wave};
+pub use wavemaker::Wavemaker;

@@ -4,7 +4,7 @@ use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
 
 use super::error::{CaseError, nearest};
-use super::file::{BlockFile, CaseFile, ElevationFile, PointFile, SolitaryFile};
+use super::file::{BlockFile, CaseFile, ElevationFile, FlapFile, PointFile, RegularFile, SolitaryFile};
 
 /// Read the case as written; `name` is the file's name in messages.
 pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
@@ -76,6 +76,8 @@ fn refine(text: &str, path: &str) -> Option<(String, String)> {
     let rest = Value::Object(object);
     let (inner_path, problem) = match kind.as_str() {
         "solitary" => first_problem::<SolitaryFile>(rest),
+        "regular" => first_problem::<RegularFile>(rest),
+        "flap" => first_problem::<FlapFile>(rest),
         "block" => first_problem::<BlockFile>(rest),
         "elevation" => first_problem::<ElevationFile>(rest),
         "pressure" | "velocity" => first_problem::<PointFile>(rest),

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::check::{Checker, show};
 use super::domain::{self, Domain};
 use super::error::{CaseError, CaseErrors};
-use super::file::{CaseFile, WaveFile};
+use super::file::CaseFile;
 use super::flume::{self, Flume};
 use super::gauges::{self, Gauge};
 use super::hash::fingerprint;
@@ -17,6 +17,7 @@ use super::parse::parse;
 use super::run::{self, Contact, Stop};
 use super::units::{self, Surroundings, Units};
 use super::wave::{self, Wave};
+use super::wavemaker::{self, Wavemaker};
 
 /// A larger case file is no case file [bytes].
 const LARGEST_FILE: u64 = 16 << 20;
@@ -48,8 +49,10 @@ pub struct Case {
     pub fluid: Fluid,
     /// Constants of the SPH scheme.
     pub numerics: Numerics,
-    /// The wave that is sent down the flume.
+    /// The wave.
     pub wave: Wave,
+    /// What makes it in the particles.
+    pub wavemaker: Wavemaker,
     /// The armour units, if any.
     pub units: Option<Units>,
     /// Elastic constants; other structs hold indices into this list.
@@ -117,7 +120,15 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     // The holding time has a default: compare it with the duration only where it means something.
     let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
     let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check);
-    let wave = wave::validate(&file.wave, &file.domain.water, flume.as_ref(), domain.as_ref(), check);
+    let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), check);
+    let around = wave::Surroundings {
+        water: &file.domain.water,
+        wavemaker,
+        gravity: file.fluid.gravity_m_s2,
+        flume: flume.as_ref(),
+        domain: domain.as_ref(),
+    };
+    let wave = wave::validate(&file.wave, &around, check);
     let around = Surroundings {
         flume: flume.as_ref(),
         domain: domain.as_ref(),
@@ -129,8 +140,8 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     };
     let units = file.units.as_ref().map(|row| units::validate(row, &around, check));
     let contact = run::validate_contact(&file.contact, check);
-    let has_wave = !matches!(file.wave, WaveFile::None {});
-    let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), has_wave, check);
+    let reach = gauges::Reach::of(&file.wave, wavemaker);
+    let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), reach, check);
     let output = output::validate(&file.output, stop.duration, domain.as_ref(), check);
     let units = match units {
         None => None,
@@ -148,6 +159,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         fluid: fluid?,
         numerics: numerics?,
         wave: wave?,
+        wavemaker,
         units,
         materials,
         friction,

@@ -46,6 +46,14 @@ fn print(case: &Case) {
         Wave::Solitary(wave) => {
             println!("  wave        solitary, H = {} m in {} m of water", wave.height, wave.depth);
         }
+        Wave::Regular(wave) => println!(
+            "  wave        regular, H = {} m, T = {} s, {:.3} m long in {} m of water; stroke {:.4} m at the surface",
+            wave.height,
+            wave.period,
+            wave.theory().length_m(),
+            wave.depth,
+            wave.motion(case.wavemaker, case.flume.profile.z(case.domain.x[0])).stroke_m()
+        ),
     }
     println!(
         "  domain      x = {} to {} m, {} m wide, still depth up to {:.3} m",

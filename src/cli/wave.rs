@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::{Trouble, fresh_folder, load, stem};
 use crate::{
+    case::{Wave, Wavemaker},
     output::{OutputError, write_atomically, write_flume_gauges, write_wave_page},
     simulation::setup::{ml_piston, particle_start, run_flume},
 };
@@ -26,6 +27,13 @@ pub struct WaveArguments {
 impl WaveArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.case)?;
+        if case.wave != Wave::None && case.wavemaker != Wavemaker::MlPiston {
+            return Err(Trouble::refused(format!(
+                "{}: wavemaker.kind: the wave is made in the particles, so that no flume model runs; `breakwater check` \
+                 shows the wave's length and the paddle's stroke",
+                self.case.display()
+            )));
+        }
         let Some(record) = run_flume(&case).map_err(Trouble::refused)? else {
             return Err(Trouble::refused(format!(
                 "{}: wave: the case has no wave; give it one, e.g. {{\"kind\": \"solitary\", \"height_m\": 0.045}}",

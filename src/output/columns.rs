@@ -51,8 +51,8 @@ pub const CONTACTS: [&str; 11] = [
 ];
 
 /// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start from
-/// bed, walls, wavemaker and units (by pressure), from viscosity and from density diffusion.
-pub const ENERGY: [&str; 9] = [
+/// bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from the damping zone.
+pub const ENERGY: [&str; 10] = [
     "time_s",
     "kinetic_j",
     "potential_j",
@@ -62,6 +62,7 @@ pub const ENERGY: [&str; 9] = [
     "from_boundary_j",
     "from_viscosity_j",
     "from_diffusion_j",
+    "from_damping_zone_j",
 ];
 
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its

@@ -120,12 +120,16 @@ impl UnitSummary {
 /// The wave of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct WaveSummary {
-    /// Kind as in the case file (`solitary`).
+    /// Kind as in the case file (`solitary`, `regular`).
     pub kind: String,
-    /// Theory that shapes it (`rayleigh`, `boussinesq`).
+    /// Theory that shapes it (`rayleigh`, `boussinesq`) or the motion of the paddle (`biesel`: first order; `madsen`:
+    /// second order).
     pub theory: String,
-    /// Height above the still water in the offshore depth [m].
+    /// Height [m]: of a solitary wave above the still water in the depth at the piston.
     pub height_m: f64,
+    /// Period of regular waves [s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period_s: Option<f64>,
 }
 
 /// Highest water at an elevation gauge.

@@ -1,4 +1,4 @@
-//! Boundary particles: fixed bed and walls, the rows of the multi-layer piston, the armour units.
+//! Boundary particles: fixed bed and walls, the rows of the wavemaker, the armour units.
 
 use std::ops::Range;
 
@@ -101,10 +101,10 @@ impl Boundary {
         &self.units
     }
 
-    /// Put the piston where `row_motion` says: displacement [m] and velocity [m/s] along x of a row.
-    pub fn move_piston(&mut self, row_motion: impl Fn(u32) -> (f64, f64)) {
+    /// Put the piston where its rows are: displacement [m] and velocity [m/s] along x of each.
+    pub fn move_piston(&mut self, rows: &[[f64; 2]]) {
         for (particle, &row) in self.piston.clone().zip(&self.piston_row) {
-            let (displacement, velocity) = row_motion(row);
+            let [displacement, velocity] = rows[row as usize];
             self.position[particle] = self.anchor[particle] + DVec3::X * displacement;
             self.velocity[particle] = DVec3::X * velocity;
         }

@@ -17,7 +17,7 @@ use crate::{
     particles::{bed::Outline, water::Water},
     rigid::{BodyState, Load},
     sph::grid::{Bins, Grid},
-    waves::ml_piston::MlPiston,
+    waves::wavemaker::Wavemaker,
 };
 
 /// Distance from a surface, in particle distances, at which the approach of a particle ends: half of that of calm water.
@@ -33,8 +33,8 @@ impl Simulation {
         if self.case.domain.sides == Sides::Walls {
             keep_out_of_sides(&mut self.water, self.case.domain.width, nearest);
         }
-        if let Some(piston) = &self.piston {
-            keep_out_of_piston(&mut self.water, piston, self.case.domain.dp, nearest, flume_time);
+        if let Some(wavemaker) = &self.wavemaker {
+            keep_out_of_wavemaker(&mut self.water, wavemaker, self.case.domain.dp, nearest, flume_time);
         }
         let Some(units) = &mut self.units else { return };
         let (grid, bins) = (&self.solver.grid, self.solver.water_bins());
@@ -71,19 +71,17 @@ fn keep_out_of_sides(water: &mut Water, width: f64, nearest: f64) {
     });
 }
 
-fn keep_out_of_piston(water: &mut Water, piston: &MlPiston, dp: f64, nearest: f64, flume_time: f64) {
-    let rows: Vec<[f64; 2]> = (0..piston.row_heights_m().len())
-        .map(|row| [piston.displacement_m(row, flume_time), piston.velocity_m_s(row, flume_time)])
-        .collect();
-    let furthest = rows.iter().map(|row| row[0]).fold(0.0, f64::max) + piston.place_m() + nearest;
-    let lowest = piston.row_heights_m()[0];
+fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, dp: f64, nearest: f64, flume_time: f64) {
+    let (rows, place) = (wavemaker.rows_at(flume_time), wavemaker.place_m());
+    let furthest = rows.iter().map(|row| row[0]).fold(f64::MIN, f64::max) + place + nearest;
+    let lowest = wavemaker.row_heights_m()[0];
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
         if position.x > furthest {
             return;
         }
         let row = ((position.z - lowest) / dp).round().clamp(0.0, (rows.len() - 1) as f64) as usize;
         let [displacement, speed] = rows[row];
-        if position.x < piston.place_m() + displacement + nearest {
+        if position.x < place + displacement + nearest {
             velocity.x = velocity.x.max(speed);
         }
     });

@@ -5,6 +5,7 @@
 //! | [`setup`], [`scheme`] | make a simulation of a case |
 //! | this one | one step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
+//! | `damping` | slowing the water down before the end of the domain |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
 //! | [`energy`], [`balance`] | energy of water and units, and where it goes |
 //! | [`extremes`] | the fastest, the lightest and the densest water |
@@ -19,6 +20,7 @@
 
 pub mod balance;
 pub mod checkpoint;
+mod damping;
 mod diagnostics;
 pub mod energy;
 pub mod extremes;
@@ -44,7 +46,7 @@ use crate::{
     particles::{bed::Outline, boundary::Boundary, water::Water},
     rigid::{BodyState, Load, RigidWorld},
     sph::{sampling::Sampler, step::Solver},
-    waves::{ml_piston::MlPiston, record::FlumeRecord},
+    waves::{record::FlumeRecord, wavemaker::Wavemaker},
 };
 use failure::Failure;
 use mean_loads::MeanLoads;
@@ -54,7 +56,7 @@ use statistics::Statistics;
 pub struct Simulation {
     /// The case.
     pub case: Arc<Case>,
-    /// The flume model's run, if there is a wave.
+    /// The flume model's run, if the wave comes from it.
     pub flume: Option<FlumeRecord>,
     /// The water.
     pub water: Water,
@@ -71,7 +73,7 @@ pub struct Simulation {
     /// What is kept of the run.
     pub statistics: Statistics,
     solver: Solver,
-    piston: Option<MlPiston>,
+    wavemaker: Option<Wavemaker>,
     /// Bed, mound and end walls.
     outline: Outline,
     /// Box that no particle may leave [m].
@@ -121,15 +123,16 @@ impl Simulation {
     /// # Errors
     /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the bed.
     pub fn finish_step(&mut self, dt: f64) -> Result<(), Failure> {
-        let (piston, units, half_time) = (&self.piston, &self.units, self.flume_time() + 0.5 * dt);
+        let (wavemaker, units, half_time) = (&self.wavemaker, &self.units, self.flume_time() + 0.5 * dt);
         self.solver.predict(dt, &self.water, &mut self.boundary, |boundary| {
-            move_piston(boundary, piston.as_ref(), half_time);
+            move_wavemaker(boundary, wavemaker.as_ref(), half_time);
             if let Some(units) = units {
                 units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
             }
         });
         self.solver.rates();
         self.solver.correct(dt, &mut self.water, &mut self.boundary);
+        self.damp(dt);
         self.sum_unit_loads(dt);
         self.keep_water_out(dt);
         self.advance_units(dt)?;
@@ -165,7 +168,7 @@ impl Simulation {
     /// Put wavemaker and units where they are now.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
-        move_piston(&mut self.boundary, self.piston.as_ref(), flume_time);
+        move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), flume_time);
         if let Some(units) = &self.units {
             units.states().iter().enumerate().for_each(|(k, s)| self.boundary.move_unit(k, s));
         }
@@ -178,10 +181,7 @@ impl Simulation {
 
     /// Place of the foremost row of the wavemaker [m], if there is one.
     pub fn wavemaker_front(&self) -> Option<f64> {
-        let piston = self.piston.as_ref()?;
-        let rows = 0..piston.row_heights_m().len();
-        let travel = rows.map(|row| piston.displacement_m(row, self.flume_time())).fold(f64::MIN, f64::max);
-        Some(piston.place_m() + travel)
+        self.wavemaker.as_ref().map(|wavemaker| wavemaker.front_m(self.flume_time()))
     }
 
     /// The water, to be measured; valid after [`Self::begin_step`].
@@ -215,13 +215,10 @@ impl Units {
     }
 }
 
-fn move_piston(boundary: &mut Boundary, piston: Option<&MlPiston>, flume_time: f64) {
-    let Some(piston) = piston else { return };
-    let motion = |row: u32| {
-        let row = row as usize;
-        (piston.displacement_m(row, flume_time), piston.velocity_m_s(row, flume_time))
-    };
-    boundary.move_piston(motion);
+fn move_wavemaker(boundary: &mut Boundary, wavemaker: Option<&Wavemaker>, flume_time: f64) {
+    if let Some(wavemaker) = wavemaker {
+        boundary.move_piston(&wavemaker.rows_at(flume_time));
+    }
 }
 
 /// A body after a time [s] at its present velocities.

@@ -273,7 +273,7 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     row
 }
 
-fn energy_row(simulation: &mut Simulation) -> [f64; 9] {
+fn energy_row(simulation: &mut Simulation) -> [f64; 10] {
     let powers = simulation.solver.powers(&simulation.water);
     simulation.statistics.balance.add(simulation.time, powers);
     let balance = simulation.statistics.balance;
@@ -288,6 +288,7 @@ fn energy_row(simulation: &mut Simulation) -> [f64; 9] {
         balance.boundary,
         balance.viscosity,
         balance.diffusion,
+        balance.damping,
     ]
 }
 

@@ -29,8 +29,10 @@ use crate::{
     waves::{
         flume::{self, FlumeError, FlumeSetup},
         ml_piston::{MlPiston, start_time},
+        paddle::{Paddle, PaddleMotion},
         record::FlumeRecord,
         solitary::SolitaryWave,
+        wavemaker::Wavemaker,
     },
 };
 
@@ -72,12 +74,12 @@ pub enum SetupError {
     Rigid(#[from] RigidError),
 }
 
-/// Run the flume model of the case, if it has a wave, for as long as the particles will run.
+/// Run the flume model of the case, if its wave comes from there, for as long as the particles will run.
 ///
 /// # Errors
 /// If the flume model fails.
 pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
-    let Wave::Solitary(wave) = &case.wave else { return Ok(None) };
+    let (Wave::Solitary(wave), case::Wavemaker::MlPiston) = (&case.wave, case.wavemaker) else { return Ok(None) };
     let [x0, x1] = case.domain.x;
     let mean_depth = 0.5 * (wave.depth + case.flume.still_depth(x0));
     let arrival = ARRIVAL_ALLOWANCE * x0 / (case.fluid.gravity * mean_depth).sqrt();
@@ -90,12 +92,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
         profile: case.flume.profile.clone(),
         still_level_m: case.flume.still_level,
         gravity_m_s2: case.fluid.gravity,
-        wave: SolitaryWave {
-            height_m: wave.height,
-            depth_m: wave.depth,
-            gravity: case.fluid.gravity,
-            theory: wave.theory,
-        },
+        wave: solitary_wave(case, wave),
         layers: wave.layers,
         cell_m: wave.flume_cell,
         gauges_x_m: gauges.map(|gauge| gauge.at[0]).collect(),
@@ -106,10 +103,14 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
     Ok(Some(record))
 }
 
+fn solitary_wave(case: &Case, wave: &case::SolitaryWave) -> SolitaryWave {
+    SolitaryWave { height_m: wave.height, depth_m: wave.depth, gravity: case.fluid.gravity, theory: wave.theory }
+}
+
 /// Flume time at which the particles start [s].
 pub fn particle_start(case: &Case, record: &FlumeRecord) -> f64 {
     match &case.wave {
-        Wave::None => 0.0,
+        Wave::None | Wave::Regular(_) => 0.0,
         Wave::Solitary(wave) => match wave.start {
             Start::At(start) => start,
             Start::AtShare(share) => start_time(record, case.domain.x[0], share),
@@ -117,8 +118,8 @@ pub fn particle_start(case: &Case, record: &FlumeRecord) -> f64 {
     }
 }
 
-/// Levels z of the rows of the multi-layer piston [m], from the bed to the top of the walls.
-pub fn piston_rows(case: &Case) -> Vec<f64> {
+/// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
+pub fn wavemaker_rows(case: &Case) -> Vec<f64> {
     let (bed, dp) = (case.flume.profile.z(case.domain.x[0]), case.domain.dp);
     (0..).map(|row| bed + (f64::from(row) + 0.5) * dp).take_while(|&z| z < case.domain.top_z).collect()
 }
@@ -126,7 +127,23 @@ pub fn piston_rows(case: &Case) -> Vec<f64> {
 /// The multi-layer piston of the case's wave.
 pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     let end = (start + case.stop.duration).max(start + FLUME_INTERVAL);
-    MlPiston::from_record(record, case.domain.x[0], &piston_rows(case), start, end, FLUME_INTERVAL)
+    MlPiston::from_record(record, case.domain.x[0], &wavemaker_rows(case), start, end, FLUME_INTERVAL)
+}
+
+/// What makes the case's wave in the particles, if it has one.
+fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
+    if let Some(record) = flume {
+        return Some(Wavemaker::MlPiston(ml_piston(case, record, start)));
+    }
+    let place = case.domain.x[0];
+    let bed = case.flume.profile.z(place);
+    let (motion, depth) = match &case.wave {
+        Wave::None => return None,
+        Wave::Solitary(wave) => (PaddleMotion::Solitary(solitary_wave(case, wave)), wave.depth),
+        Wave::Regular(wave) => (PaddleMotion::Regular(wave.motion(case.wavemaker, bed)), wave.depth),
+    };
+    let shape = case.wavemaker.shape(bed);
+    Some(Wavemaker::Paddle(Paddle::new(place, wavemaker_rows(case), [bed, depth], shape, motion)))
 }
 
 impl Simulation {
@@ -137,18 +154,19 @@ impl Simulation {
     pub fn new(case: Arc<Case>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?;
         let start = flume.as_ref().map_or(0.0, |record| particle_start(&case, record));
-        let piston = flume.as_ref().map(|record| ml_piston(&case, record, start));
-        if let Some(piston) = &piston {
-            check_travel(&case, piston)?;
+        let wavemaker = wavemaker(&case, flume.as_ref(), start);
+        if let Some(wavemaker) = &wavemaker {
+            check_travel(&case, wavemaker)?;
         }
+        let seaward_reach = wavemaker.as_ref().map(Wavemaker::seaward_reach_m);
         let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
 
-        let (across, outline) = (across(&case), outline(&case, piston.is_some()));
+        let (across, outline) = (across(&case), outline(&case, seaward_reach));
         let shape_particles = units.as_ref().map_or_else(Vec::new, |units| particles_of(&units.shape, case.domain.dp));
         let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
-            &fixed_particles(&case, &outline, &across),
-            &piston.as_ref().map_or_else(Vec::new, |piston| piston_particles(&case, &across, piston)),
+            &fixed_particles(&case, &outline, &across, seaward_reach),
+            &wavemaker.as_ref().map_or_else(Vec::new, |wavemaker| wavemaker_particles(&case, &across, wavemaker)),
             &shape_particles,
             count,
             case.fluid.rho0,
@@ -158,7 +176,7 @@ impl Simulation {
             clear_units(&mut water, units, &case);
         }
 
-        let [low, high] = bounds(&case);
+        let [low, high] = bounds(&case, seaward_reach);
         let mut simulation = Self {
             solver: Solver::new(parameters(&case), low, high),
             statistics: Statistics::new(count),
@@ -171,7 +189,7 @@ impl Simulation {
             time: 0.0,
             steps: 0,
             start,
-            piston,
+            wavemaker,
             outline,
         };
         simulation.place_boundary();
@@ -179,14 +197,13 @@ impl Simulation {
     }
 }
 
-/// Refuse a wavemaker that would be carried over the seaward toe of the mound before the run ends.
-fn check_travel(case: &Case, piston: &MlPiston) -> Result<(), SetupError> {
+/// Refuse a wavemaker that would go over the seaward toe of the mound before the run ends.
+fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
     let Some(mound) = &case.flume.mound else { return Ok(()) };
     let place = case.domain.x[0];
     let before_crest = case.flume.profile.points().iter().rfind(|point| point[0] < mound.crest_x[0]);
     let toe = before_crest.map_or(mound.crest_x[0], |point| point[0]);
-    let rows = 0..piston.row_heights_m().len();
-    let travel = rows.map(|row| piston.displacement_m(row, piston.end_s())).fold(0.0, f64::max);
+    let travel = wavemaker.shoreward_reach_m();
     if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
 }
 
@@ -194,13 +211,13 @@ fn across(case: &Case) -> Across {
     Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
-/// Box round everything that can hold water or boundary particles [m].
-fn bounds(case: &Case) -> [DVec3; 2] {
+/// Box round everything that can hold water or boundary particles [m]; a wavemaker goes seaward by its reach [m].
+fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
     let margin = (case.numerics.boundary_layers as f64 + 2.0) * case.domain.dp;
     let beyond = if case.domain.sides == case::Sides::Walls { margin } else { 0.0 };
     let [x0, x1] = case.domain.x;
     [
-        DVec3::new(x0 - margin, -beyond, case.domain.bottom_z - margin),
+        DVec3::new(x0 - margin - seaward_reach.unwrap_or(0.0), -beyond, case.domain.bottom_z - margin),
         DVec3::new(x1 + margin, case.domain.width + beyond, case.domain.top_z + margin),
     ]
 }
@@ -213,12 +230,14 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Bed, mound and end walls; where a piston stands, the bed goes on under its layers instead of the seaward wall.
-fn outline(case: &Case, piston: bool) -> Outline {
+/// Bed, mound and end walls; where a wavemaker stands, the bed goes on under its layers as far as they reach [m] instead
+/// of the seaward wall.
+fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
-    let bed_start = if piston { x0 - (case.numerics.boundary_layers as f64) * case.domain.dp } else { x0 };
+    let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
+    let bed_start = seaward_reach.map_or(x0, |reach| x0 - thickness - reach);
     let mut points: Vec<DVec2> = Vec::new();
-    if !piston {
+    if seaward_reach.is_none() {
         points.push(DVec2::new(x0, top));
     }
     points.extend(bed_between(&case.flume.profile, bed_start, x1));
@@ -226,21 +245,28 @@ fn outline(case: &Case, piston: bool) -> Outline {
     Outline::new(points)
 }
 
-/// Particles of bed, mound, end walls and side walls.
-fn fixed_particles(case: &Case, outline: &Outline, across: &Across) -> Vec<BoundaryParticle> {
+/// Particles of bed, mound, end walls and side walls; these begin where the wavemaker's reach [m] does.
+fn fixed_particles(
+    case: &Case,
+    outline: &Outline,
+    across: &Across,
+    seaward_reach: Option<f64>,
+) -> Vec<BoundaryParticle> {
     let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
     let mut particles = outline_particles(outline, across, domain.dp, layers);
     let bed = |x: f64| case.flume.profile.z(x);
-    let sides = basin(case, across, &bed, &|_| domain.top_z, &|_, _| DVec2::ZERO).side_section(domain.top_z);
-    particles.extend(side_wall_particles(&sides, across, layers));
+    let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
+    let mut sides = basin(case, across, &bed, &top, &at_rest);
+    sides.x = [domain.x[0] - seaward_reach.unwrap_or(0.0), domain.x[1]];
+    particles.extend(side_wall_particles(&sides.side_section(domain.top_z), across, layers));
     particles
 }
 
-/// The layers of the multi-layer piston with their rows.
-fn piston_particles(case: &Case, across: &Across, piston: &MlPiston) -> Vec<(u32, BoundaryParticle)> {
+/// The layers of the wavemaker with their rows.
+fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> Vec<(u32, BoundaryParticle)> {
     let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
     let mut particles = Vec::new();
-    for (row, &z) in piston.row_heights_m().iter().enumerate() {
+    for (row, &z) in wavemaker.row_heights_m().iter().enumerate() {
         for layer in 0..layers {
             let behind = (f64::from(layer) + 0.5) * dp;
             for y in across.rows(layers) {

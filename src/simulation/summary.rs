@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::Simulation;
 use crate::{
-    case::{Quantity, Sides, Wave},
+    case::{Case, Quantity, Sides, Wave, Wavemaker},
     output::{
         ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, Stopped, Summary, Table,
         TimeStepSummary, UnitSummary, WaveSummary, columns,
@@ -23,7 +23,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         title: case.title.clone(),
         breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
         case_hash: case.hash.clone(),
-        wave: wave(&case.wave),
+        wave: wave(case),
         gauges: gauges(simulation, dir)?,
         contacts: ContactSummary {
             with_bed: statistics.contacts.iter().map(|c| c[0]).sum(),
@@ -76,10 +76,19 @@ fn particle_counts(simulation: &Simulation) -> ParticleCounts {
     }
 }
 
-fn wave(wave: &Wave) -> Option<WaveSummary> {
-    let Wave::Solitary(wave) = wave else { return None };
-    let theory = serde_json::to_value(wave.theory).ok().and_then(|t| t.as_str().map(str::to_owned));
-    Some(WaveSummary { kind: "solitary".to_owned(), theory: theory.unwrap_or_default(), height_m: wave.height })
+fn wave(case: &Case) -> Option<WaveSummary> {
+    let (kind, theory, period_s) = match &case.wave {
+        Wave::None => return None,
+        Wave::Solitary(wave) => {
+            let theory = serde_json::to_value(wave.theory).ok().and_then(|t| t.as_str().map(str::to_owned));
+            ("solitary", theory.unwrap_or_default(), None)
+        }
+        Wave::Regular(wave) => {
+            let flap = matches!(case.wavemaker, Wavemaker::Flap { .. });
+            ("regular", (if flap { "biesel" } else { "madsen" }).to_owned(), Some(wave.period))
+        }
+    };
+    Some(WaveSummary { kind: kind.to_owned(), theory, height_m: case.wave.height()?, period_s })
 }
 
 fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {

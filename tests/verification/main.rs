@@ -6,6 +6,7 @@ mod conservation;
 mod convergence;
 mod lattice;
 mod operators;
+mod regular_waves;
 mod reproducibility;
 mod rigid;
 mod solitary_wave;

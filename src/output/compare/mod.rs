@@ -220,7 +220,7 @@ mod tests {
     fn run(folder: &Path, name: &str, height_m: f64, displacements: &[f64]) -> PathBuf {
         let dir = folder.join(name);
         std::fs::create_dir(&dir).unwrap();
-        let wave = WaveSummary { kind: "solitary".to_owned(), theory: "rayleigh".to_owned(), height_m };
+        let wave = WaveSummary { kind: "solitary".to_owned(), theory: "rayleigh".to_owned(), height_m, period_s: None };
         let mut summary = Summary { wave: Some(wave), dp_m: 0.005, ..Summary::default() };
         summary.assumptions.push("crest width 0.32 m".to_owned());
         let moved = |(i, d): (usize, &f64)| {
