@@ -3,7 +3,7 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`solitary`] | the piston's motion for a solitary wave, and the third-order wave |
-//! | [`regular`] | regular waves as they are ordered; linear dispersion, highest waves |
+//! | [`periodic`] | regular waves as they are ordered; linear dispersion, highest waves |
 //! | [`stream_function`] | regular waves of permanent form by Fourier approximation, short to cnoidal |
 //! | [`irregular`] | a JONSWAP sea with random phases |
 //! | [`incoming`] | any of these as an inflow at the end of the flume |
@@ -21,8 +21,8 @@ mod interpolation;
 pub mod irregular;
 pub mod layered;
 pub mod ml_piston;
+pub mod periodic;
 pub mod record;
-pub mod regular;
 pub mod solitary;
 pub mod stream_function;
 pub mod velx;

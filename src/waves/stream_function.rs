@@ -14,7 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::regular::{MeanFlow, RegularWave, WaveError, highest_over_depth, linear_wavenumber_per_m};
+use super::periodic::{MeanFlow, RegularWave, WaveError, highest_over_depth, linear_wavenumber_per_m};
 
 mod equations;
 use equations::{SteadyWave, solve};

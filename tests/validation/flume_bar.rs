@@ -10,8 +10,8 @@ use breakwater::geometry::profile::Profile;
 use breakwater::waves::flume::{FlumeSetup, Wavemaker, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::periodic::{MeanFlow, RegularWave};
 use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::regular::{MeanFlow, RegularWave};
 use breakwater::waves::stream_function::StreamFunctionWave;
 
 const GRAVITY: f64 = 9.81;

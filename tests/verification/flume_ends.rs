@@ -7,8 +7,8 @@ use breakwater::waves::flume::{FlumeSetup, Wavemaker, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::irregular::{IrregularWave, JonswapSea};
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::periodic::{MeanFlow, RegularWave};
 use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::regular::{MeanFlow, RegularWave};
 use breakwater::waves::solitary::ThirdOrderSolitary;
 use breakwater::waves::stream_function::StreamFunctionWave;
 
