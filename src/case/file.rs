@@ -81,6 +81,46 @@ pub struct FlumeFile {
     /// Material of bed and mound, one of `materials`; needed when there are units.
     #[serde(default)]
     pub material: Option<String>,
+    /// Manning's n of the bed in the flume model [s m^(-1/3)]: 0.010 glass, 0.013 smooth concrete; without it there is
+    /// no friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manning_s_m13: Option<f64>,
+    /// What stands at the shoreward end of the flume model.
+    #[serde(default, skip_serializing_if = "RightEndFile::is_wall")]
+    pub right_end: RightEndFile,
+}
+
+/// What stands at the shoreward end of the flume model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
+pub enum RightEndFile {
+    /// A wall; the shore may lie before it.
+    Wall {},
+    /// Water that goes on: long waves leave. The bed must end under water.
+    Radiating {},
+    /// A wall behind water in which waves are damped.
+    Sponge(SpongeFile),
+}
+
+impl Default for RightEndFile {
+    fn default() -> Self {
+        Self::Wall {}
+    }
+}
+
+impl RightEndFile {
+    /// The default; not written, so that the fingerprint of a case without this key stays what it was.
+    fn is_wall(&self) -> bool {
+        matches!(self, Self::Wall {})
+    }
+}
+
+/// Water in which waves are damped, in front of the end wall.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpongeFile {
+    /// Length [m]; two wave lengths take a wave.
+    pub length_m: f64,
 }
 
 /// A trapezoidal mound.

@@ -1,8 +1,9 @@
 //! Bed, mound and still water of the whole flume, validated.
 
 use super::check::{Checker, above, from, show};
-use super::file::{FlumeFile, MoundFile};
+use super::file::{FlumeFile, MoundFile, RightEndFile};
 use crate::geometry::profile::Profile;
+use crate::waves::layered::{Friction, RightEnd};
 
 /// Coordinates beyond this are a slip of the keyboard, not a flume [m].
 const LARGEST_COORDINATE: f64 = 1e5;
@@ -22,6 +23,10 @@ pub struct Flume {
     pub mound: Option<Mound>,
     /// Material of bed and mound, an index into `Case::materials`.
     pub material: Option<usize>,
+    /// Friction of the bed in the flume model.
+    pub friction: Friction,
+    /// What stands at the shoreward end of the flume model.
+    pub right_end: RightEnd,
 }
 
 /// A trapezoidal mound.
@@ -65,10 +70,15 @@ pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Ch
     if let Some(mound) = &file.mound {
         validate_mound_numbers(mound, check);
     }
+    if let Some(n) = file.manning_s_m13 {
+        let advice = "0.010 is glass, 0.013 smooth concrete, 0.03 gravel; leave it out for no friction";
+        check.number("flume.manning_s_m13", n, from(0.0).up_to(0.2), "s m^(-1/3)", advice);
+    }
     if check.count() > before {
         return None;
     }
     let bed = Profile::new(file.bed_m.clone());
+    let right_end = validate_right_end(file, check)?;
     let (profile, mound) = match &file.mound {
         None => (bed.clone(), None),
         Some(mound) => {
@@ -76,7 +86,32 @@ pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Ch
             (profile, Some(mound))
         }
     };
-    Some(Flume { profile, bed, still_level: file.still_water_level_m, mound, material })
+    let friction = file.manning_s_m13.map_or(Friction::None, |n_s_m13| Friction::Manning { n_s_m13 });
+    Some(Flume { profile, bed, still_level: file.still_water_level_m, mound, material, friction, right_end })
+}
+
+/// The bed is known to be sound.
+fn validate_right_end(file: &FlumeFile, check: &mut Checker) -> Option<RightEnd> {
+    let ([start, _], [end, bed_z]) = (file.bed_m[0], file.bed_m[file.bed_m.len() - 1]);
+    match file.right_end {
+        RightEndFile::Wall {} => Some(RightEnd::Wall),
+        RightEndFile::Radiating {} if file.still_water_level_m > bed_z => Some(RightEnd::Radiating),
+        RightEndFile::Radiating {} => {
+            check.refuse(
+                "flume.right_end.kind",
+                "\"radiating\"",
+                format!("\"wall\" where the bed ends on dry land (at z = {} m)", show(bed_z)),
+                "let the bed end under water, or close the flume with a wall",
+            );
+            None
+        }
+        RightEndFile::Sponge(sponge) => {
+            let allowed = above(0.0).below(end - start);
+            let advice = "shorter than the flume; two wave lengths take a wave";
+            let sound = check.number("flume.right_end.length_m", sponge.length_m, allowed, "m", advice);
+            sound.then_some(RightEnd::Sponge { length_m: sponge.length_m })
+        }
+    }
 }
 
 fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {

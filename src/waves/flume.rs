@@ -1,10 +1,11 @@
-//! One run of the layered model: a flume, a piston, a solitary wave; what comes out is a [`FlumeRecord`].
+//! One run of the layered model: a flume, a wave, what stops it; what comes out is a [`FlumeRecord`].
 
 use thiserror::Error;
 
 use crate::geometry::profile::Profile;
-use crate::waves::layered::{LayeredFlume, LayeredParameters};
-use crate::waves::record::FlumeRecord;
+use crate::waves::incoming::IncomingWave;
+use crate::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
+use crate::waves::record::{FlumeRecord, SurfaceProfile};
 use crate::waves::solitary::SolitaryWave;
 
 /// Most layers the model takes: the vertical profile of these long waves is resolved by two or three.
@@ -26,20 +27,65 @@ pub struct FlumeSetup {
     pub still_level_m: f64,
     /// Gravity [m/s2].
     pub gravity_m_s2: f64,
-    /// The wave, its depth that at the piston; the stroke starts at t = 0.
-    pub wave: SolitaryWave,
+    /// The wave and what makes it.
+    pub wave: WaveSource,
+    /// What stands at the right end.
+    pub right_end: RightEnd,
+    /// Vertical accelerations.
+    pub pressure: Pressure,
+    /// Friction on the bed.
+    pub friction: Friction,
+    /// Breaking of waves.
+    pub breaking: Breaking,
     /// Number of layers, 1..=8.
     pub layers: usize,
     /// Width of a cell [m].
     pub cell_m: f64,
     /// Places of wave gauges [m].
     pub gauges_x_m: Vec<f64>,
+    /// Times at which the surface along the whole flume is recorded [s], each at the end of the step that passes it.
+    pub profile_times_s: Vec<f64>,
     /// Window [m] in which the whole flow is recorded; cut to the flume.
     pub window_x_m: [f64; 2],
     /// Time between records [s].
     pub record_interval_s: f64,
     /// End of the run [s].
     pub end_s: f64,
+}
+
+/// The wave and what makes it at the left end, its depth that at this end.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WaveSource {
+    /// A piston that makes a solitary wave; its stroke starts at t = 0.
+    Piston(SolitaryWave),
+    /// Water that flows in and out with the wave.
+    Inflow(IncomingWave),
+}
+
+impl WaveSource {
+    /// Depth for which the wave is made [m].
+    fn depth_m(&self) -> f64 {
+        match self {
+            Self::Piston(wave) => wave.depth_m,
+            Self::Inflow(wave) => wave.depth_m(),
+        }
+    }
+
+    /// Height of the wave [m].
+    fn height_m(&self) -> f64 {
+        match self {
+            Self::Piston(wave) => wave.height_m,
+            Self::Inflow(wave) => wave.height_m(),
+        }
+    }
+
+    /// Way of the piston [m].
+    fn stroke_m(&self) -> f64 {
+        match self {
+            Self::Piston(wave) => wave.stroke_m(),
+            Self::Inflow(_) => 0.0,
+        }
+    }
 }
 
 /// What can go wrong with a flume.
@@ -71,29 +117,45 @@ pub fn run(setup: &FlumeSetup) -> Result<FlumeRecord, FlumeError> {
     let mapped_m = mapped_length_m(setup)?;
     let steps_per_record = steps_per_record(setup, mapped_m);
     let step_s = setup.record_interval_s / steps_per_record as f64;
-    let mut flume = LayeredFlume::new(LayeredParameters {
-        profile: setup.profile.clone(),
-        still_level_m: setup.still_level_m,
-        gravity_m_s2: setup.gravity_m_s2,
-        layers: setup.layers,
-        cell_m: setup.cell_m,
-        mapped_m,
-        step_s,
-    });
+    let mut flume = LayeredFlume::new(parameters(setup, mapped_m, step_s));
     let mut record = empty_record(setup, flume.volume_m2());
     let records = (setup.end_s / setup.record_interval_s).ceil() as usize;
+    let mut profile_times = setup.profile_times_s.clone();
+    profile_times.sort_by(f64::total_cmp);
+    let mut profile_times = profile_times.into_iter().peekable();
     for step in 0..=records * steps_per_record {
-        let paddle_m = setup.wave.piston_displacement_m((step + 1) as f64 * step_s);
-        flume.advance_velocities(paddle_m);
+        while profile_times.next_if(|&time| time <= flume.time_s() + 1e-9 * step_s).is_some() {
+            record.profiles.push(SurfaceProfile { time_s: flume.time_s(), points: flume.surface_profile() });
+        }
+        flume.advance_velocities();
         if step % steps_per_record == 0 {
             take_record(&flume, &mut record);
         }
-        flume.advance_depths(paddle_m);
+        flume.advance_depths();
         if let Some(x_m) = flume.astray_at() {
             return Err(FlumeError::Unstable { time_s: flume.time_s(), x_m });
         }
     }
     Ok(record)
+}
+
+fn parameters(setup: &FlumeSetup, mapped_m: f64, step_s: f64) -> LayeredParameters {
+    LayeredParameters {
+        profile: setup.profile.clone(),
+        still_level_m: setup.still_level_m,
+        gravity_m_s2: setup.gravity_m_s2,
+        layers: setup.layers,
+        cell_m: setup.cell_m,
+        step_s,
+        left_end: match &setup.wave {
+            WaveSource::Piston(wave) => LeftEnd::Piston { wave: *wave, mapped_m },
+            WaveSource::Inflow(wave) => LeftEnd::Inflow(wave.clone()),
+        },
+        right_end: setup.right_end,
+        pressure: setup.pressure,
+        friction: setup.friction,
+        breaking: setup.breaking,
+    }
 }
 
 /// Refuse what cannot be computed.
@@ -113,14 +175,16 @@ fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     require("cell_m", setup.cell_m, setup.cell_m <= widest, &format!("at most a tenth of the flume, {widest}"))?;
     let allowed = format!("from 1 to {MOST_LAYERS}");
     require("layers", setup.layers as f64, (1..=MOST_LAYERS).contains(&setup.layers), &allowed)?;
-    positive("still_level_m above the bed at the piston", depth)?;
-    positive("the wave's height_m", setup.wave.height_m)?;
+    positive("still_level_m above the bed at the wavemaker", depth)?;
+    let height = setup.wave.height_m();
+    positive("the wave's height_m", height)?;
     let highest = 0.7 * depth;
     let allowed = format!("at most 0.7 of the depth, {highest}, where solitary waves break");
-    require("the wave's height_m", setup.wave.height_m, setup.wave.height_m <= highest, &allowed)?;
-    // The piston's law holds for the depth it stands in; a millimetre is within what a flume is filled to.
-    let same = (setup.wave.depth_m - depth).abs() <= 1e-3;
-    require("the wave's depth_m", setup.wave.depth_m, same, &format!("the depth at the piston, {depth}"))?;
+    require("the wave's height_m", height, height <= highest, &allowed)?;
+    // The wave's law holds for the depth it is made in; a millimetre is within what a flume is filled to.
+    let same = (setup.wave.depth_m() - depth).abs() <= 1e-3;
+    require("the wave's depth_m", setup.wave.depth_m(), same, &format!("the depth at the wavemaker, {depth}"))?;
+    check_what_stops_the_wave(setup, length)?;
     let [from, to] = setup.window_x_m;
     require("window_x_m[0]", from, from.is_finite() && from < to, &format!("below window_x_m[1], {to}"))?;
     let end = points[points.len() - 1][0];
@@ -130,6 +194,30 @@ fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     setup.gauges_x_m.iter().try_for_each(|&x| {
         require("a gauge's x", x, (start..=end).contains(&x), &format!("inside the flume, {start} to {end}"))
     })
+}
+
+/// Refuse ends and friction that cannot be.
+fn check_what_stops_the_wave(setup: &FlumeSetup, length: f64) -> Result<(), FlumeError> {
+    let refuse = |name, value, allowed| Err(FlumeError::Value { name, value, allowed });
+    let points = setup.profile.points();
+    let depth_at_end = setup.still_level_m - points[points.len() - 1][1];
+    match setup.right_end {
+        RightEnd::Radiating if depth_at_end <= 2.0 * setup.wave.height_m() => {
+            let allowed = "more than two wave heights, where waves can leave; else take a wall or a sponge".to_owned();
+            return refuse("the depth at a radiating end", depth_at_end, allowed);
+        }
+        RightEnd::Sponge { length_m } if !(length_m > 0.0 && length_m < length) => {
+            let allowed = format!("above 0 and shorter than the flume, {length}");
+            return refuse("the sponge's length_m", length_m, allowed);
+        }
+        _ => {}
+    }
+    match setup.friction {
+        Friction::Manning { n_s_m13 } if !(0.0..=0.2).contains(&n_s_m13) => {
+            refuse("manning_s_m13", n_s_m13, "from 0 to 0.2".to_owned())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Length over which the cells follow the piston [m]: ten strokes, less if the bed is level or the flume short of it.
@@ -150,7 +238,7 @@ fn mapped_length_m(setup: &FlumeSetup) -> Result<f64, FlumeError> {
 /// Steps between two records, for the Courant number.
 fn steps_per_record(setup: &FlumeSetup, mapped_m: f64) -> usize {
     let lowest = setup.profile.points().iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
-    let depth = setup.still_level_m - lowest + 2.0 * setup.wave.height_m;
+    let depth = setup.still_level_m - lowest + 2.0 * setup.wave.height_m();
     let narrowest = setup.cell_m * (1.0 - setup.wave.stroke_m() / mapped_m);
     let step = COURANT * narrowest / (setup.gravity_m_s2 * depth).sqrt();
     (setup.record_interval_s / step).ceil().max(1.0) as usize
@@ -180,7 +268,9 @@ fn take_record(flume: &LayeredFlume, record: &mut FlumeRecord) {
     let levels: Vec<f64> = record.gauges_x_m.iter().map(|&x| flume.surface_m(x)).collect();
     let window = record.window_x_m.clone();
     record.push(flume.paddle_m(), &levels, window.iter().map(|&x| flume.column(x)));
-    record.volume_error = record.volume_error.max((flume.volume_m2() / record.volume_m2 - 1.0).abs());
+    record.shore_level_m.push(flume.shore_level_m());
+    let astray = flume.volume_m2() - flume.entered_m2() - record.volume_m2;
+    record.volume_error = record.volume_error.max((astray / record.volume_m2).abs());
 }
 
 #[cfg(test)]
@@ -188,16 +278,25 @@ mod tests {
     use super::*;
     use crate::case::file::SolitaryTheory;
 
+    fn piston(height_m: f64, depth_m: f64) -> WaveSource {
+        WaveSource::Piston(SolitaryWave { height_m, depth_m, gravity: 9.81, theory: SolitaryTheory::Rayleigh })
+    }
+
     /// A level flume of 24 m with a wall at its end.
     fn setup() -> FlumeSetup {
         FlumeSetup {
             profile: Profile::new(vec![[0.0, 0.0], [24.0, 0.0]]),
             still_level_m: 0.5,
             gravity_m_s2: 9.81,
-            wave: SolitaryWave { height_m: 0.04, depth_m: 0.5, gravity: 9.81, theory: SolitaryTheory::Rayleigh },
+            wave: piston(0.04, 0.5),
+            right_end: RightEnd::Wall,
+            pressure: Pressure::NonHydrostatic,
+            friction: Friction::None,
+            breaking: Breaking::default(),
             layers: 2,
             cell_m: 0.1,
             gauges_x_m: vec![12.0, 24.0],
+            profile_times_s: Vec::new(),
             window_x_m: [20.0, 30.0],
             record_interval_s: 0.05,
             end_s: 23.0,
@@ -221,6 +320,7 @@ mod tests {
     fn the_piston_displaces_what_it_should() {
         let record = run(&FlumeSetup { end_s: 8.0, ..setup() }).unwrap();
         let stroke = record.paddle_m.last().unwrap();
+        // The stroke is cut where 1 - tanh = 1e-3.
         assert!((stroke / setup().wave.stroke_m() - 1.0).abs() < 2e-3);
     }
 
@@ -236,9 +336,16 @@ mod tests {
         assert_eq!(message(|s| s.end_s = f64::NAN), "flume: end_s is NaN, it must be above 0");
         assert!(message(|s| s.gauges_x_m = vec![25.0]).contains("inside the flume, 0 to 24"));
         assert!(message(|s| s.window_x_m = [40.0, 50.0]).contains("below the flume's end"));
-        assert!(message(|s| s.wave.depth_m = 0.8).contains("the depth at the piston, 0.5"));
-        assert!(message(|s| s.wave.height_m = 0.4).contains("where solitary waves break"));
-        assert!(message(|s| s.still_level_m = -1.0).contains("above the bed at the piston"));
+        assert!(message(|s| s.wave = piston(0.04, 0.8)).contains("the depth at the wavemaker, 0.5"));
+        assert!(message(|s| s.wave = piston(0.4, 0.5)).contains("where solitary waves break"));
+        assert!(message(|s| s.still_level_m = -1.0).contains("above the bed at the wavemaker"));
+        assert!(message(|s| s.friction = Friction::Manning { n_s_m13: -0.1 }).contains("from 0 to 0.2"));
+        assert!(message(|s| s.right_end = RightEnd::Sponge { length_m: 30.0 }).contains("shorter than the flume, 24"));
+        let dry_end = |s: &mut FlumeSetup| {
+            s.profile = Profile::new(vec![[0.0, 0.0], [20.0, 0.0], [24.0, 0.5]]);
+            s.right_end = RightEnd::Radiating;
+        };
+        assert!(message(dry_end).contains("more than two wave heights"));
         let short = |s: &mut FlumeSetup| {
             s.profile = Profile::new(vec![[0.0, 0.0], [1.0, 0.0]]);
             s.gauges_x_m.clear();

@@ -1,4 +1,4 @@
-//! K-layer non-hydrostatic model of a flume with a moving piston, in one horizontal dimension.
+//! K-layer non-hydrostatic model of a flume, in one horizontal dimension.
 //!
 //! Zijlema, Stelling & Smit (2011), "SWASH: An operational public domain code for simulating wave fields and rapidly
 //! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). Layers of equal share of the
@@ -17,21 +17,25 @@
 //! | advection | conservative in momentum, third-order upwind | `advection` |
 //! | pressure q | Keller box, continuity as its transpose, one direct solve a step | `pressure` |
 //! | surface, wet and dry, breaking | half-step depths at the faces, hydrostatic front | `surface` |
+//! | ends | walls, inflow of waves, radiation, sponge | `ends` |
+//! | friction | Manning's law, implicit | `friction` |
 //! | reading the flow at any x | cubic between the cells | `sample` |
 
 mod advection;
 mod block_tridiagonal;
+mod ends;
+mod friction;
 mod grid;
+mod parameters;
 mod pressure;
 mod sample;
 mod surface;
 
+pub use parameters::{Breaking, Friction, LayeredParameters, LeftEnd, Pressure, RightEnd};
 pub use sample::Column;
 
 use block_tridiagonal::BlockTridiagonal;
 use grid::Grid;
-
-use crate::geometry::profile::Profile;
 
 /// Water shallower than this does not move [m].
 pub(super) const THIN_M: f64 = 1e-5;
@@ -42,6 +46,13 @@ pub struct LayeredFlume {
     gravity: f64,
     layers: usize,
     still_level_m: f64,
+    left_end: LeftEnd,
+    right_end: RightEnd,
+    pressure: Pressure,
+    friction: Friction,
+    breaking_law: Breaking,
+    sponge_rate: Vec<f64>,
+    hydrostatic_below_m: f64,
     grid: Grid,
     time_s: f64,
     step_s: f64,
@@ -51,6 +62,7 @@ pub struct LayeredFlume {
     u: Vec<f64>,
     w: Vec<f64>,
     paddle_m: f64,
+    entered_m2: f64,
     // What the steps hand on: the fluxes carry the momentum of the next one.
     flux: Vec<f64>,
     rise_m_s: Vec<f64>,
@@ -72,37 +84,30 @@ pub struct LayeredFlume {
     system: BlockTridiagonal,
 }
 
-/// What a [`LayeredFlume`] is made of.
-#[derive(Debug, Clone)]
-pub struct LayeredParameters {
-    /// Bed from the piston at rest to the end wall.
-    pub profile: Profile,
-    /// Still-water level z [m].
-    pub still_level_m: f64,
-    /// Gravity [m/s2].
-    pub gravity_m_s2: f64,
-    /// Number of layers K.
-    pub layers: usize,
-    /// Width of a cell [m].
-    pub cell_m: f64,
-    /// Length in front of the piston over which the cells follow it [m].
-    pub mapped_m: f64,
-    /// Time step [s].
-    pub step_s: f64,
-}
-
 impl LayeredFlume {
     /// Still water.
     pub fn new(parameters: LayeredParameters) -> Self {
-        let LayeredParameters { profile, still_level_m, gravity_m_s2, layers, cell_m, mapped_m, step_s } = parameters;
-        let grid = Grid::new(profile, cell_m, mapped_m);
+        let LayeredParameters { still_level_m, layers, cell_m, step_s, .. } = parameters;
+        let mapped_m = match parameters.left_end {
+            LeftEnd::Piston { mapped_m, .. } => mapped_m,
+            LeftEnd::Wall | LeftEnd::Inflow(_) => 0.0,
+        };
+        let grid = Grid::new(parameters.profile.clone(), cell_m, mapped_m);
+        let sponge_rate = ends::sponge_rates(&parameters, &grid.face_x);
         let cells = grid.cells();
         let depth: Vec<f64> = grid.bed.iter().map(|bed| (still_level_m - bed).max(0.0)).collect();
         let (in_cells, at_faces) = (vec![0.0; cells * layers], vec![0.0; (cells + 1) * layers]);
         Self {
-            gravity: gravity_m_s2,
+            gravity: parameters.gravity_m_s2,
             layers,
             still_level_m,
+            left_end: parameters.left_end,
+            right_end: parameters.right_end,
+            pressure: parameters.pressure,
+            friction: parameters.friction,
+            breaking_law: parameters.breaking,
+            sponge_rate,
+            hydrostatic_below_m: surface::hydrostatic_below_m(&depth),
             grid,
             time_s: 0.0,
             step_s,
@@ -112,6 +117,7 @@ impl LayeredFlume {
             u: at_faces.clone(),
             w: in_cells.clone(),
             paddle_m: 0.0,
+            entered_m2: 0.0,
             flux: at_faces.clone(),
             rise_m_s: vec![0.0; cells],
             breaking: vec![false; cells],
@@ -153,15 +159,15 @@ impl LayeredFlume {
         (0..self.grid.cells()).for_each(|cell| self.follow(cell));
     }
 
-    /// Advance one step, the piston ending it at `paddle_m` from its place at rest.
-    pub fn step(&mut self, paddle_m: f64) {
-        self.advance_velocities(paddle_m);
-        self.advance_depths(paddle_m);
+    /// Advance one step.
+    pub fn step(&mut self) {
+        self.advance_velocities();
+        self.advance_depths();
     }
 
     /// First half of a step: u and w from n - 1/2 to n + 1/2. Between the halves [`Self::column`] gives the flow at n.
-    pub fn advance_velocities(&mut self, paddle_m: f64) {
-        self.grid.aim(paddle_m, self.step_s);
+    pub fn advance_velocities(&mut self) {
+        self.grid.aim(self.next_paddle_m(), self.step_s);
         self.measure_faces();
         self.classify_cells();
         self.exchange_between_layers();
@@ -169,29 +175,34 @@ impl LayeredFlume {
         self.accelerate_w();
         self.turn_over();
         self.correct_with_pressure();
+        self.settle_films();
         self.first_step = false;
     }
 
     /// Second half of a step: the depths from n to n + 1.
-    pub fn advance_depths(&mut self, paddle_m: f64) {
+    pub fn advance_depths(&mut self) {
+        let paddle_m = self.next_paddle_m();
         self.volume_fluxes(self.step_s);
         self.update_depths(self.step_s);
+        self.entered_m2 += self.step_s * (self.total_flux[0] - self.total_flux[self.grid.cells()]);
         self.grid.arrive(paddle_m);
         self.paddle_m = paddle_m;
         self.time_s += self.step_s;
     }
 
-    /// u without non-hydrostatic pressure: u -= dt (adv + g dx eta); zero at closed faces.
+    /// u without non-hydrostatic pressure: u -= dt (adv + g dx eta), slowed by friction and sponge implicitly; zero at
+    /// closed faces.
     fn accelerate_u(&mut self) {
         let (k, dt) = (self.layers, self.step_s);
         for face in 1..self.grid.cells() {
             let slope = self.surface_slope(face);
+            let slowed = 1.0 / (1.0 + dt * self.damping_rate(face));
             for m in 0..k {
                 let at = face * k + m;
                 let new = if self.open[face] { self.advection_of_u(face, m) } else { 0.0 };
                 let old = std::mem::replace(&mut self.advection_u[at], new);
                 self.next_u[at] = if self.open[face] {
-                    self.u[at] - dt * (self.adams_bashforth(new, old) + self.gravity * slope)
+                    slowed * (self.u[at] - dt * (self.adams_bashforth(new, old) + self.gravity * slope))
                 } else {
                     0.0
                 };
@@ -218,9 +229,7 @@ impl LayeredFlume {
         std::mem::swap(&mut self.u, &mut self.next_u);
         std::mem::swap(&mut self.w, &mut self.earlier_w);
         std::mem::swap(&mut self.w, &mut self.next_w);
-        self.u[..self.layers].fill(self.grid.face_velocity[0]);
-        let end = self.u.len() - self.layers;
-        self.u[end..].fill(0.0);
+        self.set_end_velocities();
     }
 
     /// Second-order Adams-Bashforth from the present and the last rate; Euler in the first step.
@@ -244,6 +253,11 @@ impl LayeredFlume {
         self.paddle_m
     }
 
+    /// Water that has come in through the ends less what went out, per metre of width [m2].
+    pub fn entered_m2(&self) -> f64 {
+        self.entered_m2
+    }
+
     /// Water in the flume per metre of width [m2].
     pub fn volume_m2(&self) -> f64 {
         self.depth.iter().zip(&self.grid.width).map(|(h, dx)| h * dx).sum()
@@ -263,13 +277,12 @@ impl LayeredFlume {
     /// Place [m] of the first cell whose numbers have gone astray: not finite, or water that crosses a cell in less
     /// than a step.
     pub fn astray_at(&self) -> Option<f64> {
-        let limit = 1.0 / self.step_s;
-        let astray = |cell: usize| {
-            let fast = self.u[cell * self.layers..(cell + 1) * self.layers]
-                .iter()
-                .any(|u| !u.is_finite() || u.abs() > limit * self.grid.width[cell]);
-            fast || !self.depth[cell].is_finite()
+        let fast = |face: usize| {
+            // A millionth for rounding: shallow water may cross a cell in just a step.
+            let limit = (1.0 + 1e-6) * self.grid.spacing(face) / self.step_s;
+            self.u[face * self.layers..(face + 1) * self.layers].iter().any(|u| !u.is_finite() || u.abs() > limit)
         };
+        let astray = |cell: usize| fast(cell) || fast(cell + 1) || !self.depth[cell].is_finite();
         (0..self.grid.cells()).find(|&cell| astray(cell)).map(|cell| self.grid.centre_x[cell])
     }
 }
@@ -277,6 +290,7 @@ impl LayeredFlume {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::profile::Profile;
 
     /// A closed box 2 m long and 0.8 m deep.
     fn basin(layers: usize) -> LayeredFlume {
@@ -286,8 +300,12 @@ mod tests {
             gravity_m_s2: 9.81,
             layers,
             cell_m: 0.02,
-            mapped_m: 1.0,
             step_s: 0.002,
+            left_end: LeftEnd::Wall,
+            right_end: RightEnd::Wall,
+            pressure: Pressure::NonHydrostatic,
+            friction: Friction::None,
+            breaking: Breaking::Unlimited,
         })
     }
 
@@ -314,7 +332,7 @@ mod tests {
             let mut falls = Vec::new();
             let mut before = flume.surface_m(0.01);
             while falls.len() < 4 {
-                flume.step(0.0);
+                flume.step();
                 let now = flume.surface_m(0.01);
                 if before > 0.0 && now <= 0.0 {
                     falls.push(flume.time_s() - 0.002 * now / (now - before));
@@ -333,7 +351,7 @@ mod tests {
         flume.set_flow(|x| 1e-4 * (k * x).cos(), |_, _| 0.0);
         let mut highest = 0.0f64;
         for step in 0..5000 {
-            flume.step(0.0);
+            flume.step();
             if step > 4000 {
                 highest = highest.max(flume.surface_m(0.01));
             }

@@ -2,11 +2,15 @@
 //!
 //! | module | what it holds |
 //! | --- | --- |
-//! | [`solitary`] | the piston's motion for a solitary wave, and the third-order wave as a reference |
-//! | [`regular`] | regular waves and the motion of the paddle that makes them |
-//! | [`layered`] | the K-layer non-hydrostatic model of a flume with a moving piston |
+//! | [`solitary`] | the piston's motion for a solitary wave, and the third-order wave |
+//! | [`periodic`] | regular waves as they are ordered; linear dispersion, highest waves |
+//! | [`stream_function`] | regular waves of permanent form by Fourier approximation, short to cnoidal |
+//! | [`irregular`] | a JONSWAP sea with random phases |
+//! | [`incoming`] | any of these as an inflow at the end of the flume |
+//! | [`regular`] | the motion of the paddle that makes regular waves |
+//! | [`layered`] | the K-layer non-hydrostatic model: piston or inflow, wall, radiating end or sponge, friction, breaking |
 //! | [`flume`] | one run of that model, from a set-up to a record |
-//! | [`record`] | gauges and a window of the flow over time, to be asked at any (x, z, t) |
+//! | [`record`] | gauges, profiles and a window of the flow over time, to be asked at any (x, z, t) |
 //! | [`ml_piston`] | a wavemaker for the particles whose rows follow the water |
 //! | [`paddle`] | a rigid piston or flap that moves by theory |
 //! | [`wavemaker`] | either of these, as rows that move |
@@ -15,12 +19,16 @@
 //! SI units; x from the wavemaker at rest to the shore, z upwards from the bed profile's own datum.
 
 pub mod flume;
+pub mod incoming;
 mod interpolation;
+pub mod irregular;
 pub mod layered;
 pub mod ml_piston;
 pub mod paddle;
+pub mod periodic;
 pub mod record;
 pub mod regular;
 pub mod solitary;
+pub mod stream_function;
 pub mod velx;
 pub mod wavemaker;

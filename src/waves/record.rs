@@ -1,4 +1,5 @@
-//! What a flume run leaves behind: gauges, and the whole flow in a window, to be asked at any place and time.
+//! What a flume run leaves behind: gauges, profiles of the surface, the shore, and the whole flow in a window, to be asked
+//! at any place and time.
 
 use crate::geometry::profile::Profile;
 use crate::waves::interpolation::Stencil;
@@ -23,18 +24,54 @@ pub struct FlumeRecord {
     pub gauges_x_m: Vec<f64>,
     /// Elevation above still water at the gauges [m], one series a gauge; bed level minus still level while dry.
     pub gauge_elevations_m: Vec<Vec<f64>>,
+    /// The surface along the whole flume at the times that were asked for.
+    pub profiles: Vec<SurfaceProfile>,
+    /// Highest point of the ground that the water from the left end reaches z [m], a value a record.
+    pub shore_level_m: Vec<f64>,
     /// Points of the window [m].
     pub window_x_m: Vec<f64>,
     /// Displacement of the piston [m], a value a record.
     pub paddle_m: Vec<f64>,
     /// Water in the flume at the start [m2].
     pub volume_m2: f64,
-    /// Largest relative departure from that volume [-].
+    /// Largest departure from that volume and what came in through the ends, relative to it [-].
     pub volume_error: f64,
     surface_m: Vec<f64>,
     u: Vec<f64>,
     w: Vec<f64>,
     times_s: Vec<f64>,
+}
+
+/// The surface along the whole flume at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceProfile {
+    /// Time [s].
+    pub time_s: f64,
+    /// Cells from left to right.
+    pub points: Vec<SurfacePoint>,
+}
+
+/// The surface in a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Middle of the cell [m].
+    pub x_m: f64,
+    /// Level of the surface z, of the bed where it is dry [m].
+    pub surface_m: f64,
+    /// Depth of the water [m].
+    pub depth_m: f64,
+}
+
+impl SurfaceProfile {
+    /// Level of the surface z [m] at x [m], on a straight line between the middles of cells; `None` where it is dry or
+    /// outside them.
+    pub fn surface_m(&self, x: f64) -> Option<f64> {
+        let right = self.points.partition_point(|p| p.x_m < x);
+        let (a, b) = (self.points.get(right.checked_sub(1)?)?, self.points.get(right)?);
+        let share = (x - a.x_m) / (b.x_m - a.x_m);
+        let wet = if share < 0.5 { a.depth_m > 0.0 } else { b.depth_m > 0.0 };
+        wet.then_some(a.surface_m + share * (b.surface_m - a.surface_m))
+    }
 }
 
 /// The flow in the window at one moment.
@@ -65,6 +102,8 @@ impl FlumeRecord {
             interval_s,
             gauge_elevations_m: vec![Vec::new(); gauges_x_m.len()],
             gauges_x_m,
+            profiles: Vec::new(),
+            shore_level_m: Vec::new(),
             window_x_m,
             paddle_m: Vec::new(),
             volume_m2: 0.0,
@@ -240,6 +279,16 @@ mod tests {
         assert_eq!(record.velocity(2.3, -9.0, 1.1).1, 0.0);
         let state = record.state_at(1.1);
         assert!((state.columns[3].surface_m - 1.52).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_profile_is_read_where_it_is_wet() {
+        let point = |x_m: f64, depth_m: f64| SurfacePoint { x_m, surface_m: 1.0 + x_m, depth_m };
+        let points = vec![point(0.5, 0.4), point(1.5, 0.2), point(2.5, 0.0)];
+        let profile = SurfaceProfile { time_s: 0.0, points };
+        assert_eq!(profile.surface_m(1.0), Some(2.0));
+        assert_eq!(profile.surface_m(1.9), Some(2.9));
+        assert_eq!((profile.surface_m(2.2), profile.surface_m(0.1), profile.surface_m(3.0)), (None, None, None));
     }
 
     #[test]

@@ -9,8 +9,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// Newton steps for the wave number: from the first guess, which is within a tenth, five reach rounding.
-const NEWTON_STEPS: usize = 6;
+use crate::waves::periodic::linear_wavenumber_per_m;
+
 /// Steepness at which a wave of permanent form breaks in deep water, H / L (Miche 1944).
 const MICHE: f64 = 0.142;
 /// Largest H L^2 / d^3 at which the crest of a second-order wave is single, 8 pi^2 / 3 (Madsen 1971).
@@ -35,15 +35,9 @@ impl RegularWave {
         TAU / self.period_s
     }
 
-    /// Wave number k [1/m], the root of omega^2 = g k tanh(k d) by Newton's method. First guess: Eckart (1952).
+    /// Wave number k [1/m] of linear theory.
     pub fn number_per_m(&self) -> f64 {
-        let alpha = self.angular_frequency().powi(2) * self.depth_m / self.gravity;
-        let mut kd = alpha / alpha.tanh().sqrt();
-        for _ in 0..NEWTON_STEPS {
-            let t = kd.tanh();
-            kd -= (kd * t - alpha) / (t + kd * (1.0 - t * t));
-        }
-        kd / self.depth_m
+        linear_wavenumber_per_m(self.angular_frequency(), self.depth_m, self.gravity)
     }
 
     /// Length L = 2 pi / k [m].

@@ -96,6 +96,11 @@ impl ThirdOrderSolitary {
         (self.gravity * self.depth_m * (1.0 + e - e * e / 20.0 - 3.0 * e.powi(3) / 70.0)).sqrt()
     }
 
+    /// Distance from the crest at which the surface has come down to 1e-4 of the height [m]: sech^2(5.3) = 1e-4.
+    pub fn half_length_m(&self) -> f64 {
+        5.3 * self.depth_m / self.decay()
+    }
+
     /// Surface elevation above still water [m] at x [m] from the crest.
     pub fn elevation_m(&self, x: f64) -> f64 {
         let e = self.height_m / self.depth_m;
@@ -117,11 +122,15 @@ impl ThirdOrderSolitary {
         (self.gravity * self.depth_m).sqrt() * (e * s2 - e * e * second - e.powi(3) * third)
     }
 
-    /// sech^2 and tanh^2 of a x / d, a = sqrt(3e/4) (1 - 5e/8 + 71 e^2/128).
-    fn sech2_tanh2(&self, x: f64) -> (f64, f64) {
+    /// a = sqrt(3e/4) (1 - 5e/8 + 71 e^2/128) [-].
+    fn decay(&self) -> f64 {
         let e = self.height_m / self.depth_m;
-        let a = (0.75 * e).sqrt() * (1.0 - 0.625 * e + 71.0 / 128.0 * e * e);
-        let s2 = sech2(a * x / self.depth_m);
+        (0.75 * e).sqrt() * (1.0 - 0.625 * e + 71.0 / 128.0 * e * e)
+    }
+
+    /// sech^2 and tanh^2 of a x / d.
+    fn sech2_tanh2(&self, x: f64) -> (f64, f64) {
+        let s2 = sech2(self.decay() * x / self.depth_m);
         (s2, 1.0 - s2)
     }
 }

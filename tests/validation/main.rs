@@ -4,4 +4,6 @@
 //! and skips.
 
 mod dam_break;
+mod flume_bar;
+mod flume_run_up;
 mod wall_pressure;

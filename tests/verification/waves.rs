@@ -3,8 +3,8 @@
 
 use breakwater::case::file::SolitaryTheory;
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::flume::{FlumeSetup, run};
-use breakwater::waves::layered::{LayeredFlume, LayeredParameters};
+use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
+use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
 use breakwater::waves::ml_piston::{MlPiston, start_time};
 use breakwater::waves::record::FlumeRecord;
 use breakwater::waves::solitary::{SolitaryWave, ThirdOrderSolitary};
@@ -53,10 +53,15 @@ fn fudo(profile: Profile, height_m: f64, cell_m: f64, layers: usize) -> FlumeRec
         profile,
         still_level_m: STILL_LEVEL_M,
         gravity_m_s2: GRAVITY,
-        wave: SolitaryWave { height_m, depth_m: STILL_LEVEL_M, gravity: GRAVITY, theory },
+        wave: WaveSource::Piston(SolitaryWave { height_m, depth_m: STILL_LEVEL_M, gravity: GRAVITY, theory }),
+        right_end: RightEnd::Wall,
+        pressure: Pressure::NonHydrostatic,
+        friction: Friction::None,
+        breaking: Breaking::default(),
         layers,
         cell_m,
         gauges_x_m: GAUGES_X_M.to_vec(),
+        profile_times_s: Vec::new(),
         window_x_m: [32.0, 41.0],
         record_interval_s: 0.02,
         end_s: 30.0,
@@ -174,10 +179,14 @@ fn lake_at_rest_stays_at_rest_over_mound_island_and_shore() {
             gravity_m_s2: GRAVITY,
             layers,
             cell_m: 0.05,
-            mapped_m: 5.0,
             step_s: 0.006,
+            left_end: LeftEnd::Wall,
+            right_end: RightEnd::Wall,
+            pressure: Pressure::NonHydrostatic,
+            friction: Friction::None,
+            breaking: Breaking::default(),
         });
-        (0..1000).for_each(|_| flume.step(0.0));
+        (0..1000).for_each(|_| flume.step());
         // Levels are sums of bed and depth: rounding of 1e-16 m, not amplified.
         assert!(flume.largest_elevation_m() < 1e-12, "{}", flume.largest_elevation_m());
         assert!(flume.largest_velocity_m_s() < 1e-12, "{}", flume.largest_velocity_m_s());
@@ -197,8 +206,12 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
             gravity_m_s2: GRAVITY,
             layers,
             cell_m: 0.05,
-            mapped_m: 5.0,
             step_s,
+            left_end: LeftEnd::Wall,
+            right_end: RightEnd::Wall,
+            pressure: Pressure::NonHydrostatic,
+            friction: Friction::None,
+            breaking: Breaking::default(),
         });
         flume.set_flow(
             |x| wave.elevation_m(x - start),
@@ -206,7 +219,7 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
         );
         let volume = flume.volume_m2();
         let steps = (distance / celerity / step_s).round() as usize;
-        (0..steps).for_each(|_| flume.step(0.0));
+        (0..steps).for_each(|_| flume.step());
         let (top, place) = (0..70_000)
             .map(|i| 0.001 * f64::from(i))
             .map(|x| (flume.surface_m(x), x))
@@ -231,10 +244,15 @@ fn run_up_on_a_plane_beach() {
         profile,
         still_level_m: STILL_LEVEL_M,
         gravity_m_s2: GRAVITY,
-        wave: SolitaryWave { height_m: 0.0185 * 0.8, depth_m: 0.8, gravity: GRAVITY, theory },
+        wave: WaveSource::Piston(SolitaryWave { height_m: 0.0185 * 0.8, depth_m: 0.8, gravity: GRAVITY, theory }),
+        right_end: RightEnd::Wall,
+        pressure: Pressure::NonHydrostatic,
+        friction: Friction::None,
+        breaking: Breaking::default(),
         layers: 2,
         cell_m: 0.05,
         gauges_x_m: vec![10.0],
+        profile_times_s: Vec::new(),
         window_x_m: [shore_x - 2.0, shore_x + 4.0],
         record_interval_s: 0.1,
         end_s: 35.0,
@@ -275,10 +293,15 @@ fn odd_but_valid_flumes_finish() {
             profile,
             still_level_m: STILL_LEVEL_M,
             gravity_m_s2: GRAVITY,
-            wave: SolitaryWave { height_m, depth_m: STILL_LEVEL_M, gravity: GRAVITY, theory },
+            wave: WaveSource::Piston(SolitaryWave { height_m, depth_m: STILL_LEVEL_M, gravity: GRAVITY, theory }),
+            right_end: RightEnd::Wall,
+            pressure: Pressure::NonHydrostatic,
+            friction: Friction::None,
+            breaking: Breaking::default(),
             layers,
             cell_m,
             gauges_x_m: vec![10.0],
+            profile_times_s: Vec::new(),
             window_x_m: [0.0, 100.0],
             record_interval_s: 0.1,
             end_s: 25.0,

@@ -1,7 +1,9 @@
 //! Advection of u and w: conservative in momentum (Stelling & Duinmeijer 2003, section 3), third-order upwind
-//! interpolation (Leonard 1979) where the water is deep and unbroken, first order elsewhere.
+//! interpolation (Leonard 1979) where the water is deep and unbroken, elsewhere limited second order (van Leer 1974), first
+//! order next to dry ground.
 
 use super::LayeredFlume;
+use super::surface::van_leer;
 
 impl LayeredFlume {
     /// Volume flux upwards through the interface below each layer, relative to the layers, per cell [m2/s]:
@@ -48,10 +50,11 @@ impl LayeredFlume {
         let (k, last) = (self.layers, self.grid.cells());
         let at = |face: usize| self.u[face * k + m];
         let (up, down) = if flux >= 0.0 { (cell, cell + 1) } else { (cell + 1, cell) };
-        if !self.smooth[cell] {
-            return at(up);
-        }
         let far = if flux >= 0.0 { up.checked_sub(1) } else { Some(up + 1).filter(|&f| f <= last) };
+        if !self.smooth[cell] {
+            let far = far.filter(|&far| self.open[far] && self.open[up] && self.open[down]);
+            return at(up) + far.map_or(0.0, |far| 0.5 * van_leer(at(up) - at(far), at(down) - at(up)));
+        }
         far.map_or(0.5 * (at(up) + at(down)), |far| quick(at(far), at(up), at(down)))
     }
 
@@ -61,7 +64,9 @@ impl LayeredFlume {
         let w = self.w[cell * k + m];
         let through = |face: usize| {
             let flux = self.flux[face * k + m];
-            if flux == 0.0 { 0.0 } else { flux * (self.w_at_face(face, m, flux) - w) }
+            // What passes an end has the w of the cell there.
+            let inner = face > 0 && face < self.grid.cells();
+            if flux == 0.0 || !inner { 0.0 } else { flux * (self.w_at_face(face, m, flux) - w) }
         };
         let vertical =
             exchanged(self.exchange[cell * k + m], self.exchange_above(cell, m), &self.w[cell * k..(cell + 1) * k], m);
@@ -74,10 +79,11 @@ impl LayeredFlume {
         let (k, cells) = (self.layers, self.grid.cells());
         let at = |cell: usize| self.w[cell * k + m];
         let (up, down) = if flux >= 0.0 { (face - 1, face) } else { (face, face - 1) };
-        if !(self.smooth[up] && self.smooth[down]) {
-            return at(up);
-        }
         let far = if flux >= 0.0 { up.checked_sub(1) } else { Some(up + 1).filter(|&c| c < cells) };
+        if !(self.smooth[up] && self.smooth[down]) {
+            let far = far.filter(|&far| self.active[far] && self.active[up] && self.active[down]);
+            return at(up) + far.map_or(0.0, |far| 0.5 * van_leer(at(up) - at(far), at(down) - at(up)));
+        }
         far.map_or(0.5 * (at(up) + at(down)), |far| quick(at(far), at(up), at(down)))
     }
 }

@@ -54,7 +54,7 @@ impl LayeredFlume {
         (middle(face) - middle(face - 1)) / self.grid.spacing(face)
     }
 
-    /// Weights of q at a face: at the piston those of the first inner face's slope, without a far side.
+    /// Weights of q at a face: at an end those of the nearest inner face's slope, without a far side.
     fn gradient_at(&self, face: usize, m: usize) -> Gradient {
         let last = self.grid.cells();
         let slope = self.slope_at(face.clamp(1, last - 1), m);
@@ -66,7 +66,7 @@ impl LayeredFlume {
         let (k, cells) = (self.layers, self.grid.cells());
         self.system.clear();
         for face in 0..=cells {
-            if self.mean_depth[face] > 0.0 && (self.open[face] || face == 0) {
+            if self.mean_depth[face] > 0.0 && (self.open[face] || face == 0 || face == cells) {
                 (0..k).for_each(|m| self.assemble_face(face, m));
             }
         }

@@ -2,6 +2,11 @@
 
 use super::{LayeredFlume, THIN_M};
 use crate::waves::interpolation::Stencil;
+use crate::waves::record::SurfacePoint;
+
+/// Film at which the shore is read, as a share of the largest still depth [-]: laboratory observers see the tongue of the
+/// water, not what it leaves behind.
+const SHORE_FILM_SHARE: f64 = 1e-3;
 
 /// Flow at one place and moment.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +25,31 @@ impl LayeredFlume {
     /// Surface level z [m] at x [m]: cubic between the cells; the bed's level where it is dry.
     pub fn surface_m(&self, x: f64) -> f64 {
         self.surface_from(self.wet_cells(x), self.grid.bed_at(x))
+    }
+
+    /// The surface in every cell.
+    pub fn surface_profile(&self) -> Vec<SurfacePoint> {
+        let point = |cell: usize| {
+            let depth_m = self.depth[cell];
+            SurfacePoint { x_m: self.grid.centre_x[cell], surface_m: self.grid.bed[cell] + depth_m, depth_m }
+        };
+        (0..self.grid.cells()).map(point).collect()
+    }
+
+    /// Level of the bed z [m] where the water from the left end ends, that is, where it thins to a thousandth of the
+    /// largest still depth; on a straight line between the middles of two cells.
+    pub fn shore_level_m(&self) -> f64 {
+        let deepest = self.grid.bed.iter().fold(0.0, |most, bed| f64::max(most, self.still_level_m - bed));
+        let film = SHORE_FILM_SHARE * deepest;
+        let (bed, depth) = (&self.grid.bed, &self.depth);
+        match depth.iter().position(|h| *h < film) {
+            None => bed[bed.len() - 1],
+            Some(0) => bed[0],
+            Some(dry) => {
+                let share = (depth[dry - 1] - film) / (depth[dry - 1] - depth[dry]);
+                bed[dry - 1] + share * (bed[dry] - bed[dry - 1])
+            }
+        }
     }
 
     /// Stencil over the wet cells around x.

@@ -1,20 +1,30 @@
 //! Continuity of the water column, wetting and drying, breaking.
 //!
-//! * Depth at a face: mean of both sides (second order) in calm deep water, the upwind side where the flow is shallow,
-//!   fast or broken (Stelling & Duinmeijer 2003).
+//! * Depth at a face: mean of both sides in calm deep water; where the flow is shallow, fast or broken the level of the
+//!   upwind side (Stelling & Duinmeijer 2003) over the higher bed of both, carried to the face along limited slopes.
 //! * Breaking: the front turns hydrostatic where it rises faster than 0.6 sqrt(g H) and stays so above 0.3 (Smit, Zijlema
 //!   & Stelling 2013), which lets it steepen into a bore that the momentum-conservative scheme dissipates.
 
-use super::{LayeredFlume, THIN_M};
+use super::{Breaking, LayeredFlume, Pressure, THIN_M};
 
-/// Rate of rise over sqrt(g H) at which a front begins to break (Smit et al. 2013).
-const BREAKING_STARTS: f64 = 0.6;
-/// The same at which it still breaks, next to a cell that does.
-const BREAKING_LASTS: f64 = 0.3;
-/// Water shallower than this is hydrostatic [m]: a film has no dispersion to resolve.
-const HYDROSTATIC_BELOW_M: f64 = 2e-3;
+/// Water shallower than this share of the deepest still water is hydrostatic [-]: a film has no dispersion to resolve.
+const HYDROSTATIC_SHARE: f64 = 2.5e-3;
 /// Froude numbers between which the face depth goes over from the mean to the upwind side.
 const FROUDE_RANGE: [f64; 2] = [0.7, 1.0];
+
+/// Water on one side of a face.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// Level of the surface z [m].
+    level: f64,
+    /// Level of the bed z [m].
+    bed: f64,
+}
+
+/// Depth below which water is hydrostatic on these depths of still water [m].
+pub(super) fn hydrostatic_below_m(still_depths: &[f64]) -> f64 {
+    HYDROSTATIC_SHARE * still_depths.iter().copied().fold(THIN_M / HYDROSTATIC_SHARE, f64::max)
+}
 
 impl LayeredFlume {
     /// Find the cells that break, those where pressure is solved for, and those where third order is safe.
@@ -23,7 +33,8 @@ impl LayeredFlume {
         let before = std::mem::take(&mut self.breaking);
         self.breaking = (0..cells).map(|cell| self.breaks(cell, &before)).collect();
         for cell in 0..cells {
-            self.active[cell] = self.depth[cell] > HYDROSTATIC_BELOW_M && !self.breaking[cell];
+            let deep = self.depth[cell] > self.hydrostatic_below_m;
+            self.active[cell] = deep && !self.breaking[cell] && self.pressure == Pressure::NonHydrostatic;
         }
         for cell in 0..cells {
             let around = cell.saturating_sub(1)..(cell + 2).min(cells);
@@ -34,39 +45,63 @@ impl LayeredFlume {
 
     /// Whether a cell breaks, from its rate of rise and from who broke before.
     fn breaks(&self, cell: usize, before: &[bool]) -> bool {
-        if self.depth[cell] < HYDROSTATIC_BELOW_M {
+        let Breaking::HydrostaticFront { starts, lasts } = self.breaking_law else { return false };
+        if self.depth[cell] < self.hydrostatic_below_m {
             return false;
         }
         let steepness = self.rise_m_s[cell] / (self.gravity * self.depth[cell]).sqrt();
         let near = before[cell.saturating_sub(1)..(cell + 2).min(before.len())].contains(&true);
-        steepness > BREAKING_STARTS || (near && steepness > BREAKING_LASTS)
+        steepness > starts || (near && steepness > lasts)
     }
 
     /// 1 where the water at a face between cells is deep compared with the step of the bed, 0 where it is shallow [-].
     fn deep_share(&self, face: usize) -> f64 {
-        let step = 2.0 * (self.grid.bed[face] - self.grid.bed[face - 1]).abs() + HYDROSTATIC_BELOW_M;
+        let step = 2.0 * (self.grid.bed[face] - self.grid.bed[face - 1]).abs() + self.hydrostatic_below_m;
         (self.depth[face - 1].min(self.depth[face]) / step - 1.0).clamp(0.0, 1.0)
     }
 
     /// Depth of the water that crosses a face with velocity `u` [m], `depth` the depths of the cells.
     pub(super) fn transport_depth(&self, face: usize, depth: &[f64], u: f64) -> f64 {
         let (left, right) = (face - 1, face);
-        let bed = [self.grid.bed[left], self.grid.bed[right]];
-        let level = [bed[0] + depth[left], bed[1] + depth[right]];
-        let deep = self.deep_share(face);
+        let bed = &self.grid.bed;
         let mean_depth = 0.5 * (depth[left] + depth[right]);
-        let froude = u.abs() / (self.gravity * mean_depth.max(THIN_M)).sqrt();
-        let calm = ((FROUDE_RANGE[1] - froude) / (FROUDE_RANGE[1] - FROUDE_RANGE[0])).clamp(0.0, 1.0);
-        let unbroken = !(self.breaking[left] || self.breaking[right]);
-        let central = if unbroken { deep * calm } else { 0.0 };
+        let central = self.central_share(face, u.abs() / (self.gravity * mean_depth.max(THIN_M)).sqrt());
+        if central >= 1.0 {
+            return mean_depth;
+        }
+        let deep = self.deep_share(face);
+        let sides = [self.side(left, 1.0, depth), self.side(right, -1.0, depth)];
         let upwind = match u {
-            u if u > 0.0 => level[0],
-            u if u < 0.0 => level[1],
-            _ => level[0].max(level[1]),
+            u if u > 0.0 => sides[0].level,
+            u if u < 0.0 => sides[1].level,
+            _ => (bed[left] + depth[left]).max(bed[right] + depth[right]),
         };
-        let sill = deep * 0.5 * (bed[0] + bed[1]) + (1.0 - deep) * bed[0].max(bed[1]);
-        let surface = central * 0.5 * (level[0] + level[1]) + (1.0 - central) * upwind;
+        let sill = deep * 0.5 * (bed[left] + bed[right]) + (1.0 - deep) * sides[0].bed.max(sides[1].bed);
+        let surface = central * (0.5 * (bed[left] + bed[right]) + mean_depth) + (1.0 - central) * upwind;
         (surface - sill).max(0.0)
+    }
+
+    /// Share of the mean of both sides in the depth at a face, the rest being that of the upwind side [-].
+    fn central_share(&self, face: usize, froude: f64) -> f64 {
+        if self.breaking[face - 1] || self.breaking[face] {
+            return 0.0;
+        }
+        let calm = ((FROUDE_RANGE[1] - froude) / (FROUDE_RANGE[1] - FROUDE_RANGE[0])).clamp(0.0, 1.0);
+        self.deep_share(face) * calm
+    }
+
+    /// A cell's water carried to its right (`way` = 1) or left (-1) face along limited slopes of level and depth, after
+    /// Audusse et al. (2004), section 4: where the bed is even both sides see the same bed at the face. Next to dry
+    /// ground the cell's own values.
+    fn side(&self, cell: usize, way: f64, depth: &[f64]) -> Side {
+        let level = |cell: usize| self.grid.bed[cell] + depth[cell];
+        let inner = cell > 0 && cell + 1 < depth.len();
+        if !inner || depth[cell - 1..cell + 2].iter().any(|h| *h <= THIN_M) {
+            return Side { level: level(cell), bed: self.grid.bed[cell] };
+        }
+        let to_face = |before: f64, here: f64, after: f64| here + 0.5 * way * van_leer(here - before, after - here);
+        let at_face = to_face(level(cell - 1), level(cell), level(cell + 1));
+        Side { level: at_face, bed: at_face - to_face(depth[cell - 1], depth[cell], depth[cell + 1]) }
     }
 
     /// Mean velocity over the depth at a face [m/s].
@@ -85,7 +120,7 @@ impl LayeredFlume {
         self.total_fluxes();
         self.limit_outflow(dt);
         let k = self.layers;
-        for face in 1..self.grid.cells() {
+        for face in 0..=self.grid.cells() {
             let moving = self.grid.face_velocity[face];
             let mean = self.mean_velocity(face) - moving;
             let depth = if mean == 0.0 { self.mean_depth[face] } else { self.total_flux[face] / mean };
@@ -101,6 +136,11 @@ impl LayeredFlume {
             let u = self.mean_velocity(face);
             let h = if self.open[face] { self.transport_depth(face, &self.next_depth, u) } else { 0.0 };
             self.total_flux[face] = h * (u - self.grid.face_velocity[face]);
+        }
+        for face in [0, self.grid.cells()] {
+            if self.is_open_end(face) {
+                self.total_flux[face] = self.end_depth(face, &self.next_depth) * self.mean_velocity(face);
+            }
         }
     }
 
@@ -122,9 +162,28 @@ impl LayeredFlume {
                 if out * dt > held { held / (out * dt) } else { 1.0 }
             })
             .collect();
-        for face in 1..cells {
-            let from = if self.total_flux[face] > 0.0 { face - 1 } else { face };
-            self.total_flux[face] *= share[from];
+        for face in 0..=cells {
+            let from = if self.total_flux[face] > 0.0 { face.checked_sub(1) } else { Some(face) };
+            // What comes in through an end comes from outside.
+            if let Some(share) = from.and_then(|cell| share.get(cell)) {
+                self.total_flux[face] *= share;
+            }
+        }
+    }
+
+    /// Films: one velocity over their depth, and where the water is shallow no more than a cell in a step,
+    /// dt |u| / dx <= 1. What a film does beyond that is not resolved.
+    pub(super) fn settle_films(&mut self) {
+        let k = self.layers;
+        for face in (1..self.grid.cells()).filter(|&face| self.open[face]) {
+            if self.mean_depth[face] < self.hydrostatic_below_m {
+                let mean = self.mean_velocity(face);
+                self.u[face * k..(face + 1) * k].fill(mean);
+            }
+            if self.deep_share(face) < 1.0 {
+                let limit = self.grid.spacing(face) / self.step_s;
+                self.u[face * k..(face + 1) * k].iter_mut().for_each(|u| *u = u.clamp(-limit, limit));
+            }
         }
     }
 
@@ -146,7 +205,13 @@ impl LayeredFlume {
                 || (u == 0.0 && self.transport_depth(face, &self.depth, 0.0) > THIN_M);
             self.mean_depth[face] = if self.open[face] { 0.5 * (self.depth[face - 1] + self.depth[face]) } else { 0.0 };
         }
-        self.mean_depth[0] = (1.5 * self.depth[0] - 0.5 * self.depth[1]).max(0.0);
-        self.mean_depth[cells] = (1.5 * self.depth[cells - 1] - 0.5 * self.depth[cells - 2]).max(0.0);
+        for face in [0, cells] {
+            self.mean_depth[face] = self.end_depth(face, &self.depth);
+        }
     }
+}
+
+/// Van Leer's (1974) harmonic mean of two differences: 0 at an extreme, so that nothing overshoots.
+pub(super) fn van_leer(a: f64, b: f64) -> f64 {
+    if a * b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 }
 }

@@ -1,0 +1,227 @@
+//! A sea of many periods: a JONSWAP spectrum with random phases, of first order.
+//!
+//! Hasselmann et al. (1973): S(f) ~ f^-5 exp(-1.25 (f_p/f)^4) gamma^a, a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)), s = 0.07
+//! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is the sum of waves of amplitude
+//! sqrt(2 S df), evenly spaced in frequency with random phases, so it repeats after 1/df. Velocities are those of linear
+//! waves with the depth stretched to the surface (Wheeler 1970). Waves bound to groups are left out: the nonlinear flume
+//! model makes them, together with free long waves that a wavemaker of second order would suppress.
+
+use std::f64::consts::TAU;
+
+use super::periodic::{WaveError, linear_wavenumber_per_m};
+
+/// Frequencies over that of the peak between which the spectrum is kept [-]: beyond lie 1 to 2 % of its energy.
+const BAND: [f64; 2] = [0.6, 3.0];
+/// Waves the sea is made of, at most: what a flume computes at every step.
+const MOST_COMPONENTS: usize = 5000;
+
+/// The sea as it is ordered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JonswapSea {
+    /// Significant height H_s = 4 sqrt(m_0) [m].
+    pub significant_height_m: f64,
+    /// Period of the spectrum's peak T_p [s].
+    pub peak_period_s: f64,
+    /// Peak enhancement gamma [-]; 3.3 on average, 1 is the spectrum of Pierson & Moskowitz (1964).
+    pub peak_enhancement: f64,
+    /// Still depth d [m].
+    pub depth_m: f64,
+    /// Gravity g [m/s2].
+    pub gravity: f64,
+    /// Time after which the sea repeats itself [s].
+    pub repeat_s: f64,
+    /// Number from which the phases are drawn: the same number gives the same sea.
+    pub seed: u64,
+}
+
+/// The waves of a sea at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IrregularWave {
+    sea: JonswapSea,
+    components: Vec<Component>,
+}
+
+/// One linear wave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Component {
+    amplitude: f64,
+    angular_frequency: f64,
+    wavenumber: f64,
+    phase: f64,
+}
+
+impl IrregularWave {
+    /// Draw the waves of a sea.
+    ///
+    /// # Errors
+    /// If a value is out of its range.
+    pub fn new(sea: JonswapSea) -> Result<Self, WaveError> {
+        check(&sea)?;
+        let df = 1.0 / sea.repeat_s;
+        let peak = 1.0 / sea.peak_period_s;
+        let first = (BAND[0] * peak / df).ceil().max(1.0) as usize;
+        let last = (BAND[1] * peak / df).floor() as usize;
+        let shapes: Vec<f64> = (first..=last).map(|i| jonswap_shape(i as f64 * df / peak, &sea)).collect();
+        let m_0 = (sea.significant_height_m / 4.0).powi(2);
+        let scale = m_0 / shapes.iter().sum::<f64>();
+        let mut random = SplitMix64 { state: sea.seed };
+        let components = shapes.iter().enumerate().map(|(i, shape)| {
+            let angular_frequency = TAU * (first + i) as f64 * df;
+            Component {
+                // a^2 / 2 = S df.
+                amplitude: (2.0 * scale * shape).sqrt(),
+                angular_frequency,
+                wavenumber: linear_wavenumber_per_m(angular_frequency, sea.depth_m, sea.gravity),
+                phase: TAU * random.next_share(),
+            }
+        });
+        Ok(Self { sea, components: components.collect() })
+    }
+
+    /// The sea as it was ordered.
+    pub fn sea(&self) -> &JonswapSea {
+        &self.sea
+    }
+
+    /// Elevation above still water [m].
+    pub fn elevation_m(&self, t: f64) -> f64 {
+        self.components.iter().map(|c| c.amplitude * c.angle(t).cos()).sum()
+    }
+
+    /// Horizontal velocity [m/s] at z [m] above still water: a omega cosh(k d s) / sinh(k d) cos, s = (z + d)/(d + eta).
+    pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
+        let d = self.sea.depth_m;
+        let stretched = d * ((z + d) / (d + self.elevation_m(t))).clamp(0.0, 1.0);
+        self.components.iter().map(|c| c.velocity(stretched, d, t)).sum()
+    }
+}
+
+impl Component {
+    fn angle(&self, t: f64) -> f64 {
+        self.phase - self.angular_frequency * t
+    }
+
+    /// Velocity at a height above the bed [m/s]; exponentials keep cosh / sinh finite in deep water.
+    fn velocity(&self, height: f64, depth: f64, t: f64) -> f64 {
+        let k = self.wavenumber;
+        let ratio = ((k * (height - depth)).exp() + (-k * (height + depth)).exp()) / (1.0 - (-2.0 * k * depth).exp());
+        self.amplitude * self.angular_frequency * ratio * self.angle(t).cos()
+    }
+}
+
+fn check(sea: &JonswapSea) -> Result<(), WaveError> {
+    for (name, value) in [
+        ("significant_height_m", sea.significant_height_m),
+        ("peak_period_s", sea.peak_period_s),
+        ("depth_m", sea.depth_m),
+        ("gravity", sea.gravity),
+        ("repeat_s", sea.repeat_s),
+    ] {
+        WaveError::require_positive(name, value)?;
+    }
+    let refuse = |name, value, allowed: String| Err(WaveError::Value { name, value, allowed });
+    if !(1.0..=10.0).contains(&sea.peak_enhancement) {
+        return refuse("peak_enhancement", sea.peak_enhancement, "from 1 to 10".to_owned());
+    }
+    let longest = MOST_COMPONENTS as f64 / (BAND[1] - BAND[0]) * sea.peak_period_s;
+    let shortest = 20.0 * sea.peak_period_s;
+    if !(shortest..=longest).contains(&sea.repeat_s) {
+        return refuse("repeat_s", sea.repeat_s, format!("from 20 peak periods, {shortest}, to {longest}"));
+    }
+    // Twice this height, the highest wave in 3,000, is what a solitary wave breaks at.
+    let highest = 0.4 * sea.depth_m;
+    if sea.significant_height_m > highest {
+        return refuse(
+            "significant_height_m",
+            sea.significant_height_m,
+            format!("at most 0.4 of the depth, {highest}"),
+        );
+    }
+    Ok(())
+}
+
+/// Shape of the spectrum at f / f_p, not scaled [-].
+fn jonswap_shape(ratio: f64, sea: &JonswapSea) -> f64 {
+    let width = if ratio <= 1.0 { 0.07 } else { 0.09 };
+    let peak = (-(ratio - 1.0).powi(2) / (2.0 * width * width)).exp();
+    ratio.powi(-5) * (-1.25 * ratio.powi(-4)).exp() * sea.peak_enhancement.powf(peak)
+}
+
+/// Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators".
+struct SplitMix64 {
+    state: u64,
+}
+
+impl SplitMix64 {
+    /// Evenly distributed in 0..1, 53 bits.
+    fn next_share(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 * (-53f64).exp2()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sea() -> JonswapSea {
+        JonswapSea {
+            significant_height_m: 0.08,
+            peak_period_s: 2.0,
+            peak_enhancement: 3.3,
+            depth_m: 0.8,
+            gravity: 9.81,
+            repeat_s: 400.0,
+            seed: 7,
+        }
+    }
+
+    #[test]
+    fn generator_gives_the_published_numbers() {
+        // First outputs of SplitMix64 for the seed 1234567 (Steele et al.; Vigna's reference code).
+        let mut random = SplitMix64 { state: 1_234_567 };
+        let expected = [6_457_827_717_110_365_317u64, 3_203_168_211_198_807_973];
+        for number in expected {
+            assert_eq!(random.next_share(), (number >> 11) as f64 * (-53f64).exp2());
+        }
+    }
+
+    #[test]
+    fn surface_has_the_ordered_height_and_repeats() {
+        let wave = IrregularWave::new(sea()).unwrap();
+        let samples = 4000;
+        let eta: Vec<f64> = (0..samples).map(|i| wave.elevation_m(0.1 * f64::from(i))).collect();
+        let variance = eta.iter().map(|e| e * e).sum::<f64>() / f64::from(samples);
+        // Over one whole period of the sum its variance is that of the components: rounding.
+        assert!((4.0 * variance.sqrt() / 0.08 - 1.0).abs() < 1e-9);
+        assert!((wave.elevation_m(3.3) - wave.elevation_m(403.3)).abs() < 1e-9);
+        let other = IrregularWave::new(JonswapSea { seed: 8, ..sea() }).unwrap();
+        assert!((wave.elevation_m(3.3) - other.elevation_m(3.3)).abs() > 1e-6);
+        assert_eq!(wave, IrregularWave::new(sea()).unwrap());
+    }
+
+    #[test]
+    fn long_components_move_the_water_as_long_waves() {
+        // One wave of k d = 0.05: u = sqrt(g/d) a within (k d)^2 = 0.25 %.
+        let wave = Component { amplitude: 0.01, angular_frequency: 0.175, wavenumber: 0.0625, phase: 0.0 };
+        let u = wave.velocity(0.4, 0.8, 0.0);
+        assert!((u / (0.01 * (9.81f64 / 0.8).sqrt()) - 1.0).abs() < 2.5e-3, "{u}");
+    }
+
+    #[test]
+    fn seas_that_cannot_be_made_are_refused() {
+        let message = |change: fn(&mut JonswapSea)| {
+            let mut sea = sea();
+            change(&mut sea);
+            IrregularWave::new(sea).unwrap_err().to_string()
+        };
+        assert_eq!(message(|s| s.peak_period_s = 0.0), "wave: peak_period_s is 0, it must be above 0");
+        assert!(message(|s| s.peak_enhancement = 0.5).contains("from 1 to 10"));
+        assert!(message(|s| s.repeat_s = 10.0).contains("from 20 peak periods"));
+        assert!(message(|s| s.significant_height_m = 0.5).contains("0.4 of the depth"));
+    }
+}

@@ -1,0 +1,104 @@
+//! The ends of the flume: walls, the piston, the inflow of a wave, water that goes on, the sponge.
+//!
+//! * Inflow, weakly reflecting (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming
+//!   wave, and that of a long wave that carries off what the surface has beyond the incoming one,
+//!   u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in).
+//! * Radiating end: no long wave comes in, so its characteristic carries nothing, U = 2 (sqrt(g H) - sqrt(g d)), the
+//!   difference of the layers that of the water before it. Exact for long waves of small height; the higher and the
+//!   shorter the wave, the more comes back.
+//! * Sponge: du/dt = - sigma u, sigma growing with the cube of the way into it (Israeli & Orszag 1981), a wall behind.
+
+use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
+
+/// Integral of the sponge's rate over the way, on the celerity of a long wave [-]: one that goes in and comes back keeps
+/// exp(-6) = 0.25 % of its height.
+const SPONGE_STRENGTH: f64 = 6.0;
+/// Nodes of Gauss's rule of two points on a layer from -1 to 1: exact for a cubic profile.
+const GAUSS: f64 = 0.577_350_269_189_625_8;
+
+impl LayeredFlume {
+    /// Where the piston stands at the end of the step that begins now [m].
+    pub(super) fn next_paddle_m(&self) -> f64 {
+        match &self.left_end {
+            LeftEnd::Piston { wave, .. } => wave.piston_displacement_m(self.time_s + self.step_s),
+            LeftEnd::Wall | LeftEnd::Inflow(_) => 0.0,
+        }
+    }
+
+    /// Velocities at the outer faces at n + 1/2.
+    pub(super) fn set_end_velocities(&mut self) {
+        let (k, cells) = (self.layers, self.grid.cells());
+        for m in 0..k {
+            self.u[m] = match self.left_end {
+                LeftEnd::Wall | LeftEnd::Piston { .. } => self.grid.face_velocity[0],
+                LeftEnd::Inflow(_) => self.inflow_velocity(m),
+            };
+        }
+        if self.right_end == RightEnd::Radiating {
+            let outflow = self.radiated_velocity();
+            let inner = self.mean_velocity(cells - 1);
+            for m in 0..k {
+                self.u[cells * k + m] = outflow + self.u[(cells - 1) * k + m] - inner;
+            }
+        } else {
+            self.u[cells * k..].fill(0.0);
+        }
+    }
+
+    /// Mean over layer m of the incoming velocity at n + 1/2, and that of the wave that leaves [m/s].
+    fn inflow_velocity(&self, m: usize) -> f64 {
+        let LeftEnd::Inflow(wave) = &self.left_end else { return 0.0 };
+        let t = self.time_s + 0.5 * self.step_s;
+        let still = self.still_level_m - self.bed_at_left();
+        let (eta, incoming) = (self.left_elevation(), wave.elevation_m(t));
+        let layer = (still + incoming) / self.layers as f64;
+        let at = |node: f64| wave.velocity_m_s((m as f64 + 0.5 + 0.5 * node) * layer - still, t);
+        0.5 * (at(-GAUSS) + at(GAUSS)) - (self.gravity / still).sqrt() * (eta - incoming)
+    }
+
+    /// Surface at the left face above still water at n + 1/2 [m].
+    fn left_elevation(&self) -> f64 {
+        let level = |cell: usize| self.grid.bed[cell] + self.depth[cell] + 0.5 * self.step_s * self.rise_m_s[cell];
+        1.5 * level(0) - 0.5 * level(1) - self.still_level_m
+    }
+
+    fn bed_at_left(&self) -> f64 {
+        1.5 * self.grid.bed[0] - 0.5 * self.grid.bed[1]
+    }
+
+    /// Velocity of a long wave that leaves at the right end, at n + 1/2 [m/s].
+    fn radiated_velocity(&self) -> f64 {
+        let cells = self.grid.cells();
+        let outer = |value: &dyn Fn(usize) -> f64| 1.5 * value(cells - 1) - 0.5 * value(cells - 2);
+        let still = (self.still_level_m - outer(&|cell| self.grid.bed[cell])).max(0.0);
+        let depth = outer(&|cell| self.depth[cell] + 0.5 * self.step_s * self.rise_m_s[cell]).max(0.0);
+        2.0 * ((self.gravity * depth).sqrt() - (self.gravity * still).sqrt())
+    }
+
+    /// Whether water passes an outer face.
+    pub(super) fn is_open_end(&self, face: usize) -> bool {
+        if face == 0 {
+            matches!(self.left_end, LeftEnd::Inflow(_))
+        } else {
+            face == self.grid.cells() && self.right_end == RightEnd::Radiating
+        }
+    }
+
+    /// Depth at an outer face from depths of the cells [m].
+    pub(super) fn end_depth(&self, face: usize, depth: &[f64]) -> f64 {
+        let last = depth.len() - 1;
+        let [near, far] = if face == 0 { [0, 1] } else { [last, last - 1] };
+        (1.5 * depth[near] - 0.5 * depth[far]).max(0.0)
+    }
+}
+
+/// Rate of the sponge at places x [m]: 4 A c s^3 / L, so that its integral over the way is A c [1/s].
+pub(super) fn sponge_rates(parameters: &LayeredParameters, places: &[f64]) -> Vec<f64> {
+    let RightEnd::Sponge { length_m } = parameters.right_end else { return vec![0.0; places.len()] };
+    let points = parameters.profile.points();
+    let start = points[points.len() - 1][0] - length_m;
+    let depth = (parameters.still_level_m - parameters.profile.z(start)).max(0.0);
+    let celerity = (parameters.gravity_m_s2 * depth).sqrt();
+    let rate = |x: &f64| 4.0 * SPONGE_STRENGTH * celerity / length_m * ((x - start) / length_m).max(0.0).powi(3);
+    places.iter().map(rate).collect()
+}

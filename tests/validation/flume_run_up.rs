@@ -1,0 +1,256 @@
+//! Solitary waves on a plane beach of 1:19.85 after Synolakis (1987): the analytic solution and the laboratory, as
+//! the benchmark problems 1 and 4 of the US tsunami hazard programme give them.
+//!
+//! Lengths over the depth d, times over sqrt(d/g); x from the shore of still water out to sea; at t = 0 the crest is at
+//! X1 = 19.85 + arccosh(sqrt(20)) / sqrt(3H/4d), half a wave length before the toe.
+
+use std::path::Path;
+
+use breakwater::geometry::profile::Profile;
+use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
+use breakwater::waves::incoming::IncomingWave;
+use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::record::FlumeRecord;
+use breakwater::waves::solitary::ThirdOrderSolitary;
+
+const GRAVITY: f64 = 9.81;
+const COT_BETA: f64 = 19.85;
+/// Way from the inflow to X1 over d.
+const RUN_IN: f64 = 10.0;
+/// Bed and beach of the laboratory are smooth.
+const GLASS: Friction = Friction::SmoothBed { viscosity_m2_s: 1e-6 };
+
+/// Run-up over d of waves that do not break and of those that do (Synolakis 1987, equations 5.1 and 6.1).
+fn run_up_law(height: f64) -> [f64; 2] {
+    [2.831 * COT_BETA.sqrt() * height.powf(1.25), 0.918 * height.powf(0.606)]
+}
+
+/// One wave on the beach.
+struct Beach {
+    /// H/d.
+    height: f64,
+    /// d [m].
+    depth_m: f64,
+    /// Cell over d.
+    cell: f64,
+    pressure: Pressure,
+    friction: Friction,
+}
+
+impl Beach {
+    fn wave(&self) -> ThirdOrderSolitary {
+        ThirdOrderSolitary { height_m: self.height * self.depth_m, depth_m: self.depth_m, gravity: GRAVITY }
+    }
+
+    /// X1 - 19.85.
+    fn half_wave(&self) -> f64 {
+        20f64.sqrt().acosh() / (0.75 * self.height).sqrt()
+    }
+
+    /// Flume time of t = 0, in seconds.
+    fn origin_s(&self) -> f64 {
+        let wave = self.wave();
+        (wave.half_length_m() + RUN_IN * self.depth_m) / wave.celerity_m_s()
+    }
+
+    fn seconds(&self, t: f64) -> f64 {
+        self.origin_s() + t * (self.depth_m / GRAVITY).sqrt()
+    }
+
+    /// Place in the flume [m] of x.
+    fn place_m(&self, x: f64) -> f64 {
+        (RUN_IN + self.half_wave() + COT_BETA - x) * self.depth_m
+    }
+
+    /// Run until `end`, with gauges and profiles.
+    fn run(&self, gauges: &[f64], profiles: &[f64], end: f64) -> FlumeRecord {
+        let d = self.depth_m;
+        let [smooth, broken] = run_up_law(self.height);
+        let top = 1.5 * smooth.min(broken).max(0.02);
+        let toe = RUN_IN + self.half_wave();
+        run(&FlumeSetup {
+            profile: Profile::new(vec![[0.0, -d], [toe * d, -d], [(toe + COT_BETA * (1.0 + top)) * d, top * d]]),
+            still_level_m: 0.0,
+            gravity_m_s2: GRAVITY,
+            wave: WaveSource::Inflow(IncomingWave::solitary(self.wave())),
+            right_end: RightEnd::Wall,
+            pressure: self.pressure,
+            friction: self.friction,
+            breaking: Breaking::default(),
+            layers: 2,
+            cell_m: self.cell * d,
+            gauges_x_m: gauges.iter().map(|x| self.place_m(*x)).collect(),
+            profile_times_s: profiles.iter().map(|t| self.seconds(*t)).collect(),
+            window_x_m: [0.0, d],
+            record_interval_s: 0.1 * (d / GRAVITY).sqrt(),
+            end_s: self.seconds(end),
+        })
+        .unwrap_or_else(|error| panic!("H/d = {}: {error}", self.height))
+    }
+
+    /// Highest level of the shore over d; it is reached within 45 + 1.5 half waves of t = 0.
+    fn run_up(&self) -> f64 {
+        let record = self.run(&[], &[], 45.0 + 1.5 * self.half_wave());
+        record.shore_level_m.iter().copied().fold(0.0, f64::max) / self.depth_m
+    }
+}
+
+/// Rows of numbers in a file of the shared data; `None` where the data do not lie beside the crate.
+fn rows(name: &str) -> Option<Vec<Vec<f64>>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        println!("skipped: no data at {}", path.display());
+        return None;
+    };
+    let numbers = |line: &str| line.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>();
+    let rows: Vec<Vec<f64>> = text.lines().filter_map(|line| numbers(line).ok()).filter(|r| r.len() > 1).collect();
+    assert!(rows.len() > 10, "{}: only {} rows understood", path.display(), rows.len());
+    Some(rows)
+}
+
+fn rms(errors: &[f64]) -> f64 {
+    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
+}
+
+/// Root mean square of the difference between a profile of the flume and points (x, eta), over H.
+fn profile_error(beach: &Beach, record: &FlumeRecord, index: usize, points: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let profile = &record.profiles[index];
+    let difference = |[x, eta]: [f64; 2]| {
+        let place = beach.place_m(x);
+        // Where the model's beach is dry, the ground stands for the water.
+        let surface = profile.surface_m(place).unwrap_or_else(|| record.profile.z(place));
+        (surface / beach.depth_m - eta) / beach.height
+    };
+    rms(&points.map(difference).collect::<Vec<f64>>())
+}
+
+/// Root mean square differences from the analytic solution over H: the series at x = 0.25 and 9.95, then the profiles at
+/// t = 35, 40 .. 70.
+fn differences_from_analytic(pressure: Pressure, cell: f64) -> Option<Vec<f64>> {
+    let folder = "nthmp_bp01_simple_beach_analytic";
+    let series = rows(&format!("{folder}/canonical_ts.txt"))?;
+    let profiles = rows(&format!("{folder}/canonical_profiles.txt"))?;
+    let beach = Beach { height: 0.019, depth_m: 1.0, cell, pressure, friction: Friction::None };
+    let times: Vec<f64> = (0..8).map(|i| 35.0 + 5.0 * f64::from(i)).collect();
+    let record = beach.run(&[0.25, 9.95], &times, 101.0);
+    let mut errors = Vec::new();
+    for gauge in 0..2 {
+        let at = |t: f64| {
+            let (eta, place) = (&record.gauge_elevations_m[gauge], beach.seconds(t) / record.interval_s);
+            let (before, share) = (place as usize, place.fract());
+            eta[before] + share * (eta[before + 1] - eta[before])
+        };
+        // The file has the times and elevations of both gauges side by side; dry times are not numbers.
+        let points = series.iter().filter_map(|row| Some([*row.get(2 * gauge)?, *row.get(2 * gauge + 1)?]));
+        let wet = points.filter(|[t, eta]| *t < 100.0 && eta.is_finite());
+        errors.push(rms(&wet.map(|[t, eta]| (at(t) - eta) / beach.height).collect::<Vec<f64>>()));
+    }
+    for i in 0..times.len() {
+        let wet = profiles.iter().filter(|row| row.len() == 9 && row[i + 1].is_finite());
+        errors.push(profile_error(&beach, &record, i, wet.map(|row| [row[0], row[i + 1]])));
+    }
+    let percent: Vec<String> = errors.iter().map(|e| format!("{:.2}", 100.0 * e)).collect();
+    println!("{pressure:?}, cell {cell} d: [{}] % of H", percent.join(", "));
+    Some(errors)
+}
+
+/// The analytic solution is one of the shallow-water equations, and so is the model without vertical accelerations.
+#[test]
+fn shallow_water_on_the_beach_is_the_analytic_solution() {
+    let Some(errors) = differences_from_analytic(Pressure::Hydrostatic, 0.05) else { return };
+    // 3 % of H are 0.6 mm in 1 m of water; what remains is the shore at its lowest, t = 70.
+    assert!(errors.iter().all(|error| *error < 0.03));
+}
+
+/// With them the wave disperses on the slope, comes 0.3 later and is a little lower: 3 to 5 % of H on any grid.
+#[test]
+fn dispersive_wave_on_the_beach_is_near_the_analytic_solution() {
+    let Some(errors) = differences_from_analytic(Pressure::NonHydrostatic, 0.1) else { return };
+    let worst = errors.iter().copied().fold(0.0, f64::max);
+    // The series where the wave is still long, at x = 9.95, is held to little more than 3 %; the shore at t = 70 is worst.
+    assert!(errors[1] < 0.035 && worst < 0.065);
+}
+
+/// Root mean square differences from measured profiles over H after the shift of the clock, common to all of them, that
+/// is best on average, and that shift.
+fn differences_from_laboratory(height: f64, depth_m: f64, name: &str, times: &[f64]) -> Option<(Vec<f64>, f64)> {
+    let files: Vec<Vec<Vec<f64>>> =
+        times.iter().map(|t| rows(&format!("nthmp_bp04_simple_beach_lab/Case{name}.t={t}"))).collect::<Option<_>>()?;
+    let beach = Beach { height, depth_m, cell: 0.1, pressure: Pressure::NonHydrostatic, friction: GLASS };
+    let shifts: Vec<f64> = (-15..16).map(|i| 0.1 * f64::from(i)).collect();
+    // The model is read at every time with every shift; the record sorts its profiles by time.
+    let asked = times.iter().flat_map(|t| shifts.iter().map(move |shift| t + shift));
+    let record = beach.run(&[], &asked.collect::<Vec<f64>>(), times[times.len() - 1] + 2.0);
+    let errors_at = |s: usize| -> Vec<f64> {
+        let points = |file: &Vec<Vec<f64>>| file.iter().map(|row| [row[0], row[1]]).collect::<Vec<_>>();
+        let one = |(i, file)| profile_error(&beach, &record, i * shifts.len() + s, points(file).into_iter());
+        files.iter().enumerate().map(one).collect()
+    };
+    let mean = |s: usize| errors_at(s).iter().sum::<f64>();
+    let best = (0..shifts.len()).min_by(|a, b| mean(*a).total_cmp(&mean(*b)))?;
+    let percent = |s: usize| errors_at(s).iter().map(|e| format!("{:.1}", 100.0 * e)).collect::<Vec<_>>().join(", ");
+    println!("H/d = {height}: [{}] % of H at t = {times:?}", percent(shifts.len() / 2));
+    println!("  after a shift of {:.1}: [{}] %", shifts[best], percent(best));
+    Some((errors_at(best), shifts[best]))
+}
+
+#[test]
+fn profiles_are_those_of_the_laboratory() {
+    let cases = [
+        // Neighbouring points of the profiles differ by up to 0.25 H for the low wave, 0.1 H for the high one.
+        (0.0185, 0.30, "0_0185", [30.0, 40.0, 50.0, 60.0, 70.0].as_slice(), 0.25),
+        (0.30, 0.16, "0_3", &[15.0, 20.0, 25.0, 30.0], 0.1),
+    ];
+    for (height, depth_m, name, times, most) in cases {
+        let Some((errors, shift)) = differences_from_laboratory(height, depth_m, name, times) else { return };
+        assert!(errors.iter().all(|error| *error < most), "{errors:?}");
+        assert!(shift.abs() < 1.0);
+    }
+}
+
+/// Relative error of the run-up of the pairs `(H/d, R/d, d in cm)`, sorted by its size; printed with both laws.
+fn run_up_errors(pairs: &[Vec<f64>]) -> Vec<f64> {
+    println!("  H/d    R/d measured  computed  error   laws: unbroken, broken");
+    let error = |pair: &Vec<f64>| {
+        let [height, measured, depth_m] = [pair[0], pair[1], 0.01 * pair[2]];
+        let [smooth, broken] = run_up_law(height);
+        // Twenty cells on the way of the shore, at least eight for the lowest waves, and the wave's own length resolved.
+        let cell = (COT_BETA * smooth.min(broken) / 20.0).clamp(0.05, 0.06);
+        let beach = Beach { height, depth_m, cell, pressure: Pressure::NonHydrostatic, friction: GLASS };
+        let computed = beach.run_up();
+        let error = computed / measured - 1.0;
+        println!(
+            "  {height:.3}  {measured:.3}         {computed:.4}    {:+5.1} %  {smooth:.3} {broken:.3}",
+            100.0 * error
+        );
+        error
+    };
+    let mut errors: Vec<f64> = pairs.iter().map(error).collect();
+    errors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    errors
+}
+
+/// Every twelfth of the pairs that are cheap to compute.
+#[test]
+fn run_up_is_that_of_the_laboratory() {
+    let Some(pairs) = rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
+    let few: Vec<Vec<f64>> = pairs.into_iter().filter(|pair| pair[0] > 0.03).step_by(12).collect();
+    let errors = run_up_errors(&few);
+    let median = errors[errors.len() / 2].abs();
+    println!("median of {}: {:.1} %, largest {:+.1} %", errors.len(), 100.0 * median, 100.0 * errors[errors.len() - 1]);
+    // The measurements of like waves differ by up to 13 % (H/d = 0.009).
+    assert!(median < 0.1);
+}
+
+/// All of them: `cargo test --release --test validation -- --ignored --nocapture all_run_ups`, ten minutes.
+#[test]
+#[ignore = "ten minutes"]
+fn all_run_ups_of_the_laboratory() {
+    let Some(pairs) = rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
+    assert!(pairs.len() >= 77);
+    let errors = run_up_errors(&pairs);
+    let median = errors[errors.len() / 2].abs();
+    let worst = errors[errors.len() - 1];
+    println!("median of {}: {:.1} %, largest {:+.1} %", errors.len(), 100.0 * median, 100.0 * worst);
+    assert!(median < 0.1);
+}
