@@ -3,6 +3,8 @@
 use super::check::{Checker, above, from, show};
 use super::file::{DomainFile, Sides, WaterFile};
 use super::flume::Flume;
+use super::obstacles;
+use crate::geometry::axis_box::AxisBox;
 
 /// Particles along one direction at most.
 const MOST_ALONG: f64 = 1e6;
@@ -34,6 +36,8 @@ pub struct Domain {
     pub water: Water,
     /// Largest depth of the water at the start [m].
     pub depth: f64,
+    /// Fixed boxes in the water.
+    pub obstacles: Vec<AxisBox>,
 }
 
 /// Where the water stands at the start; SI units.
@@ -72,7 +76,7 @@ pub(super) fn validate(
         return None;
     }
     validate_width(file, smoothing_factor, check);
-    let bottom_z = lowest(flume, file.x_m);
+    let (bottom_z, _) = flume.ground_between(file.x_m);
     let lengths = [file.x_m[1] - file.x_m[0], file.width_m, file.top_z_m - bottom_z];
     for (name, length) in ["along the flume", "across the flume", "upwards"].into_iter().zip(lengths) {
         if length / file.dp_m > MOST_ALONG {
@@ -85,6 +89,7 @@ pub(super) fn validate(
         }
     }
     let (water, depth) = validate_water(file, flume, check)?;
+    let obstacles = obstacles::validate(file, flume, check);
     if check.count() > before {
         return None;
     }
@@ -103,6 +108,7 @@ pub(super) fn validate(
         nz: (lengths[2] / file.dp_m).ceil() as usize,
         water,
         depth,
+        obstacles,
     })
 }
 
@@ -127,7 +133,7 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
         );
         return;
     }
-    let ground = highest(flume, file.x_m);
+    let (_, ground) = flume.ground_between(file.x_m);
     let lowest_top = match file.water {
         WaterFile::StillLevel {} => ground.max(flume.still_level),
         WaterFile::Block(_) => ground,
@@ -177,7 +183,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
     let (water, depth, path, level) = match file.water {
         WaterFile::StillLevel {} => (
             Water::StillLevel,
-            flume.still_level - lowest(flume, file.x_m),
+            flume.still_level - flume.ground_between(file.x_m).0,
             "flume.still_water_level_m",
             flume.still_level,
         ),
@@ -192,7 +198,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
                 );
                 return None;
             }
-            let ground = lowest(flume, block.x_m);
+            let (ground, _) = flume.ground_between(block.x_m);
             let range = above(ground).up_to(file.top_z_m);
             if !check.number(
                 "domain.water.top_z_m",
@@ -229,20 +235,4 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
         ));
     }
     Some((water, depth))
-}
-
-/// Lowest ground between two x [m].
-fn lowest(flume: &Flume, x: [f64; 2]) -> f64 {
-    ground_levels(flume, x).fold(f64::INFINITY, f64::min)
-}
-
-/// Highest ground between two x [m].
-fn highest(flume: &Flume, x: [f64; 2]) -> f64 {
-    ground_levels(flume, x).fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// Ground at both ends and at the corners between them: the extremes of a polyline are among these.
-fn ground_levels(flume: &Flume, [x0, x1]: [f64; 2]) -> impl Iterator<Item = f64> {
-    let corners = flume.profile.points().iter().filter(move |p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
-    corners.chain([flume.profile.z(x0), flume.profile.z(x1)])
 }

@@ -109,6 +109,21 @@ pub struct DomainFile {
     /// Where the water stands at the start.
     #[serde(default)]
     pub water: WaterFile,
+    /// Fixed boxes in the water.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<BoxFile>,
+}
+
+/// A fixed box along the axes that the water flows round. Where it reaches the bed or an end of the domain it stands
+/// there without a gap.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxFile {
+    /// Lower corner [x, y, z] [m].
+    pub low_m: [f64; 3],
+    /// Upper corner [x, y, z] [m].
+    pub high_m: [f64; 3],
 }
 
 /// What closes the domain across the flume.

@@ -3,6 +3,7 @@
 //! Text becomes a [`file::CaseFile`] (keys and types), and that becomes a [`Case`] (values that make sense together).
 //! Solvers read the [`Case`] only.
 
+mod centres;
 mod check;
 mod domain;
 mod error;
@@ -13,12 +14,15 @@ mod gauges;
 mod hash;
 mod materials;
 mod numerics;
+mod obstacles;
 mod output;
 mod output_size;
 mod parse;
+mod row;
 mod run;
 mod schema;
 mod template;
+mod unit_shape;
 mod units;
 mod validate;
 mod wave;
@@ -26,7 +30,7 @@ mod wave;
 pub use domain::{Domain, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
-pub use file::{Boundary, DensityDiffusion, FluidField, Shape, Sides, SolitaryTheory, Viscosity, WallSlip};
+pub use file::{Boundary, DensityDiffusion, FluidField, Sides, SolitaryTheory, Viscosity, WallSlip};
 pub use flume::{Flume, Mound};
 pub use gauges::{Gauge, Quantity};
 pub use materials::{FrictionPair, Material};
@@ -36,6 +40,7 @@ pub use output_size::OutputSize;
 pub use run::{AtRest, Contact, Stop};
 pub use schema::schema_text;
 pub use template::template_text;
+pub use unit_shape::UnitShape;
 pub use units::{Placement, Units};
 pub use validate::Case;
 pub use wave::{SolitaryWave, Start, Wave};
