@@ -4,3 +4,5 @@
 //! and skips.
 
 mod dam_break;
+mod dam_break_3d;
+mod three_cubes;
