@@ -4,6 +4,8 @@ use super::check::{Checker, above, from, show};
 use super::damping_zone::{self, DampingZone};
 use super::file::{DomainFile, Sides, WaterFile};
 use super::flume::Flume;
+use super::obstacles;
+use crate::geometry::axis_box::AxisBox;
 
 /// Particles along one direction at most.
 const MOST_ALONG: f64 = 1e6;
@@ -37,6 +39,8 @@ pub struct Domain {
     pub depth: f64,
     /// Where the water is slowed down, if anywhere.
     pub damping_zone: Option<DampingZone>,
+    /// Fixed boxes in the water.
+    pub obstacles: Vec<AxisBox>,
 }
 
 /// Where the water stands at the start; SI units.
@@ -75,7 +79,7 @@ pub(super) fn validate(
         return None;
     }
     validate_width(file, smoothing_factor, check);
-    let bottom_z = lowest(flume, file.x_m);
+    let (bottom_z, _) = flume.ground_between(file.x_m);
     let lengths = [file.x_m[1] - file.x_m[0], file.width_m, file.top_z_m - bottom_z];
     for (name, length) in ["along the flume", "across the flume", "upwards"].into_iter().zip(lengths) {
         if length / file.dp_m > MOST_ALONG {
@@ -89,6 +93,7 @@ pub(super) fn validate(
     }
     let (water, depth) = validate_water(file, flume, check)?;
     let damping_zone = file.damping_zone.map(|zone| damping_zone::validate(&zone, file.x_m, check));
+    let obstacles = obstacles::validate(file, flume, check);
     if check.count() > before {
         return None;
     }
@@ -108,6 +113,7 @@ pub(super) fn validate(
         water,
         depth,
         damping_zone,
+        obstacles,
     })
 }
 
@@ -132,7 +138,7 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
         );
         return;
     }
-    let ground = highest(flume, file.x_m);
+    let (_, ground) = flume.ground_between(file.x_m);
     let lowest_top = match file.water {
         WaterFile::StillLevel {} => ground.max(flume.still_level),
         WaterFile::Block(_) => ground,
@@ -182,7 +188,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
     let (water, depth, path, level) = match file.water {
         WaterFile::StillLevel {} => (
             Water::StillLevel,
-            flume.still_level - lowest(flume, file.x_m),
+            flume.still_level - flume.ground_between(file.x_m).0,
             "flume.still_water_level_m",
             flume.still_level,
         ),
@@ -197,7 +203,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
                 );
                 return None;
             }
-            let ground = lowest(flume, block.x_m);
+            let (ground, _) = flume.ground_between(block.x_m);
             let range = above(ground).up_to(file.top_z_m);
             if !check.number(
                 "domain.water.top_z_m",
@@ -234,20 +240,4 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
         ));
     }
     Some((water, depth))
-}
-
-/// Lowest ground between two x [m].
-fn lowest(flume: &Flume, x: [f64; 2]) -> f64 {
-    ground_levels(flume, x).fold(f64::INFINITY, f64::min)
-}
-
-/// Highest ground between two x [m].
-fn highest(flume: &Flume, x: [f64; 2]) -> f64 {
-    ground_levels(flume, x).fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// Ground at both ends and at the corners between them: the extremes of a polyline are among these.
-fn ground_levels(flume: &Flume, [x0, x1]: [f64; 2]) -> impl Iterator<Item = f64> {
-    let corners = flume.profile.points().iter().filter(move |p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
-    corners.chain([flume.profile.z(x0), flume.profile.z(x1)])
 }

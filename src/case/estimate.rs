@@ -1,11 +1,12 @@
 //! How large a case is, before any particle is made.
 
+use glam::DVec3;
+
 use super::domain::Water;
 use super::file::{Sides, Viscosity};
 use super::numerics::Numerics;
-use super::units;
 use super::validate::Case;
-use crate::geometry::profile::Profile;
+use crate::geometry::{axis_box::AxisBox, profile::Profile};
 use crate::sph::time_step::viscous_limit;
 
 /// Memory of one particle with its neighbour lists [bytes].
@@ -58,8 +59,12 @@ impl Case {
         if domain.sides == Sides::Walls {
             solid += 2.0 * thickness * area_under(profile, domain.x, domain.top_z);
         }
-        let unit_volume =
-            self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * units::volume(row.shape, row.height));
+        let shell = |obstacle: &AxisBox| {
+            let core = (obstacle.edges() - 2.0 * thickness).max(DVec3::ZERO);
+            obstacle.volume() - core.element_product()
+        };
+        solid += domain.obstacles.iter().map(shell).sum::<f64>();
+        let unit_volume = self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * row.shape.volume());
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
         let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;

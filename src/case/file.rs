@@ -160,6 +160,10 @@ pub struct DomainFile {
     // Left out at its default, so that cases that do not use it keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_zone: Option<DampingZoneFile>,
+    /// Fixed boxes in the water.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<BoxFile>,
 }
 
 /// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows as the square of the distance from
@@ -176,6 +180,17 @@ pub struct DampingZoneFile {
 
 fn default_damping_per_s() -> f64 {
     10.0
+}
+
+/// A fixed box along the axes that the water flows round. Where it reaches the bed or an end of the domain it stands
+/// there without a gap.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxFile {
+    /// Lower corner [x, y, z] [m].
+    pub low_m: [f64; 3],
+    /// Upper corner [x, y, z] [m].
+    pub high_m: [f64; 3],
 }
 
 /// What closes the domain across the flume.

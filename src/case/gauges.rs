@@ -130,6 +130,14 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
     within(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
     within(&format!("{path}.at_m[1]"), y, [0.0, domain.width], "the domain's width", check);
     within(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the water's height", check);
+    if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.holds(point.at_m.into())) {
+        check.refuse(
+            &format!("{path}.at_m"),
+            format!("[{}, {}, {}]", show(x), show(y), show(z)),
+            format!("outside domain.obstacles[{obstacle}]"),
+            "there is no water inside an obstacle: move the gauge to its face",
+        );
+    }
     point.at_m
 }
 

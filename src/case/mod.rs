@@ -3,6 +3,7 @@
 //! Text becomes a [`file::CaseFile`] (keys and types), and that becomes a [`Case`] (values that make sense together).
 //! Solvers read the [`Case`] only.
 
+mod centres;
 mod check;
 mod damping_zone;
 mod domain;
@@ -14,12 +15,15 @@ mod gauges;
 mod hash;
 mod materials;
 mod numerics;
+mod obstacles;
 mod output;
 mod output_size;
 mod parse;
+mod row;
 mod run;
 mod schema;
 mod template;
+mod unit_shape;
 mod units;
 mod validate;
 mod wave;
@@ -29,7 +33,7 @@ pub use damping_zone::DampingZone;
 pub use domain::{Domain, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
-pub use file::{Boundary, DensityDiffusion, FluidField, Shape, Sides, SolitaryTheory, Viscosity, WallSlip};
+pub use file::{Boundary, DensityDiffusion, FluidField, Sides, SolitaryTheory, Viscosity, WallSlip};
 pub use flume::{Flume, Mound};
 pub use gauges::{Gauge, Quantity};
 pub use materials::{FrictionPair, Material};
@@ -39,6 +43,7 @@ pub use output_size::OutputSize;
 pub use run::{AtRest, Contact, Stop};
 pub use schema::schema_text;
 pub use template::template_text;
+pub use unit_shape::UnitShape;
 pub use units::{Placement, Units};
 pub use validate::Case;
 pub use wave::{RegularWave, SolitaryWave, Start, Wave};

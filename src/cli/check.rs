@@ -60,7 +60,7 @@ fn print(case: &Case) {
         case.domain.x[0], case.domain.x[1], case.domain.width, case.domain.depth
     );
     if let Some(units) = &case.units {
-        println!("  units       {} of {} m and {} kg", units.placements.len(), units.height, units.mass);
+        println!("  units       {} of {} m and {} kg", units.placements.len(), units.shape.height(), units.mass);
     }
     println!(
         "  particles   about {:.0} thousand: water {:.0}, bed and walls {:.0}, units {:.1}; dp = {} m",

@@ -6,16 +6,18 @@
 use glam::{DMat3, DQuat, DVec3};
 use thiserror::Error;
 
+use super::axis_box::AxisBox;
 use super::convex_part::ConvexPart;
+use super::cuboid;
 use super::solid::{Solid, SolidError};
 use super::tetrapod;
 
 /// Why a unit cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ArmourUnitError {
-    /// The height is not a positive number.
-    #[error("the height of a unit must be positive, not {0} m")]
-    Height(f64),
+    /// A length is not a positive number.
+    #[error("height and edges of a unit must be positive, not {0} m")]
+    Length(f64),
     /// The rounding does not fit the shape.
     #[error("rounding by {share} of the height does not fit the unit: it must lie between 0 and {largest}")]
     Rounding { share: f64, largest: f64 },
@@ -31,13 +33,15 @@ pub struct ArmourUnit {
     rounding: f64,
     solid: Solid,
     parts: Vec<ConvexPart>,
+    /// Edges, if it is a cuboid [m].
+    edges: Option<DVec3>,
 }
 
 impl ArmourUnit {
     /// Tetrapod of height `height_m` [m] whose contact surface is rounded by `rounding_share` of the height [-].
     pub fn tetrapod(height_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         if !(height_m > 0.0 && height_m.is_finite()) {
-            return Err(ArmourUnitError::Height(height_m));
+            return Err(ArmourUnitError::Length(height_m));
         }
         let largest = tetrapod::LARGEST_ROUNDING;
         if !(rounding_share > 0.0 && rounding_share <= largest) {
@@ -50,7 +54,35 @@ impl ArmourUnit {
             rounding,
             solid: Solid::new(vertices, triangles)?,
             parts: tetrapod::parts(height_m, rounding),
+            edges: None,
         })
+    }
+
+    /// Cuboid with the edges `edges_m` [m] along its axes, the last one being its height; its contact surface is
+    /// rounded by `rounding_share` of the height [-].
+    pub fn cuboid(edges_m: DVec3, rounding_share: f64) -> Result<Self, ArmourUnitError> {
+        if let Some(bad) = edges_m.to_array().into_iter().find(|edge| !(*edge > 0.0 && edge.is_finite())) {
+            return Err(ArmourUnitError::Length(bad));
+        }
+        let height = edges_m.z;
+        let largest = cuboid::LARGEST_ROUNDING * edges_m.min_element() / height;
+        if !(rounding_share > 0.0 && rounding_share <= largest) {
+            return Err(ArmourUnitError::Rounding { share: rounding_share, largest });
+        }
+        let (vertices, triangles) = cuboid::surface(edges_m);
+        let rounding = rounding_share * height;
+        Ok(Self {
+            height,
+            rounding,
+            solid: Solid::new(vertices, triangles)?,
+            parts: vec![cuboid::part(edges_m, rounding)],
+            edges: Some(edges_m),
+        })
+    }
+
+    /// The unit as a box about its centre of mass, if it is one.
+    pub fn as_box(&self) -> Option<AxisBox> {
+        self.edges.map(|edges| AxisBox::free(-0.5 * edges, 0.5 * edges))
     }
 
     /// Height standing [m].
@@ -79,9 +111,9 @@ impl ArmourUnit {
         properties.inertia * (mass_kg / properties.volume)
     }
 
-    /// Rotation in which the unit stands on three legs with the fourth one up. At azimuth 0 one of the lower legs
-    /// points seaward (-x); the azimuth [rad] turns the unit counter-clockwise seen from above, so pi points it
-    /// shoreward.
+    /// Rotation in which the unit stands: a Tetrapod on three legs with the fourth one up, a cuboid on a face. At azimuth
+    /// 0 one of the lower legs points seaward (-x); the azimuth [rad] turns the unit counter-clockwise seen from above,
+    /// so pi points it shoreward.
     pub fn standing_rotation(&self, azimuth: f64) -> DQuat {
         DQuat::from_rotation_z(azimuth)
     }
@@ -171,7 +203,35 @@ mod tests {
     }
 
     #[test]
+    fn cuboid_has_the_volume_and_inertia_of_its_edges() {
+        let edges = DVec3::new(0.1, 0.2, 0.3);
+        let unit = ArmourUnit::cuboid(edges, 0.05).unwrap();
+        let properties = unit.solid.volume_properties();
+        assert!((properties.volume - 0.006).abs() < 1e-15 && properties.centre.length() < 1e-15);
+        // m (b^2 + c^2) / 12 about each axis; 1e-12 is rounding.
+        let mass = 12.0;
+        let expected = DMat3::from_diagonal(DVec3::new(0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04));
+        assert!(unit.inertia(mass).abs_diff_eq(expected, 1e-12), "{}", unit.inertia(mass));
+        assert_eq!(unit.height(), 0.3);
+    }
+
+    #[test]
+    fn cuboid_is_as_large_in_contact_as_its_surface_but_for_its_edges() {
+        let unit = ArmourUnit::cuboid(DVec3::new(0.1, 0.2, 0.3), 0.05).unwrap();
+        let [part] = unit.parts() else { panic!("one part") };
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let face = axis * unit.solid.bounds()[1];
+            assert!(part.distance(face).abs() < 1e-15);
+        }
+        // A corner is cut by R (sqrt 3 - 1).
+        assert!((part.distance(unit.solid.bounds()[1]) - 0.015 * (3f64.sqrt() - 1.0)).abs() < 1e-12);
+        assert!((unit.standing_height() - 0.15).abs() < 1e-15);
+    }
+
+    #[test]
     fn impossible_units_are_refused() {
+        assert!(ArmourUnit::cuboid(DVec3::new(1.0, 0.0, 1.0), 0.05).is_err());
+        assert!(ArmourUnit::cuboid(DVec3::new(0.1, 1.0, 1.0), 0.05).unwrap_err().to_string().contains("0.045"));
         assert!(ArmourUnit::tetrapod(-1.0, 0.05).is_err());
         assert!(ArmourUnit::tetrapod(f64::NAN, 0.05).is_err());
         assert!(ArmourUnit::tetrapod(1.0, 0.2).unwrap_err().to_string().contains("0.07"));

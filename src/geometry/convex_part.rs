@@ -5,6 +5,8 @@
 
 use glam::{DVec2, DVec3};
 
+use super::cuboid::corner;
+
 /// Truncated cone about a line through the body's origin; both ends count as part of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TruncatedCone {
@@ -75,6 +77,8 @@ pub enum Core {
     Point(DVec3),
     /// A truncated cone.
     Cone(TruncatedCone),
+    /// A box along the body's axes about its origin, by its half-edges [m].
+    Block(DVec3),
 }
 
 /// One convex part of a body in body axes, origin at the centre of mass: core plus ball.
@@ -95,6 +99,17 @@ impl ConvexPart {
         Self { core: Core::Cone(core), rounding }
     }
 
+    /// Box of half-edges `half` [m] about the origin, grown by `rounding` [m].
+    pub fn block(half: DVec3, rounding: f64) -> Self {
+        assert!(half.min_element() > 0.0, "a box needs edges");
+        Self { core: Core::Block(half), rounding }
+    }
+
+    /// Half-edges of the core [m] if it is a box.
+    pub fn as_block(&self) -> Option<DVec3> {
+        if let Core::Block(half) = self.core { Some(half) } else { None }
+    }
+
     /// Rounding radius R [m].
     pub fn rounding(&self) -> f64 {
         self.rounding
@@ -105,17 +120,19 @@ impl ConvexPart {
         match &self.core {
             Core::Point(centre) => *centre,
             Core::Cone(cone) => cone.support(direction),
+            Core::Block(half) => half.copysign(direction),
         }
     }
 
-    /// Points of the core nearest to a plane whose outward normal is `-direction`: one for each end of the part, so
-    /// that a leg lying on a plane rests on both ends.
+    /// Points of the core that can be nearest to a plane whose outward normal is `-direction`: one for each end of the
+    /// part, so that a leg lying on a plane rests on both ends, and all corners of a box, so that it rests on four.
     pub fn ends(&self, direction: DVec3) -> impl Iterator<Item = DVec3> + use<> {
-        let ends = match &self.core {
-            Core::Point(centre) => [Some(*centre), None],
-            Core::Cone(cone) => [0, 1].map(|end| Some(cone.disc_support(end, direction))),
+        let (ends, count) = match &self.core {
+            Core::Point(centre) => ([*centre; 8], 1),
+            Core::Cone(cone) => (std::array::from_fn(|end| cone.disc_support(end % 2, direction)), 2),
+            Core::Block(half) => (std::array::from_fn(|number| corner(*half, number)), 8),
         };
-        ends.into_iter().flatten()
+        ends.into_iter().take(count)
     }
 
     /// Nearest point of the core [m]; the point itself if it lies inside.
@@ -123,6 +140,7 @@ impl ConvexPart {
         match &self.core {
             Core::Point(centre) => *centre,
             Core::Cone(cone) => cone.nearest(point),
+            Core::Block(half) => point.clamp(-*half, *half),
         }
     }
 
@@ -140,6 +158,7 @@ impl ConvexPart {
                 let reach = half.hypot(cone.radius[0].max(cone.radius[1]));
                 (cone.axis * (cone.along[0] + half), reach + self.rounding)
             }
+            Core::Block(half) => (DVec3::ZERO, half.length() + self.rounding),
         }
     }
 }

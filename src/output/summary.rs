@@ -57,6 +57,9 @@ pub struct Summary {
     pub domain_width_m: f64,
     /// Whether the domain is closed by solid side walls; else what leaves on one side enters on the other.
     pub side_walls: bool,
+    /// Lower and upper corner of each fixed obstacle [m].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacles_m: Vec<[[f64; 3]; 2]>,
     /// Number of time steps.
     pub steps: u64,
     /// Simulated time, from the start of the particles [s].

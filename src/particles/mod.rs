@@ -3,5 +3,6 @@
 pub mod bed;
 pub mod boundary;
 pub mod fill;
+pub mod obstacle;
 pub mod unit;
 pub mod water;

@@ -6,6 +6,7 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
+use super::box_contact::{self, Near};
 use super::error::RigidError;
 use super::gap::{self, Nearest};
 use super::ground::{Approach, GroundSurface, PlaneWall};
@@ -16,7 +17,8 @@ use crate::geometry::convex_part::ConvexPart;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Feature {
-    /// A part of another body (or of the same one), shifted by `image` widths across the flume.
+    /// A part of another body (or of the same one), shifted by `image` widths across the flume. For boxes `part` is
+    /// a corner, an edge or the whole, as `box_contact` numbers them.
     Unit { body: u32, image: i32, part: u16 },
     /// The ground: strip k is place 2 k, the convex corner after it 2 k + 1.
     Ground { place: u32, end: u8 },
@@ -186,42 +188,52 @@ impl Surfaces {
                 if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
                     continue;
                 }
-                let rounding = part_a.rounding() + part_b.rounding();
-                // The cores meet at the full sum; short of it gap and normal are still known.
-                let allowed = 0.75 * rounding;
-                let too_deep = |depth: f64| RigidError::TooDeep {
-                    time,
-                    body: pair.first,
-                    partner: format!("unit {}", pair.second + 1),
-                    depth,
-                    allowed,
-                };
-                let (p_a, p_b) = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), rounding + margin) {
-                    Nearest::Apart => continue,
-                    Nearest::Overlap => return Err(too_deep(rounding)),
-                    Nearest::Points(p_a, p_b) => (p_a, p_b),
-                };
-                let distance = (p_a - p_b).length();
-                let overlap = rounding - distance;
-                if overlap > allowed {
-                    return Err(too_deep(overlap));
+                let roundings = [part_a.rounding(), part_b.rounding()];
+                let reach = roundings[0] + roundings[1] + margin;
+                if let (Some(half), Some(_)) = (part_a.as_block(), part_b.as_block()) {
+                    for near in box_contact::near_places(half, part_a.rounding(), (q_a, x_a), (q_b, x_b), reach) {
+                        touches.push(unit_touch(pair, near, roundings, shift, time)?);
+                    }
+                    continue;
                 }
-                let normal = (p_a - p_b) / distance;
-                touches.push(Touch {
-                    key: ContactKey {
-                        body: pair.first as u32,
-                        part: i as u16,
-                        feature: Feature::Unit { body: pair.second as u32, image: pair.image, part: j as u16 },
-                    },
-                    point: p_a - normal * (part_a.rounding() - 0.5 * overlap),
-                    normal,
-                    overlap,
-                    shift,
-                });
+                let points = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), reach) {
+                    Nearest::Apart => continue,
+                    // No distance is left then.
+                    Nearest::Overlap => [x_a; 2],
+                    Nearest::Points(p_a, p_b) => [p_a, p_b],
+                };
+                let near = Near { features: [i as u16, j as u16], points, bent: 0.0 };
+                touches.push(unit_touch(pair, near, roundings, shift, time)?);
             }
         }
         Ok(())
     }
+}
+
+/// Touch of two units with their rounding radii [m].
+fn unit_touch(pair: &BodyPair, near: Near, roundings: [f64; 2], shift: DVec3, time: f64) -> Result<Touch, RigidError> {
+    let Near { features: [part, partner], points: [p_a, p_b], bent } = near;
+    let distance = (p_a - p_b).length();
+    let sum = roundings[0] + roundings[1];
+    let overlap = sum - distance;
+    // The cores meet at the full sum; short of it gap and normal are still known.
+    let allowed = 0.75 * sum;
+    if overlap > allowed {
+        let partner = format!("unit {}", pair.second + 1);
+        return Err(RigidError::TooDeep { time, body: pair.first, partner, depth: overlap, allowed });
+    }
+    let normal = (p_a - p_b) / distance;
+    Ok(Touch {
+        key: ContactKey {
+            body: pair.first as u32,
+            part,
+            feature: Feature::Unit { body: pair.second as u32, image: pair.image, part: partner },
+        },
+        point: p_a - normal * (roundings[0] - 0.5 * overlap),
+        normal,
+        overlap: overlap - bent,
+        shift,
+    })
 }
 
 /// Touch of a part with the ground or a wall.

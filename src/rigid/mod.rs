@@ -7,6 +7,7 @@
 //! | --- | --- |
 //! | `hertz_mindlin` | the contact law, a pure function |
 //! | `gap` | distance of two rounded parts |
+//! | `box_contact` | where two rounded boxes are near each other |
 //! | `ground` | distance to the bed profile and to walls |
 //! | `contact` | touching places of all bodies |
 //! | `forces` | forces of all contacts, their history and energy |
@@ -16,6 +17,7 @@
 //! | `world` | substeps: the entry to this module |
 //! | `snapshot` | state for checkpoints |
 
+mod box_contact;
 pub mod contact;
 mod error;
 pub mod event;

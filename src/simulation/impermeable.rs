@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::{Simulation, Units};
 use crate::{
     case::Sides,
-    geometry::convex_part::ConvexPart,
+    geometry::{axis_box::AxisBox, convex_part::ConvexPart},
     particles::{bed::Outline, water::Water},
     rigid::{BodyState, Load},
     sph::grid::{Bins, Grid},
@@ -32,6 +32,9 @@ impl Simulation {
         keep_out_of_walls(&mut self.water, &self.outline, nearest);
         if self.case.domain.sides == Sides::Walls {
             keep_out_of_sides(&mut self.water, self.case.domain.width, nearest);
+        }
+        for obstacle in &self.case.domain.obstacles {
+            keep_out_of_obstacle(&mut self.water, obstacle, nearest);
         }
         if let Some(wavemaker) = &self.wavemaker {
             keep_out_of_wavemaker(&mut self.water, wavemaker, self.case.domain.dp, nearest, flume_time);
@@ -56,6 +59,20 @@ fn keep_out_of_walls(water: &mut Water, outline: &Outline, nearest: f64) {
         let place = DVec2::new(position.x, position.z);
         if let Some(normal) = outline.normal_within(place, nearest) {
             *velocity = without_approach(*velocity, DVec3::new(normal.x, 0.0, normal.y));
+        }
+    });
+}
+
+fn keep_out_of_obstacle(water: &mut Water, obstacle: &AxisBox, nearest: f64) {
+    (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
+        // Cheap for the many that are far away.
+        if (*position - obstacle.nearest(*position)).length_squared() >= nearest * nearest {
+            return;
+        }
+        let (surface, distance) = obstacle.locate(*position);
+        let outwards = if distance > 0.0 { *position - surface } else { surface - *position };
+        if let Some(normal) = outwards.try_normalize() {
+            *velocity = without_approach(*velocity, normal);
         }
     });
 }

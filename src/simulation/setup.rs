@@ -12,7 +12,7 @@ use super::{
     statistics::Statistics,
 };
 use crate::{
-    case::{self, Case, Quantity, Start, Wave},
+    case::{self, Case, Quantity, Start, UnitShape, Wave},
     geometry::{
         armour_unit::{ArmourUnit, ArmourUnitError},
         profile::Profile,
@@ -21,6 +21,7 @@ use crate::{
         bed::{Across, Outline, outline_particles, side_wall_particles},
         boundary::{Boundary, BoundaryParticle},
         fill::{Basin, clear_solid},
+        obstacle::{box_particles, cover},
         unit::{LEAST_DEPTH, unit_particles},
         water::Water,
     },
@@ -54,17 +55,17 @@ pub enum SetupError {
     /// The flume model failed.
     #[error(transparent)]
     Flume(#[from] FlumeError),
-    /// The water carries the wavemaker onto the mound.
+    /// The water carries the wavemaker onto the mound or an obstacle.
     #[error(
         "domain.x_m[0] = {place}: the wavemaker follows the water and would travel {travel:.2} m, to x = {:.2} m, over the \
-         toe of the mound at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
+         toe of the mound or an obstacle at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
     )]
     WavemakerReachesMound {
         /// Where it starts [m].
         place: f64,
         /// How far it would travel [m].
         travel: f64,
-        /// Toe of the mound [m].
+        /// Toe of the mound, or seaward face of an obstacle [m].
         toe: f64,
     },
     /// The unit cannot be built.
@@ -178,6 +179,9 @@ impl Simulation {
             case.fluid.rho0,
         );
         let mut water = fill(&case, &across, flume.as_ref(), start);
+        for obstacle in &case.domain.obstacles {
+            clear_solid(&mut water, LEAST_DEPTH * case.domain.dp, |point| obstacle.locate(point));
+        }
         if let Some(units) = &units {
             clear_units(&mut water, units, &case);
         }
@@ -203,12 +207,15 @@ impl Simulation {
     }
 }
 
-/// Refuse a wavemaker that would go over the seaward toe of the mound before the run ends.
+/// Refuse a wavemaker that would go over the seaward toe of the mound or an obstacle before the run ends.
 fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
-    let Some(mound) = &case.flume.mound else { return Ok(()) };
     let place = case.domain.x[0];
-    let before_crest = case.flume.profile.points().iter().rfind(|point| point[0] < mound.crest_x[0]);
-    let toe = before_crest.map_or(mound.crest_x[0], |point| point[0]);
+    let toe_of = |mound: &case::Mound| {
+        let before_crest = case.flume.profile.points().iter().rfind(|point| point[0] < mound.crest_x[0]);
+        before_crest.map_or(mound.crest_x[0], |point| point[0])
+    };
+    let toes = case.flume.mound.iter().map(toe_of).chain(case.domain.obstacles.iter().map(|obstacle| obstacle.low.x));
+    let toe = toes.fold(f64::INFINITY, f64::min);
     let travel = wavemaker.shoreward_reach_m();
     if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
 }
@@ -251,7 +258,7 @@ fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     Outline::new(points)
 }
 
-/// Particles of bed, mound, end walls and side walls; these begin where the wavemaker's reach [m] does.
+/// Particles of bed, mound, end walls, side walls and obstacles; side walls begin where the wavemaker's reach [m] does.
 fn fixed_particles(
     case: &Case,
     outline: &Outline,
@@ -265,6 +272,15 @@ fn fixed_particles(
     let mut sides = basin(case, across, &bed, &top, &at_rest);
     sides.x = [domain.x[0] - seaward_reach.unwrap_or(0.0), domain.x[1]];
     particles.extend(side_wall_particles(&sides.side_section(domain.top_z), across, layers));
+    for obstacle in &domain.obstacles {
+        cover(&mut particles, obstacle);
+    }
+    let thickness = f64::from(layers) * domain.dp;
+    for obstacle in &domain.obstacles {
+        let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
+        // On a slope the lower corner of the box is under the ground, which has particles of its own.
+        particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
+    }
     particles
 }
 
@@ -318,9 +334,14 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
 
 /// Bodies of the units, standing on the bed.
 fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
-    let shape = Arc::new(ArmourUnit::tetrapod(units.height, case.contact.rounding_share)?);
+    let rounding = case.contact.rounding_share;
+    let shape = Arc::new(match units.shape {
+        UnitShape::Tetrapod { height } => ArmourUnit::tetrapod(height, rounding)?,
+        UnitShape::Cuboid { edges } => ArmourUnit::cuboid(DVec3::from_array(edges), rounding)?,
+    });
     let stand = |placement: &case::Placement| {
-        let z = case.flume.profile.z(placement.x) + shape.standing_height();
+        let on_ground = || case.flume.profile.z(placement.x) + shape.standing_height();
+        let z = placement.centre_z.unwrap_or_else(on_ground);
         BodyState::at_rest(DVec3::new(placement.x, placement.y, z), shape.standing_rotation(placement.azimuth))
     };
     let start: Vec<BodyState> = units.placements.iter().map(stand).collect();
@@ -349,6 +370,9 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
 
 /// Particles of one unit in its own axes.
 pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
+    if let Some(bounds) = shape.as_box() {
+        return box_particles(&bounds, dp, f64::INFINITY);
+    }
     let solid = shape.solid();
     let [low, high] = solid.bounds();
     unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)

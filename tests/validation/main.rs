@@ -4,6 +4,8 @@
 //! and skips.
 
 mod dam_break;
+mod dam_break_3d;
 mod flume_bar;
 mod flume_run_up;
+mod three_cubes;
 mod wall_pressure;

@@ -3,24 +3,35 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One row of armour units across the flume.
+/// Armour units, all alike: one row across the flume, or at the places given.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsFile {
     /// Shape of a unit.
     pub shape: Shape,
-    /// Height H of a unit standing on three legs [m].
-    pub height_m: f64,
+    /// Height H of a tetrapod standing on three legs [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_m: Option<f64>,
+    /// Edges of a cuboid along x, y and z [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size_m: Option<[f64; 3]>,
     /// Mass of a unit [kg].
     pub mass_kg: f64,
     /// Material, one of `materials`.
     pub material: String,
     /// Number of units in the row.
-    pub count: u32,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u32>,
     /// Distance between the units' axes [m].
-    pub pitch_m: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch_m: Option<f64>,
     /// Place of the row [m].
-    pub x_m: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_m: Option<f64>,
+    /// Centres [x, y, z] of the units one by one [m], in the place of `count`, `pitch_m`, `x_m` and `first_y_m`. Units may
+    /// stand on each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centres_m: Option<Vec<[f64; 3]>>,
     /// Place of the first unit across the flume [m]; without it, the row is centred.
     #[serde(default)]
     pub first_y_m: Option<f64>,
@@ -38,6 +49,8 @@ pub struct UnitsFile {
 pub enum Shape {
     /// Tetrapod (Danel & Greslou 1962).
     Tetrapod,
+    /// Block with three pairs of plane faces.
+    Cuboid,
 }
 
 /// How the units of a row are turned about the vertical.

@@ -35,7 +35,7 @@ impl<'a> Scene<'a> {
         format!("<path class=\"sky\" d=\"M{left:.1} {top:.1}H{right:.1}V{bottom:.1}H{left:.1}Z\"/>\n")
     }
 
-    /// The bed with the mound, filled down to the lower edge.
+    /// Bed, mound and obstacles seen from the side, the bed filled down to the lower edge.
     pub fn bed(&self) -> String {
         let bottom = self.window.edges()[3];
         let bed: Vec<[f64; 2]> =
@@ -44,7 +44,20 @@ impl<'a> Scene<'a> {
         let line = bed.iter().map(|point| path_point(*point)).collect::<Vec<_>>().join("L");
         // The ends are drawn beyond the window, which cuts off their outline.
         let (left, right, bottom) = (x0 - OUTSIDE, x1 + OUTSIDE, bottom + OUTSIDE);
-        format!("<path class=\"bed\" d=\"M{left:.1} {y0:.1}L{line}L{right:.1} {y1:.1}V{bottom:.1}H{left:.1}Z\"/>\n")
+        self.obstacles()
+            + &format!(
+                "<path class=\"bed\" d=\"M{left:.1} {y0:.1}L{line}L{right:.1} {y1:.1}V{bottom:.1}H{left:.1}Z\"/>\n"
+            )
+    }
+
+    /// The fixed obstacles as rectangles.
+    fn obstacles(&self) -> String {
+        let rectangle = |[low, high]: &[[f64; 3]; 2]| {
+            let [[x0, up0, _], [x1, up1, _]] = [low, high].map(|corner| self.eye.project(*corner));
+            let ([left, bottom], [right, top]) = (self.window.at(x0, up0), self.window.at(x1, up1));
+            format!("<path class=\"bed\" d=\"M{left:.1} {bottom:.1}V{top:.1}H{right:.1}V{bottom:.1}Z\"/>\n")
+        };
+        self.run.summary.obstacles_m.iter().map(rectangle).collect()
     }
 
     /// The still water, filled down to the lower edge.

@@ -1,5 +1,6 @@
 //! Rigid bodies and contact against answers known from mechanics.
 
+mod cubes;
 mod friction;
 mod impact;
 mod rows;

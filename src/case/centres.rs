@@ -1,0 +1,105 @@
+//! Units at places that the case gives one by one, validated.
+
+use super::check::{Checker, show};
+use super::domain::Domain;
+use super::file::{Sides, UnitsFile};
+use super::flume::Flume;
+use super::row::azimuth;
+use super::unit_shape::UnitShape;
+use super::units::{MOST_UNITS, Placement};
+
+/// A unit may be written this far inside the ground [m]: rounding of the numbers in the file.
+const SLACK: f64 = 1e-6;
+
+/// Place the units at the given centres and check that they fit into the domain and beside each other.
+pub(super) fn place(
+    centres: &[[f64; 3]],
+    file: &UnitsFile,
+    shape: &UnitShape,
+    flume: &Flume,
+    domain: &Domain,
+    check: &mut Checker,
+) -> Vec<Placement> {
+    for (key, written) in [
+        ("count", file.count.is_some()),
+        ("pitch_m", file.pitch_m.is_some()),
+        ("x_m", file.x_m.is_some()),
+        ("first_y_m", file.first_y_m.is_some()),
+    ] {
+        if written {
+            check.refuse(&format!("units.{key}"), "...", "left out with `centres_m`", "the centres say it all");
+        }
+    }
+    if !(1..=MOST_UNITS as usize).contains(&centres.len()) {
+        check.refuse(
+            "units.centres_m",
+            format!("{} centres", centres.len()),
+            format!("1 to {MOST_UNITS}"),
+            "leave out `units` for water alone",
+        );
+        return Vec::new();
+    }
+    let before = check.count();
+    for (index, centre) in centres.iter().enumerate() {
+        validate_centre(&format!("units.centres_m[{index}]"), centre, shape, flume, domain, check);
+    }
+    if check.count() == before {
+        validate_distances(centres, shape, domain, check);
+    }
+    let placement = |(index, [x, y, z]): (usize, &[f64; 3])| Placement {
+        x: *x,
+        y: *y,
+        centre_z: Some(*z),
+        azimuth: azimuth(file.orientation, index as u32),
+    };
+    centres.iter().enumerate().map(placement).collect()
+}
+
+fn validate_centre(
+    path: &str,
+    centre: &[f64; 3],
+    shape: &UnitShape,
+    flume: &Flume,
+    domain: &Domain,
+    check: &mut Checker,
+) {
+    let [x, y, z] = *centre;
+    let [reach_x, reach_y] = shape.reach();
+    let across = match domain.sides {
+        Sides::Periodic => [0.0, domain.width],
+        Sides::Walls => [reach_y, domain.width - reach_y],
+    };
+    let along = [domain.x[0] + reach_x, domain.x[1] - reach_x];
+    let highest = flume.ground_between([x - reach_x, x + reach_x]).1;
+    let up = [highest + shape.centre_height(), domain.top_z + shape.centre_height() - shape.height()];
+    for (axis, (value, [low, high])) in [(x, along), (y, across), (z, up)].into_iter().enumerate() {
+        if !(value >= low - SLACK && value <= high + SLACK) {
+            check.refuse(
+                &format!("{path}[{axis}]"),
+                show(value),
+                format!("at least {} and at most {} m", show(low), show(high)),
+                "the whole unit must stand on or above the ground, between the walls and below their top",
+            );
+        }
+    }
+}
+
+fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, domain: &Domain, check: &mut Checker) {
+    for (index, a) in centres.iter().enumerate() {
+        let overlapped = centres[..index].iter().position(|b| {
+            let mut apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
+            if domain.sides == Sides::Periodic {
+                apart[1] -= domain.width * (apart[1] / domain.width).round();
+            }
+            shape.overlaps(apart)
+        });
+        if let Some(other) = overlapped {
+            check.refuse(
+                &format!("units.centres_m[{index}]"),
+                format!("[{}, {}, {}]", show(a[0]), show(a[1]), show(a[2])),
+                format!("clear of units.centres_m[{other}]"),
+                "units may touch and not overlap",
+            );
+        }
+    }
+}

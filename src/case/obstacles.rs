@@ -1,0 +1,154 @@
+//! Fixed obstacles in the particle domain, validated.
+
+use glam::DVec3;
+
+use super::check::{Checker, show};
+use super::file::{BoxFile, DomainFile, Sides};
+use super::flume::Flume;
+use crate::geometry::axis_box::AxisBox;
+
+/// Obstacles in one case at most.
+const MOST_OBSTACLES: usize = 1000;
+
+/// Thinnest obstacle, in particle distances: with less, the water on one side sees the other side's.
+const THINNEST: f64 = 3.0;
+
+/// Narrowest gap that water is let into, in particle distances.
+const NARROWEST: f64 = 2.0;
+
+/// A length below which two faces are one, in particle distances.
+const FLUSH: f64 = 1e-6;
+
+/// Names of the axes in messages.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Validate the obstacles; those that stand on the ground or against a wall have no open face there.
+pub(super) fn validate(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
+    if file.obstacles.len() > MOST_OBSTACLES {
+        check.refuse(
+            "domain.obstacles",
+            file.obstacles.len(),
+            format!("at most {MOST_OBSTACLES} obstacles"),
+            "leave out some",
+        );
+        return Vec::new();
+    }
+    let mut found: Vec<AxisBox> = Vec::new();
+    for (index, obstacle) in file.obstacles.iter().enumerate() {
+        let path = format!("domain.obstacles[{index}]");
+        let Some(obstacle) = validate_one(&path, obstacle, file, flume, check) else { continue };
+        let too_near = found.iter().position(|other| gap(&obstacle, other) < NARROWEST * file.dp_m);
+        match too_near {
+            Some(other) => check.refuse(
+                &path,
+                corners(&obstacle),
+                format!("at least {} m from domain.obstacles[{other}]", show(NARROWEST * file.dp_m)),
+                "no water fits between them: write one box for both, or move one",
+            ),
+            None => found.push(obstacle),
+        }
+    }
+    found
+}
+
+fn validate_one(
+    path: &str,
+    file: &BoxFile,
+    domain: &DomainFile,
+    flume: &Flume,
+    check: &mut Checker,
+) -> Option<AxisBox> {
+    let before = check.count();
+    let dp = domain.dp_m;
+    let ends = [domain.x_m, [0.0, domain.width_m], [f64::NEG_INFINITY, domain.top_z_m]];
+    for (axis, ends) in ends.into_iter().enumerate() {
+        validate_extent(path, axis, [file.low_m[axis], file.high_m[axis]], ends, dp, check);
+    }
+    if check.count() > before {
+        return None;
+    }
+    let (low, high) = (DVec3::from_array(file.low_m), DVec3::from_array(file.high_m));
+    let open_ends = [domain.x_m, [0.0, domain.width_m]];
+    let mut open = [[true; 2]; 3];
+    for (axis, ends) in open_ends.into_iter().enumerate() {
+        let gaps = [low[axis] - ends[0], ends[1] - high[axis]];
+        open[axis] = gaps.map(|gap| gap > FLUSH * dp);
+        validate_gaps(path, axis, gaps, dp, check);
+    }
+    if domain.sides == Sides::Periodic && open[1][0] != open[1][1] {
+        check.refuse(
+            path,
+            corners(&AxisBox::free(low, high)),
+            "across the whole width, or clear of both periodic sides",
+            "what touches one side goes on behind the other: write it in the middle of the width",
+        );
+    }
+    let (lowest, highest) = flume.ground_between([low.x, high.x]);
+    open[2][0] = low.z > lowest + FLUSH * dp;
+    if open[2][0] && low.z < highest + NARROWEST * dp {
+        check.refuse(
+            &format!("{path}.low_m[2]"),
+            show(low.z),
+            format!("at most {} m, the ground, or at least {} m", show(lowest), show(highest + NARROWEST * dp)),
+            "let the obstacle stand on the ground, or leave room for the water below it",
+        );
+    }
+    if high.z < highest + THINNEST * dp {
+        check.refuse(
+            &format!("{path}.high_m[2]"),
+            show(high.z),
+            format!("at least {THINNEST} particle distances above the ground, {} m", show(highest + THINNEST * dp)),
+            "raise the obstacle, or write it as part of `flume.bed_m`",
+        );
+    }
+    let low = DVec3 { z: low.z.max(lowest), ..low };
+    (check.count() == before).then_some(AxisBox { low, high, open })
+}
+
+/// One axis of an obstacle: numbers, order, thickness, inside the domain.
+fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2], dp: f64, check: &mut Checker) {
+    let name = AXES[axis];
+    if !(low.is_finite() && high - low >= (THINNEST - FLUSH) * dp) {
+        check.refuse(
+            &format!("{path}.high_m[{axis}]"),
+            show(high),
+            format!(
+                "at least {} m, {THINNEST} particle distances above the {name} of `low_m`",
+                show(low + THINNEST * dp)
+            ),
+            "write the lower corner first, and a box that its particles can fill",
+        );
+    } else if low < ends[0] || high > ends[1] {
+        let (key, value) = if low < ends[0] { ("low_m", low) } else { ("high_m", high) };
+        let allowed = if ends[0].is_finite() {
+            format!("inside the domain, {} to {} m", show(ends[0]), show(ends[1]))
+        } else {
+            format!("at most {} m, the top of the walls", show(ends[1]))
+        };
+        check.refuse(&format!("{path}.{key}[{axis}]"), show(value), allowed, "move the obstacle or enlarge the domain");
+    }
+}
+
+/// An obstacle stands against a wall, or leaves room for water.
+fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut Checker) {
+    for (gap, key) in gaps.into_iter().zip(["low_m", "high_m"]) {
+        if gap > FLUSH * dp && gap < (NARROWEST - FLUSH) * dp {
+            check.refuse(
+                &format!("{path}.{key}[{axis}]"),
+                format!("{} m from the end of the domain", show(gap)),
+                format!("0, or at least {} m", show(NARROWEST * dp)),
+                "let the obstacle touch the end of the domain, or leave room for the water between them",
+            );
+        }
+    }
+}
+
+/// Distance between two obstacles [m].
+fn gap(a: &AxisBox, b: &AxisBox) -> f64 {
+    (a.low - b.high).max(b.low - a.high).max(DVec3::ZERO).length()
+}
+
+fn corners(obstacle: &AxisBox) -> String {
+    let point = |p: DVec3| format!("[{}, {}, {}]", show(p.x), show(p.y), show(p.z));
+    format!("{} to {}", point(obstacle.low), point(obstacle.high))
+}

@@ -1,0 +1,167 @@
+//! Units in a row across the flume, validated.
+
+use std::f64::consts::PI;
+
+use super::check::{Checker, above, from, show};
+use super::domain::Domain;
+use super::file::{Orientation, Sides, UnitsFile};
+use super::flume::Flume;
+use super::unit_shape::UnitShape;
+use super::units::{MOST_UNITS, Placement};
+
+/// A row as written; SI units.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    count: u32,
+    pitch: f64,
+    x: f64,
+    first_y: Option<f64>,
+    orientation: Orientation,
+}
+
+/// Validate the numbers of a row, each by itself.
+pub(super) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker) -> Option<Row> {
+    let before = check.count();
+    for (key, missing) in
+        [("count", file.count.is_none()), ("pitch_m", file.pitch_m.is_none()), ("x_m", file.x_m.is_none())]
+    {
+        if missing {
+            check.refuse(
+                &format!("units.{key}"),
+                "(missing)",
+                "given for a row of units",
+                "write `count`, `pitch_m` and `x_m`, or the places one by one as `centres_m`",
+            );
+        }
+    }
+    let (count, pitch, x) = (file.count?, file.pitch_m?, file.x_m?);
+    if let Some(shape) = shape {
+        let range = match shape {
+            UnitShape::Tetrapod { .. } => above(shape.least_pitch()).up_to(1000.0),
+            UnitShape::Cuboid { .. } => from(shape.least_pitch()).up_to(1000.0),
+        };
+        let advice = match shape {
+            UnitShape::Tetrapod { .. } => "units nearer than 0.75 of their height overlap",
+            UnitShape::Cuboid { .. } => "units nearer than their edge across the flume overlap",
+        };
+        check.number("units.pitch_m", pitch, range, "m", advice);
+    }
+    if !(1..=MOST_UNITS).contains(&count) {
+        check.refuse("units.count", count, format!("1 to {MOST_UNITS}"), "leave out `units` for water alone");
+    }
+    let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation };
+    (check.count() == before).then_some(row)
+}
+
+/// Place the units of the row and check that it fits into the domain.
+pub(super) fn place(
+    row: &Row,
+    shape: &UnitShape,
+    flume: &Flume,
+    domain: &Domain,
+    check: &mut Checker,
+) -> Vec<Placement> {
+    let [margin, reach] = shape.reach();
+    check.number(
+        "units.x_m",
+        row.x,
+        above(domain.x[0] + margin).below(domain.x[1] - margin),
+        "m",
+        "the whole unit must stand inside `domain.x_m`",
+    );
+    let top = flume.profile.z(row.x) + shape.height();
+    if top > domain.top_z {
+        check.refuse(
+            "domain.top_z_m",
+            show(domain.top_z),
+            format!("above the top of the units, {} m", show(top)),
+            "raise the walls",
+        );
+    }
+    let length = f64::from(row.count - 1) * row.pitch;
+    let first_y = row.first_y.unwrap_or(0.5 * (domain.width - length));
+    match domain.sides {
+        Sides::Periodic => validate_periodic_row(row, domain.width, first_y, check),
+        Sides::Walls => {
+            let widest = length + 2.0 * reach;
+            if widest > domain.width {
+                check.refuse(
+                    "units.count",
+                    row.count,
+                    format!("such that the row, {} m over the outer legs, fits between the walls", show(widest)),
+                    format!("write fewer units, a smaller pitch or a width of more than {} m", show(widest)),
+                );
+            } else if first_y < reach || first_y + length > domain.width - reach {
+                let last = domain.width - reach - length;
+                check.refuse(
+                    "units.first_y_m",
+                    show(first_y),
+                    format!("at least {} and at most {} m between the walls", show(reach), show(last)),
+                    "leave it out to centre the row",
+                );
+            }
+        }
+    }
+    let place = |index: u32| Placement {
+        x: row.x,
+        y: first_y + f64::from(index) * row.pitch,
+        centre_z: None,
+        azimuth: azimuth(row.orientation, index),
+    };
+    (0..row.count).map(place).collect()
+}
+
+fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checker) {
+    let length = f64::from(row.count) * row.pitch;
+    // Rounding of count * pitch only.
+    let slack = 1e-9;
+    if length > width + slack || f64::from(row.count) != (width / row.pitch).round() {
+        check.refuse(
+            "units.count",
+            row.count,
+            format!(
+                "such that count x pitch = {} m fills the periodic width, {} m",
+                show(length),
+                show(width)
+            ),
+            "neighbours across the seam must stand at the pitch too: change `units.count`, `units.pitch_m` or `domain.width_m`",
+        );
+        return;
+    }
+    if length < width - 1e-6 {
+        check.warn(format!(
+            "units.pitch_m = {}: neighbours across the periodic seam stand {} m apart",
+            show(row.pitch),
+            show(width - length + row.pitch)
+        ));
+    }
+    let turned = matches!(row.orientation, Orientation::Alternating | Orientation::AlternatingReversed);
+    if turned && row.count > 1 && row.count % 2 == 1 {
+        check.refuse(
+            "units.count",
+            row.count,
+            "even when the units alternate and the sides are periodic",
+            "add or remove one unit, so that neighbours across the seam are turned too",
+        );
+    }
+    let last = width - (length - row.pitch);
+    if !(first_y >= 0.0 && first_y <= last + slack) {
+        check.refuse(
+            "units.first_y_m",
+            show(first_y),
+            format!("at least 0 and at most {} m", show(last)),
+            "leave it out to centre the row",
+        );
+    }
+}
+
+/// Turn of the unit at `index` about the vertical [rad].
+pub(super) fn azimuth(orientation: Orientation, index: u32) -> f64 {
+    let shoreward = match orientation {
+        Orientation::Alternating => !index.is_multiple_of(2),
+        Orientation::AlternatingReversed => index.is_multiple_of(2),
+        Orientation::Seaward => false,
+        Orientation::Shoreward => true,
+    };
+    if shoreward { PI } else { 0.0 }
+}

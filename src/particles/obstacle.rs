@@ -1,0 +1,82 @@
+//! Boxes of boundary particles: fixed obstacles, and units that are cuboids.
+//!
+//! The particles stand on a lattice that divides each edge evenly at about dp, the outermost half a spacing behind the
+//! faces, as in bed and walls. Behind an edge or a corner the nearest place of the surface is the edge or the corner,
+//! so that the ghost nodes lie on the diagonals there (English et al. 2022).
+
+use glam::DVec3;
+
+use super::boundary::BoundaryParticle;
+use crate::geometry::axis_box::AxisBox;
+
+/// Particles of a box about dp [m] apart, those no deeper than `thickness` [m] behind an open face.
+pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryParticle> {
+    let count = (bounds.edges() / dp).round().max(DVec3::ONE);
+    let spacing = bounds.edges() / count;
+    let volume = spacing.element_product();
+    let mut particles = Vec::new();
+    for i in 0..count.x as u32 {
+        for j in 0..count.y as u32 {
+            for k in 0..count.z as u32 {
+                let lattice = DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5;
+                let position = bounds.low + lattice * spacing;
+                if bounds.depth(position) < thickness {
+                    particles.push(BoundaryParticle { position, to_surface: bounds.way_out(position), volume });
+                }
+            }
+        }
+    }
+    particles
+}
+
+/// Bed and wall particles that an obstacle covers: their surface is no longer the bed but the foot of the obstacle.
+pub fn cover(particles: &mut [BoundaryParticle], obstacle: &AxisBox) {
+    for particle in particles {
+        let surface = particle.position + particle.to_surface;
+        if obstacle.holds(surface) {
+            particle.to_surface += obstacle.way_out(surface);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thin_box_is_filled_and_a_thick_one_hollow() {
+        let thin = AxisBox::free(DVec3::ZERO, DVec3::new(0.15, 0.15, 0.1));
+        let particles = box_particles(&thin, 0.02, 0.06);
+        // 0.15 / 0.02 rounds to 8.
+        assert_eq!(particles.len(), 8 * 8 * 5);
+        let total: f64 = particles.iter().map(|p| p.volume).sum();
+        assert!((total / thin.volume() - 1.0).abs() < 1e-12);
+        let thick = AxisBox::free(DVec3::ZERO, DVec3::splat(0.2));
+        assert_eq!(box_particles(&thick, 0.02, 0.06).len(), 1000 - 64);
+    }
+
+    #[test]
+    fn the_surface_of_every_particle_lies_on_an_open_face() {
+        let open = [[true; 2], [true; 2], [false, true]];
+        let on_bed = AxisBox { low: DVec3::ZERO, high: DVec3::splat(0.2), open };
+        for particle in box_particles(&on_bed, 0.02, 0.06) {
+            let surface = particle.position + particle.to_surface;
+            assert!(on_bed.locate(surface).1.abs() < 1e-12 && surface.z > 0.009);
+        }
+    }
+
+    #[test]
+    fn the_bed_below_an_obstacle_looks_at_its_foot() {
+        let open = [[true; 2], [true; 2], [false, true]];
+        let obstacle = AxisBox { low: DVec3::ZERO, high: DVec3::splat(0.2), open };
+        let below = |x: f64| BoundaryParticle {
+            position: DVec3::new(x, 0.1, -0.01),
+            to_surface: DVec3::Z * 0.01,
+            volume: 8e-6,
+        };
+        let mut bed = [below(-0.01), below(0.03)];
+        cover(&mut bed, &obstacle);
+        assert_eq!(bed[0], below(-0.01));
+        assert!((bed[1].position + bed[1].to_surface - DVec3::new(0.0, 0.1, 0.0)).length() < 1e-15);
+    }
+}
