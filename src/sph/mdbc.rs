@@ -9,8 +9,7 @@
 //!
 //! are solved for f and grad f, and the density is carried back along the line to the particle.
 //!
-//! Where too few particles surround the node the matrix is ill-conditioned, and above the surface of the water, behind a
-//! thin sheet on a dry bed, the gradient would be carried from where there is no water. The stated fall-back is then the mean
+//! Where too few particles surround the node the matrix is ill-conditioned. The stated fall-back is then the mean
 //! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. A node
 //! without neighbours leaves its particle at the reference density: there is no water to press on.
 
@@ -35,10 +34,6 @@ use crate::particles::boundary::Boundary;
 /// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles
 /// less than this.
 const LEAST_DETERMINANT: f64 = 0.01;
-
-/// Sum of W V at a flat surface of the water. A node with less lies above it: a gradient fitted to the little water below
-/// would be carried from where there is none.
-const SURFACE: f64 = 0.5;
 
 /// Smallest piece of an array that is worth a task of the thread pool.
 const PIECE: usize = 1024;
@@ -178,10 +173,7 @@ impl NodeSums {
         }
         // From the node back to the particle, in h.
         let back = -2.0 * to_surface / parameters.kernel.h;
-        let fitted = (occupied >= SURFACE)
-            .then(|| self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from)))
-            .flatten();
-        let excess = match fitted {
+        let excess = match self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from)) {
             Some([f, fx, fy, fz]) => f + DVec3::new(fx, fy, fz).dot(back),
             None => {
                 let centroid_z = f64::from(self.value[3]) / occupied;

@@ -103,8 +103,8 @@ fn the_stack_stands_until_the_water_comes() {
 
 /// `cargo test --release --test validation -- --ignored --nocapture the_cubes_go_as_measured`
 ///
-/// It fails: the stack slides as a whole and less far than measured, where the lowest cube should be carried from under the
-/// others; see docs/validation.md.
+/// It fails: at dp = 0.03 m the water comes late and is too weak to carry the lowest cube from under the others; see
+/// docs/validation.md.
 #[test]
 #[ignore = "20 minutes on 2 cores, and known to fail"]
 fn the_cubes_go_as_measured() {
