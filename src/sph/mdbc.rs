@@ -132,12 +132,26 @@ impl NodeTerms<17> for NodeSums {
         let Pair { r: [x, y, z], wv, gv } = *pair;
         let f = L::splat(b.excess_density);
         let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-        let of_value = [(wv, x), (wv, y), (wv, z), (wv, f)];
-        let of_first = [(gv, x), (gv, y), (gv, z)];
-        let of_second = [(gx, x), (gy, y), (gz, z), (gx, y), (gx, z), (gy, z)];
-        let of_first_f = [(gx, f), (gy, f), (gz, f)];
+        // One array: the compiler keeps the sums in registers then, and not with a chain of several.
+        let products = [
+            (wv, x),
+            (wv, y),
+            (wv, z),
+            (wv, f),
+            (gv, x),
+            (gv, y),
+            (gv, z),
+            (gx, x),
+            (gy, y),
+            (gz, z),
+            (gx, y),
+            (gx, z),
+            (gy, z),
+            (gx, f),
+            (gy, f),
+            (gz, f),
+        ];
         sums[0] += wv;
-        let products = of_value.into_iter().chain(of_first).chain(of_second).chain(of_first_f);
         for (sum, (a, b)) in sums[1..].iter_mut().zip(products) {
             *sum = a.mul_add(b, *sum);
         }
