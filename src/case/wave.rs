@@ -5,7 +5,8 @@ use super::domain::Domain;
 use super::file::{self, RegularFile, SolitaryFile, SolitaryTheory, WaterFile, WaveFile};
 use super::flume::Flume;
 use super::wavemaker::{self, Wavemaker};
-use crate::waves::regular::{self, PaddleShape, RegularMotion};
+use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
+use crate::waves::regular;
 
 /// Shortest regular wave, in depths.
 const SHORTEST_LENGTH: f64 = 0.1;

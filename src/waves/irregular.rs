@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use super::periodic::{WaveError, linear_wavenumber_per_m};
+use super::regular::{WaveError, linear_wavenumber_per_m};
 
 /// Frequencies over that of the peak between which the spectrum is kept [-]: beyond lie 1 to 2 % of its energy.
 const BAND: [f64; 2] = [0.6, 3.0];

@@ -3,11 +3,11 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`solitary`] | the piston's motion for a solitary wave, and the third-order wave |
-//! | [`periodic`] | regular waves as they are ordered; linear dispersion, highest waves |
+//! | [`regular`] | regular waves as they are ordered; linear dispersion, highest waves |
 //! | [`stream_function`] | regular waves of permanent form by Fourier approximation, short to cnoidal |
 //! | [`irregular`] | a JONSWAP sea with random phases |
 //! | [`incoming`] | any of these as an inflow at the end of the flume |
-//! | [`regular`] | the motion of the paddle that makes regular waves |
+//! | [`paddle_motion`] | the motion of the paddle that makes regular waves |
 //! | [`layered`] | the K-layer non-hydrostatic model: piston or inflow, wall, radiating end or sponge, friction, breaking |
 //! | [`flume`] | one run of that model, from a set-up to a record |
 //! | [`record`] | gauges, profiles and a window of the flow over time, to be asked at any (x, z, t) |
@@ -25,7 +25,7 @@ pub mod irregular;
 pub mod layered;
 pub mod ml_piston;
 pub mod paddle;
-pub mod periodic;
+pub mod paddle_motion;
 pub mod record;
 pub mod regular;
 pub mod solitary;

@@ -1,6 +1,6 @@
 //! A rigid paddle in the particles: rows that move in proportion to one motion.
 
-use crate::waves::regular::{PaddleShape, RegularMotion};
+use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::solitary::SolitaryWave;
 
 /// Motion of a paddle at the still surface, t [s] from its start.

@@ -14,7 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::periodic::{MeanFlow, RegularWave, WaveError, highest_over_depth, linear_wavenumber_per_m};
+use super::regular::{MeanFlow, RegularWave, WaveError, highest_over_depth, linear_wavenumber_per_m};
 
 mod equations;
 use equations::{SteadyWave, solve};
@@ -46,9 +46,9 @@ impl StreamFunctionWave {
     ///
     /// # Errors
     /// If a value is out of its range, the wave would break, or none is found.
-    pub fn new(parameters: RegularWave) -> Result<Self, WaveError> {
+    pub fn new(parameters: RegularWave, mean_flow: MeanFlow) -> Result<Self, WaveError> {
         let length_guess = check(&parameters)?;
-        let RegularWave { height_m, period_s, depth_m, gravity, mean_flow } = parameters;
+        let RegularWave { height_m, period_s, depth_m, gravity } = parameters;
         let not_found = || WaveError::NotFound { height_m, period_s, depth_m };
         let height = height_m / depth_m;
         let period = period_s * (gravity / depth_m).sqrt();
@@ -124,7 +124,7 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     {
         WaveError::require_positive(name, value)?;
     }
-    let length = TAU / linear_wavenumber_per_m(TAU / wave.period_s, wave.depth_m, wave.gravity) / wave.depth_m;
+    let length = wave.length_m() / wave.depth_m;
     if !length.is_finite() || length >= LONGEST {
         let allowed = format!("such that the wave is at most {LONGEST} depths long; it is {length:.1}");
         return Err(WaveError::Value { name: "period_s", value: wave.period_s, allowed });
@@ -176,8 +176,8 @@ mod tests {
     use super::*;
 
     fn wave(height_m: f64, period_s: f64, depth_m: f64, mean_flow: MeanFlow) -> StreamFunctionWave {
-        let parameters = RegularWave { height_m, period_s, depth_m, gravity: 9.81, mean_flow };
-        StreamFunctionWave::new(parameters).unwrap_or_else(|error| panic!("{error}"))
+        let parameters = RegularWave { height_m, period_s, depth_m, gravity: 9.81 };
+        StreamFunctionWave::new(parameters, mean_flow).unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]
@@ -247,10 +247,8 @@ mod tests {
     #[test]
     fn waves_that_cannot_be_are_refused() {
         let make = |height_m, period_s| {
-            let (depth_m, gravity, mean_flow) = (0.4, 9.81, MeanFlow::NoTransport);
-            StreamFunctionWave::new(RegularWave { height_m, period_s, depth_m, gravity, mean_flow })
-                .unwrap_err()
-                .to_string()
+            let wave = RegularWave { height_m, period_s, depth_m: 0.4, gravity: 9.81 };
+            StreamFunctionWave::new(wave, MeanFlow::NoTransport).unwrap_err().to_string()
         };
         assert_eq!(make(0.1, -1.0), "wave: period_s is -1, it must be above 0");
         assert!(make(0.1, 100.0).contains("at most 60 depths long"));

@@ -125,9 +125,9 @@ fn the_first_moments_of_a_dam_break_are_those_of_dualsphysics() {
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture a_dam_break_past_a_building`: to 0.6 s, one thing
-/// changed at a time.
+/// changed at a time. It fails: without diffusion the tip is up to 3.3 dp behind; see docs/validation.md.
 #[test]
-#[ignore = "10 minutes on 2 cores"]
+#[ignore = "10 minutes on 2 cores, and known to fail"]
 fn a_dam_break_past_a_building_is_that_of_dualsphysics() {
     const END: f64 = 0.6;
     let Some(found) = compare("without diffusion", &without_diffusion(), END) else { return };

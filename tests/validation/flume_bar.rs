@@ -10,8 +10,8 @@ use breakwater::geometry::profile::Profile;
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
-use breakwater::waves::periodic::{MeanFlow, RegularWave};
 use breakwater::waves::record::FlumeRecord;
+use breakwater::waves::regular::{MeanFlow, RegularWave};
 use breakwater::waves::stream_function::StreamFunctionWave;
 
 const GRAVITY: f64 = 9.81;
@@ -36,14 +36,8 @@ fn measured(gauge: usize) -> Option<Vec<[f64; 2]>> {
 }
 
 fn flume(layers: usize, cell_m: f64) -> FlumeRecord {
-    let wave = StreamFunctionWave::new(RegularWave {
-        height_m: 0.02,
-        period_s: PERIOD_S,
-        depth_m: 0.4,
-        gravity: GRAVITY,
-        mean_flow: MeanFlow::NoTransport,
-    })
-    .unwrap();
+    let wave = RegularWave { height_m: 0.02, period_s: PERIOD_S, depth_m: 0.4, gravity: GRAVITY };
+    let wave = StreamFunctionWave::new(wave, MeanFlow::NoTransport).unwrap();
     let bar = vec![[0.0, -0.4], [6.0, -0.4], [12.0, -0.1], [14.0, -0.1], [17.0, -0.4], [18.95, -0.4], [31.45, 0.1]];
     run(&FlumeSetup {
         profile: Profile::new(bar),

@@ -7,8 +7,8 @@ use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::irregular::{IrregularWave, JonswapSea};
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
-use breakwater::waves::periodic::{MeanFlow, RegularWave};
 use breakwater::waves::record::FlumeRecord;
+use breakwater::waves::regular::{MeanFlow, RegularWave};
 use breakwater::waves::solitary::ThirdOrderSolitary;
 use breakwater::waves::stream_function::StreamFunctionWave;
 
@@ -82,9 +82,8 @@ fn envelope(record: &FlumeRecord, period_s: f64) -> [f64; 2] {
 fn regular_waves_are_taken_by_the_sponge() {
     // Waves of k d = 1.1, and two lengths of sponge; long waves, and the radiating end.
     for (period_s, sponge_lengths, most) in [(1.5, Some(2.0), 0.01), (1.5, None, 0.1), (4.0, None, 0.02)] {
-        let (height_m, depth_m, mean_flow) = (0.02, DEPTH, MeanFlow::NoTransport);
-        let parameters = RegularWave { height_m, period_s, depth_m, gravity: GRAVITY, mean_flow };
-        let wave = StreamFunctionWave::new(parameters).unwrap();
+        let parameters = RegularWave { height_m: 0.02, period_s, depth_m: DEPTH, gravity: GRAVITY };
+        let wave = StreamFunctionWave::new(parameters, MeanFlow::NoTransport).unwrap();
         let length = TAU / wave.wavenumber_per_m();
         let (right_end, flume_m) = match sponge_lengths {
             Some(lengths) => (RightEnd::Sponge { length_m: lengths * length }, 12.0 + lengths * length),
@@ -103,7 +102,7 @@ fn regular_waves_are_taken_by_the_sponge() {
         // Waves of period T leave a radiating end with (1 - c/c_0) / (1 + c/c_0) of their height: c / c_0 = 0.85
         // for k d = 1.1, 8 %. The sponge is made for 0.25 %, the rest is how the envelope is measured.
         assert!(reflection < most);
-        assert!((0.5 * (largest + least) / height_m - 1.0).abs() < 0.03);
+        assert!((0.5 * (largest + least) / parameters.height_m - 1.0).abs() < 0.03);
     }
 }
 

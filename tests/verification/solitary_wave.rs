@@ -51,7 +51,7 @@ impl Wave {
         half_stroke + x / celerity
     }
 
-    /// Heights of the crest [m] when it passes the two places, and the celerity between them against the flume's [-].
+    /// Heights of the crest [m] when it passes the two places.
     fn run(&self) -> [f64; 2] {
         let mut simulation = simulation(&self.case());
         let start = simulation.flume_time();

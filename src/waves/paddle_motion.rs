@@ -1,0 +1,206 @@
+//! The motion of a paddle that makes regular waves.
+//!
+//! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: waves of small height before a paddle
+//!   that moves by S f(z) / 2 sin(omega t), with f = 1 at the still surface.
+//! * Madsen (1971), "On the generation of long waves": the motion at twice the frequency with which a piston makes a
+//!   second-order wave of permanent form. Without it, a free wave of that frequency travels along more slowly.
+//!
+//! A flap has no second-order motion here.
+
+use std::f64::consts::PI;
+
+use super::regular::RegularWave;
+
+/// What moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PaddleShape {
+    /// All heights alike.
+    Piston,
+    /// In proportion to the height above the hinge, and not at all below it.
+    Flap {
+        /// Height of the hinge above the bed, negative below it [m].
+        hinge_m: f64,
+    },
+}
+
+impl PaddleShape {
+    /// Displacement at `z` [m] above the bed over that at the still surface, in water of depth d [m] [-].
+    pub fn share(&self, z: f64, depth: f64) -> f64 {
+        match *self {
+            Self::Piston => 1.0,
+            Self::Flap { hinge_m } => ((z - hinge_m) / (depth - hinge_m)).max(0.0),
+        }
+    }
+
+    /// Height of the wave over the stroke at the still surface [-], for the wave number k [1/m] and the depth d [m]:
+    /// H/S = 4 sinh kd / (sinh 2kd + 2kd) times the integral of k f(z) cosh kz from the bed to the surface. That is
+    ///
+    ///   sinh kd                                              for a piston,
+    ///   sinh kd - (cosh kd - cosh k z_h) / (k (d - z_h))     for a flap with the hinge z_h above the bed; z_h = 0 in the
+    ///                                                        second cosh where it lies below.
+    pub fn height_per_stroke(&self, k: f64, depth: f64) -> f64 {
+        let kd = k * depth;
+        let integral = match *self {
+            Self::Piston => kd.sinh(),
+            Self::Flap { hinge_m } => {
+                let lowest = k * hinge_m.max(0.0);
+                kd.sinh() - (kd.cosh() - lowest.cosh()) / (k * (depth - hinge_m))
+            }
+        };
+        4.0 * kd.sinh() * integral / ((2.0 * kd).sinh() + 2.0 * kd)
+    }
+}
+
+/// The motion at the still surface of a paddle that makes regular waves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RegularMotion {
+    /// Angular frequency [rad/s].
+    omega: f64,
+    /// Amplitude at that frequency, half of the stroke [m].
+    first_m: f64,
+    /// Amplitude at twice that frequency [m].
+    second_m: f64,
+    /// Time over which the motion grows [s].
+    ramp_s: f64,
+}
+
+impl RegularMotion {
+    /// The motion of a paddle, its stroke growing over `ramp_periods`.
+    pub fn new(wave: &RegularWave, shape: PaddleShape, ramp_periods: f64) -> Self {
+        let (k, depth) = (wave.number_per_m(), wave.depth_m);
+        let first_m = 0.5 * wave.height_m / shape.height_per_stroke(k, depth);
+        let second_m = match shape {
+            PaddleShape::Piston => second_order_m(wave.height_m, k, depth),
+            PaddleShape::Flap { .. } => 0.0,
+        };
+        Self { omega: wave.angular_frequency(), first_m, second_m, ramp_s: ramp_periods * wave.period_s }
+    }
+
+    /// Stroke at first order [m].
+    pub fn stroke_m(&self) -> f64 {
+        2.0 * self.first_m
+    }
+
+    /// Largest distance from the place of rest, an upper bound [m].
+    pub fn reach_m(&self) -> f64 {
+        self.first_m + self.second_m.abs()
+    }
+
+    /// Displacement [m] at t [s] from the start: r(t) (S/2 sin omega t + X2 sin 2 omega t); the wave's crest passes the
+    /// paddle when sin omega t rises through 0.
+    pub fn displacement_m(&self, t: f64) -> f64 {
+        self.ramp(t)[0] * self.full(t)[0]
+    }
+
+    /// Velocity [m/s], the derivative of the displacement.
+    pub fn velocity_m_s(&self, t: f64) -> f64 {
+        let ([share, rate], [x, v]) = (self.ramp(t), self.full(t));
+        rate * x + share * v
+    }
+
+    /// Displacement [m] and velocity [m/s] without the ramp.
+    fn full(&self, t: f64) -> [f64; 2] {
+        let (one, two) = (self.omega * t, 2.0 * self.omega * t);
+        let displacement = self.first_m * one.sin() + self.second_m * two.sin();
+        let velocity = self.omega * (self.first_m * one.cos() + 2.0 * self.second_m * two.cos());
+        [displacement, velocity]
+    }
+
+    /// Share of the motion and its derivative [1/s]: half a cosine from 0 to 1, with level ends.
+    fn ramp(&self, t: f64) -> [f64; 2] {
+        if t <= 0.0 {
+            return [0.0, 0.0];
+        }
+        if t >= self.ramp_s {
+            return [1.0, 0.0];
+        }
+        let phase = PI * t / self.ramp_s;
+        [0.5 * (1.0 - phase.cos()), 0.5 * PI / self.ramp_s * phase.sin()]
+    }
+}
+
+/// Amplitude of the piston's motion at twice the wave's frequency [m] (Madsen 1971):
+/// X2 = H^2 / (32 d) (3 cosh kd / sinh^3 kd - 2 / m1), m1 = H/S of the piston.
+fn second_order_m(height: f64, k: f64, depth: f64) -> f64 {
+    let kd = k * depth;
+    let m1 = PaddleShape::Piston.height_per_stroke(k, depth);
+    height * height / (32.0 * depth) * (3.0 * kd.cosh() / kd.sinh().powi(3) - 2.0 / m1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEPTH: f64 = 0.4;
+
+    fn wave() -> RegularWave {
+        RegularWave { height_m: 0.1, period_s: 1.2, depth_m: DEPTH, gravity: 9.81 }
+    }
+
+    #[test]
+    fn transfer_has_its_limits() {
+        let flap = PaddleShape::Flap { hinge_m: 0.0 };
+        // In shallow water a stroke lifts what it displaces: H/S = kd for a piston, half of it for a flap hinged at the
+        // bed. The next term is of order (kd)^2.
+        let k = 0.01 / DEPTH;
+        assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) / 0.01 - 1.0).abs() < 1e-4);
+        assert!((flap.height_per_stroke(k, DEPTH) / 0.005 - 1.0).abs() < 1e-4);
+        // In deep water only the paddle at the surface counts; a flap's first correction is -1/kd.
+        let k = 20.0 / DEPTH;
+        assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) - 2.0).abs() < 1e-12);
+        assert!((flap.height_per_stroke(k, DEPTH) - 2.0 * (1.0 - 1.0 / 20.0)).abs() < 1e-6);
+        // A hinge far below the bed makes a piston.
+        let far = PaddleShape::Flap { hinge_m: -1e6 };
+        assert!((far.height_per_stroke(k, DEPTH) - PaddleShape::Piston.height_per_stroke(k, DEPTH)).abs() < 1e-5);
+    }
+
+    #[test]
+    fn transfer_is_the_integral_over_the_paddle() {
+        let shapes = [-0.3, 0.0, 0.13].map(|hinge_m| PaddleShape::Flap { hinge_m });
+        for shape in shapes.into_iter().chain([PaddleShape::Piston]) {
+            for k in [0.3, 3.245, 9.0] {
+                // Mid-point rule with n pieces; the kink at the hinge costs 1e-7 of it.
+                let n = 4000;
+                let piece = |i: i32| {
+                    let z = DEPTH * (f64::from(i) + 0.5) / f64::from(n);
+                    k * shape.share(z, DEPTH) * (k * z).cosh() * DEPTH / f64::from(n)
+                };
+                let integral: f64 = (0..n).map(piece).sum();
+                let kd = k * DEPTH;
+                let expected = 4.0 * kd.sinh() * integral / ((2.0 * kd).sinh() + 2.0 * kd);
+                assert!((shape.height_per_stroke(k, DEPTH) / expected - 1.0).abs() < 1e-5, "{shape:?}, k = {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn second_order_motion_is_that_of_the_water() {
+        // In shallow water the piston follows dX/dt = c eta / (d + eta) at its own place. With Stokes' second-order
+        // elevation this gives, by expansion in a/d and kd, X2 = (a^2 / 2 k d^2) (3 / (2 kd)^2 - 1/2); the next term is
+        // smaller by (kd)^2.
+        let (height, kd) = (1e-3, 0.2);
+        let (a, k) = (0.5 * height, kd / DEPTH);
+        let expected = a * a / (2.0 * k * DEPTH * DEPTH) * (3.0 / (4.0 * kd * kd) - 0.5);
+        assert!((second_order_m(height, k, DEPTH) / expected - 1.0).abs() < 1e-3);
+        let flap = RegularMotion::new(&wave(), PaddleShape::Flap { hinge_m: 0.0 }, 2.0);
+        assert_eq!(flap.second_m, 0.0);
+    }
+
+    #[test]
+    fn ramp_is_smooth_and_the_velocity_is_the_derivative() {
+        let motion = RegularMotion::new(&wave(), PaddleShape::Piston, 1.5);
+        assert_eq!((motion.displacement_m(0.0), motion.velocity_m_s(0.0)), (0.0, 0.0));
+        let h = 1e-5;
+        for i in 1..100 {
+            let t = 0.0317 * f64::from(i);
+            let slope = (motion.displacement_m(t + h) - motion.displacement_m(t - h)) / (2.0 * h);
+            // Central difference: h^2 X''' / 6 is below 1e-9.
+            assert!((slope - motion.velocity_m_s(t)).abs() < 1e-8);
+        }
+        // No jump where the ramp ends: over 2 h the velocity changes by the acceleration, at most 4 m/s2.
+        let end = 1.5 * 1.2;
+        assert!((motion.velocity_m_s(end + h) - motion.velocity_m_s(end - h)).abs() < 8.0 * h);
+        let largest = (0..2000).map(|i| motion.displacement_m(0.005 * f64::from(i)).abs()).fold(0.0, f64::max);
+        assert!(largest <= motion.reach_m() && largest > 0.9 * motion.reach_m());
+    }
+}
