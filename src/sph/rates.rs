@@ -15,7 +15,7 @@ use super::{
 };
 
 /// Neighbours that are summed up before their sums are added to those of all.
-const BLOCK: usize = 16;
+const BLOCK: usize = 32;
 
 /// Sums of one target.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -177,14 +177,18 @@ impl ChunkRates<'_> {
         let place = pairs.split_positions(cluster, targets);
         let extra = self.extra.get(self.begin..).unwrap_or_default();
         let a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, extra);
+        let Some(&first) = neighbours.first() else { return Sums::zero().rates(constants, &a) };
         let mut sums = Sums::zero();
-        for block in neighbours.chunks(BLOCK) {
+        let mut next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[first as usize]));
+        for (block, following) in neighbours.chunks(BLOCK).zip(neighbours[1..].chunks(BLOCK).chain([&[][..]])) {
             let mut of_block = Sums::zero();
-            for &number in block {
+            for (k, &number) in block.iter().enumerate() {
+                let current = next;
+                let after = *following.get(k).unwrap_or(&first);
+                next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[after as usize]));
                 let b = &records[number as usize];
-                let near = constants.near(pairs.difference::<L, PERIODIC>(place, b));
                 let extra_b = if ANTUONO || R::TURBULENT { &self.extra[number as usize] } else { &Extra::OF_BOUNDARY };
-                of_block.add::<R, ANTUONO>(constants, &a, &near, b, extra_b);
+                of_block.add::<R, ANTUONO>(constants, &a, &current, b, extra_b);
             }
             sums.add_sums(&of_block);
         }
