@@ -10,8 +10,10 @@
 //! are solved for f and grad f, and the density is carried back along the line to the particle.
 //!
 //! Where too few particles surround the node the matrix is ill-conditioned. The stated fall-back is then the mean
-//! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. A node
-//! without neighbours leaves its particle at the reference density: there is no water to press on.
+//! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. It also
+//! takes over where all the water lies between node and boundary, a thin sheet on a dry bed: a gradient fitted to one or
+//! two layers would be carried to far behind them, and its errors drive the sheet apart. A node without neighbours
+//! leaves its particle at the reference density: there is no water to press on.
 
 pub(super) mod node_sums;
 
@@ -34,6 +36,11 @@ use crate::particles::boundary::Boundary;
 /// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles
 /// less than this.
 const LEAST_DETERMINANT: f64 = 0.01;
+
+/// How far the centroid of the water lies from the node towards the boundary, in h, where trust in the fitted gradient
+/// begins to fall and where none is left. It is 0.42 h for a node at the surface of deep water on a bed, and below
+/// nothing for one in the water or beside it, at a wall that stands in the surface.
+const TRUST: [f64; 2] = [0.1, 0.2];
 
 /// Smallest piece of an array that is worth a task of the thread pool.
 const PIECE: usize = 1024;
@@ -187,13 +194,15 @@ impl NodeSums {
         }
         // From the node back to the particle, in h.
         let back = -2.0 * to_surface / parameters.kernel.h;
-        let excess = match self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from)) {
-            Some([f, fx, fy, fz]) => f + DVec3::new(fx, fy, fz).dot(back),
-            None => {
-                let centroid_z = f64::from(self.value[3]) / occupied;
-                let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
-                f64::from(self.value_f) / occupied + hydrostatic * (back.z - centroid_z) * parameters.kernel.h
-            }
+        let [_, x, y, z] = self.value.map(|sum| f64::from(sum) / occupied);
+        let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
+        let mean = f64::from(self.value_f) / occupied + hydrostatic * (back.z - z) * parameters.kernel.h;
+        let behind = DVec3::new(x, y, z).dot(back.normalize_or_zero());
+        let trust = ((TRUST[1] - behind) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+        let fitted = || self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from));
+        let excess = match (trust > 0.0).then(fitted).flatten() {
+            Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
+            None => mean,
         };
         rho0 + excess
     }
