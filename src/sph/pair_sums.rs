@@ -94,6 +94,8 @@ pub(super) struct Members<L> {
     density: L,
     pressure: L,
     sound_speed: L,
+    /// One where density diffusion acts, else zero.
+    pub(super) diffuses: L,
     density_gradient: [L; 3],
     stress: [L; 6],
 }
@@ -105,7 +107,7 @@ pub(super) struct Near<L> {
     /// r_ab^2 [m2].
     r2: L,
     /// 1 - q/2 [-].
-    closeness: L,
+    pub(super) closeness: L,
 }
 
 /// Sums of the members, without the constant factors, which come at the end.
@@ -156,6 +158,7 @@ impl<L: Lanes> Members<L> {
             density: L::splat(constants.rho0) + excess_density,
             pressure: a(|r| r.pressure),
             sound_speed: a(|r| r.sound_speed),
+            diffuses: L::splat(1.0),
             density_gradient: [nothing; 3],
             stress: [nothing; 6],
         };
@@ -237,7 +240,7 @@ impl<L: Lanes> Sums<L> {
         let minus_per_mass = -scale / a.density;
         let [ax, ay, az]: [_; 3] =
             std::array::from_fn(|k| ((self.force[k] + self.shear[k]) * minus_per_mass).to_array());
-        let diffusion_factor = L::splat(constants.diffusion.factor());
+        let diffusion_factor = L::splat(constants.diffusion.factor()) * a.diffuses;
         let density = (scale * self.diffusion.mul_add(diffusion_factor, self.compression)).to_array();
         let approach = (L::splat(constants.h) * self.fastest).to_array();
         std::array::from_fn(|lane| Rate {

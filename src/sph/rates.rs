@@ -9,7 +9,7 @@ use super::{
     lanes::{Lanes, MOST_LANES, WithLanes},
     neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
     pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent},
-    parameters::Parameters,
+    parameters::{BoundaryCondition, Parameters},
     records::Record,
     viscosity::Viscosity,
 };
@@ -176,7 +176,10 @@ impl ChunkRates<'_> {
         let Self { pairs, targets, records, .. } = self;
         let place = pairs.split_positions(cluster, targets);
         let extra = self.extra.get(self.begin..).unwrap_or_default();
-        let a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, extra);
+        let mut a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, extra);
+        if pairs.parameters.boundary == BoundaryCondition::Dynamic {
+            a.diffuses = self.out_of_reach_of_walls::<L, PERIODIC>(constants, cluster, neighbours);
+        }
         let Some(&first) = neighbours.first() else { return Sums::zero().rates(constants, &a) };
         let mut sums = Sums::zero();
         let mut next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[first as usize]));
@@ -193,6 +196,28 @@ impl ChunkRates<'_> {
             sums.add_sums(&of_block);
         }
         sums.rates(constants, &a)
+    }
+
+    /// One for members of a cluster that neither are boundary particles of the dynamic boundary condition nor are
+    /// reached by one, and zero for others.
+    #[inline(always)]
+    fn out_of_reach_of_walls<L: Lanes, const PERIODIC: bool>(
+        &self,
+        constants: &Constants,
+        cluster: &Cluster,
+        neighbours: &[u32],
+    ) -> L {
+        let Self { pairs, targets, records, .. } = self;
+        let place = pairs.split_positions(cluster, targets);
+        let of_boundary = |record: &Record| record.diffusive_volume == 0.0;
+        let mut closest: L = lanes_of(cluster, targets, |a| if of_boundary(a) { 1.0 } else { 0.0 });
+        for &number in neighbours {
+            let b = &records[number as usize];
+            if of_boundary(b) {
+                closest = closest.max(constants.near(pairs.difference::<L, PERIODIC>(place, b)).closeness);
+            }
+        }
+        L::splat(1.0) - L::splat(1.0).where_positive(closest)
     }
 }
 

@@ -1,0 +1,175 @@
+//! A box that floats freely in regular waves: Ren, He, Dong & Wen (2015), 0.30 m long, 0.20 m high, half as heavy as water,
+//! in 0.40 m of water, H = 0.10 m, T = 1.2 s.
+//!
+//! The measurement has no common zero of time with a computation: the first full heave crest of both is aligned. Motions
+//! are compared by what fits them best in the five periods after it, a + b t + C cos(omega t) + S sin(omega t):
+//! amplitude and phase of heave and roll, drift of surge.
+
+use std::{f64::consts::TAU, path::Path, sync::Arc};
+
+use breakwater::{case::Case, simulation::Simulation};
+use glam::{DMat4, DVec4};
+
+const MEASURED: &str = "../shared/data/ren2015_floating_box/motion.csv";
+const CASE: &str = "cases/verification/floating-box.json";
+
+/// Period of the waves [s].
+const PERIOD: f64 = 1.2;
+/// Periods that are compared; the measurement has five and a half after its first crest.
+const PERIODS: f64 = 5.0;
+/// A heave crest higher than this is a full one [m]; measured are 0.047 to 0.054 m.
+const FULL_CREST: f64 = 0.035;
+
+/// Time [s], surge [m], heave [m], roll [degrees].
+type Row = [f64; 4];
+
+fn measured() -> Option<Vec<Row>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(MEASURED);
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        println!("skipped: no measurements at {}", path.display());
+        return None;
+    };
+    let row = |line: &str| {
+        let numbers: Vec<f64> = line.split(',').filter_map(|field| field.trim().parse().ok()).collect();
+        <[f64; 4]>::try_from(numbers).ok()
+    };
+    let rows: Vec<Row> = text.lines().skip(1).filter_map(row).collect();
+    assert!(rows.len() > 100, "{}: only {} rows understood", path.display(), rows.len());
+    Some(rows)
+}
+
+/// The case with another particle distance [m], ten particles wide. The box leaves a gap of a fiftieth of a particle
+/// distance to its own image: enough for the contact search to see two faces apart, and too little for water.
+fn tank(dp: f64) -> Simulation {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(CASE);
+    let mut case: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    if case["domain"]["dp_m"] != dp {
+        let width = 10.0 * dp - 0.02 * dp;
+        case["domain"]["dp_m"] = dp.into();
+        case["domain"]["width_m"] = (10.0 * dp).into();
+        case["units"]["size_m"][1] = width.into();
+        case["units"]["mass_kg"] = (500.0 * 0.3 * 0.2 * width).into();
+        case["units"]["centres_m"][0][1] = (5.0 * dp).into();
+    }
+    let case = Case::from_str(&case.to_string(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
+    Simulation::new(Arc::new(case)).unwrap()
+}
+
+/// Motion of the box until five periods after its first full crest. Roll is positive with the seaward side up.
+fn computed(dp: f64) -> Vec<Row> {
+    let mut tank = tank(dp);
+    let (mut rows, end) = (Vec::new(), tank.case.stop.duration);
+    while tank.time < end {
+        let dt = tank.begin_step().unwrap();
+        let (state, start) = (tank.units.as_ref().unwrap().states()[0], tank.units.as_ref().unwrap().start[0]);
+        let moved = state.position - start.position;
+        let along = state.rotation * glam::DVec3::X;
+        rows.push([tank.time, moved.x, moved.z, (-along.z).atan2(along.x).to_degrees()]);
+        if first_full_crest(&rows).is_some_and(|crest| tank.time > crest + PERIODS * PERIOD) {
+            break;
+        }
+        tank.finish_step(dt).unwrap();
+    }
+    rows
+}
+
+/// Time of the highest heave within half a period of the first one above [`FULL_CREST`] [s]; `None` until it is over.
+fn first_full_crest(rows: &[Row]) -> Option<f64> {
+    let first = rows.iter().position(|row| row[2] > FULL_CREST)?;
+    let end = rows[first][0] + 0.5 * PERIOD;
+    let of_crest = rows[first..].iter().take_while(|row| row[0] < end);
+    let highest = of_crest.max_by(|a, b| a[2].total_cmp(&b[2]))?;
+    (rows[rows.len() - 1][0] >= end).then_some(highest[0])
+}
+
+/// What fits a motion best.
+#[derive(Debug, Clone, Copy)]
+struct Fit {
+    mean: f64,
+    /// Drift [1/s].
+    drift: f64,
+    amplitude: f64,
+    /// Phase after the first full heave crest [degrees].
+    phase: f64,
+}
+
+/// Fit one column of the rows over the five periods after a time [s].
+fn fit(rows: &[Row], column: usize, from: f64) -> Fit {
+    let (mut matrix, mut right) = (DMat4::ZERO, DVec4::ZERO);
+    for row in rows.iter().filter(|row| (from..=from + PERIODS * PERIOD).contains(&row[0])) {
+        let t = row[0] - from;
+        let (sin, cos) = (TAU * t / PERIOD).sin_cos();
+        let basis = DVec4::new(1.0, t, cos, sin);
+        matrix += DMat4::from_cols(basis * basis.x, basis * basis.y, basis * basis.z, basis * basis.w);
+        right += basis * row[column];
+    }
+    let [mean, drift, cos, sin] = (matrix.inverse() * right).to_array();
+    Fit { mean, drift, amplitude: cos.hypot(sin), phase: sin.atan2(cos).to_degrees() }
+}
+
+/// Fits of surge, heave and roll after the first full crest.
+fn fits(rows: &[Row]) -> [Fit; 3] {
+    let crest = first_full_crest(rows).expect("the box never rose to a full crest");
+    [1, 2, 3].map(|column| fit(rows, column, crest))
+}
+
+/// Angle between -180 and 180 degrees.
+fn wrapped(degrees: f64) -> f64 {
+    degrees - 360.0 * (degrees / 360.0).round()
+}
+
+/// Run, print and compare; returns amplitude ratios and phase differences [degrees] of heave and roll and the ratio of
+/// the drifts, or nothing without measurements.
+fn compare(dp: f64) -> Option<[f64; 5]> {
+    let rows = computed(dp);
+    let [surge, heave, roll] = fits(&rows);
+    println!("dp = {dp} m: surge {surge:.4?}\n    heave {heave:.4?}\n    roll {roll:.3?}");
+    let [surge_m, heave_m, roll_m] = fits(&measured()?);
+    println!("measured: surge {surge_m:.4?}\n    heave {heave_m:.4?}\n    roll {roll_m:.3?}");
+    let result = [
+        heave.amplitude / heave_m.amplitude,
+        wrapped(heave.phase - heave_m.phase),
+        roll.amplitude / roll_m.amplitude,
+        wrapped(roll.phase - roll_m.phase),
+        surge.drift / surge_m.drift,
+    ];
+    println!(
+        "dp = {dp} m: heave {:+.1} %, {:+.0} degrees; roll {:+.1} %, {:+.0} degrees; drift {:+.1} %",
+        100.0 * (result[0] - 1.0),
+        result[1],
+        100.0 * (result[2] - 1.0),
+        result[3],
+        100.0 * (result[4] - 1.0)
+    );
+    Some(result)
+}
+
+#[test]
+fn a_fit_finds_amplitude_phase_and_drift() {
+    let motion = |t: f64| 0.3 + 0.1 * t + 0.05 * (TAU * t / PERIOD - 0.5).cos();
+    let rows: Vec<Row> = (0..600).map(|i| 0.0101 * f64::from(i)).map(|t| [t, motion(t), 0.0, 0.0]).collect();
+    let found = fit(&rows, 1, 0.0);
+    assert!((found.mean - 0.3).abs() < 1e-9 && (found.drift - 0.1).abs() < 1e-9);
+    assert!((found.amplitude - 0.05).abs() < 1e-9 && (found.phase - 0.5_f64.to_degrees()).abs() < 1e-6);
+}
+
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_coarse`
+#[test]
+#[ignore = "a few minutes on 2 cores"]
+fn floating_box_coarse() {
+    compare(0.04);
+}
+
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_medium`
+#[test]
+#[ignore = "10 minutes on 2 cores"]
+fn floating_box_medium() {
+    compare(0.025);
+}
+
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_fine`
+#[test]
+#[ignore = "half an hour on 2 cores"]
+fn floating_box_fine() {
+    compare(0.02);
+}
