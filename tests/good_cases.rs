@@ -98,9 +98,9 @@ fn derived_numbers_are_those_of_the_published_run() {
     assert!((case.fluid.sound_speed - 15.0 * (9.81 * case.domain.depth).sqrt()).abs() < 1e-12);
     assert!((case.flume.profile.z(39.0) - 0.717).abs() < 1e-12);
     let Wave::Solitary(wave) = case.wave else { panic!("no wave") };
-    assert!((wave.depth - 0.8).abs() < 1e-12);
+    assert!((wave.depth_m - 0.8).abs() < 1e-12);
     // Stroke of Rayleigh's solitary wave: sqrt(16 H (H + d) / 3).
-    assert!((wave.stroke() - (16.0 * 0.064 * 0.864 / 3.0_f64).sqrt()).abs() < 1e-12);
+    assert!((wave.stroke_m() - (16.0 * 0.064 * 0.864 / 3.0_f64).sqrt()).abs() < 1e-12);
     let units = case.units.unwrap();
     assert_eq!(units.placements.len(), 15);
     assert_eq!(units.placements[0].azimuth, 0.0);

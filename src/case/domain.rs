@@ -37,10 +37,21 @@ pub struct Domain {
     pub water: Water,
     /// Largest depth of the water at the start [m].
     pub depth: f64,
+    /// When the particles start, if the flume model runs.
+    pub start: Start,
     /// Where the water is slowed down, if anywhere.
     pub damping_zone: Option<DampingZone>,
     /// Fixed boxes in the water.
     pub obstacles: Vec<AxisBox>,
+}
+
+/// Flume time at which the particles start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// At this flume time [s].
+    At(f64),
+    /// When the velocity at the wavemaker's place reaches this share of its maximum [-].
+    AtShare(f64),
 }
 
 /// Where the water stands at the start; SI units.
@@ -73,6 +84,7 @@ pub(super) fn validate(
         "write the particle distance in metres, e.g. 0.007",
     );
     check.number("domain.width_m", file.width_m, above(0.0).up_to(1e4), "m", "write the width across the flume");
+    validate_start(file, check);
     let flume = flume?;
     validate_extent(file, flume, check);
     if check.count() > before {
@@ -112,9 +124,23 @@ pub(super) fn validate(
         nz: (lengths[2] / file.dp_m).ceil() as usize,
         water,
         depth,
+        start: file.start_s.map_or(Start::AtShare(file.start_at_share), Start::At),
         damping_zone,
         obstacles,
     })
+}
+
+fn validate_start(file: &DomainFile, check: &mut Checker) {
+    if let Some(start) = file.start_s {
+        check.number("domain.start_s", start, from(0.0).up_to(1e4), "s", "write a flume time, 0 when the wave begins");
+    }
+    check.number(
+        "domain.start_at_share",
+        file.start_at_share,
+        above(0.0).below(1.0),
+        "",
+        "0.03 starts the particles just before the wave arrives",
+    );
 }
 
 fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {

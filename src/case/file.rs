@@ -13,8 +13,7 @@ pub use objects::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-pub use waves::{FlapFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile};
-pub(super) use waves::{default_flume_cell_m, default_layers, default_start_share};
+pub use waves::{FlapFile, IrregularFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile};
 
 /// A breakwater case: a flume, the water in it, the wave and the armour units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,6 +80,12 @@ pub struct FlumeFile {
     /// Material of bed and mound, one of `materials`; needed when there are units.
     #[serde(default)]
     pub material: Option<String>,
+    /// Layers of the flume model, 1 to 8.
+    #[serde(default = "default_layers")]
+    pub layers: u32,
+    /// Cell of the flume model [m].
+    #[serde(default = "default_cell_m")]
+    pub cell_m: f64,
     /// Manning's n of the bed in the flume model [s m^(-1/3)]: 0.010 glass, 0.013 smooth concrete; without it there is
     /// no friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -88,6 +93,14 @@ pub struct FlumeFile {
     /// What stands at the shoreward end of the flume model.
     #[serde(default, skip_serializing_if = "RightEndFile::is_wall")]
     pub right_end: RightEndFile,
+}
+
+fn default_layers() -> u32 {
+    2
+}
+
+fn default_cell_m() -> f64 {
+    0.05
 }
 
 /// What stands at the shoreward end of the flume model.
@@ -156,6 +169,13 @@ pub struct DomainFile {
     /// Where the water stands at the start.
     #[serde(default)]
     pub water: WaterFile,
+    /// Time of the flume model at which the particles start [s]; without it, when the velocity at the wavemaker's place
+    /// reaches `start_at_share` of its maximum.
+    #[serde(default)]
+    pub start_s: Option<f64>,
+    /// Share of the largest velocity at which the particles start [-].
+    #[serde(default = "default_start_share")]
+    pub start_at_share: f64,
     /// Where the water is slowed down, so that waves do not come back from the end of the domain.
     // Left out at its default, so that cases that do not use it keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -164,6 +184,10 @@ pub struct DomainFile {
     // Left out at its default, so that cases that do not use it keep their hash.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<BoxFile>,
+}
+
+pub(super) fn default_start_share() -> f64 {
+    0.03
 }
 
 /// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows as the square of the distance from

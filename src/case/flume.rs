@@ -7,6 +7,8 @@ use crate::waves::layered::{Friction, RightEnd};
 
 /// Coordinates beyond this are a slip of the keyboard, not a flume [m].
 const LARGEST_COORDINATE: f64 = 1e5;
+/// Cells of the flume model at most.
+const MOST_CELLS: f64 = 200_000.0;
 /// Corner points of a bed at most.
 const MOST_BED_POINTS: usize = 100_000;
 
@@ -23,6 +25,10 @@ pub struct Flume {
     pub mound: Option<Mound>,
     /// Material of bed and mound, an index into `Case::materials`.
     pub material: Option<usize>,
+    /// Layers of the flume model.
+    pub layers: usize,
+    /// Cell of the flume model [m].
+    pub cell: f64,
     /// Friction of the bed in the flume model.
     pub friction: Friction,
     /// What stands at the shoreward end of the flume model.
@@ -81,6 +87,7 @@ pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Ch
         let advice = "0.010 is glass, 0.013 smooth concrete, 0.03 gravel; leave it out for no friction";
         check.number("flume.manning_s_m13", n, from(0.0).up_to(0.2), "s m^(-1/3)", advice);
     }
+    validate_model(file, check);
     if check.count() > before {
         return None;
     }
@@ -94,7 +101,32 @@ pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Ch
         }
     };
     let friction = file.manning_s_m13.map_or(Friction::None, |n_s_m13| Friction::Manning { n_s_m13 });
-    Some(Flume { profile, bed, still_level: file.still_water_level_m, mound, material, friction, right_end })
+    let (still_level, layers, cell) = (file.still_water_level_m, file.layers as usize, file.cell_m);
+    Some(Flume { profile, bed, still_level, mound, material, layers, cell, friction, right_end })
+}
+
+fn validate_model(file: &FlumeFile, check: &mut Checker) {
+    if !(1..=8).contains(&file.layers) {
+        check.refuse(
+            "flume.layers",
+            file.layers,
+            "1 to 8",
+            "2 carry a solitary wave well, 3 a regular wave over a bar",
+        );
+    }
+    let advice = "a twentieth of the depth or of the wave length is enough, e.g. 0.05";
+    let sound = check.number("flume.cell_m", file.cell_m, from(0.005).up_to(0.5), "m", advice);
+    if let (true, [Some(first), Some(last)]) = (sound, [file.bed_m.first(), file.bed_m.last()]) {
+        let length = last[0] - first[0];
+        if length / file.cell_m > MOST_CELLS {
+            check.refuse(
+                "flume.cell_m",
+                show(file.cell_m),
+                format!("at least {} m, for {MOST_CELLS} cells in the flume", show(length / MOST_CELLS)),
+                "write a larger cell or shorten `flume.bed_m`",
+            );
+        }
+    }
 }
 
 /// The bed is known to be sound.

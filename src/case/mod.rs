@@ -30,7 +30,7 @@ mod wave;
 mod wavemaker;
 
 pub use damping_zone::DampingZone;
-pub use domain::{Domain, Water};
+pub use domain::{Domain, Start, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
 pub use file::{Boundary, DensityDiffusion, FluidField, Sides, SolitaryTheory, Viscosity, WallSlip};
@@ -46,5 +46,5 @@ pub use template::template_text;
 pub use unit_shape::UnitShape;
 pub use units::{Placement, Units};
 pub use validate::Case;
-pub use wave::{RegularWave, SolitaryWave, Start, Wave};
+pub use wave::Wave;
 pub use wavemaker::Wavemaker;

@@ -122,7 +122,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check);
     let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), check);
     let around = wave::Surroundings {
-        water: &file.domain.water,
+        domain_file: &file.domain,
         wavemaker,
         gravity: file.fluid.gravity_m_s2,
         flume: flume.as_ref(),

@@ -2,111 +2,62 @@
 
 use super::check::{Checker, above, from, show};
 use super::domain::Domain;
-use super::file::{self, RegularFile, SolitaryFile, SolitaryTheory, WaterFile, WaveFile};
+use super::file::{self, DomainFile, IrregularFile, RegularFile, SolitaryFile, SolitaryTheory, WaterFile, WaveFile};
 use super::flume::Flume;
 use super::wavemaker::{self, Wavemaker};
+use crate::waves::irregular::{IrregularWave, JonswapSea};
 use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
-use crate::waves::regular;
+use crate::waves::regular::{MeanFlow, RegularWave, WaveError};
+use crate::waves::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
+use crate::waves::stream_function::StreamFunctionWave;
 
 /// Shortest regular wave, in depths.
 const SHORTEST_LENGTH: f64 = 0.1;
-/// Cells of the flume model at most.
-const MOST_FLUME_CELLS: f64 = 200_000.0;
 
-/// The wave.
+/// The wave, for the depth where it is made: at the seaward end of the flume, or of the domain if a paddle makes it there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wave {
     /// No wave.
     None,
-    /// A solitary wave.
+    /// A solitary wave that a piston makes.
     Solitary(SolitaryWave),
+    /// A solitary wave that flows into the flume.
+    SolitaryInflow(ThirdOrderSolitary),
     /// Regular waves.
-    Regular(RegularWave),
+    Regular {
+        /// One of them.
+        wave: RegularWave,
+        /// Periods over which they grow from nothing [-].
+        ramp_periods: f64,
+    },
+    /// A sea that flows into the flume.
+    Irregular {
+        /// The sea.
+        sea: JonswapSea,
+        /// Peak periods over which it grows from nothing [-].
+        ramp_periods: f64,
+    },
 }
 
 impl Wave {
-    /// Height of the wave, if there is one [m].
+    /// Height of the wave, of a sea the significant one, if there is one [m].
     pub fn height(&self) -> Option<f64> {
         match self {
             Self::None => None,
-            Self::Solitary(wave) => Some(wave.height),
-            Self::Regular(wave) => Some(wave.height),
-        }
-    }
-}
-
-/// A solitary wave; SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolitaryWave {
-    /// Height above the still water in that depth [m].
-    pub height: f64,
-    /// Still depth at the piston that makes it [m]: at the seaward end of the flume, or of the domain.
-    pub depth: f64,
-    /// Shape of the wave.
-    pub theory: SolitaryTheory,
-    /// Layers of the flume model.
-    pub layers: usize,
-    /// Cell of the flume model [m].
-    pub flume_cell: f64,
-    /// Flume time at which the particles start.
-    pub start: Start,
-}
-
-/// Flume time at which the particles start.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Start {
-    /// At this flume time [s].
-    At(f64),
-    /// When the velocity at the wavemaker's place reaches this share of its maximum [-].
-    AtShare(f64),
-}
-
-impl SolitaryWave {
-    /// Outskirts decay coefficient k [1/m] (Goring & Raichlen 1980 for Boussinesq's wave; Guizien & Barthelemy 2002 for
-    /// Rayleigh's).
-    pub fn decay(&self) -> f64 {
-        let (height, depth) = (self.height, self.depth);
-        match self.theory {
-            SolitaryTheory::Boussinesq => (3.0 * height / (4.0 * depth.powi(3))).sqrt(),
-            SolitaryTheory::Rayleigh => (3.0 * height / (4.0 * depth.powi(2) * (depth + height))).sqrt(),
+            Self::Solitary(wave) => Some(wave.height_m),
+            Self::SolitaryInflow(wave) => Some(wave.height_m),
+            Self::Regular { wave, .. } => Some(wave.height_m),
+            Self::Irregular { sea, .. } => Some(sea.significant_height_m),
         }
     }
 
-    /// Stroke of the piston S = 2 H / (k d) [m].
-    pub fn stroke(&self) -> f64 {
-        2.0 * self.height / (self.decay() * self.depth)
-    }
-}
-
-/// Regular waves; SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RegularWave {
-    /// Height from trough to crest [m].
-    pub height: f64,
-    /// Period [s].
-    pub period: f64,
-    /// Periods over which the stroke grows [-].
-    pub ramp_periods: f64,
-    /// Still depth at the paddle [m].
-    pub depth: f64,
-    /// Gravity [m/s2].
-    pub gravity: f64,
-}
-
-impl RegularWave {
-    /// Their theory.
-    pub fn theory(&self) -> regular::RegularWave {
-        regular::RegularWave {
-            height_m: self.height,
-            period_s: self.period,
-            depth_m: self.depth,
-            gravity: self.gravity,
+    /// Period, of a sea that of its peak; none for a solitary wave [s].
+    pub fn period(&self) -> Option<f64> {
+        match self {
+            Self::None | Self::Solitary(_) | Self::SolitaryInflow(_) => None,
+            Self::Regular { wave, .. } => Some(wave.period_s),
+            Self::Irregular { sea, .. } => Some(sea.peak_period_s),
         }
-    }
-
-    /// The motion of the paddle over a bed at the level `bed_z` [m].
-    pub fn motion(&self, wavemaker: Wavemaker, bed_z: f64) -> RegularMotion {
-        RegularMotion::new(&self.theory(), wavemaker.shape(bed_z), self.ramp_periods)
     }
 }
 
@@ -118,11 +69,16 @@ impl Wavemaker {
             Self::Flap { hinge_z } => PaddleShape::Flap { hinge_m: hinge_z - bed_z },
         }
     }
+
+    /// The motion of the paddle for regular waves over a bed at the level `bed_z` [m].
+    pub fn motion(self, wave: &RegularWave, ramp_periods: f64, bed_z: f64) -> RegularMotion {
+        RegularMotion::new(wave, self.shape(bed_z), ramp_periods)
+    }
 }
 
 /// What the wave is validated against.
 pub(super) struct Surroundings<'a> {
-    pub water: &'a WaterFile,
+    pub domain_file: &'a DomainFile,
     pub wavemaker: Wavemaker,
     pub gravity: f64,
     pub flume: Option<&'a Flume>,
@@ -135,8 +91,9 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
         WaveFile::None {} => return Some(Wave::None),
         WaveFile::Solitary(_) => ("\"solitary\"", check.count()),
         WaveFile::Regular(_) => ("\"regular\"", check.count()),
+        WaveFile::Irregular(_) => ("\"irregular\"", check.count()),
     };
-    if matches!(around.water, WaterFile::Block(_)) {
+    if matches!(around.domain_file.water, WaterFile::Block(_)) {
         check.refuse(
             "wave.kind",
             kind,
@@ -144,10 +101,14 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
             "remove `domain.water` for a wave, or `wave` for a dam break",
         );
     }
+    if around.wavemaker != Wavemaker::MlPiston {
+        refuse_start(around.domain_file, check);
+    }
     let wave = match file {
         WaveFile::None {} => Some(Wave::None),
-        WaveFile::Solitary(file) => validate_solitary(file, around, check).map(Wave::Solitary),
-        WaveFile::Regular(file) => validate_regular(file, around, check).map(Wave::Regular),
+        WaveFile::Solitary(file) => validate_solitary(file, around, check),
+        WaveFile::Regular(file) => validate_regular(file, around, check),
+        WaveFile::Irregular(file) => validate_irregular(file, around, check),
     }?;
     if check.count() > before {
         return None;
@@ -156,133 +117,23 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
     (check.count() == before).then_some(wave)
 }
 
-fn validate_solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Checker) -> Option<SolitaryWave> {
-    validate_numbers(file, check);
-    let flume = around.flume?;
-    let depth = if around.wavemaker == Wavemaker::MlPiston {
-        flume.offshore_depth()
-    } else {
-        refuse_keys_of_the_flume_model(file, check);
-        around.depth_at_paddle()?
-    };
-    validate_height(file.height_m, depth, flume, check);
-    let length = flume.ends()[1] - flume.ends()[0];
-    if file.flume_cell_m > 0.0 && length / file.flume_cell_m > MOST_FLUME_CELLS {
-        check.refuse(
-            "wave.flume_cell_m",
-            show(file.flume_cell_m),
-            format!("at least {} m, for {MOST_FLUME_CELLS} cells in the flume", show(length / MOST_FLUME_CELLS)),
-            "write a larger cell or shorten `flume.bed_m`",
-        );
-    }
-    Some(SolitaryWave {
-        height: file.height_m,
-        depth,
-        theory: file.theory,
-        layers: file.layers as usize,
-        flume_cell: file.flume_cell_m,
-        start: file.start_s.map_or(Start::AtShare(file.start_at_share), Start::At),
-    })
-}
-
 /// Keys that would be of no effect.
-fn refuse_keys_of_the_flume_model(file: &SolitaryFile, check: &mut Checker) {
-    let given = [
-        ("layers", f64::from(file.layers), f64::from(file::default_layers())),
-        ("flume_cell_m", file.flume_cell_m, file::default_flume_cell_m()),
-        ("start_at_share", file.start_at_share, file::default_start_share()),
-    ];
-    let changed = given.into_iter().filter(|(_, value, default)| value != default).map(|(key, value, _)| (key, value));
-    for (key, value) in changed.chain(file.start_s.map(|start| ("start_s", start))) {
-        check.refuse(
-            &format!("wave.{key}"),
-            show(value),
-            "left out while `wavemaker.kind` is \"piston\"",
-            "it belongs to the flume model, which does not run: the piston starts in still water with the particles",
-        );
+fn refuse_start(file: &DomainFile, check: &mut Checker) {
+    let share = Some(file.start_at_share).filter(|&share| share != file::default_start_share());
+    for (key, value) in [("start_s", file.start_s), ("start_at_share", share)] {
+        if let Some(value) = value {
+            check.refuse(
+                &format!("domain.{key}"),
+                show(value),
+                "left out while `wavemaker.kind` is \"piston\" or \"flap\"",
+                "it is a time of the flume model, which does not run: the paddle starts in still water with the particles",
+            );
+        }
     }
 }
 
-fn validate_regular(file: &RegularFile, around: &Surroundings, check: &mut Checker) -> Option<RegularWave> {
-    let sound = check.number("wave.period_s", file.period_s, from(0.01).up_to(1e4), "s", "write the period in seconds");
-    check.number(
-        "wave.ramp_periods",
-        file.ramp_periods,
-        from(0.5).up_to(100.0),
-        "",
-        "2 lets the paddle start without a splash",
-    );
-    let depth = around.depth_at_paddle()?;
-    if depth <= 0.0 {
-        check.refuse(
-            "domain.x_m[0]",
-            show(around.domain?.x[0]),
-            "in still water (the bed there is dry)",
-            "a paddle stands in the water at the seaward end of the domain",
-        );
-    }
-    // Gravity that pulls the wrong way is refused with the fluid.
-    if !sound || depth <= 0.0 || around.gravity.is_nan() || around.gravity <= 0.0 {
-        return None;
-    }
-    let wave = RegularWave {
-        height: file.height_m,
-        period: file.period_s,
-        ramp_periods: file.ramp_periods,
-        depth,
-        gravity: around.gravity,
-    };
-    let length = wave.theory().length_m();
-    if length < SHORTEST_LENGTH * depth {
-        check.refuse(
-            "wave.period_s",
-            show(file.period_s),
-            format!("long enough for a wave of at least {} m, a tenth of the depth", show(SHORTEST_LENGTH * depth)),
-            "such short waves move nothing but the surface: make the domain shallower or write a longer period",
-        );
-        return None;
-    }
-    check.number(
-        "wave.height_m",
-        file.height_m,
-        above(0.0).up_to(wave.theory().breaking_height_m()),
-        "m",
-        &format!("higher waves of this period, {} m long in {} m of water, break", show(length), show(depth)),
-    );
-    Some(wave)
-}
-
-impl Surroundings<'_> {
-    /// Still depth where a paddle stands [m].
-    fn depth_at_paddle(&self) -> Option<f64> {
-        Some(self.flume?.still_depth(self.domain?.x[0]))
-    }
-}
-
-fn validate_numbers(file: &SolitaryFile, check: &mut Checker) {
-    if !(1..=8).contains(&file.layers) {
-        check.refuse("wave.layers", file.layers, "1 to 8", "2 carry a solitary wave well");
-    }
-    check.number(
-        "wave.flume_cell_m",
-        file.flume_cell_m,
-        from(0.005).up_to(0.5),
-        "m",
-        "a twentieth of the depth is enough, e.g. 0.05",
-    );
-    if let Some(start) = file.start_s {
-        check.number("wave.start_s", start, from(0.0).up_to(1e4), "s", "write a flume time, 0 when the piston starts");
-    }
-    check.number(
-        "wave.start_at_share",
-        file.start_at_share,
-        above(0.0).below(1.0),
-        "",
-        "0.03 starts the particles just before the wave arrives",
-    );
-}
-
-fn validate_height(height: f64, depth: f64, flume: &Flume, check: &mut Checker) {
+fn validate_solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
+    let (flume, depth) = (around.flume?, around.depth()?);
     if depth <= 0.0 {
         check.refuse(
             "flume.still_water_level_m",
@@ -290,14 +141,142 @@ fn validate_height(height: f64, depth: f64, flume: &Flume, check: &mut Checker) 
             format!("above the bed at the wavemaker, {} m", show(flume.still_level - depth)),
             "a solitary wave starts in still water at the seaward end of the bed",
         );
-        return;
+        return None;
     }
-    // Beyond 0.6 d neither theory is near the exact wave; beyond 0.78 d it would break.
+    // Beyond 0.6 d no theory is near the exact wave; beyond 0.78 d it would break.
     check.number(
         "wave.height_m",
-        height,
+        file.height_m,
         above(0.0).up_to(0.6 * depth),
         "m",
         &format!("at most 0.6 of the offshore depth, {} m", show(depth)),
     );
+    let (height_m, depth_m, gravity) = (file.height_m, depth, around.gravity);
+    let piston = |theory| Wave::Solitary(SolitaryWave { height_m, depth_m, gravity, theory });
+    Some(match file.theory {
+        SolitaryTheory::Boussinesq => piston(PistonTheory::Boussinesq),
+        SolitaryTheory::Rayleigh => piston(PistonTheory::Rayleigh),
+        SolitaryTheory::ThirdOrder => {
+            if around.wavemaker != Wavemaker::MlPiston {
+                check.refuse(
+                    "wave.theory",
+                    "\"third_order\"",
+                    "\"rayleigh\" or \"boussinesq\" with a piston in the particles",
+                    "a wave of third order flows into the flume model: leave `wavemaker` out for it",
+                );
+            }
+            Wave::SolitaryInflow(ThirdOrderSolitary { height_m, depth_m, gravity })
+        }
+    })
+}
+
+fn validate_regular(file: &RegularFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
+    let sound = check.number("wave.period_s", file.period_s, from(0.01).up_to(1e4), "s", "write the period in seconds");
+    validate_ramp(file.ramp_periods, check);
+    let depth = around.wet_depth(check)?;
+    if !sound || around.gravity.is_nan() || around.gravity <= 0.0 {
+        return None;
+    }
+    let (height_m, period_s, gravity) = (file.height_m, file.period_s, around.gravity);
+    let wave = RegularWave { height_m, period_s, depth_m: depth, gravity };
+    let length = wave.length_m();
+    if length < SHORTEST_LENGTH * depth {
+        check.refuse(
+            "wave.period_s",
+            show(period_s),
+            format!("long enough for a wave of at least {} m, a tenth of the depth", show(SHORTEST_LENGTH * depth)),
+            "such short waves move nothing but the surface: make the domain shallower or write a longer period",
+        );
+        return None;
+    }
+    let sound = check.number(
+        "wave.height_m",
+        height_m,
+        above(0.0).up_to(wave.breaking_height_m()),
+        "m",
+        &format!("higher waves of this period, {} m long in {} m of water, break", show(length), show(depth)),
+    );
+    if sound && around.wavemaker == Wavemaker::MlPiston {
+        let permanent = StreamFunctionWave::new(wave, MeanFlow::NoTransport);
+        refuse_impossible(permanent.err(), "wave.height_m", height_m, check);
+    }
+    Some(Wave::Regular { wave, ramp_periods: file.ramp_periods })
+}
+
+fn validate_irregular(file: &IrregularFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
+    let before = check.count();
+    let period = "write the period of the spectrum's peak in seconds";
+    check.number("wave.peak_period_s", file.peak_period_s, from(0.01).up_to(1e4), "s", period);
+    check.number("wave.peak_enhancement", file.peak_enhancement, from(1.0).up_to(10.0), "", "3.3 is the average");
+    // The longest is what 5,000 waves can make.
+    let repeat = "200 repeats after two hundred peak periods";
+    check.number("wave.repeat_periods", file.repeat_periods, from(20.0).up_to(2000.0), "", repeat);
+    validate_ramp(file.ramp_periods, check);
+    let depth = around.wet_depth(check)?;
+    // Twice this height, the highest wave in 3,000, is what a solitary wave breaks at.
+    let height = format!("at most 0.4 of the depth, {} m", show(depth));
+    check.number("wave.significant_height_m", file.significant_height_m, above(0.0).up_to(0.4 * depth), "m", &height);
+    if check.count() > before || around.gravity.is_nan() || around.gravity <= 0.0 {
+        return None;
+    }
+    let sea = JonswapSea {
+        significant_height_m: file.significant_height_m,
+        peak_period_s: file.peak_period_s,
+        peak_enhancement: file.peak_enhancement,
+        depth_m: depth,
+        gravity: around.gravity,
+        repeat_s: file.repeat_periods * file.peak_period_s,
+        seed: file.seed,
+    };
+    let drawn = IrregularWave::new(sea);
+    refuse_impossible(drawn.err(), "wave.significant_height_m", file.significant_height_m, check);
+    Some(Wave::Irregular { sea, ramp_periods: file.ramp_periods })
+}
+
+/// What the theory of the wave itself refuses.
+fn refuse_impossible(error: Option<WaveError>, path: &str, value: f64, check: &mut Checker) {
+    if let Some(error) = error {
+        let advice = "lower the wave, or write another period or depth";
+        check.refuse(path, show(value), format!("the height of a wave that exists ({error})"), advice);
+    }
+}
+
+fn validate_ramp(ramp_periods: f64, check: &mut Checker) {
+    let advice = "2 lets the waves start without a splash";
+    check.number("wave.ramp_periods", ramp_periods, from(0.5).up_to(100.0), "", advice);
+}
+
+impl Surroundings<'_> {
+    /// Still depth where the wave is made [m].
+    fn depth(&self) -> Option<f64> {
+        let flume = self.flume?;
+        if self.wavemaker == Wavemaker::MlPiston {
+            return Some(flume.offshore_depth());
+        }
+        Some(flume.still_depth(self.domain?.x[0]))
+    }
+
+    /// The same, above zero.
+    fn wet_depth(&self, check: &mut Checker) -> Option<f64> {
+        let depth = self.depth()?;
+        if depth > 0.0 {
+            return Some(depth);
+        }
+        if self.wavemaker == Wavemaker::MlPiston {
+            check.refuse(
+                "flume.still_water_level_m",
+                show(self.flume?.still_level),
+                format!("above the bed at the seaward end, {} m", show(self.flume?.still_level - depth)),
+                "waves flow in where there is water",
+            );
+        } else {
+            check.refuse(
+                "domain.x_m[0]",
+                show(self.domain?.x[0]),
+                "in still water (the bed there is dry)",
+                "a paddle stands in the water at the seaward end of the domain",
+            );
+        }
+        None
+    }
 }

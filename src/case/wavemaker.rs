@@ -4,7 +4,8 @@ use super::check::{Checker, from, show};
 use super::domain::Domain;
 use super::file::{WaveFile, WavemakerFile};
 use super::flume::Flume;
-use super::wave::{RegularWave, SolitaryWave, Wave};
+use super::wave::Wave;
+use crate::waves::regular::RegularWave;
 
 /// Share of the domain's length that a paddle may sweep.
 const LARGEST_SWEEP: f64 = 0.5;
@@ -43,10 +44,10 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
             "\"ml_piston\" or \"piston\" for a solitary wave",
             "a solitary wave moves the water to the bed: no flap makes it",
         ),
-        (WaveFile::Regular(_), WavemakerFile::MlPiston {}) => refuse(
+        (WaveFile::Irregular(_), WavemakerFile::Piston {} | WavemakerFile::Flap(_)) => refuse(
             name(file),
-            "\"piston\" or \"flap\" for regular waves",
-            "write \"wavemaker\": { \"kind\": \"piston\" }; the flume model, which an \"ml_piston\" follows, makes solitary waves only",
+            "\"ml_piston\" for irregular waves",
+            "leave `wavemaker` out: the flume model carries the sea to the domain",
         ),
         _ => {}
     }
@@ -90,16 +91,22 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
     }
     match wave {
         Wave::None => {}
-        Wave::Solitary(wave) if wavemaker == Wavemaker::MlPiston => validate_distance(wave, flume, domain, check),
+        Wave::Solitary(wave) if wavemaker == Wavemaker::MlPiston => {
+            validate_distance("the piston's reach", flume.ends()[0] + wave.stroke_m(), domain, check);
+        }
+        _ if wavemaker == Wavemaker::MlPiston => {
+            validate_distance("a depth from the inflow", flume.ends()[0] + flume.offshore_depth(), domain, check);
+        }
+        Wave::SolitaryInflow(_) | Wave::Irregular { .. } => {}
         Wave::Solitary(wave) => {
-            validate_sweep(wave.stroke(), "wave.height_m", wave.height, domain, check);
+            validate_sweep(wave.stroke_m(), wave.height_m, domain, check);
             warn_of_slope(flume, domain, depth, check);
         }
-        Wave::Regular(wave) => {
+        Wave::Regular { wave, ramp_periods } => {
             let bed_z = flume.profile.z(domain.x[0]);
             let at_top = wavemaker.shape(bed_z).share(domain.top_z - bed_z, depth).max(1.0);
-            let stroke = 2.0 * at_top * wave.motion(wavemaker, bed_z).reach_m();
-            validate_sweep(stroke, "wave.height_m", wave.height, domain, check);
+            let stroke = 2.0 * at_top * wavemaker.motion(wave, *ramp_periods, bed_z).reach_m();
+            validate_sweep(stroke, wave.height_m, domain, check);
             warn_of_slope(flume, domain, depth, check);
             warn_of_order(wave, wavemaker, check);
         }
@@ -115,23 +122,22 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
     }
 }
 
-fn validate_distance(wave: &SolitaryWave, flume: &Flume, domain: &Domain, check: &mut Checker) {
-    let nearest = flume.ends()[0] + wave.stroke();
+fn validate_distance(beyond: &str, nearest: f64, domain: &Domain, check: &mut Checker) {
     if domain.x[0] <= nearest {
         check.refuse(
             "domain.x_m[0]",
             show(domain.x[0]),
-            format!("beyond the piston's reach, > {} m", show(nearest)),
+            format!("beyond {beyond}, > {} m", show(nearest)),
             "start the domain further from the wavemaker; the flume model carries the wave there",
         );
     }
 }
 
-fn validate_sweep(stroke: f64, path: &str, height: f64, domain: &Domain, check: &mut Checker) {
+fn validate_sweep(stroke: f64, height: f64, domain: &Domain, check: &mut Checker) {
     let most = LARGEST_SWEEP * (domain.x[1] - domain.x[0]);
     if stroke.is_nan() || stroke > most {
         check.refuse(
-            path,
+            "wave.height_m",
             show(height),
             format!(
                 "such that the stroke of the paddle, {} m, is at most half of the domain's length, {} m",
@@ -157,11 +163,11 @@ fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker
 }
 
 fn warn_of_order(wave: &RegularWave, wavemaker: Wavemaker, check: &mut Checker) {
-    if wavemaker == Wavemaker::Piston && !wave.theory().is_second_order() {
+    if wavemaker == Wavemaker::Piston && !wave.is_second_order() {
         check.warn(format!(
             "wave.height_m = {}: H L^2 / d^3 exceeds 8 pi^2 / 3, where the second-order motion of the piston holds no longer \
              (Madsen 1971); a free second wave will follow each crest",
-            show(wave.height)
+            show(wave.height_m)
         ));
     }
 }

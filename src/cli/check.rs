@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{Trouble, load};
 use crate::{
-    case::{Case, Wave},
+    case::{Case, Wave, Wavemaker},
     simulation::progress::readable,
 };
 
@@ -44,15 +44,29 @@ fn print(case: &Case) {
     match &case.wave {
         Wave::None => println!("  wave        none"),
         Wave::Solitary(wave) => {
-            println!("  wave        solitary, H = {} m in {} m of water", wave.height, wave.depth);
+            println!("  wave        solitary, H = {} m in {} m of water", wave.height_m, wave.depth_m);
         }
-        Wave::Regular(wave) => println!(
-            "  wave        regular, H = {} m, T = {} s, {:.3} m long in {} m of water; stroke {:.4} m at the surface",
-            wave.height,
-            wave.period,
-            wave.theory().length_m(),
-            wave.depth,
-            wave.motion(case.wavemaker, case.flume.profile.z(case.domain.x[0])).stroke_m()
+        Wave::SolitaryInflow(wave) => {
+            println!("  wave        solitary, H = {} m, flows into {} m of water", wave.height_m, wave.depth_m);
+        }
+        Wave::Regular { wave, ramp_periods } => {
+            print!(
+                "  wave        regular, H = {} m, T = {} s, {:.3} m long in {} m of water",
+                wave.height_m,
+                wave.period_s,
+                wave.length_m(),
+                wave.depth_m
+            );
+            if case.wavemaker == Wavemaker::MlPiston {
+                println!("; flows into the flume");
+            } else {
+                let motion = case.wavemaker.motion(wave, *ramp_periods, case.flume.profile.z(case.domain.x[0]));
+                println!("; stroke {:.4} m at the surface", motion.stroke_m());
+            }
+        }
+        Wave::Irregular { sea, .. } => println!(
+            "  wave        irregular, H_s = {} m, T_p = {} s, gamma = {}, seed {}, in {} m of water",
+            sea.significant_height_m, sea.peak_period_s, sea.peak_enhancement, sea.seed, sea.depth_m
         ),
     }
     println!(

@@ -8,7 +8,7 @@ use super::{Trouble, fresh_folder, load, stem};
 use crate::{
     case::{Wave, Wavemaker},
     output::{OutputError, write_atomically, write_flume_gauges, write_wave_page},
-    simulation::setup::{ml_piston, particle_start, run_flume},
+    simulation::incoming::{ml_piston, particle_start, run_flume},
 };
 
 /// Run the wave along the flume without particles, in seconds: gauges, the ML-piston's motion and a plot.

@@ -3,6 +3,7 @@
 //! | file | what it does |
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | make a simulation of a case |
+//! | [`incoming`] | make its wave, in the flume model or by a paddle |
 //! | this one | one step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
 //! | `damping` | slowing the water down before the end of the domain |
@@ -26,6 +27,7 @@ pub mod energy;
 pub mod extremes;
 pub mod failure;
 mod impermeable;
+pub mod incoming;
 pub mod mean_loads;
 pub mod progress;
 pub mod recorder;

@@ -7,12 +7,13 @@ use thiserror::Error;
 
 use super::{
     Simulation, Units,
+    incoming::{particle_start, run_flume, wavemaker},
     mean_loads::MeanLoads,
     scheme::{parameters, tait},
     statistics::Statistics,
 };
 use crate::{
-    case::{self, Case, Quantity, Start, UnitShape, Wave},
+    case::{self, Case, UnitShape},
     geometry::{
         armour_unit::{ArmourUnit, ArmourUnitError},
         profile::Profile,
@@ -27,27 +28,8 @@ use crate::{
     },
     rigid::{self, BodyShape, BodyState, Friction, Ground, RigidError, RigidSetup, RigidWorld},
     sph::step::Solver,
-    waves::{
-        flume::{self, FlumeError, FlumeSetup, WaveSource},
-        layered::{Breaking, Pressure},
-        ml_piston::{MlPiston, start_time},
-        paddle::{Paddle, PaddleMotion},
-        record::FlumeRecord,
-        solitary::SolitaryWave,
-        wavemaker::Wavemaker,
-    },
+    waves::{flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
-
-/// Time between records of the flume model and knots of the piston [s]: a solitary wave of these flumes takes seconds to
-/// pass.
-const FLUME_INTERVAL: f64 = 0.02;
-
-/// The flume's flow is recorded this far beyond both ends of the particles [m]: the piston's particles wander.
-const FLUME_MARGIN: f64 = 1.5;
-
-/// Longest flume time that is looked through for the arrival of the wave, as a multiple of the time that a long wave
-/// takes from the paddle to the particles.
-const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
 /// Why a case cannot be set up.
 #[derive(Debug, Error)]
@@ -74,83 +56,6 @@ pub enum SetupError {
     /// The units cannot stand where the case puts them.
     #[error(transparent)]
     Rigid(#[from] RigidError),
-}
-
-/// Run the flume model of the case, if its wave comes from there, for as long as the particles will run.
-///
-/// # Errors
-/// If the flume model fails.
-pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
-    let (Wave::Solitary(wave), case::Wavemaker::MlPiston) = (&case.wave, case.wavemaker) else { return Ok(None) };
-    let [x0, x1] = case.domain.x;
-    let mean_depth = 0.5 * (wave.depth + case.flume.still_depth(x0));
-    let arrival = ARRIVAL_ALLOWANCE * x0 / (case.fluid.gravity * mean_depth).sqrt();
-    let latest_start = match wave.start {
-        Start::At(start) => start,
-        Start::AtShare(_) => arrival,
-    };
-    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
-    let record = flume::run(&FlumeSetup {
-        profile: case.flume.profile.clone(),
-        still_level_m: case.flume.still_level,
-        gravity_m_s2: case.fluid.gravity,
-        wave: WaveSource::Piston(solitary_wave(case, wave)),
-        right_end: case.flume.right_end,
-        pressure: Pressure::NonHydrostatic,
-        friction: case.flume.friction,
-        breaking: Breaking::default(),
-        layers: wave.layers,
-        cell_m: wave.flume_cell,
-        gauges_x_m: gauges.map(|gauge| gauge.at[0]).collect(),
-        profile_times_s: Vec::new(),
-        window_x_m: [x0 - FLUME_MARGIN, x1 + FLUME_MARGIN],
-        record_interval_s: FLUME_INTERVAL,
-        end_s: latest_start + case.stop.duration,
-    })?;
-    Ok(Some(record))
-}
-
-fn solitary_wave(case: &Case, wave: &case::SolitaryWave) -> SolitaryWave {
-    SolitaryWave { height_m: wave.height, depth_m: wave.depth, gravity: case.fluid.gravity, theory: wave.theory }
-}
-
-/// Flume time at which the particles start [s].
-pub fn particle_start(case: &Case, record: &FlumeRecord) -> f64 {
-    match &case.wave {
-        Wave::None | Wave::Regular(_) => 0.0,
-        Wave::Solitary(wave) => match wave.start {
-            Start::At(start) => start,
-            Start::AtShare(share) => start_time(record, case.domain.x[0], share),
-        },
-    }
-}
-
-/// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
-pub fn wavemaker_rows(case: &Case) -> Vec<f64> {
-    let (bed, dp) = (case.flume.profile.z(case.domain.x[0]), case.domain.dp);
-    (0..).map(|row| bed + (f64::from(row) + 0.5) * dp).take_while(|&z| z < case.domain.top_z).collect()
-}
-
-/// The multi-layer piston of the case's wave.
-pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
-    let end = (start + case.stop.duration).max(start + FLUME_INTERVAL);
-    MlPiston::from_record(record, case.domain.x[0], &wavemaker_rows(case), start, end, FLUME_INTERVAL)
-}
-
-/// What makes the case's wave in the particles, if it has one.
-fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
-    if let Some(record) = flume {
-        return Some(Wavemaker::MlPiston(ml_piston(case, record, start)));
-    }
-    let place = case.domain.x[0];
-    let bed = case.flume.profile.z(place);
-    let (motion, depth) = match &case.wave {
-        Wave::None => return None,
-        Wave::Solitary(wave) => (PaddleMotion::Solitary(solitary_wave(case, wave)), wave.depth),
-        Wave::Regular(wave) => (PaddleMotion::Regular(wave.motion(case.wavemaker, bed)), wave.depth),
-    };
-    let shape = case.wavemaker.shape(bed);
-    Some(Wavemaker::Paddle(Paddle::new(place, wavemaker_rows(case), [bed, depth], shape, motion)))
 }
 
 impl Simulation {

@@ -9,6 +9,7 @@ use crate::{
         ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, Stopped, Summary, Table,
         TimeStepSummary, UnitSummary, WaveSummary, columns,
     },
+    waves::solitary::PistonTheory,
 };
 
 /// Summary of a run whose series lie in `dir`.
@@ -78,18 +79,18 @@ fn particle_counts(simulation: &Simulation) -> ParticleCounts {
 }
 
 fn wave(case: &Case) -> Option<WaveSummary> {
-    let (kind, theory, period_s) = match &case.wave {
-        Wave::None => return None,
-        Wave::Solitary(wave) => {
-            let theory = serde_json::to_value(wave.theory).ok().and_then(|t| t.as_str().map(str::to_owned));
-            ("solitary", theory.unwrap_or_default(), None)
-        }
-        Wave::Regular(wave) => {
-            let flap = matches!(case.wavemaker, Wavemaker::Flap { .. });
-            ("regular", (if flap { "biesel" } else { "madsen" }).to_owned(), Some(wave.period))
-        }
+    let (kind, theory) = match (&case.wave, case.wavemaker) {
+        (Wave::None, _) => return None,
+        (Wave::Solitary(wave), _) if wave.theory == PistonTheory::Boussinesq => ("solitary", "boussinesq"),
+        (Wave::Solitary(_), _) => ("solitary", "rayleigh"),
+        (Wave::SolitaryInflow(_), _) => ("solitary", "third_order"),
+        (Wave::Regular { .. }, Wavemaker::MlPiston) => ("regular", "stream_function"),
+        (Wave::Regular { .. }, Wavemaker::Piston) => ("regular", "madsen"),
+        (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
+        (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),
     };
-    Some(WaveSummary { kind: kind.to_owned(), theory, height_m: case.wave.height()?, period_s })
+    let (kind, theory) = (kind.to_owned(), theory.to_owned());
+    Some(WaveSummary { kind, theory, height_m: case.wave.height()?, period_s: case.wave.period() })
 }
 
 fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {

@@ -6,6 +6,7 @@ use crate::geometry::profile::Profile;
 use crate::waves::incoming::IncomingWave;
 use crate::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
 use crate::waves::record::{FlumeRecord, SurfaceProfile};
+use crate::waves::regular::WaveError;
 use crate::waves::solitary::SolitaryWave;
 
 /// Most layers the model takes: the vertical profile of these long waves is resolved by two or three.
@@ -101,6 +102,9 @@ pub enum FlumeError {
         /// What would be allowed.
         allowed: String,
     },
+    /// A wave that cannot be made.
+    #[error(transparent)]
+    Wave(#[from] WaveError),
     /// The computation went astray.
     #[error("flume: unstable at t = {time_s:.3} s, x = {x_m:.3} m; try a smaller cell or fewer layers")]
     Unstable {
@@ -276,10 +280,10 @@ fn take_record(flume: &LayeredFlume, record: &mut FlumeRecord) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::file::SolitaryTheory;
+    use crate::waves::solitary::PistonTheory;
 
     fn piston(height_m: f64, depth_m: f64) -> WaveSource {
-        WaveSource::Piston(SolitaryWave { height_m, depth_m, gravity: 9.81, theory: SolitaryTheory::Rayleigh })
+        WaveSource::Piston(SolitaryWave { height_m, depth_m, gravity: 9.81, theory: PistonTheory::Rayleigh })
     }
 
     /// A level flume of 24 m with a wall at its end.

@@ -28,7 +28,11 @@ pub struct MlPiston {
 }
 
 impl MlPiston {
-    /// Rows at the given levels z [m] standing at `x0_m` at `start_s`, moving until `end_s`, from knots `interval_s` apart.
+    /// Rows at the given levels z [m] standing at `x0_m` at the start, moving until the end [s], from knots `interval_s`
+    /// apart.
+    ///
+    /// In periodic waves the water drifts, at the surface with the waves and below against them, and would carry the rows
+    /// ever further apart. With `drawn_back_s` they are drawn back to where they stood, in this time [s], a few periods.
     ///
     /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at its end.
     ///
@@ -38,25 +42,36 @@ impl MlPiston {
         record: &FlumeRecord,
         x0_m: f64,
         row_heights_m: &[f64],
-        start_s: f64,
-        end_s: f64,
+        [start_s, end_s]: [f64; 2],
         interval_s: f64,
+        drawn_back_s: Option<f64>,
     ) -> Self {
         assert!(!row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s, "a piston needs rows and time");
         let window = &record.window_x_m;
         assert!((window[0]..=window[window.len() - 1]).contains(&x0_m), "x0 = {x0_m} lies outside the record's window");
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
-        let mut particles = particles_at_start(record, x0_m, row_heights_m, start_s);
+        let standing = particles_at_start(record, x0_m, row_heights_m, start_s);
+        let mut particles = standing.clone();
         let mut velocities = vec![Vec::with_capacity(knots); row_heights_m.len()];
         for knot in 0..knots {
             let t = start_s + knot as f64 * interval_s;
-            let mut speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
+            let back = |x: f64| drawn_back_s.map_or(0.0, |time| (x0_m - x) / time);
+            let mut speeds: Vec<[f64; 2]> =
+                particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0 + back(x)]).collect();
             // Particles keep their order in height but for those that touch the bed or a broken surface.
             speeds.sort_by(|a, b| a[0].total_cmp(&b[0]));
             for (series, &height) in velocities.iter_mut().zip(row_heights_m) {
                 series.push(at_height(&speeds, height));
             }
-            particles.iter_mut().for_each(|p| *p = follow(record, *p, t, interval_s));
+            for (particle, standing) in particles.iter_mut().zip(&standing) {
+                *particle = follow(record, *particle, t, interval_s);
+                if let Some(time) = drawn_back_s {
+                    let share = 1.0 - (-interval_s / time).exp();
+                    for (now, start) in particle.iter_mut().zip(standing) {
+                        *now += share * (start - *now);
+                    }
+                }
+            }
         }
         Self::from_velocities(x0_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
     }
@@ -112,6 +127,19 @@ impl MlPiston {
             Knot::After => d[d.len() - 1],
             Knot::At(i, share) => d[i] + self.interval_s * share * (v[i] + 0.5 * share * (v[i + 1] - v[i])),
         }
+    }
+
+    /// How far a row goes seaward of its place at rest [m]: nothing, if it is less than the distance of two rows, which
+    /// lies within the layers behind them.
+    pub fn seaward_reach_m(&self) -> f64 {
+        let furthest = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
+        let spacing = self.row_heights_m.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        if -furthest < spacing { 0.0 } else { -furthest }
+    }
+
+    /// How far a row goes shoreward of its place at rest [m].
+    pub fn shoreward_reach_m(&self) -> f64 {
+        self.displacements.iter().flatten().fold(0.0, |most, &d| most.max(d))
     }
 
     /// Velocity of a row [m/s] at t [s] of the flume, the derivative of the displacement: 0 before the start and after
@@ -237,7 +265,7 @@ mod tests {
     #[test]
     fn rows_follow_the_water() {
         let record = record();
-        let piston = MlPiston::from_record(&record, 1.0, &[0.2, 0.9, 1.4], 0.5, 4.5, 0.02);
+        let piston = MlPiston::from_record(&record, 1.0, &[0.2, 0.9, 1.4], [0.5, 4.5], 0.02, None);
         let (mut x, mut t, dt) = (1.0, 0.5, 1e-4);
         for i in 0..30_000 {
             let middle = x + 0.5 * dt * wave(x, t);
@@ -257,7 +285,7 @@ mod tests {
 
     #[test]
     fn velocity_is_the_derivative_and_the_ends_hold() {
-        let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], 0.5, 2.5, 0.1);
+        let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], [0.5, 2.5], 0.1, None);
         for i in 0..40 {
             let (t, h) = (0.53 + 0.0481 * f64::from(i), 1e-6);
             let slope = (piston.displacement_m(0, t + h) - piston.displacement_m(0, t - h)) / (2.0 * h);
@@ -286,7 +314,7 @@ mod tests {
 
     #[test]
     fn file_lists_the_rows() {
-        let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], 0.5, 0.56, 0.02);
+        let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], [0.5, 0.56], 0.02, None);
         let mut file = Vec::new();
         piston.write_velx(&mut file).unwrap();
         let back = Velx::read(file.as_slice()).unwrap();

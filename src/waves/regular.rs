@@ -38,6 +38,14 @@ impl RegularWave {
         TAU / self.number_per_m()
     }
 
+    /// Speed at which the energy travels [m/s]: omega / (2 k) (1 + 2kd / sinh 2kd).
+    pub fn group_velocity_m_s(&self) -> f64 {
+        let k = self.number_per_m();
+        let twice = 2.0 * k * self.depth_m;
+        // Beyond 700 the hyperbolic sine is infinite and the quotient zero, as it should be.
+        0.5 * self.angular_frequency() / k * (1.0 + twice / twice.sinh())
+    }
+
     /// Height at which the wave would break, 0.142 L tanh(k d) [m] (Miche 1944).
     pub fn breaking_height_m(&self) -> f64 {
         MICHE * self.length_m() * (self.number_per_m() * self.depth_m).tanh()

@@ -4,12 +4,19 @@
 //! * Guizien & Barthelemy (2002), "Accuracy of solitary wave generation by a piston wave maker": Rayleigh's outskirt.
 //! * Grimshaw (1971), Fenton (1972): third-order solitary wave.
 
-use crate::case::file::SolitaryTheory;
-
 /// Newton steps for the phase: the first guess is within 1e-2, five steps reach rounding.
 const NEWTON_STEPS: usize = 5;
 /// Phase at which the piston starts and stops; sech^2(3.8) = 0.002 of the crest.
 const END_PHASE: f64 = 3.8;
+
+/// What a piston follows to make a solitary wave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PistonTheory {
+    /// Goring & Raichlen (1980).
+    Boussinesq,
+    /// Guizien & Barthelemy (2002); nearer to the exact wave.
+    Rayleigh,
+}
 
 /// A solitary wave made by a piston in still water.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +28,7 @@ pub struct SolitaryWave {
     /// Gravity g [m/s2].
     pub gravity: f64,
     /// Shape of the wave.
-    pub theory: SolitaryTheory,
+    pub theory: PistonTheory,
 }
 
 impl SolitaryWave {
@@ -29,8 +36,8 @@ impl SolitaryWave {
     pub fn outskirt_per_m(&self) -> f64 {
         let (height, d) = (self.height_m, self.depth_m);
         match self.theory {
-            SolitaryTheory::Boussinesq => (3.0 * height / (4.0 * d.powi(3))).sqrt(),
-            SolitaryTheory::Rayleigh => (3.0 * height / (4.0 * d * d * (d + height))).sqrt(),
+            PistonTheory::Boussinesq => (3.0 * height / (4.0 * d.powi(3))).sqrt(),
+            PistonTheory::Rayleigh => (3.0 * height / (4.0 * d * d * (d + height))).sqrt(),
         }
     }
 
@@ -144,7 +151,7 @@ fn sech2(theta: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn wave(height_m: f64, theory: SolitaryTheory) -> SolitaryWave {
+    fn wave(height_m: f64, theory: PistonTheory) -> SolitaryWave {
         SolitaryWave { height_m, depth_m: 0.8, gravity: 9.81, theory }
     }
 
@@ -157,7 +164,7 @@ mod tests {
             (0.064, 0.30619, 0.29463, 2.9113, 0.5226, 0.5431, 8.71),
         ];
         for (height, k_b, k_r, c, s_b, s_r, duration) in table {
-            let (b, r) = (wave(height, SolitaryTheory::Boussinesq), wave(height, SolitaryTheory::Rayleigh));
+            let (b, r) = (wave(height, PistonTheory::Boussinesq), wave(height, PistonTheory::Rayleigh));
             assert!((b.outskirt_per_m() - k_b).abs() < 6e-6 && (r.outskirt_per_m() - k_r).abs() < 6e-6);
             assert!((b.celerity_m_s() - c).abs() < 6e-5);
             assert!((b.stroke_m() - s_b).abs() < 6e-5 && (r.stroke_m() - s_r).abs() < 6e-5);
@@ -167,7 +174,7 @@ mod tests {
 
     #[test]
     fn piston_runs_its_stroke_and_its_velocity_is_the_derivative() {
-        for theory in [SolitaryTheory::Boussinesq, SolitaryTheory::Rayleigh] {
+        for theory in [PistonTheory::Boussinesq, PistonTheory::Rayleigh] {
             let w = wave(0.064, theory);
             let end = w.duration_s();
             // The stroke is cut at theta = 3.8, where 1 - tanh = 1e-3.

@@ -47,11 +47,10 @@ impl Wavemaker {
         self.place_m() + furthest
     }
 
-    /// How far a row may go seaward of its place of rest [m]. The multi-layer piston follows a wave that comes from
-    /// there, and the little that it may go back lies within the thickness of its layers.
+    /// How far a row goes seaward of its place of rest [m].
     pub fn seaward_reach_m(&self) -> f64 {
         match self {
-            Self::MlPiston(_) => 0.0,
+            Self::MlPiston(piston) => piston.seaward_reach_m(),
             Self::Paddle(paddle) => paddle.reach_m()[0],
         }
     }
@@ -59,10 +58,7 @@ impl Wavemaker {
     /// How far a row goes shoreward of its place of rest [m].
     pub fn shoreward_reach_m(&self) -> f64 {
         match self {
-            Self::MlPiston(piston) => {
-                let rows = 0..piston.row_heights_m().len();
-                rows.map(|row| piston.displacement_m(row, piston.end_s())).fold(0.0, f64::max)
-            }
+            Self::MlPiston(piston) => piston.shoreward_reach_m(),
             Self::Paddle(paddle) => paddle.reach_m()[1],
         }
     }

@@ -264,7 +264,7 @@ fn a_solitary_wave_can_be_made_in_the_particles() {
         height_m: 0.08,
         depth_m: 0.4,
         gravity: GRAVITY,
-        theory: breakwater::case::SolitaryTheory::Rayleigh,
+        theory: breakwater::waves::solitary::PistonTheory::Rayleigh,
     };
     for [x, v, _] in rows(&mut simulation, 1.3) {
         assert!((x - wave.piston_displacement_m(1.3)).abs() < 1e-12 && v == wave.piston_velocity_m_s(1.3));

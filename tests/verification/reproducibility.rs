@@ -17,9 +17,9 @@ fn small_flume() -> Value {
                 "seaward_run_per_rise": 1.0, "lee_run_per_rise": 1.0
             }
         },
-        "domain": { "x_m": [4.1, 4.75], "width_m": 0.16, "sides": "periodic", "top_z_m": 0.4, "dp_m": 0.01 },
+        "domain": { "x_m": [4.1, 4.75], "width_m": 0.16, "sides": "periodic", "top_z_m": 0.4, "dp_m": 0.01, "start_at_share": 0.6 },
         "numerics": { "hold_units_s": 0.0 },
-        "wave": { "kind": "solitary", "height_m": 0.06, "start_at_share": 0.6 },
+        "wave": { "kind": "solitary", "height_m": 0.06 },
         "units": {
             "shape": "tetrapod", "height_m": 0.077, "mass_kg": 0.3, "material": "mortar",
             "count": 2, "pitch_m": 0.08, "x_m": 4.5

@@ -34,11 +34,12 @@ impl Wave {
             "flume": { "bed_m": [[0.0, 0.0], [last + 16.0, 0.0]], "still_water_level_m": DEPTH },
             "domain": {
                 "x_m": [12.0, last + 6.0 * DEPTH], "width_m": 10.0 * self.dp, "sides": "periodic",
-                "top_z_m": 1.6 * DEPTH + 2.0 * self.height * DEPTH, "dp_m": self.dp
+                "top_z_m": 1.6 * DEPTH + 2.0 * self.height * DEPTH, "dp_m": self.dp,
+                "start_s": self.passing(FIRST) - 0.5
             },
             "fluid": { "sound_speed_factor": 10.0 },
             "numerics": { "viscosity_alpha": self.alpha, "wall_slip": self.slip },
-            "wave": { "kind": "solitary", "height_m": self.height * DEPTH, "start_s": self.passing(FIRST) - 0.5 },
+            "wave": { "kind": "solitary", "height_m": self.height * DEPTH },
             "stop": { "duration_s": 60.0 }
         })
     }

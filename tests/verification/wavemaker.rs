@@ -1,6 +1,6 @@
 //! From the flume model to the particles: the wavemaker's rows and the water at a hot start.
 
-use breakwater::simulation::{Simulation, setup::ml_piston};
+use breakwater::simulation::{Simulation, incoming::ml_piston};
 use glam::DVec2;
 use serde_json::{Value, json};
 
@@ -13,8 +13,10 @@ fn flume(start_s: f64, dp: f64) -> Value {
     json!({
         "title": "A solitary wave in a flat flume",
         "flume": { "bed_m": [[0.0, 0.0], [16.0, 0.0]], "still_water_level_m": STILL_LEVEL },
-        "domain": { "x_m": [6.0, 8.0], "width_m": 0.32, "sides": "periodic", "top_z_m": 0.7, "dp_m": dp },
-        "wave": { "kind": "solitary", "height_m": 0.08, "start_s": start_s },
+        "domain": {
+            "x_m": [6.0, 8.0], "width_m": 0.32, "sides": "periodic", "top_z_m": 0.7, "dp_m": dp, "start_s": start_s
+        },
+        "wave": { "kind": "solitary", "height_m": 0.08 },
         "stop": { "duration_s": 0.3 }
     })
 }
@@ -78,9 +80,11 @@ fn bare_slope(start_s: f64, dp: f64, sound_speed_factor: f64) -> Value {
     json!({
         "title": "The 4.5 cm wave against a wall",
         "flume": { "bed_m": [[0.0, 0.0], [19.0, 0.0], [37.9, 0.63]], "still_water_level_m": 0.8 },
-        "domain": { "x_m": [36.5, 37.9], "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 1.1, "dp_m": dp },
+        "domain": {
+            "x_m": [36.5, 37.9], "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 1.1, "dp_m": dp, "start_s": start_s
+        },
         "fluid": { "sound_speed_factor": sound_speed_factor },
-        "wave": { "kind": "solitary", "height_m": 0.045, "start_s": start_s },
+        "wave": { "kind": "solitary", "height_m": 0.045 },
         "stop": { "duration_s": 20.5 - start_s }
     })
 }

@@ -1,13 +1,12 @@
 //! The wave chain against analytic waves and an independent layered calculation of the Fudo flume. Run with `--release`:
 //! half a minute.
 
-use breakwater::case::file::SolitaryTheory;
 use breakwater::geometry::profile::Profile;
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
 use breakwater::waves::ml_piston::{MlPiston, start_time};
 use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::solitary::{SolitaryWave, ThirdOrderSolitary};
+use breakwater::waves::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
 
 const GRAVITY: f64 = 9.81;
 const STILL_LEVEL_M: f64 = 0.8;
@@ -48,7 +47,7 @@ fn fudo_bed() -> Profile {
 }
 
 fn fudo(profile: Profile, height_m: f64, cell_m: f64, layers: usize) -> FlumeRecord {
-    let theory = SolitaryTheory::Rayleigh;
+    let theory = PistonTheory::Rayleigh;
     run(&FlumeSetup {
         profile,
         still_level_m: STILL_LEVEL_M,
@@ -75,7 +74,7 @@ fn largest_velocity(record: &FlumeRecord, x: f64) -> f64 {
 
 fn stroke(record: &FlumeRecord, x: f64) -> f64 {
     let heights: Vec<f64> = (0..6).map(|k| record.profile.z(x) + 0.03 + 0.05 * f64::from(k)).collect();
-    let piston = MlPiston::from_record(record, x, &heights, start_time(record, x, 0.003), 30.0, 0.02);
+    let piston = MlPiston::from_record(record, x, &heights, [start_time(record, x, 0.003), 30.0], 0.02, None);
     largest_displacement(&piston, 3)
 }
 
@@ -153,7 +152,7 @@ fn piston_near_the_mound_runs_in_production_form() {
     let x0 = 36.5;
     let heights: Vec<f64> = (0..80).map(|k| record.profile.z(x0) + 0.005 * (f64::from(k) + 0.5)).collect();
     let start = start_time(&record, x0, 0.03);
-    let piston = MlPiston::from_record(&record, x0, &heights, start, 28.0, 0.02);
+    let piston = MlPiston::from_record(&record, x0, &heights, [start, 28.0], 0.02, None);
     println!("80 rows from t = {start:.2} s: {:.2} s", begun.elapsed().as_secs_f64());
     let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();
     println!("strokes at the bed, in the water, above it {strokes:.4?} m");
@@ -239,7 +238,7 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
 fn run_up_on_a_plane_beach() {
     let shore_x = 20.0 + 0.8 * 19.85;
     let profile = Profile::new(vec![[0.0, 0.0], [20.0, 0.0], [20.0 + 1.2 * 19.85, 1.2]]);
-    let theory = SolitaryTheory::Rayleigh;
+    let theory = PistonTheory::Rayleigh;
     let record = run(&FlumeSetup {
         profile,
         still_level_m: STILL_LEVEL_M,
@@ -287,7 +286,7 @@ fn odd_but_valid_flumes_finish() {
         ("mound, one layer", mound(), 0.064, 0.05, 1),
     ];
     for (name, profile, height_m, cell_m, layers) in setups {
-        let theory = SolitaryTheory::Boussinesq;
+        let theory = PistonTheory::Boussinesq;
         let begun = std::time::Instant::now();
         let result = run(&FlumeSetup {
             profile,

@@ -11,8 +11,10 @@ pub enum WaveFile {
     None {},
     /// A solitary wave.
     Solitary(SolitaryFile),
-    /// Regular waves, made by a paddle at the seaward end of the domain.
+    /// Regular waves.
     Regular(RegularFile),
+    /// A sea of many periods.
+    Irregular(IrregularFile),
 }
 
 impl Default for WaveFile {
@@ -21,33 +23,20 @@ impl Default for WaveFile {
     }
 }
 
-/// A solitary wave: made by a piston at x = 0 of the flume and carried to the domain by the layered model, or made by a
-/// piston at the seaward end of the domain. `layers`, `flume_cell_m`, `start_s` and `start_at_share` are the layered
-/// model's.
+/// A solitary wave: made at the seaward end of the flume and carried to the domain by the flume model, or made by a
+/// piston at the seaward end of the domain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolitaryFile {
     /// Height above the still water in the depth at the piston [m].
     pub height_m: f64,
-    /// Shape of the wave, and with it the piston's motion.
+    /// Shape of the wave, and with it what makes it.
     #[serde(default)]
     pub theory: SolitaryTheory,
-    /// Layers of the non-hydrostatic flume model.
-    #[serde(default = "default_layers")]
-    pub layers: u32,
-    /// Cell of the flume model [m].
-    #[serde(default = "default_flume_cell_m")]
-    pub flume_cell_m: f64,
-    /// Flume time at which the particles start [s]; without it, when the velocity at the wavemaker's place
-    /// reaches `start_at_share` of its maximum.
-    #[serde(default)]
-    pub start_s: Option<f64>,
-    /// Share of the largest velocity at which the particles start [-].
-    #[serde(default = "default_start_share")]
-    pub start_at_share: f64,
 }
 
-/// Regular waves; the paddle starts from rest.
+/// Regular waves: waves of permanent form that flow into the flume and are carried to the domain by the flume model, or
+/// made by a piston or a flap at the seaward end of the domain. They grow from still water.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegularFile {
@@ -55,7 +44,29 @@ pub struct RegularFile {
     pub height_m: f64,
     /// Period [s].
     pub period_s: f64,
-    /// Periods over which the stroke of the paddle grows from nothing [-].
+    /// Periods over which the waves grow from nothing [-].
+    #[serde(default = "default_ramp_periods")]
+    pub ramp_periods: f64,
+}
+
+/// A sea with a JONSWAP spectrum that flows into the flume and is carried to the domain by the flume model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct IrregularFile {
+    /// Significant height H_s = 4 sqrt(m_0) [m].
+    pub significant_height_m: f64,
+    /// Period of the spectrum's peak [s].
+    pub peak_period_s: f64,
+    /// Peak enhancement gamma [-]: 3.3 on average, 1 for Pierson & Moskowitz's spectrum.
+    #[serde(default = "default_peak_enhancement")]
+    pub peak_enhancement: f64,
+    /// Number from which the phases are drawn: the same number gives the same sea.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+    /// Time after which the sea repeats itself, in peak periods [-].
+    #[serde(default = "default_repeat_periods")]
+    pub repeat_periods: f64,
+    /// Peak periods over which the waves grow from nothing [-].
     #[serde(default = "default_ramp_periods")]
     pub ramp_periods: f64,
 }
@@ -64,34 +75,36 @@ fn default_ramp_periods() -> f64 {
     2.0
 }
 
-pub(in crate::case) fn default_layers() -> u32 {
-    2
+fn default_peak_enhancement() -> f64 {
+    3.3
 }
 
-pub(in crate::case) fn default_flume_cell_m() -> f64 {
-    0.05
+fn default_seed() -> u64 {
+    1
 }
 
-pub(in crate::case) fn default_start_share() -> f64 {
-    0.03
+fn default_repeat_periods() -> f64 {
+    200.0
 }
 
-/// Shape of a solitary wave (Goring & Raichlen 1980; Guizien & Barthelemy 2002).
+/// Shape of a solitary wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolitaryTheory {
-    /// k = sqrt(3H / 4d^3).
+    /// Made by a piston that follows k = sqrt(3H / 4d^3) (Goring & Raichlen 1980).
     Boussinesq,
-    /// k = sqrt(3H / 4d^2(d+H)); nearer to the exact wave.
+    /// Made by a piston that follows k = sqrt(3H / 4d^2(d+H)), nearer to the exact wave (Guizien & Barthelemy 2002).
     #[default]
     Rayleigh,
+    /// Of third order (Grimshaw 1971), flowing into the flume at its seaward end.
+    ThirdOrder,
 }
 
 /// What makes the wave in the particles; it stands at the seaward end of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WavemakerFile {
-    /// A piston in rows that follow the water of the layered flume model (multi-layer piston); for solitary waves.
+    /// A piston in rows that follow the water of the layered flume model (multi-layer piston); for all waves.
     MlPiston {},
     /// A rigid piston that moves by wave theory in the depth where it stands; for solitary and regular waves.
     Piston {},

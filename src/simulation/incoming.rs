@@ -1,0 +1,149 @@
+//! From the case's wave to a run of the flume model and to what makes the wave in the particles.
+
+use crate::{
+    case::{self, Case, Quantity, Start, Wave},
+    waves::{
+        flume::{self, FlumeError, FlumeSetup, WaveSource},
+        incoming::IncomingWave,
+        irregular::IrregularWave,
+        layered::{Breaking, Pressure},
+        ml_piston::{MlPiston, start_time},
+        paddle::{Paddle, PaddleMotion},
+        record::FlumeRecord,
+        regular::{MeanFlow, RegularWave, WaveError},
+        stream_function::StreamFunctionWave,
+        wavemaker::Wavemaker,
+    },
+};
+
+/// Longest time between records of the flume model and knots of the piston [s]: a solitary wave takes seconds to pass.
+const LONGEST_INTERVAL: f64 = 0.02;
+/// Records in a period of other waves, at least.
+const RECORDS_PER_PERIOD: f64 = 60.0;
+
+/// The flume's flow is recorded this far beyond both ends of the particles [m]: the piston's particles wander.
+const FLUME_MARGIN: f64 = 1.5;
+
+/// Longest flume time that is looked through for the arrival of the wave, as a multiple of the time that its energy takes
+/// from where it is made to the particles.
+const ARRIVAL_ALLOWANCE: f64 = 2.5;
+
+/// Periods over which the rows of a piston in periodic waves are drawn back to where they stood, against the drift of
+/// the water: long enough to leave the oscillation alone, to 1 / (2 pi 4)^2 / 2 = 0.08 % of its height and 2.3 degrees.
+const DRIFT_PERIODS: f64 = 4.0;
+
+/// Run the flume model of the case, if its wave comes from there, for as long as the particles will run.
+///
+/// # Errors
+/// If the flume model fails.
+pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
+    if case.wavemaker != case::Wavemaker::MlPiston {
+        return Ok(None);
+    }
+    let Some(wave) = source(&case.wave)? else { return Ok(None) };
+    let [x0, x1] = case.domain.x;
+    let latest_start = match case.domain.start {
+        Start::At(start) => start,
+        Start::AtShare(_) => latest_arrival(case, x0),
+    };
+    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let record = flume::run(&FlumeSetup {
+        profile: case.flume.profile.clone(),
+        still_level_m: case.flume.still_level,
+        gravity_m_s2: case.fluid.gravity,
+        wave,
+        right_end: case.flume.right_end,
+        pressure: Pressure::NonHydrostatic,
+        friction: case.flume.friction,
+        breaking: Breaking::default(),
+        layers: case.flume.layers,
+        cell_m: case.flume.cell,
+        gauges_x_m: gauges.map(|gauge| gauge.at[0]).collect(),
+        profile_times_s: Vec::new(),
+        window_x_m: [x0 - FLUME_MARGIN, x1 + FLUME_MARGIN],
+        record_interval_s: interval(&case.wave),
+        end_s: latest_start + case.stop.duration,
+    })?;
+    Ok(Some(record))
+}
+
+/// What makes the wave at the seaward end of the flume.
+fn source(wave: &Wave) -> Result<Option<WaveSource>, WaveError> {
+    let inflow = match *wave {
+        Wave::None => return Ok(None),
+        Wave::Solitary(wave) => return Ok(Some(WaveSource::Piston(wave))),
+        Wave::SolitaryInflow(wave) => IncomingWave::solitary(wave),
+        Wave::Regular { wave, ramp_periods } => IncomingWave::Regular {
+            wave: StreamFunctionWave::new(wave, MeanFlow::NoTransport)?,
+            ramp_s: ramp_periods * wave.period_s,
+        },
+        Wave::Irregular { sea, ramp_periods } => {
+            IncomingWave::Irregular { wave: IrregularWave::new(sea)?, ramp_s: ramp_periods * sea.peak_period_s }
+        }
+    };
+    Ok(Some(WaveSource::Inflow(inflow)))
+}
+
+/// Time between records of the flume model [s].
+fn interval(wave: &Wave) -> f64 {
+    wave.period().map_or(LONGEST_INTERVAL, |period| LONGEST_INTERVAL.min(period / RECORDS_PER_PERIOD))
+}
+
+/// Time by which the wave has come from the seaward end of the flume to x [m], and has grown [s].
+fn latest_arrival(case: &Case, x: f64) -> f64 {
+    let (way, gravity) = (x - case.flume.ends()[0], case.fluid.gravity);
+    let mean_depth = 0.5 * (case.flume.offshore_depth() + case.flume.still_depth(x));
+    let long = (gravity * mean_depth).sqrt();
+    let (speed, growth) = match case.wave {
+        Wave::Regular { wave, ramp_periods } => {
+            (RegularWave { depth_m: mean_depth, ..wave }.group_velocity_m_s(), ramp_periods * wave.period_s)
+        }
+        Wave::Irregular { sea, ramp_periods } => {
+            let (height_m, period_s) = (sea.significant_height_m, sea.peak_period_s);
+            let peak = RegularWave { height_m, period_s, depth_m: mean_depth, gravity };
+            (peak.group_velocity_m_s(), ramp_periods * period_s)
+        }
+        Wave::None | Wave::Solitary(_) | Wave::SolitaryInflow(_) => (long, 0.0),
+    };
+    ARRIVAL_ALLOWANCE * way / speed + growth
+}
+
+/// Flume time at which the particles start [s].
+pub fn particle_start(case: &Case, record: &FlumeRecord) -> f64 {
+    match case.domain.start {
+        Start::At(start) => start,
+        Start::AtShare(share) => start_time(record, case.domain.x[0], share),
+    }
+}
+
+/// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
+pub fn wavemaker_rows(case: &Case) -> Vec<f64> {
+    let (bed, dp) = (case.flume.profile.z(case.domain.x[0]), case.domain.dp);
+    (0..).map(|row| bed + (f64::from(row) + 0.5) * dp).take_while(|&z| z < case.domain.top_z).collect()
+}
+
+/// The multi-layer piston of the case's wave.
+pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
+    let interval = interval(&case.wave);
+    let end = (start + case.stop.duration).max(start + interval);
+    let drawn_back = case.wave.period().map(|period| DRIFT_PERIODS * period);
+    MlPiston::from_record(record, case.domain.x[0], &wavemaker_rows(case), [start, end], interval, drawn_back)
+}
+
+/// What makes the case's wave in the particles, if it has one.
+pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
+    if let Some(record) = flume {
+        return Some(Wavemaker::MlPiston(ml_piston(case, record, start)));
+    }
+    let place = case.domain.x[0];
+    let bed = case.flume.profile.z(place);
+    let (motion, depth) = match case.wave {
+        Wave::Solitary(wave) => (PaddleMotion::Solitary(wave), wave.depth_m),
+        Wave::Regular { wave, ramp_periods } => {
+            (PaddleMotion::Regular(case.wavemaker.motion(&wave, ramp_periods, bed)), wave.depth_m)
+        }
+        Wave::None | Wave::SolitaryInflow(_) | Wave::Irregular { .. } => return None,
+    };
+    let shape = case.wavemaker.shape(bed);
+    Some(Wavemaker::Paddle(Paddle::new(place, wavemaker_rows(case), [bed, depth], shape, motion)))
+}
