@@ -197,6 +197,8 @@ impl NodeSums {
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
         let below_centroid = back.z - f64::from(self.value[3]) / occupied;
         let mean = f64::from(self.value_f) / occupied + hydrostatic * below_centroid * parameters.kernel.h;
+        // As under the dynamic boundary condition, a wall does not pull at a sheet or a drop.
+        let mean = mean.max(0.0);
         let trust = self.trust(to_surface);
         let fitted = || self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from));
         let excess = match (trust > 0.0).then(fitted).flatten() {
