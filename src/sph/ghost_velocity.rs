@@ -30,25 +30,28 @@ impl GhostNodes {
         parameters: &Parameters,
         bin_x: f32,
         records: &[Record],
+        to_surface: &[DVec3],
         out: &mut Vec<Option<DVec3>>,
     ) {
         self.velocity_sums.resize(self.sums.len(), VelocitySums::default());
         sum_round_nodes(parameters, bin_x, &self.split, &self.lists, records, &mut self.velocity_sums);
         out.resize(self.sums.len(), None);
         for (node, &particle) in self.bins.order.iter().enumerate() {
-            out[particle as usize] = self.velocity(node);
+            out[particle as usize] = self.velocity(node, to_surface[particle as usize]);
         }
     }
 
-    fn velocity(&self, node: usize) -> Option<DVec3> {
+    fn velocity(&self, node: usize, to_surface: DVec3) -> Option<DVec3> {
         let (sums, of_velocity) = (&self.sums[node], &self.velocity_sums[node]);
         let occupied = f64::from(sums.value[0]);
         if occupied < DRY {
             return None;
         }
+        let trust = sums.trust(to_surface);
         let component = |i: usize| {
             let (value, first) = (f64::from(of_velocity.value[i]), of_velocity.first[i].map(f64::from));
-            sums.value_and_gradient(value, first).map_or(value / occupied, |[f, ..]| f)
+            let mean = value / occupied;
+            sums.value_and_gradient(value, first).map_or(mean, |[f, ..]| mean + trust * (f - mean))
         };
         Some(DVec3::from_array(std::array::from_fn(component)))
     }

@@ -194,17 +194,25 @@ impl NodeSums {
         }
         // From the node back to the particle, in h.
         let back = -2.0 * to_surface / parameters.kernel.h;
-        let [_, x, y, z] = self.value.map(|sum| f64::from(sum) / occupied);
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
-        let mean = f64::from(self.value_f) / occupied + hydrostatic * (back.z - z) * parameters.kernel.h;
-        let behind = DVec3::new(x, y, z).dot(back.normalize_or_zero());
-        let trust = ((TRUST[1] - behind) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+        let below_centroid = back.z - f64::from(self.value[3]) / occupied;
+        let mean = f64::from(self.value_f) / occupied + hydrostatic * below_centroid * parameters.kernel.h;
+        // As under the dynamic boundary condition, a wall does not pull at a sheet or a drop.
+        let mean = mean.max(0.0);
+        let trust = self.trust(to_surface);
         let fitted = || self.value_and_gradient(f64::from(self.value_f), self.first_f.map(f64::from));
         let excess = match (trust > 0.0).then(fitted).flatten() {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
         rho0 + excess
+    }
+
+    /// Trust in a fitted gradient, from 0 to 1; `to_surface` [m] is half the way from the boundary particle to this node.
+    pub(super) fn trust(&self, to_surface: DVec3) -> f64 {
+        let [occupied, x, y, z] = self.value.map(f64::from);
+        let behind = -DVec3::new(x, y, z).dot(to_surface.normalize_or_zero()) / occupied;
+        ((TRUST[1] - behind) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0)
     }
 
     /// Solution [f, h grad f] of the four equations with the given left-hand sides, if they are well conditioned.

@@ -188,7 +188,8 @@ impl Solver {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
             if self.parameters.slip != WallSlip::Original {
                 let bin_x = self.grid.size.x as f32;
-                self.ghosts.velocities(&self.parameters, bin_x, &self.records, &mut self.ghost_velocity);
+                let to_surface = &boundary.to_surface;
+                self.ghosts.velocities(&self.parameters, bin_x, &self.records, to_surface, &mut self.ghost_velocity);
             }
         }
         self.fill_boundary_records(boundary, &boundary.density);

@@ -3,7 +3,8 @@
 //!
 //! The measurement has no common zero of time with a computation: the first full heave crest of both is aligned. Motions
 //! are compared by what fits them best in the five periods after it, a + b t + C cos(omega t) + S sin(omega t):
-//! amplitude and phase of heave and roll, drift of surge.
+//! amplitude and phase of heave and roll, drift of surge. A box that drifts with the waves meets fewer of them: omega is
+//! the one with which heave is fitted best.
 
 use std::{f64::consts::TAU, path::Path, sync::Arc};
 
@@ -93,24 +94,34 @@ struct Fit {
     phase: f64,
 }
 
-/// Fit one column of the rows over the five periods after a time [s].
-fn fit(rows: &[Row], column: usize, from: f64) -> Fit {
-    let (mut matrix, mut right) = (DMat4::ZERO, DVec4::ZERO);
-    for row in rows.iter().filter(|row| (from..=from + PERIODS * PERIOD).contains(&row[0])) {
+/// Fit one column of the rows over the five periods after a time [s], with a period [s]; and what it leaves, the sum of
+/// squares.
+fn fit(rows: &[Row], column: usize, from: f64, period: f64) -> (Fit, f64) {
+    let basis = |row: &Row| {
         let t = row[0] - from;
-        let (sin, cos) = (TAU * t / PERIOD).sin_cos();
-        let basis = DVec4::new(1.0, t, cos, sin);
+        let (sin, cos) = (TAU * t / period).sin_cos();
+        DVec4::new(1.0, t, cos, sin)
+    };
+    let rows = || rows.iter().filter(|row| (from..=from + PERIODS * PERIOD).contains(&row[0]));
+    let (mut matrix, mut right) = (DMat4::ZERO, DVec4::ZERO);
+    for row in rows() {
+        let basis = basis(row);
         matrix += DMat4::from_cols(basis * basis.x, basis * basis.y, basis * basis.z, basis * basis.w);
         right += basis * row[column];
     }
-    let [mean, drift, cos, sin] = (matrix.inverse() * right).to_array();
-    Fit { mean, drift, amplitude: cos.hypot(sin), phase: sin.atan2(cos).to_degrees() }
+    let solution = matrix.inverse() * right;
+    let left = rows().map(|row| (row[column] - basis(row).dot(solution)).powi(2)).sum();
+    let [mean, drift, cos, sin] = solution.to_array();
+    (Fit { mean, drift, amplitude: cos.hypot(sin), phase: sin.atan2(cos).to_degrees() }, left)
 }
 
-/// Fits of surge, heave and roll after the first full crest.
-fn fits(rows: &[Row]) -> [Fit; 3] {
+/// Fits of surge, heave and roll after the first full crest, and the period of heave [s].
+fn fits(rows: &[Row]) -> ([Fit; 3], f64) {
     let crest = first_full_crest(rows).expect("the box never rose to a full crest");
-    [1, 2, 3].map(|column| fit(rows, column, crest))
+    let periods = (0..=300).map(|k| PERIOD * (0.9 + 1e-3 * f64::from(k)));
+    let left = |period: &f64| fit(rows, 2, crest, *period).1;
+    let period = periods.min_by(|a, b| left(a).total_cmp(&left(b))).unwrap();
+    ([1, 2, 3].map(|column| fit(rows, column, crest, period).0), period)
 }
 
 /// Angle between -180 and 180 degrees.
@@ -122,10 +133,10 @@ fn wrapped(degrees: f64) -> f64 {
 /// the drifts, or nothing without measurements.
 fn compare(dp: f64) -> Option<[f64; 5]> {
     let rows = computed(dp);
-    let [surge, heave, roll] = fits(&rows);
-    println!("dp = {dp} m: surge {surge:.4?}\n    heave {heave:.4?}\n    roll {roll:.3?}");
-    let [surge_m, heave_m, roll_m] = fits(&measured()?);
-    println!("measured: surge {surge_m:.4?}\n    heave {heave_m:.4?}\n    roll {roll_m:.3?}");
+    let ([surge, heave, roll], period) = fits(&rows);
+    println!("dp = {dp} m: period {period:.3} s, surge {surge:.4?}\n    heave {heave:.4?}\n    roll {roll:.3?}");
+    let ([surge_m, heave_m, roll_m], period_m) = fits(&measured()?);
+    println!("measured: period {period_m:.3} s, surge {surge_m:.4?}\n    heave {heave_m:.4?}\n    roll {roll_m:.3?}");
     let result = [
         heave.amplitude / heave_m.amplitude,
         wrapped(heave.phase - heave_m.phase),
@@ -146,9 +157,10 @@ fn compare(dp: f64) -> Option<[f64; 5]> {
 
 #[test]
 fn a_fit_finds_amplitude_phase_and_drift() {
-    let motion = |t: f64| 0.3 + 0.1 * t + 0.05 * (TAU * t / PERIOD - 0.5).cos();
+    let motion = |t: f64| 0.3 + 0.1 * t + 0.05 * (TAU * t / 1.25 - 0.5).cos();
     let rows: Vec<Row> = (0..600).map(|i| 0.0101 * f64::from(i)).map(|t| [t, motion(t), 0.0, 0.0]).collect();
-    let found = fit(&rows, 1, 0.0);
+    let (found, left) = fit(&rows, 1, 0.0, 1.25);
+    assert!(left < 1e-18);
     assert!((found.mean - 0.3).abs() < 1e-9 && (found.drift - 0.1).abs() < 1e-9);
     assert!((found.amplitude - 0.05).abs() < 1e-9 && (found.phase - 0.5_f64.to_degrees()).abs() < 1e-6);
 }
