@@ -3,10 +3,15 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`table`] | velocity over height and time, which every reader gives, and the checks it must pass |
+//! | [`surface`] | the level of the surface over time |
 //! | [`velx`] | `_velx` files of DualSPHysics |
+//! | [`swash`] | tables of SWASH: water level, and velocity by layer |
 //! | [`error`] | what can be wrong with such files |
 
 pub mod error;
+pub mod surface;
+pub mod swash;
 pub mod table;
+mod text_file;
 pub mod velx;
 
