@@ -6,9 +6,11 @@
 //! | [`surface`] | the level of the surface over time |
 //! | [`velx`] | `_velx` files of DualSPHysics |
 //! | [`swash`] | tables of SWASH: water level, and velocity by layer |
+//! | [`openfoam`] | probes, sampled lines and `interfaceHeight` of OpenFOAM |
 //! | [`error`] | what can be wrong with such files |
 
 pub mod error;
+pub mod openfoam;
 pub mod surface;
 pub mod swash;
 pub mod table;
