@@ -17,3 +17,5 @@ pub mod table;
 mod text_file;
 pub mod velx;
 
+#[cfg(test)]
+mod agreement;
