@@ -15,9 +15,11 @@
 //! | [`paddle`] | a rigid piston or flap that moves by theory |
 //! | [`wavemaker`] | either of these, as rows that move |
 //! | [`velx`] | the piston's velocities as a DualSPHysics `_velx` file |
+//! | [`external`] | the velocity at one place from files of other programs |
 //!
 //! SI units; x from the wavemaker at rest to the shore, z upwards from the bed profile's own datum.
 
+pub mod external;
 pub mod flume;
 pub mod incoming;
 mod interpolation;

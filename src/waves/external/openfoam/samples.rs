@@ -1,0 +1,38 @@
+//! Samples of a vertical at one moment: those in the water, from the bed up.
+
+/// Water has at least this share of a sampled cell [-]; less is air, whose velocity is not the water's.
+const WATER: f64 = 0.5;
+
+/// OpenFOAM writes about 1e300 for points outside the mesh.
+const OUTSIDE_MESH: f64 = 1e30;
+
+/// A sampled point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    /// Level z [m].
+    pub(super) z_m: f64,
+    /// Velocity along x [m/s].
+    pub(super) u_m_s: f64,
+    /// Share of water [-].
+    pub(super) water: f64,
+}
+
+/// Levels [m] and velocities [m/s] of the samples that lie in the mesh and in water, from the bed up.
+pub(super) fn in_water(samples: impl Iterator<Item = Sample>) -> (Vec<f64>, Vec<f64>) {
+    // NaN stays, so that the checks of the table find it.
+    let mut kept: Vec<Sample> = samples.filter(|s| !(s.u_m_s.abs() > OUTSIDE_MESH || s.water < WATER)).collect();
+    kept.sort_by(|a, b| a.z_m.total_cmp(&b.z_m));
+    kept.iter().map(|s| (s.z_m, s.u_m_s)).unzip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn air_and_points_outside_the_mesh_are_left_out() {
+        let sample = |z_m, u_m_s, water| Sample { z_m, u_m_s, water };
+        let samples = [sample(0.4, 4.0, 0.9), sample(0.1, 1.0, 1.0), sample(0.6, 9.0, 0.2), sample(0.0, -1e300, 1.0)];
+        assert_eq!(in_water(samples.into_iter()), (vec![0.1, 0.4], vec![1.0, 4.0]));
+    }
+}

@@ -1,0 +1,173 @@
+//! Files of one field in a folder for each start of the run, `<folder>/<t0>/<file>`, joined.
+//!
+//! `#` begins a comment; other rows are a time and numbers, in brackets where they are the components of a vector.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::super::error::ExternalError;
+use super::super::text_file::TextFile;
+
+/// The rows of all starts, in the order of time.
+pub(super) struct Joined {
+    /// Comments, without their `#`; the same in every start.
+    pub(super) comments: Vec<String>,
+    /// Times [s].
+    pub(super) times_s: Vec<f64>,
+    /// Numbers after the time, as many in every row.
+    pub(super) rows: Vec<Vec<f64>>,
+}
+
+impl Joined {
+    /// Read `<folder>/<t0>/<file>` for every t0 that has it.
+    pub(super) fn read(folder: &Path, file: &str) -> Result<Self, ExternalError> {
+        let mut joined: Option<Self> = None;
+        for (_, start) in time_folders(folder)? {
+            let path = start.join(file);
+            if !path.is_file() {
+                continue;
+            }
+            let run = Self::read_start(&path)?;
+            match &mut joined {
+                None => joined = Some(run),
+                Some(earlier) => earlier.append(run, &path)?,
+            }
+        }
+        joined.ok_or_else(|| {
+            ExternalError::file(
+                folder,
+                format!("no folder of a start time has a file `{file}`"),
+                "give the folder `postProcessing/<name>`, and sample that field",
+            )
+        })
+    }
+
+    /// Read the file of one start.
+    fn read_start(path: &Path) -> Result<Self, ExternalError> {
+        let text = TextFile::read(path, "check that it may be read")?;
+        let mut start = Self { comments: vec![], times_s: vec![], rows: vec![] };
+        for (line, words) in text.lines() {
+            if let Some(comment) = words.strip_prefix('#') {
+                start.comments.push(comment.trim().to_owned());
+                continue;
+            }
+            let mut numbers = text.numbers(line, words)?;
+            let values = numbers.split_off(1.min(numbers.len()));
+            let Some(&time) = numbers.first() else {
+                return Err(text.wrong(line, "no numbers", "correct or delete the line"));
+            };
+            let expected = start.rows.first().map_or(values.len(), Vec::len);
+            if values.len() != expected {
+                let problem = format!("{} numbers after the time, expected {expected}", values.len());
+                return Err(text.wrong(
+                    line,
+                    problem,
+                    "correct or delete the line; a run that was killed may leave half",
+                ));
+            }
+            if let Some(last) = start.times_s.last().filter(|&&last| time <= last) {
+                let problem = format!("t = {time} s follows t = {last} s");
+                return Err(text.wrong(line, problem, "times must rise; delete what another run left in the file"));
+            }
+            start.times_s.push(time);
+            start.rows.push(values);
+        }
+        Ok(start)
+    }
+
+    /// Append a later start; it replaces what the earlier ones have from its first time on.
+    fn append(&mut self, later: Self, path: &Path) -> Result<(), ExternalError> {
+        let width = |start: &Self| start.rows.first().map(Vec::len);
+        if later.comments != self.comments || (width(self).zip(width(&later)).is_some_and(|(a, b)| a != b)) {
+            let problem = "heading or number of columns differ from those of the earlier starts";
+            return Err(ExternalError::file(path, problem, "delete the folders of runs with other probes"));
+        }
+        let Some(first) = later.times_s.first() else { return Ok(()) };
+        let kept = self.times_s.partition_point(|t| t < first);
+        self.times_s.truncate(kept);
+        self.rows.truncate(kept);
+        self.times_s.extend(later.times_s);
+        self.rows.extend(later.rows);
+        Ok(())
+    }
+}
+
+/// The folders in a folder whose names are times, and those times [s], rising.
+pub(super) fn time_folders(folder: &Path) -> Result<Vec<(f64, PathBuf)>, ExternalError> {
+    let unreadable = |reason: std::io::Error| ExternalError::Read {
+        file: folder.to_owned(),
+        reason: reason.to_string(),
+        advice: "give the folder `postProcessing/<name>`".to_owned(),
+    };
+    let mut folders = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        let time = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.parse::<f64>().ok());
+        if let Some(time) = time.filter(|time| time.is_finite() && path.is_dir()) {
+            folders.push((time, path));
+        }
+    }
+    folders.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(folders)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder with files `U` at the given starts.
+    fn folder(starts: &[(&str, &str)]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for (start, text) in starts {
+            fs::create_dir(folder.path().join(start)).unwrap();
+            fs::write(folder.path().join(start).join("U"), text).unwrap();
+        }
+        folder
+    }
+
+    fn message(starts: &[(&str, &str)]) -> String {
+        let folder = folder(starts);
+        let text = Joined::read(folder.path(), "U").err().unwrap().to_string();
+        text.replace(&format!("{}", folder.path().display()), "probes")
+    }
+
+    #[test]
+    fn a_later_start_replaces_the_end_of_the_earlier() {
+        // 10 must be sorted after 2 as a number.
+        let folder = folder(&[
+            ("10", "# a\n11 (5 6 7)\n"),
+            ("0", "# a\n1 (1 0 0)\n2 (2 0 0)\n3 (3 0 0)\n"),
+            ("2", "# a\n3 (4 0 0)\n"),
+        ]);
+        let joined = Joined::read(folder.path(), "U").unwrap();
+        assert_eq!(joined.comments, ["a"]);
+        assert_eq!(joined.times_s, [1.0, 2.0, 3.0, 11.0]);
+        assert_eq!(joined.rows[2..], [[4.0, 0.0, 0.0], [5.0, 6.0, 7.0]]);
+    }
+
+    #[test]
+    fn a_wrong_line_is_named() {
+        assert_eq!(
+            message(&[("0", "# a\n1 (1 0 0)\n2 (1 0\n")]),
+            "probes/0/U: line 3: 2 numbers after the time, expected 3; correct or delete the line; a run that was killed \
+             may leave half"
+        );
+        assert_eq!(
+            message(&[("0", "1 1\n1 2\n")]),
+            "probes/0/U: line 2: t = 1 s follows t = 1 s; times must rise; delete what another run left in the file"
+        );
+        assert_eq!(
+            message(&[("0", "1 one\n")]),
+            "probes/0/U: line 1: `one` is not a number; correct or delete the line"
+        );
+        assert!(message(&[("0", "( )\n")]).starts_with("probes/0/U: line 1: no numbers"));
+    }
+
+    #[test]
+    fn missing_files_and_other_probes_are_named() {
+        assert!(message(&[]).starts_with("probes: no folder of a start time has a file `U`; give the folder"));
+        assert!(message(&[("0", "# a\n1 1\n"), ("1", "# b\n2 1\n")]).starts_with("probes/1/U: heading or number"));
+        let missing = Joined::read(Path::new("no/such"), "U").err().unwrap().to_string();
+        assert!(missing.starts_with("no/such: cannot be read: ") && missing.ends_with("`postProcessing/<name>`"));
+    }
+}

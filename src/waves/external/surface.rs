@@ -1,0 +1,67 @@
+//! The level of the water surface over time at one place.
+
+use std::path::{Path, PathBuf};
+
+use super::error::ExternalError;
+use super::table::{check_times, linear};
+
+/// Level of the surface over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceSeries {
+    file: PathBuf,
+    times_s: Vec<f64>,
+    z_m: Vec<f64>,
+}
+
+impl SurfaceSeries {
+    /// Levels z [m] at rising times [s] from a file.
+    ///
+    /// # Errors
+    /// If the times do not rise or leave a gap.
+    ///
+    /// # Panics
+    /// If there is not one level for each time.
+    pub fn new(file: &Path, times_s: Vec<f64>, z_m: Vec<f64>) -> Result<Self, ExternalError> {
+        assert_eq!(times_s.len(), z_m.len(), "a level for each time");
+        check_times(file, &times_s)?;
+        Ok(Self { file: file.to_owned(), times_s, z_m })
+    }
+
+    /// Levels z [m] at other times [s], on straight lines between those known.
+    ///
+    /// # Errors
+    /// If a time lies outside those known.
+    pub fn at_times(&self, times_s: &[f64]) -> Result<Vec<f64>, ExternalError> {
+        let (first, last) = (self.times_s[0], self.times_s[self.times_s.len() - 1]);
+        // Times are written with few digits, so equal ones may differ by a rounding.
+        let rounding = 1e-5 * (last - first);
+        let at = |&t: &f64| {
+            if t < first - rounding || t > last + rounding {
+                return Err(ExternalError::moment(
+                    &self.file,
+                    t,
+                    format!("velocities but no level of the surface, which is known from {first} to {last} s"),
+                    "write both over the same time",
+                ));
+            }
+            Ok(linear(&self.times_s, &self.z_m, t))
+        };
+        times_s.iter().map(at).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_lie_on_lines_and_end_with_the_series() {
+        let series = SurfaceSeries::new(Path::new("wl"), vec![0.0, 1.0, 2.0], vec![1.0, 2.0, 0.0]).unwrap();
+        assert_eq!(series.at_times(&[0.0, 0.5, 2.0]).unwrap(), [1.0, 1.5, 0.0]);
+        assert_eq!(
+            series.at_times(&[3.0]).unwrap_err().to_string(),
+            "wl: at t = 3 s: velocities but no level of the surface, which is known from 0 to 2 s; write both over \
+             the same time"
+        );
+    }
+}

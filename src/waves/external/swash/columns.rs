@@ -1,0 +1,176 @@
+//! What the columns of a table are, and the numbers in them.
+
+use std::path::PathBuf;
+
+use super::TableFile;
+use crate::waves::external::error::ExternalError;
+use crate::waves::external::text_file::TextFile;
+
+/// A column of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Column {
+    /// Time [s]: `TSEC`.
+    Tsec,
+    /// Level of the surface above the datum [m]: `WATL`.
+    Watl,
+    /// Velocity along x averaged over the depth [m/s]: x of `VEL`, or `VKSI`.
+    VelX,
+    /// Velocity along x of a layer [m/s], the first at the surface: x of `VELK`, or `VKSIK`.
+    VelkX(usize),
+    /// Anything else, such as velocities along y; its values need not be numbers.
+    Ignored,
+}
+
+/// The columns of `TSEC VELK` for a number of layers.
+pub fn velk_columns(layers: usize) -> Vec<Column> {
+    let mut columns = vec![Column::Tsec];
+    columns.extend((1..=layers).map(Column::VelkX));
+    columns.extend((1..=layers).map(|_| Column::Ignored));
+    columns
+}
+
+/// The rows of a table under their columns.
+pub(super) struct Table {
+    path: PathBuf,
+    columns: Vec<Column>,
+    /// A list a row, NaN in columns that are ignored.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Read a table.
+    pub(super) fn read(file: &TableFile) -> Result<Self, ExternalError> {
+        let text = TextFile::read(file.path, "give the path of a table that SWASH wrote")?;
+        let mut columns = file.columns.to_vec();
+        let mut rows = Vec::new();
+        for (line, words) in text.lines() {
+            if let Some(comment) = words.strip_prefix('%') {
+                columns = named_columns(comment).unwrap_or(columns);
+            } else if words.starts_with("SWASH") {
+                let problem = "this is the form of TABLE ... SWASH, which is not read";
+                return Err(text.wrong(line, problem, "write the table with HEADER or NOHEADER"));
+            } else if columns.is_empty() {
+                let advice = "give the columns in their order, or write with HEADER";
+                return Err(text.wrong(line, "no header names the columns", advice));
+            } else {
+                rows.push(row(&text, line, words, &columns)?);
+            }
+        }
+        Ok(Self { path: text.path().to_owned(), columns, rows })
+    }
+
+    /// The values of a column.
+    pub(super) fn column(&self, column: Column) -> Result<Vec<f64>, ExternalError> {
+        match self.columns.iter().position(|&c| c == column) {
+            Some(index) => Ok(self.rows.iter().map(|row| row[index]).collect()),
+            None => {
+                let (name, keyword) = match column {
+                    Column::Tsec => ("column `Tsec`".to_owned(), "TSEC"),
+                    Column::Watl => ("column `Watlev`".to_owned(), "WATL"),
+                    Column::VelkX(layer) => (format!("velocity of layer {layer}"), "VELK"),
+                    Column::VelX | Column::Ignored => ("velocities".to_owned(), "VELK or VKSIK"),
+                };
+                let advice = format!("add {keyword} to the TABLE command");
+                Err(ExternalError::file(&self.path, format!("no {name}"), advice))
+            }
+        }
+    }
+
+    /// Velocities along x, a list a layer from the surface down; one list if they are averaged over the depth.
+    pub(super) fn layers(&self) -> Result<Vec<Vec<f64>>, ExternalError> {
+        let numbers = self.columns.iter().filter_map(|column| match column {
+            Column::VelkX(layer) => Some(*layer),
+            _ => None,
+        });
+        match numbers.max() {
+            Some(layers) => (1..=layers).map(|layer| self.column(Column::VelkX(layer))).collect(),
+            None => Ok(vec![self.column(Column::VelX)?]),
+        }
+    }
+}
+
+/// The columns that a line of the header names, if it names any that are used.
+fn named_columns(comment: &str) -> Option<Vec<Column>> {
+    let mut columns = Vec::new();
+    for name in comment.split_whitespace() {
+        let name = name.to_ascii_lowercase();
+        let column = match name.as_str() {
+            "tsec" => Column::Tsec,
+            "watlev" | "watl" => Column::Watl,
+            "x-vel" | "vksi" => Column::VelX,
+            _ => match name.strip_prefix("x-vel_k").or_else(|| name.strip_prefix("vksi_k")) {
+                // Names without a number repeat from layer to layer.
+                Some("") => Column::VelkX(1 + columns.iter().filter(|c| matches!(c, Column::VelkX(_))).count()),
+                Some(number) => number.parse().map_or(Column::Ignored, Column::VelkX),
+                None => Column::Ignored,
+            },
+        };
+        columns.push(column);
+    }
+    columns.iter().any(|&column| column != Column::Ignored).then_some(columns)
+}
+
+/// The numbers of a row.
+fn row(text: &TextFile, line: usize, words: &str, columns: &[Column]) -> Result<Vec<f64>, ExternalError> {
+    let words: Vec<&str> = words.split_whitespace().collect();
+    if words.len() != columns.len() {
+        return Err(text.wrong(
+            line,
+            format!("{} values, expected {}, one a column", words.len(), columns.len()),
+            "correct the line, or give the columns in their order (VELK has x of every layer, then y of every layer)",
+        ));
+    }
+    let value = |(word, column): (&&str, &Column)| match column {
+        Column::Ignored => Ok(f64::NAN),
+        _ => text.number(line, word),
+    };
+    words.iter().zip(columns).map(value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str, columns: &[Column]) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.tbl");
+        std::fs::write(&path, text).unwrap();
+        let error = Table::read(&TableFile { path: &path, columns }).err().unwrap().to_string();
+        error.split_once("a.tbl: ").unwrap().1.to_owned()
+    }
+
+    #[test]
+    fn a_header_names_columns_in_any_order() {
+        use Column::{Ignored, Tsec, VelkX, Watl};
+        assert_eq!(named_columns(" Run:A1  Table:P        SWASH version: 10.05"), None);
+        assert_eq!(named_columns(" Xp Watlev Tsec").unwrap(), [Ignored, Watl, Tsec]);
+        assert_eq!(named_columns("Tsec X-vel_k X-vel_k Y-vel_k Y-vel_k").unwrap()[1..3], [VelkX(1), VelkX(2)]);
+        assert_eq!(named_columns("Vksi_k02 Vksi_k01").unwrap(), [VelkX(2), VelkX(1)]);
+    }
+
+    #[test]
+    fn a_bad_line_is_named() {
+        let columns = velk_columns(1);
+        assert_eq!(
+            message("0 0.1 0\n1 0.1\n", &columns),
+            "line 2: 2 values, expected 3, one a column; correct the line, or give the columns in their order (VELK has \
+             x of every layer, then y of every layer)"
+        );
+        assert_eq!(
+            message("0 ******* 0\n", &columns),
+            "line 1: `*******` is not a number; the column was too narrow for its number when it was written; write the \
+             table without header"
+        );
+        assert_eq!(
+            message("SWASH   1   Swash standard file, version\n", &columns),
+            "line 1: this is the form of TABLE ... SWASH, which is not read; write the table with HEADER or NOHEADER"
+        );
+    }
+
+    #[test]
+    fn a_missing_file_is_named() {
+        let message = Table::read(&TableFile { path: "no/such.tbl".as_ref(), columns: &[] }).err().unwrap().to_string();
+        assert!(message.starts_with("no/such.tbl: cannot be read: "));
+        assert!(message.ends_with("; give the path of a table that SWASH wrote"));
+    }
+}

@@ -1,0 +1,302 @@
+//! Velocity along x over height and time at one place: what every reader gives, after the checks that find files in other
+//! units, with holes, or of another place.
+
+use std::path::Path;
+
+use super::error::ExternalError;
+
+/// An interval longer than this many median ones is a gap: output at every tenth step with one row lost has 2, a restart
+/// that lost its first output a few.
+const GAP: f64 = 5.0;
+
+/// Velocities above this many sqrt(g d) are taken for another unit: water leaves a breaking crest at less than 2.
+const FASTEST: f64 = 3.0;
+
+/// Levels may lie outside the water by this share of the depth: cells at the surface are partly filled, and an overturning
+/// crest stands higher than the level that holds the same water.
+const OUTSIDE: f64 = 0.1;
+
+/// Velocity along x over height and time at one place, from another program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VelocityTable {
+    /// Times [s], strictly rising.
+    pub times_s: Vec<f64>,
+    /// Level of the surface z at each time [m], where the file tells.
+    pub surface_z_m: Option<Vec<f64>>,
+    /// Rising levels z in the water [m], a list a time.
+    pub heights_m: Vec<Vec<f64>>,
+    /// Velocities along x at them [m/s], a list a time.
+    pub velocities_m_s: Vec<Vec<f64>>,
+}
+
+/// What the caller knows of the place and accepts of a file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Level of the bed z [m].
+    pub bed_z_m: f64,
+    /// Level of still water z [m].
+    pub still_water_z_m: f64,
+    /// Gravity [m/s2], above zero.
+    pub gravity_m_s2: f64,
+    /// How many levels a file must have.
+    pub layers: Layers,
+}
+
+/// How many levels with velocities a file must have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layers {
+    /// At least two at every time.
+    AtLeastTwo,
+    /// One will do: a velocity averaged over the depth.
+    DepthAveraged,
+}
+
+impl Place {
+    /// Depth of still water [m].
+    pub fn depth_m(&self) -> f64 {
+        self.still_water_z_m - self.bed_z_m
+    }
+}
+
+impl VelocityTable {
+    /// The table as read from `file`, if its values can be right at the place; every reader ends here.
+    ///
+    /// # Errors
+    /// If times do not rise or leave a gap, a value is not finite, the surface lies below the bed, levels do not rise or
+    /// lie outside the water, there are too few of them, or a velocity is too high for the depth.
+    ///
+    /// # Panics
+    /// If the lists are not of the same shape, or the place has no water.
+    pub fn checked(self, file: &Path, place: &Place) -> Result<Self, ExternalError> {
+        let times = self.times_s.len();
+        assert!(place.depth_m() > 0.0 && place.gravity_m_s2 > 0.0, "a place has water and gravity");
+        assert!(self.heights_m.len() == times && self.velocities_m_s.len() == times, "a list for each time");
+        assert!(self.surface_z_m.as_ref().is_none_or(|levels| levels.len() == times), "a level for each time");
+        check_times(file, &self.times_s)?;
+        for i in 0..times {
+            self.check_surface(i, file, place)?;
+            self.check_heights(i, file, place)?;
+            self.check_velocities(i, file, place)?;
+        }
+        Ok(self)
+    }
+
+    /// Velocity along x [m/s] at level z [m] and time t [s]: linear in height and in time, constant beyond the ends.
+    pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
+        let at = |i: usize| linear(&self.heights_m[i], &self.velocities_m_s[i], z);
+        let after = self.times_s.partition_point(|&time| time <= t);
+        if after == 0 {
+            return at(0);
+        }
+        if after == self.times_s.len() {
+            return at(after - 1);
+        }
+        let (t0, t1) = (self.times_s[after - 1], self.times_s[after]);
+        let (u0, u1) = (at(after - 1), at(after));
+        u0 + (u1 - u0) * (t - t0) / (t1 - t0)
+    }
+
+    /// Level of the surface z [m] at t [s], linear in time and constant beyond the ends; `None` where the file does not
+    /// tell.
+    pub fn surface_at_m(&self, t: f64) -> Option<f64> {
+        self.surface_z_m.as_ref().map(|levels| linear(&self.times_s, levels, t))
+    }
+
+    /// The surface lies above the bed and less than a depth above still water.
+    fn check_surface(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
+        let Some(level) = self.surface_z_m.as_ref().map(|levels| levels[i]) else { return Ok(()) };
+        let (bed, top) = (place.bed_z_m, place.still_water_z_m + place.depth_m());
+        if level > bed && level <= top {
+            return Ok(());
+        }
+        Err(ExternalError::moment(
+            file,
+            self.times_s[i],
+            format!("the surface lies at z = {level} m, not between the bed at {bed} m and {top} m"),
+            "check the levels of the bed and of still water, the unit, and that the place stays wet",
+        ))
+    }
+
+    /// There are enough levels; they rise, and lie in the water.
+    fn check_heights(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
+        let (t, heights) = (self.times_s[i], &self.heights_m[i]);
+        let least = match place.layers {
+            Layers::AtLeastTwo => 2,
+            Layers::DepthAveraged => 1,
+        };
+        if heights.len() < least {
+            return Err(ExternalError::TooFewLayers { file: file.to_owned(), time_s: t, layers: heights.len() });
+        }
+        if let Some(pair) = heights.windows(2).find(|pair| pair[1] <= pair[0]) {
+            return Err(ExternalError::moment(
+                file,
+                t,
+                format!("the level z = {} m does not lie above {} m", pair[1], pair[0]),
+                "give every level once",
+            ));
+        }
+        let surface = self.surface_z_m.as_ref().map_or(place.still_water_z_m + place.depth_m(), |levels| levels[i]);
+        let margin = OUTSIDE * place.depth_m();
+        let in_water = place.bed_z_m - margin..=surface + margin;
+        match heights.iter().find(|z| !in_water.contains(z)) {
+            None => Ok(()),
+            Some(z) => Err(ExternalError::moment(
+                file,
+                t,
+                format!("the level z = {z} m is not in the water between {} and {surface} m", place.bed_z_m),
+                "check the zero of z, which axis points up, the unit, and that samples in air are left out",
+            )),
+        }
+    }
+
+    /// There is a velocity for each level, and water of this depth can have it.
+    fn check_velocities(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
+        let (t, heights, velocities) = (self.times_s[i], &self.heights_m[i], &self.velocities_m_s[i]);
+        assert_eq!(heights.len(), velocities.len(), "a velocity for each level");
+        let depth = place.depth_m();
+        let limit = FASTEST * (place.gravity_m_s2 * depth).sqrt();
+        let Some((z, u)) = heights.iter().zip(velocities).find(|(_, u)| u.is_nan() || u.abs() > limit) else {
+            return Ok(());
+        };
+        let at = format!("the velocity at z = {z} m is {u}");
+        Err(if u.is_finite() {
+            ExternalError::moment(
+                file,
+                t,
+                format!("{at} m/s, above 3 sqrt(g d) = {limit:.3} m/s in a depth of {depth} m"),
+                "are these mm/s or cm/s? write m/s",
+            )
+        } else {
+            ExternalError::moment(file, t, at, "the other program's run went wrong there; repeat it or cut the file")
+        })
+    }
+}
+
+/// Times are at least two, finite, rising and without gaps.
+pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalError> {
+    if times_s.len() < 2 {
+        return Err(ExternalError::file(
+            file,
+            format!("values at {} times, at least 2 are needed", times_s.len()),
+            "write output over the whole time that is wanted",
+        ));
+    }
+    let mut intervals = Vec::with_capacity(times_s.len() - 1);
+    for pair in times_s.windows(2) {
+        let interval = pair[1] - pair[0];
+        if !interval.is_finite() || interval <= 0.0 {
+            return Err(ExternalError::file(
+                file,
+                format!("t = {} s follows t = {} s", pair[1], pair[0]),
+                "times must rise; write one place a file, and cut what an earlier run left in it",
+            ));
+        }
+        intervals.push(interval);
+    }
+    let median = *intervals.clone().select_nth_unstable_by(times_s.len() / 2 - 1, f64::total_cmp).1;
+    match intervals.iter().position(|&interval| interval > GAP * median) {
+        None => Ok(()),
+        Some(i) => Err(ExternalError::file(
+            file,
+            format!("no values between t = {} s and {} s, where {median} s is usual", times_s[i], times_s[i + 1]),
+            "repeat the output of that time, or cut the file there",
+        )),
+    }
+}
+
+/// Value at x between values at rising xs: on straight lines, constant beyond the ends.
+pub(super) fn linear(xs: &[f64], values: &[f64], x: f64) -> f64 {
+    let right = xs.partition_point(|&p| p <= x);
+    if right == 0 {
+        return values[0];
+    }
+    if right == xs.len() {
+        return values[right - 1];
+    }
+    let share = (x - xs[right - 1]) / (xs[right] - xs[right - 1]);
+    values[right - 1] + share * (values[right] - values[right - 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACE: Place = Place { bed_z_m: 0.0, still_water_z_m: 1.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
+
+    /// Two levels every 0.25 s.
+    fn table(times: usize) -> VelocityTable {
+        VelocityTable {
+            times_s: (0..times).map(|i| 0.25 * i as f64).collect(),
+            surface_z_m: None,
+            heights_m: vec![vec![0.25, 0.75]; times],
+            velocities_m_s: (0..times).map(|i| vec![0.1 * i as f64, 0.3 * i as f64]).collect(),
+        }
+    }
+
+    fn message(table: VelocityTable) -> String {
+        table.checked(Path::new("u.tbl"), &PLACE).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn velocity_is_linear_in_height_and_time_and_constant_beyond() {
+        let table = table(5).checked(Path::new("u.tbl"), &PLACE).unwrap();
+        assert!((table.velocity_m_s(0.5, 0.375) - 0.3).abs() < 1e-12);
+        assert!((table.velocity_m_s(0.0, 0.375) - 0.15).abs() < 1e-12);
+        assert!((table.velocity_m_s(2.0, 9.0) - 1.2).abs() < 1e-12);
+        assert_eq!(table.velocity_m_s(0.25, -1.0), 0.0);
+        assert_eq!(table.surface_at_m(0.25), None);
+    }
+
+    #[test]
+    fn times_must_rise_without_gaps() {
+        let mut gap = table(9);
+        gap.times_s[8] = 3.25;
+        assert_eq!(
+            message(gap),
+            "u.tbl: no values between t = 1.75 s and 3.25 s, where 0.25 s is usual; repeat the output of \
+             that time, or cut the file there"
+        );
+        let mut back = table(4);
+        back.times_s[2] = 0.125;
+        assert_eq!(
+            message(back),
+            "u.tbl: t = 0.125 s follows t = 0.25 s; times must rise; write one place a file, and cut what an earlier \
+             run left in it"
+        );
+        assert!(message(table(1)).starts_with("u.tbl: values at 1 times, at least 2 are needed"));
+    }
+
+    #[test]
+    fn velocities_must_be_in_metres_a_second() {
+        let mut fast = table(4);
+        fast.velocities_m_s[3][1] = 300.0;
+        assert_eq!(
+            message(fast),
+            "u.tbl: at t = 0.75 s: the velocity at z = 0.75 m is 300 m/s, above 3 sqrt(g d) = 9.396 m/s \
+             in a depth of 1 m; are these mm/s or cm/s? write m/s"
+        );
+        let mut broken = table(4);
+        broken.velocities_m_s[1][0] = f64::NAN;
+        assert!(message(broken).starts_with("u.tbl: at t = 0.25 s: the velocity at z = 0.25 m is NaN; the other"));
+    }
+
+    #[test]
+    fn levels_must_be_two_rising_and_in_the_water() {
+        let mut thin = table(4);
+        (thin.heights_m[2], thin.velocities_m_s[2]) = (vec![0.5], vec![0.1]);
+        assert_eq!(
+            thin.clone().checked(Path::new("u.tbl"), &PLACE).unwrap_err(),
+            ExternalError::TooFewLayers { file: "u.tbl".into(), time_s: 0.5, layers: 1 }
+        );
+        assert!(thin.checked(Path::new("u.tbl"), &Place { layers: Layers::DepthAveraged, ..PLACE }).is_ok());
+        let mut air = table(4);
+        air.surface_z_m = Some(vec![0.6; 4]);
+        assert!(message(air).contains("the level z = 0.75 m is not in the water between 0 and 0.6 m; check the zero"));
+        let mut twice = table(4);
+        twice.heights_m[0] = vec![0.5, 0.5];
+        assert!(message(twice).contains("the level z = 0.5 m does not lie above 0.5 m"));
+        let mut dry = table(4);
+        dry.surface_z_m = Some(vec![1.0, -98.0, 1.0, 1.0]);
+        assert!(message(dry).contains("the surface lies at z = -98 m, not between the bed at 0 m and 2 m"));
+    }
+}
