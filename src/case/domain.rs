@@ -68,6 +68,14 @@ pub enum Water {
     },
 }
 
+impl Domain {
+    /// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
+    pub fn wavemaker_rows(&self, flume: &Flume) -> Vec<f64> {
+        let bed = flume.profile.z(self.x[0]);
+        (0..).map(|row| bed + (f64::from(row) + 0.5) * self.dp).take_while(|&z| z < self.top_z).collect()
+    }
+}
+
 /// Validate the domain; `smoothing_factor` is that of the numerics, as written.
 pub(super) fn validate(
     file: &DomainFile,

@@ -5,6 +5,7 @@
 
 mod numerics;
 mod objects;
+mod wave_source;
 mod waves;
 
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
@@ -13,6 +14,9 @@ pub use objects::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use wave_source::{
+    GivenWaveFile, OpenfoamLinesFile, OpenfoamProbesFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile,
+};
 pub use waves::{FlapFile, IrregularFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile};
 
 /// A breakwater case: a flume, the water in it, the wave and the armour units.

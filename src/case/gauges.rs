@@ -50,6 +50,7 @@ impl Reach {
     pub(super) fn of(wave: &WaveFile, wavemaker: Wavemaker) -> Self {
         match wave {
             WaveFile::None {} => Self::DomainWithoutWave,
+            WaveFile::File(_) => Self::DomainWithPaddle,
             _ if wavemaker == Wavemaker::MlPiston => Self::Flume,
             _ => Self::DomainWithPaddle,
         }

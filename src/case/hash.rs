@@ -2,20 +2,20 @@
 
 use super::file::CaseFile;
 
-/// 32 hexadecimal digits: FNV-1a (128 bits) of the case with every default written out. White space, the order of the
-/// keys and `$schema` do not matter.
-pub(super) fn fingerprint(file: &CaseFile) -> String {
+/// 32 hexadecimal digits: FNV-1a (128 bits) of the case with every default written out, and of what it reads from other
+/// files. White space, the order of the keys and `$schema` do not matter.
+pub(super) fn fingerprint(file: &CaseFile, read: &[u8]) -> String {
     let without_schema = CaseFile { schema: None, ..file.clone() };
     // The structs fix the order of the keys; writing them to memory cannot fail: every key is a string.
     let canonical = serde_json::to_string(&without_schema).unwrap_or_default();
-    format!("{:032x}", fnv1a_128(canonical.as_bytes()))
+    format!("{:032x}", fnv1a_128(canonical.as_bytes().iter().chain(read)))
 }
 
 /// FNV-1a with 128 bits (Fowler, Noll, Vo; draft-eastlake-fnv).
-fn fnv1a_128(bytes: &[u8]) -> u128 {
+fn fnv1a_128<'a>(bytes: impl IntoIterator<Item = &'a u8>) -> u128 {
     const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
-    bytes.iter().fold(OFFSET, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(PRIME))
+    bytes.into_iter().fold(OFFSET, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(PRIME))
 }
 
 #[cfg(test)]

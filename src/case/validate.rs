@@ -6,9 +6,10 @@ use std::path::Path;
 use super::check::{Checker, show};
 use super::domain::{self, Domain};
 use super::error::{CaseError, CaseErrors};
-use super::file::CaseFile;
+use super::file::{CaseFile, GivenWaveFile, VelxFile, WaveFile, WaveSourceFile};
 use super::flume::{self, Flume};
 use super::gauges::{self, Gauge};
+use super::given_wave::ROWS_FILE;
 use super::hash::fingerprint;
 use super::materials::{self, FrictionPair, Material};
 use super::numerics::{self, Fluid, Numerics};
@@ -122,6 +123,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check);
     let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), check);
     let around = wave::Surroundings {
+        name,
         domain_file: &file.domain,
         wavemaker,
         gravity: file.fluid.gravity_m_s2,
@@ -147,18 +149,20 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         None => None,
         Some(row) => Some(row?),
     };
+    let wave = wave?;
+    let (file, text, read) = self_contained(file, text, &wave);
     let case = Case {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
         warnings: Vec::new(),
         name: name.to_owned(),
-        hash: fingerprint(file),
-        text: text.to_owned(),
+        hash: fingerprint(&file, &read),
+        text,
         flume: flume?,
         domain: domain?,
         fluid: fluid?,
         numerics: numerics?,
-        wave: wave?,
+        wave,
         wavemaker,
         units,
         materials,
@@ -170,6 +174,18 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     };
     validate_size(&case, check);
     Some(case)
+}
+
+/// The case as a run keeps it: file, text, and what it has read besides. A wave from other programs' files becomes one
+/// from the file that the run writes beside its case, so that the folder can be moved and resumed.
+fn self_contained(file: &CaseFile, text: &str, wave: &Wave) -> (CaseFile, String, Vec<u8>) {
+    let Wave::Given(given) = wave else { return (file.clone(), text.to_owned(), Vec::new()) };
+    let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into() });
+    let wave = WaveFile::File(GivenWaveFile { source, celerity_m_s: given.celerity });
+    let file = CaseFile { wave, ..file.clone() };
+    // Writing to memory cannot fail: every key is a string.
+    let text = serde_json::to_string_pretty(&file).unwrap_or_default();
+    (file, text, given.rows_text())
 }
 
 fn validate_size(case: &Case, check: &mut Checker) {

@@ -1,9 +1,12 @@
 //! The wave, validated.
 
 use super::check::{Checker, above, from, show};
-use super::domain::Domain;
-use super::file::{self, DomainFile, IrregularFile, RegularFile, SolitaryFile, SolitaryTheory, WaterFile, WaveFile};
+use super::domain::{Domain, Start};
+use super::file::{
+    self, DomainFile, GivenWaveFile, IrregularFile, RegularFile, SolitaryFile, SolitaryTheory, WaterFile, WaveFile,
+};
 use super::flume::Flume;
+use super::given_wave::{self, GivenWave};
 use super::wavemaker::{self, Wavemaker};
 use crate::waves::irregular::{IrregularWave, JonswapSea};
 use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
@@ -15,7 +18,7 @@ use crate::waves::stream_function::StreamFunctionWave;
 const SHORTEST_LENGTH: f64 = 0.1;
 
 /// The wave, for the depth where it is made: at the seaward end of the flume, or of the domain if a paddle makes it there.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Wave {
     /// No wave.
     None,
@@ -37,13 +40,15 @@ pub enum Wave {
         /// Peak periods over which it grows from nothing [-].
         ramp_periods: f64,
     },
+    /// A wave from another program.
+    Given(GivenWave),
 }
 
 impl Wave {
-    /// Height of the wave, of a sea the significant one, if there is one [m].
+    /// Height of the wave, of a sea the significant one, where it is known [m].
     pub fn height(&self) -> Option<f64> {
         match self {
-            Self::None => None,
+            Self::None | Self::Given(_) => None,
             Self::Solitary(wave) => Some(wave.height_m),
             Self::SolitaryInflow(wave) => Some(wave.height_m),
             Self::Regular { wave, .. } => Some(wave.height_m),
@@ -51,10 +56,10 @@ impl Wave {
         }
     }
 
-    /// Period, of a sea that of its peak; none for a solitary wave [s].
+    /// Period, of a sea that of its peak; none for a solitary wave, nor where it is not known [s].
     pub fn period(&self) -> Option<f64> {
         match self {
-            Self::None | Self::Solitary(_) | Self::SolitaryInflow(_) => None,
+            Self::None | Self::Solitary(_) | Self::SolitaryInflow(_) | Self::Given(_) => None,
             Self::Regular { wave, .. } => Some(wave.period_s),
             Self::Irregular { sea, .. } => Some(sea.peak_period_s),
         }
@@ -78,6 +83,8 @@ impl Wavemaker {
 
 /// What the wave is validated against.
 pub(super) struct Surroundings<'a> {
+    /// Name of the case file, from whose folder paths are seen.
+    pub name: &'a str,
     pub domain_file: &'a DomainFile,
     pub wavemaker: Wavemaker,
     pub gravity: f64,
@@ -92,6 +99,7 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
         WaveFile::Solitary(_) => ("\"solitary\"", check.count()),
         WaveFile::Regular(_) => ("\"regular\"", check.count()),
         WaveFile::Irregular(_) => ("\"irregular\"", check.count()),
+        WaveFile::File(_) => ("\"file\"", check.count()),
     };
     if matches!(around.domain_file.water, WaterFile::Block(_)) {
         check.refuse(
@@ -109,6 +117,7 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
         WaveFile::Solitary(file) => validate_solitary(file, around, check),
         WaveFile::Regular(file) => validate_regular(file, around, check),
         WaveFile::Irregular(file) => validate_irregular(file, around, check),
+        WaveFile::File(file) => validate_given(file, around, check),
     }?;
     if check.count() > before {
         return None;
@@ -231,6 +240,15 @@ fn validate_irregular(file: &IrregularFile, around: &Surroundings, check: &mut C
     let drawn = IrregularWave::new(sea);
     refuse_impossible(drawn.err(), "wave.significant_height_m", file.significant_height_m, check);
     Some(Wave::Irregular { sea, ramp_periods: file.ramp_periods })
+}
+
+fn validate_given(file: &GivenWaveFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
+    let (flume, domain) = (around.flume?, around.domain?);
+    let wave = given_wave::validate(file, around.name, flume, domain, around.gravity, check)?;
+    if let Start::At(start) = domain.start {
+        given_wave::refuse_late_start(&wave, start, check);
+    }
+    Some(Wave::Given(wave))
 }
 
 /// What the theory of the wave itself refuses.

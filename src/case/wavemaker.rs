@@ -49,6 +49,11 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
             "\"ml_piston\" for irregular waves",
             "leave `wavemaker` out: the flume model carries the sea to the domain",
         ),
+        (WaveFile::File(_), WavemakerFile::Piston {} | WavemakerFile::Flap(_)) => refuse(
+            name(file),
+            "\"ml_piston\" for a wave from files",
+            "leave `wavemaker` out: its rows follow the velocities in the files",
+        ),
         _ => {}
     }
     match file {
@@ -90,7 +95,7 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
         );
     }
     match wave {
-        Wave::None => {}
+        Wave::None | Wave::Given(_) => {}
         Wave::Solitary(wave) if wavemaker == Wavemaker::MlPiston => {
             validate_distance("the piston's reach", flume.ends()[0] + wave.stroke_m(), domain, check);
         }

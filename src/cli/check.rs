@@ -64,6 +64,11 @@ fn print(case: &Case) {
                 println!("; stroke {:.4} m at the surface", motion.stroke_m());
             }
         }
+        Wave::Given(wave) => {
+            let [first, last] = wave.times();
+            let count = wave.rows.times_s.len();
+            println!("  wave        from files: velocities at {count} times from {first} to {last} s");
+        }
         Wave::Irregular { sea, .. } => println!(
             "  wave        irregular, H_s = {} m, T_p = {} s, gamma = {}, seed {}, in {} m of water",
             sea.significant_height_m, sea.peak_period_s, sea.peak_enhancement, sea.seed, sea.depth_m

@@ -27,22 +27,24 @@ pub struct WaveArguments {
 impl WaveArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.case)?;
+        let refuse = |reason: &str| Err(Trouble::refused(format!("{}: {reason}", self.case.display())));
+        if matches!(case.wave, Wave::Given(_)) {
+            return refuse("wave.kind: the wave comes from files of another program, so that no flume model runs");
+        }
         if case.wave != Wave::None && case.wavemaker != Wavemaker::MlPiston {
-            return Err(Trouble::refused(format!(
-                "{}: wavemaker.kind: the wave is made in the particles, so that no flume model runs; `breakwater check` \
-                 shows the wave's length and the paddle's stroke",
-                self.case.display()
-            )));
+            return refuse(
+                "wavemaker.kind: the wave is made in the particles, so that no flume model runs; `breakwater check` shows \
+                 the wave's length and the paddle's stroke",
+            );
         }
         let Some(record) = run_flume(&case).map_err(Trouble::refused)? else {
-            return Err(Trouble::refused(format!(
-                "{}: wave: the case has no wave; give it one, e.g. {{\"kind\": \"solitary\", \"height_m\": 0.045}}",
-                self.case.display()
-            )));
+            return refuse(
+                "wave: the case has no wave; give it one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}",
+            );
         };
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(format!("{}-wave", stem(&self.case))));
         fresh_folder(&dir, self.overwrite)?;
-        let start = particle_start(&case, &record);
+        let start = particle_start(&case, Some(&record));
         let piston = ml_piston(&case, &record, start);
         let write = || -> Result<PathBuf, OutputError> {
             write_flume_gauges(&case, &record, &dir.join("flume_gauges.csv"))?;

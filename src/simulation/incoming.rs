@@ -7,7 +7,7 @@ use crate::{
         incoming::IncomingWave,
         irregular::IrregularWave,
         layered::{Breaking, Pressure},
-        ml_piston::{MlPiston, start_time},
+        ml_piston::{MlPiston, start_of_rows, start_time},
         paddle::{Paddle, PaddleMotion},
         record::FlumeRecord,
         regular::{MeanFlow, RegularWave, WaveError},
@@ -70,7 +70,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
 /// What makes the wave at the seaward end of the flume.
 fn source(wave: &Wave) -> Result<Option<WaveSource>, WaveError> {
     let inflow = match *wave {
-        Wave::None => return Ok(None),
+        Wave::None | Wave::Given(_) => return Ok(None),
         Wave::Solitary(wave) => return Ok(Some(WaveSource::Piston(wave))),
         Wave::SolitaryInflow(wave) => IncomingWave::solitary(wave),
         Wave::Regular { wave, ramp_periods } => IncomingWave::Regular {
@@ -103,23 +103,20 @@ fn latest_arrival(case: &Case, x: f64) -> f64 {
             let peak = RegularWave { height_m, period_s, depth_m: mean_depth, gravity };
             (peak.group_velocity_m_s(), ramp_periods * period_s)
         }
-        Wave::None | Wave::Solitary(_) | Wave::SolitaryInflow(_) => (long, 0.0),
+        Wave::None | Wave::Given(_) | Wave::Solitary(_) | Wave::SolitaryInflow(_) => (long, 0.0),
     };
     ARRIVAL_ALLOWANCE * way / speed + growth
 }
 
-/// Flume time at which the particles start [s].
-pub fn particle_start(case: &Case, record: &FlumeRecord) -> f64 {
-    match case.domain.start {
-        Start::At(start) => start,
-        Start::AtShare(share) => start_time(record, case.domain.x[0], share),
+/// Flume time, or time of the files that the wave comes from, at which the particles start [s].
+pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
+    let (place, depth) = (case.domain.x[0], case.flume.still_level);
+    match (case.domain.start, record, &case.wave) {
+        (Start::At(start), ..) => start,
+        (Start::AtShare(share), Some(record), _) => start_time(record, place, share),
+        (Start::AtShare(share), None, Wave::Given(wave)) => start_of_rows(&wave.rows, depth, share),
+        (Start::AtShare(_), None, _) => 0.0,
     }
-}
-
-/// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
-pub fn wavemaker_rows(case: &Case) -> Vec<f64> {
-    let (bed, dp) = (case.flume.profile.z(case.domain.x[0]), case.domain.dp);
-    (0..).map(|row| bed + (f64::from(row) + 0.5) * dp).take_while(|&z| z < case.domain.top_z).collect()
 }
 
 /// The multi-layer piston of the case's wave.
@@ -127,7 +124,8 @@ pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     let interval = interval(&case.wave);
     let end = (start + case.stop.duration).max(start + interval);
     let drawn_back = case.wave.period().map(|period| DRIFT_PERIODS * period);
-    MlPiston::from_record(record, case.domain.x[0], &wavemaker_rows(case), [start, end], interval, drawn_back)
+    let rows = case.domain.wavemaker_rows(&case.flume);
+    MlPiston::from_record(record, case.domain.x[0], &rows, [start, end], interval, drawn_back)
 }
 
 /// What makes the case's wave in the particles, if it has one.
@@ -138,6 +136,15 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
     let place = case.domain.x[0];
     let bed = case.flume.profile.z(place);
     let (motion, depth) = match case.wave {
+        Wave::Given(ref wave) => {
+            let end = (start + case.stop.duration).max(start + LONGEST_INTERVAL);
+            return Some(Wavemaker::MlPiston(MlPiston::from_rows(
+                &wave.rows,
+                [start, end],
+                LONGEST_INTERVAL,
+                wave.celerity,
+            )));
+        }
         Wave::Solitary(wave) => (PaddleMotion::Solitary(wave), wave.depth_m),
         Wave::Regular { wave, ramp_periods } => {
             (PaddleMotion::Regular(case.wavemaker.motion(&wave, ramp_periods, bed)), wave.depth_m)
@@ -145,5 +152,6 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
         Wave::None | Wave::SolitaryInflow(_) | Wave::Irregular { .. } => return None,
     };
     let shape = case.wavemaker.shape(bed);
-    Some(Wavemaker::Paddle(Paddle::new(place, wavemaker_rows(case), [bed, depth], shape, motion)))
+    let rows = case.domain.wavemaker_rows(&case.flume);
+    Some(Wavemaker::Paddle(Paddle::new(place, rows, [bed, depth], shape, motion)))
 }

@@ -75,7 +75,7 @@ pub struct Simulation {
     /// What is kept of the run.
     pub statistics: Statistics,
     solver: Solver,
-    wavemaker: Option<Wavemaker>,
+    pub wavemaker: Option<Wavemaker>,
     /// Bed, mound and end walls.
     outline: Outline,
     /// Box that no particle may leave [m].

@@ -16,7 +16,7 @@ use super::{
     snapshots::{Frame, SnapshotFiles},
 };
 use crate::{
-    case::{Case, Gauge, Quantity},
+    case::{Case, Gauge, Quantity, ROWS_FILE, Wave},
     output::{CsvSeries, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges},
     rigid::ContactEvent,
 };
@@ -62,6 +62,9 @@ impl Recorder {
     pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
         let case = &simulation.case;
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        if let Wave::Given(wave) = &case.wave {
+            write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;
+        }
         let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
         profile.append_rows(case.flume.profile.points())?;
         if let Some(units) = &simulation.units {

@@ -50,6 +50,19 @@ pub enum SetupError {
         /// Toe of the mound, or seaward face of an obstacle [m].
         toe: f64,
     },
+    /// The files with the wave end too early.
+    #[error(
+        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, and the particles start at {start:.3} s; \
+         shorten the run to {:.3} s, start earlier with `domain.start_s`, or let the other program run on", end - start
+    )]
+    WaveEnds {
+        /// Time of the run [s].
+        duration: f64,
+        /// When the particles start [s].
+        start: f64,
+        /// When the files end [s].
+        end: f64,
+    },
     /// The unit cannot be built.
     #[error(transparent)]
     Unit(#[from] ArmourUnitError),
@@ -65,7 +78,8 @@ impl Simulation {
     /// If the flume model fails or the units cannot stand where they should.
     pub fn new(case: Arc<Case>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?;
-        let start = flume.as_ref().map_or(0.0, |record| particle_start(&case, record));
+        let start = particle_start(&case, flume.as_ref());
+        check_times(&case, start)?;
         let wavemaker = wavemaker(&case, flume.as_ref(), start);
         if let Some(wavemaker) = &wavemaker {
             check_travel(&case, wavemaker)?;
@@ -110,6 +124,13 @@ impl Simulation {
         simulation.place_boundary();
         Ok(simulation)
     }
+}
+
+/// Refuse a run that goes on after the files with its wave.
+fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
+    let case::Wave::Given(wave) = &case.wave else { return Ok(()) };
+    let ([_, end], duration) = (wave.times(), case.stop.duration);
+    if start + duration <= end { Ok(()) } else { Err(SetupError::WaveEnds { duration, start, end }) }
 }
 
 /// Refuse a wavemaker that would go over the seaward toe of the mound or an obstacle before the run ends.

@@ -88,6 +88,8 @@ fn wave(case: &Case) -> Option<WaveSummary> {
         (Wave::Regular { .. }, Wavemaker::Piston) => ("regular", "madsen"),
         (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
         (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),
+        // Its height is not known.
+        (Wave::Given(_), _) => return None,
     };
     let (kind, theory) = (kind.to_owned(), theory.to_owned());
     Some(WaveSummary { kind, theory, height_m: case.wave.height()?, period_s: case.wave.period() })

@@ -76,6 +76,29 @@ impl MlPiston {
         Self::from_velocities(x0_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
     }
 
+    /// Rows with the velocities of a file, from a start to an end [s] of its time, from knots `interval_s` apart.
+    ///
+    /// The file knows the velocity at one place. With the speed of the wave [m/s] a row that has moved by X has the
+    /// velocity that the place had X / c earlier; without it, that of the place.
+    pub fn from_rows(rows: &Velx, [start_s, end_s]: [f64; 2], interval_s: f64, celerity_m_s: Option<f64>) -> Self {
+        let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
+        let motion = |row: usize| {
+            let mut moved = 0.0;
+            let velocity = |moved: f64, t: f64| row_velocity(rows, row, t - celerity_m_s.map_or(0.0, |c| moved / c));
+            let mut series = Vec::with_capacity(knots);
+            for knot in 0..knots {
+                let t = start_s + knot as f64 * interval_s;
+                let now = velocity(moved, t);
+                // Heun's method.
+                moved += 0.5 * interval_s * (now + velocity(moved + interval_s * now, t + interval_s));
+                series.push(now);
+            }
+            series
+        };
+        let velocities = (0..rows.heights_m[0].len()).map(motion).collect();
+        Self::from_velocities(rows.place_m[0], rows.heights_m[0].clone(), start_s, interval_s, velocities)
+    }
+
     /// The motion from velocities at even knots: the displacement is their integral, linear velocity between knots.
     fn from_velocities(
         place_m: f64,
@@ -187,6 +210,28 @@ enum Knot {
     Before,
     At(usize, f64),
     After,
+}
+
+/// Velocity of a row of a file [m/s] at t [s]: linear in time, constant beyond the ends.
+fn row_velocity(rows: &Velx, row: usize, t: f64) -> f64 {
+    let times = &rows.times_s;
+    let after = times.partition_point(|&time| time <= t);
+    let at = |i: usize| rows.velocities_m_s[i][row];
+    if after == 0 || after == times.len() {
+        return at(after.saturating_sub(1));
+    }
+    let share = (t - times[after - 1]) / (times[after] - times[after - 1]);
+    at(after - 1) + share * (at(after) - at(after - 1))
+}
+
+/// First time [s] at which the mean velocity of the rows of a file below a level z [m] reaches `share` of its maximum.
+pub fn start_of_rows(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
+    let wet = rows.heights_m[0].partition_point(|&z| z < below_z_m).max(1);
+    let mean = |velocities: &Vec<f64>| (velocities[..wet].iter().sum::<f64>() / wet as f64).abs();
+    let speeds: Vec<f64> = rows.velocities_m_s.iter().map(mean).collect();
+    let largest = speeds.iter().copied().fold(0.0, f64::max);
+    let first = speeds.iter().position(|&speed| largest > 0.0 && speed >= share * largest);
+    rows.times_s[first.unwrap_or(0)]
 }
 
 /// First time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum, to a record; the end of the

@@ -7,6 +7,7 @@ mod convergence;
 mod flume_ends;
 mod flume_order;
 mod flume_shore;
+mod given_waves;
 mod incoming_waves;
 mod lattice;
 mod operators;

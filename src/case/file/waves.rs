@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::wave_source::GivenWaveFile;
+
 /// The wave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
@@ -15,6 +17,8 @@ pub enum WaveFile {
     Regular(RegularFile),
     /// A sea of many periods.
     Irregular(IrregularFile),
+    /// A wave from another program.
+    File(GivenWaveFile),
 }
 
 impl Default for WaveFile {

@@ -1,0 +1,174 @@
+//! A wave from another program, read and validated.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::check::{Checker, above, show};
+use super::domain::Domain;
+use super::file::{
+    GivenWaveFile, OpenfoamLinesFile, OpenfoamProbesFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile,
+};
+use super::flume::Flume;
+use crate::waves::external::{
+    error::ExternalError,
+    openfoam::{
+        Frame, Up,
+        lines::{self, Lines},
+        probes::{self, Probes},
+    },
+    swash::{self, Column, TableFile, Tables},
+    table::{Layers, Place, VelocityTable},
+    velx,
+};
+use crate::waves::velx::Velx;
+
+/// The file with the rows' velocities in the folder of a run.
+pub const ROWS_FILE: &str = "wave_velx.csv";
+
+/// Velocities of the wavemaker's rows from another program; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenWave {
+    /// Velocities at the levels of the rows.
+    pub rows: Arc<Velx>,
+    /// Speed at which the wave travels [m/s], if the rows are to move as water that leaves their place.
+    pub celerity: Option<f64>,
+}
+
+impl GivenWave {
+    /// The velocities as a `_velx` file.
+    pub fn rows_text(&self) -> Vec<u8> {
+        let mut text = Vec::new();
+        // Writing to memory cannot fail.
+        let _ = self.rows.write(&mut text);
+        text
+    }
+
+    /// First and last time [s].
+    pub fn times(&self) -> [f64; 2] {
+        [self.rows.times_s[0], self.rows.times_s[self.rows.times_s.len() - 1]]
+    }
+}
+
+/// Read the files, seen from the folder of the case file `case_name`, and validate them for the place of the wavemaker.
+pub(super) fn validate(
+    file: &GivenWaveFile,
+    case_name: &str,
+    flume: &Flume,
+    domain: &Domain,
+    gravity: f64,
+    check: &mut Checker,
+) -> Option<GivenWave> {
+    if let Some(celerity) = file.celerity_m_s {
+        // No wave is faster than a solitary one at its breaking height, sqrt(1.8 g d); twice that leaves room for currents.
+        let fastest = 2.0 * (1.8 * gravity * flume.still_depth(domain.x[0])).sqrt();
+        let advice = "a long wave travels at sqrt(g (d + H))";
+        check.number("wave.celerity_m_s", celerity, above(0.0).up_to(fastest), "m/s", advice);
+    }
+    let x0 = domain.x[0];
+    let place = Place {
+        bed_z_m: flume.profile.z(x0),
+        still_water_z_m: flume.still_level,
+        gravity_m_s2: gravity,
+        layers: Layers::AtLeastTwo,
+    };
+    // Dry land and gravity that pulls the wrong way are refused where they are written.
+    if place.depth_m() <= 0.0 || gravity.is_nan() || gravity <= 0.0 {
+        return None;
+    }
+    let base = Path::new(case_name).parent().unwrap_or(Path::new(""));
+    match read(&file.source, base, &place, check)? {
+        Ok(table) => {
+            let rows = table.velx([x0, 0.0], &domain.wavemaker_rows(flume));
+            Some(GivenWave { rows: Arc::new(rows), celerity: file.celerity_m_s })
+        }
+        Err(error) => {
+            check.refuse(
+                "wave.source",
+                "the files",
+                "the velocity of a wave at the wavemaker's place",
+                error.to_string(),
+            );
+            None
+        }
+    }
+}
+
+type Read = Result<VelocityTable, ExternalError>;
+
+fn read(source: &WaveSourceFile, base: &Path, place: &Place, check: &mut Checker) -> Option<Read> {
+    match source {
+        WaveSourceFile::Dualsphysics(VelxFile { path }) => Some(velx::read(&base.join(path), place)),
+        WaveSourceFile::Swash(file) => read_swash(file, base, place, check),
+        WaveSourceFile::OpenfoamProbes(OpenfoamProbesFile { folder, velocity, water, up, origin_z_m }) => {
+            let (folder, water) = (&base.join(folder), water.as_deref());
+            Some(probes::read(
+                &Probes { folder, velocity, water, frame: frame(*up, *origin_z_m), surface: None },
+                place,
+            ))
+        }
+        WaveSourceFile::OpenfoamLines(OpenfoamLinesFile { folder, line, velocity, water, up, origin_z_m }) => {
+            let (folder, water) = (&base.join(folder), water.as_deref());
+            let frame = frame(*up, *origin_z_m);
+            Some(lines::read(&Lines { folder, line, velocity, water, frame, surface: None }, place))
+        }
+    }
+}
+
+fn frame(up: UpFile, origin_z_m: f64) -> Frame {
+    let up = match up {
+        UpFile::Y => Up::Y,
+        UpFile::Z => Up::Z,
+    };
+    Frame { up, origin_z_m }
+}
+
+fn read_swash(file: &SwashFile, base: &Path, place: &Place, check: &mut Checker) -> Option<Read> {
+    let level = columns("wave.source.level", &file.level, check);
+    let velocity = columns("wave.source.velocity", &file.velocity, check);
+    let (level, velocity) = (level?, velocity?);
+    let [level_path, velocity_path] = [&file.level, &file.velocity].map(|table| base.join(&table.path));
+    let tables = Tables {
+        level: TableFile { path: &level_path, columns: &level },
+        velocity: TableFile { path: &velocity_path, columns: &velocity },
+        layer_shares: &file.layer_shares,
+    };
+    Some(swash::read(&tables, place))
+}
+
+/// The columns of a table as they are called in the case file.
+fn columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Option<Vec<Column>> {
+    let mut columns = Vec::with_capacity(table.columns.len());
+    for (index, name) in table.columns.iter().enumerate() {
+        let layer = name.strip_prefix("velk").and_then(|layer| layer.parse().ok()).filter(|&layer: &usize| layer > 0);
+        columns.push(match (name.as_str(), layer) {
+            ("tsec", _) => Column::Tsec,
+            ("watl", _) => Column::Watl,
+            ("velx", _) => Column::VelX,
+            ("-", _) => Column::Ignored,
+            (_, Some(layer)) => Column::VelkX(layer),
+            _ => {
+                check.refuse(
+                    &format!("{path}.columns[{index}]"),
+                    format!("{name:?}"),
+                    "\"tsec\", \"watl\", \"velk1\", \"velk2\" and so on, \"velx\" or \"-\"",
+                    "name the columns in their order; \"-\" is one that is not needed",
+                );
+                return None;
+            }
+        });
+    }
+    Some(columns)
+}
+
+/// What a user is told about a wave whose files end too early.
+pub(super) fn refuse_late_start(wave: &GivenWave, start: f64, check: &mut Checker) {
+    let [first, last] = wave.times();
+    if !(first..last).contains(&start) {
+        check.refuse(
+            "domain.start_s",
+            show(start),
+            format!("within the times of the files, {} to {} s", show(first), show(last)),
+            "it is a time of the other program",
+        );
+    }
+}
