@@ -17,7 +17,9 @@ use serde::{Deserialize, Serialize};
 pub use wave_source::{
     GivenWaveFile, OpenfoamLinesFile, OpenfoamProbesFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile,
 };
-pub use waves::{FlapFile, IrregularFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile};
+pub use waves::{
+    FlapFile, IrregularFile, PistonFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile,
+};
 
 /// A breakwater case: a flume, the water in it, the wave and the armour units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -70,7 +70,7 @@ impl Wavemaker {
     /// What moves, over a bed at the level `bed_z` [m].
     pub fn shape(self, bed_z: f64) -> PaddleShape {
         match self {
-            Self::MlPiston | Self::Piston => PaddleShape::Piston,
+            Self::MlPiston | Self::Piston { .. } => PaddleShape::Piston,
             Self::Flap { hinge_z } => PaddleShape::Flap { hinge_m: hinge_z - bed_z },
         }
     }

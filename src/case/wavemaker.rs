@@ -20,7 +20,10 @@ pub enum Wavemaker {
     /// Rows that follow the water of the flume model.
     MlPiston,
     /// A rigid piston.
-    Piston,
+    Piston {
+        /// Distance of the gauge by which it absorbs what comes back, if it does [m].
+        absorption_gauge: Option<f64>,
+    },
     /// A paddle that turns about a hinge.
     Flap {
         /// Level of the hinge [m].
@@ -34,7 +37,7 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
         check.refuse("wavemaker.kind", format!("{value:?}"), allowed, advice);
     };
     match (wave, file) {
-        (WaveFile::None {}, WavemakerFile::Piston {} | WavemakerFile::Flap(_)) => refuse(
+        (WaveFile::None {}, WavemakerFile::Piston(_) | WavemakerFile::Flap(_)) => refuse(
             name(file),
             "left out while `wave` is left out or \"none\"",
             "add a wave, e.g. \"wave\": { \"kind\": \"regular\", \"height_m\": 0.1, \"period_s\": 1.2 }",
@@ -44,12 +47,12 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
             "\"ml_piston\" or \"piston\" for a solitary wave",
             "a solitary wave moves the water to the bed: no flap makes it",
         ),
-        (WaveFile::Irregular(_), WavemakerFile::Piston {} | WavemakerFile::Flap(_)) => refuse(
+        (WaveFile::Irregular(_), WavemakerFile::Piston(_) | WavemakerFile::Flap(_)) => refuse(
             name(file),
             "\"ml_piston\" for irregular waves",
             "leave `wavemaker` out: the flume model carries the sea to the domain",
         ),
-        (WaveFile::File(_), WavemakerFile::Piston {} | WavemakerFile::Flap(_)) => refuse(
+        (WaveFile::File(_), WavemakerFile::Piston(_) | WavemakerFile::Flap(_)) => refuse(
             name(file),
             "\"ml_piston\" for a wave from files",
             "leave `wavemaker` out: its rows follow the velocities in the files",
@@ -58,7 +61,7 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
     }
     match file {
         WavemakerFile::MlPiston {} => Wavemaker::MlPiston,
-        WavemakerFile::Piston {} => Wavemaker::Piston,
+        WavemakerFile::Piston(piston) => Wavemaker::Piston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Flap(flap) => {
             let highest = flume.map_or(FURTHEST_HINGE, |flume| flume.still_level);
             // At the surface the flap would have no arm.
@@ -77,7 +80,7 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
 fn name(file: &WavemakerFile) -> &'static str {
     match file {
         WavemakerFile::MlPiston {} => "ml_piston",
-        WavemakerFile::Piston {} => "piston",
+        WavemakerFile::Piston(_) => "piston",
         WavemakerFile::Flap(_) => "flap",
     }
 }
@@ -93,6 +96,12 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
             format!("in still water at least 4 particles deep (the depth there is {} m)", show(depth)),
             "start the domain further from the shore",
         );
+    }
+    if let Wavemaker::Piston { absorption_gauge: Some(gauge) } = wavemaker {
+        // Nearer than four particles the gauge would show the gap at the piston.
+        let (nearest, furthest) = (4.0 * domain.dp, 0.5 * (domain.x[1] - domain.x[0]));
+        let advice = "a depth from the piston is usual; what comes back must not be what has just gone out";
+        check.number("wavemaker.absorption_gauge_m", gauge, from(nearest).up_to(furthest), "m", advice);
     }
     match wave {
         Wave::None | Wave::Given(_) => {}
@@ -168,7 +177,7 @@ fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker
 }
 
 fn warn_of_order(wave: &RegularWave, wavemaker: Wavemaker, check: &mut Checker) {
-    if wavemaker == Wavemaker::Piston && !wave.is_second_order() {
+    if matches!(wavemaker, Wavemaker::Piston { .. }) && !wave.is_second_order() {
         check.warn(format!(
             "wave.height_m = {}: H L^2 / d^3 exceeds 8 pi^2 / 3, where the second-order motion of the piston holds no longer \
              (Madsen 1971); a free second wave will follow each crest",

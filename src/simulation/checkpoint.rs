@@ -10,10 +10,10 @@ use hdf5_metno::{File, Group, types::VarLenUnicode};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::{Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics};
-use crate::{output::OutputError, particles::water::Water, rigid::RigidSnapshot};
+use crate::{output::OutputError, particles::water::Water, rigid::RigidSnapshot, waves::absorption::AbsorptionState};
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 type Hdf5Result<T> = hdf5_metno::Result<T>;
 
@@ -29,6 +29,7 @@ struct Scalars {
     rigid: Option<RigidSnapshot>,
     fluid_loads: Vec<[[f64; 3]; 2]>,
     mean_loads: MeanLoads,
+    absorbed: AbsorptionState,
 }
 
 /// A copy of the state of a run, to be written while the run goes on.
@@ -60,6 +61,7 @@ impl Checkpoint {
                 units.fluid_loads.iter().map(|load| [load.force.to_array(), load.torque.to_array()]).collect()
             }),
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
+            absorbed: simulation.absorbed,
         };
         Self { scalars, water: simulation.water.clone(), boundary_density: simulation.boundary.density.clone() }
     }
@@ -123,6 +125,7 @@ pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, Ou
     simulation.time = scalars.time;
     simulation.steps = scalars.steps;
     simulation.statistics = scalars.statistics;
+    simulation.absorbed = scalars.absorbed;
     if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
         units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
         for (load, [force, torque]) in units.fluid_loads.iter_mut().zip(scalars.fluid_loads) {

@@ -10,7 +10,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{Simulation, Units};
+use super::{Simulation, Units, absorb::rows};
 use crate::{
     case::Sides,
     geometry::{axis_box::AxisBox, convex_part::ConvexPart},
@@ -37,7 +37,8 @@ impl Simulation {
             keep_out_of_obstacle(&mut self.water, obstacle, nearest);
         }
         if let Some(wavemaker) = &self.wavemaker {
-            keep_out_of_wavemaker(&mut self.water, wavemaker, self.case.domain.dp, nearest, flume_time);
+            let rows = rows(wavemaker, &self.absorbed, flume_time, 0.0);
+            keep_out_of_wavemaker(&mut self.water, wavemaker, &rows, self.case.domain.dp, nearest);
         }
         let Some(units) = &mut self.units else { return };
         let (grid, bins) = (&self.solver.grid, self.solver.water_bins());
@@ -88,8 +89,8 @@ fn keep_out_of_sides(water: &mut Water, width: f64, nearest: f64) {
     });
 }
 
-fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, dp: f64, nearest: f64, flume_time: f64) {
-    let (rows, place) = (wavemaker.rows_at(flume_time), wavemaker.place_m());
+fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64; 2]], dp: f64, nearest: f64) {
+    let place = wavemaker.place_m();
     let furthest = rows.iter().map(|row| row[0]).fold(f64::MIN, f64::max) + place + nearest;
     let lowest = wavemaker.row_heights_m()[0];
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {

@@ -153,5 +153,9 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
     };
     let shape = case.wavemaker.shape(bed);
     let rows = case.domain.wavemaker_rows(&case.flume);
-    Some(Wavemaker::Paddle(Paddle::new(place, rows, [bed, depth], shape, motion)))
+    let paddle = Paddle::new(place, rows, [bed, depth], shape, motion);
+    Some(Wavemaker::Paddle(match case.wavemaker {
+        case::Wavemaker::Piston { absorption_gauge: Some(gauge) } => paddle.absorbing(gauge),
+        _ => paddle,
+    }))
 }

@@ -6,6 +6,7 @@
 //! | [`incoming`] | make its wave, in the flume model or by a paddle |
 //! | this one | one step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
+//! | `absorb` | a piston that takes up the waves that come back |
 //! | `damping` | slowing the water down before the end of the domain |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
 //! | [`energy`], [`balance`] | energy of water and units, and where it goes |
@@ -19,6 +20,7 @@
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
 //! | [`summary`] | the run in a few numbers |
 
+mod absorb;
 pub mod balance;
 pub mod checkpoint;
 mod damping;
@@ -48,8 +50,9 @@ use crate::{
     particles::{bed::Outline, boundary::Boundary, water::Water},
     rigid::{BodyState, Load, RigidWorld},
     sph::{sampling::Sampler, step::Solver},
-    waves::{record::FlumeRecord, wavemaker::Wavemaker},
+    waves::{absorption::AbsorptionState, record::FlumeRecord, wavemaker::Wavemaker},
 };
+use absorb::move_wavemaker;
 use failure::Failure;
 use mean_loads::MeanLoads;
 use statistics::Statistics;
@@ -76,6 +79,8 @@ pub struct Simulation {
     pub statistics: Statistics,
     solver: Solver,
     pub wavemaker: Option<Wavemaker>,
+    /// Where absorption has carried it.
+    pub absorbed: AbsorptionState,
     /// Bed, mound and end walls.
     outline: Outline,
     /// Box that no particle may leave [m].
@@ -125,9 +130,11 @@ impl Simulation {
     /// # Errors
     /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the bed.
     pub fn finish_step(&mut self, dt: f64) -> Result<(), Failure> {
-        let (wavemaker, units, half_time) = (&self.wavemaker, &self.units, self.flume_time() + 0.5 * dt);
+        self.absorb(dt);
+        let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);
+        let half_time = self.flume_time() + 0.5 * dt;
         self.solver.predict(dt, &self.water, &mut self.boundary, |boundary| {
-            move_wavemaker(boundary, wavemaker.as_ref(), half_time);
+            move_wavemaker(boundary, wavemaker.as_ref(), absorbed, half_time, 0.5 * dt);
             if let Some(units) = units {
                 units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
             }
@@ -170,7 +177,7 @@ impl Simulation {
     /// Put wavemaker and units where they are now.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
-        move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), flume_time);
+        move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), &self.absorbed, flume_time, 0.0);
         if let Some(units) = &self.units {
             units.states().iter().enumerate().for_each(|(k, s)| self.boundary.move_unit(k, s));
         }
@@ -183,7 +190,8 @@ impl Simulation {
 
     /// Place of the foremost row of the wavemaker [m], if there is one.
     pub fn wavemaker_front(&self) -> Option<f64> {
-        self.wavemaker.as_ref().map(|wavemaker| wavemaker.front_m(self.flume_time()))
+        let front = |wavemaker: &Wavemaker| wavemaker.front_m(self.flume_time()) + self.absorbed.displacement_m;
+        self.wavemaker.as_ref().map(front)
     }
 
     /// The water, to be measured; valid after [`Self::begin_step`].
@@ -214,12 +222,6 @@ impl Units {
     pub fn displacements(&self) -> Vec<f64> {
         let moved = |(now, start): (&BodyState, &BodyState)| (now.position - start.position).truncate().length();
         self.states().iter().zip(&self.start).map(moved).collect()
-    }
-}
-
-fn move_wavemaker(boundary: &mut Boundary, wavemaker: Option<&Wavemaker>, flume_time: f64) {
-    if let Some(wavemaker) = wavemaker {
-        boundary.move_piston(&wavemaker.rows_at(flume_time));
     }
 }
 

@@ -28,7 +28,7 @@ use crate::{
     },
     rigid::{self, BodyShape, BodyState, Friction, Ground, RigidError, RigidSetup, RigidWorld},
     sph::step::Solver,
-    waves::{flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
+    waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
 
 /// Why a case cannot be set up.
@@ -119,6 +119,7 @@ impl Simulation {
             steps: 0,
             start,
             wavemaker,
+            absorbed: AbsorptionState::default(),
             outline,
         };
         simulation.place_boundary();

@@ -13,12 +13,14 @@
 //! | [`record`] | gauges, profiles and a window of the flow over time, to be asked at any (x, z, t) |
 //! | [`ml_piston`] | a wavemaker for the particles whose rows follow the water |
 //! | [`paddle`] | a rigid piston or flap that moves by theory |
+//! | [`absorption`] | what a piston does about the waves that come back to it |
 //! | [`wavemaker`] | either of these, as rows that move |
 //! | [`velx`] | the piston's velocities as a DualSPHysics `_velx` file |
 //! | [`external`] | the velocity at one place from files of other programs |
 //!
 //! SI units; x from the wavemaker at rest to the shore, z upwards from the bed profile's own datum.
 
+pub mod absorption;
 pub mod external;
 pub mod flume;
 pub mod incoming;

@@ -1,7 +1,11 @@
 //! A rigid paddle in the particles: rows that move in proportion to one motion.
 
+use crate::waves::absorption::Absorption;
 use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::solitary::SolitaryWave;
+
+/// Periods in which absorption is taken back in periodic waves.
+const RETURN_PERIODS: f64 = 10.0;
 
 /// Motion of a paddle at the still surface, t [s] from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +40,35 @@ impl PaddleMotion {
             Self::Regular(motion) => [motion.reach_m(); 2],
         }
     }
+
+    /// Elevation of the wave that it makes, at a distance [m] from the paddle and t [s].
+    pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
+        match self {
+            Self::Solitary(wave) => wave.elevation_at_piston_m(t - distance_m / wave.celerity_m_s()),
+            Self::Regular(motion) => motion.elevation_m(distance_m, t),
+        }
+    }
+
+    /// How a piston with this motion absorbs what comes back, with a gauge at a distance [m].
+    pub fn absorption(&self, gauge_m: f64) -> Absorption {
+        let reach_m = self.reach_m()[1];
+        match self {
+            Self::Solitary(wave) => Absorption {
+                gauge_m,
+                way_s: gauge_m / wave.celerity_m_s(),
+                velocity_per_elevation: (wave.gravity / wave.depth_m).sqrt(),
+                reach_m,
+                return_s: None,
+            },
+            Self::Regular(motion) => Absorption {
+                gauge_m,
+                way_s: gauge_m / motion.celerity_m_s(),
+                velocity_per_elevation: motion.velocity_per_elevation(),
+                reach_m,
+                return_s: Some(RETURN_PERIODS * motion.period_s()),
+            },
+        }
+    }
 }
 
 /// Rows of a paddle. A flap's rows keep their height: they shear where a rigid flap turns, which differs by the square
@@ -47,6 +80,7 @@ pub struct Paddle {
     /// Displacement of each row over that at the still surface [-].
     shares: Vec<f64>,
     motion: PaddleMotion,
+    absorption: Option<Absorption>,
 }
 
 impl Paddle {
@@ -60,7 +94,27 @@ impl Paddle {
         motion: PaddleMotion,
     ) -> Self {
         let shares = row_heights_m.iter().map(|z| shape.share(z - bed_m, depth_m)).collect();
-        Self { place_m, row_heights_m, shares, motion }
+        Self { place_m, row_heights_m, shares, motion, absorption: None }
+    }
+
+    /// The same paddle, taking up what comes back to it, with a gauge at a distance [m].
+    pub fn absorbing(self, gauge_m: f64) -> Self {
+        Self { absorption: Some(self.motion.absorption(gauge_m)), ..self }
+    }
+
+    /// How it takes up what comes back, if it does.
+    pub fn absorption(&self) -> Option<&Absorption> {
+        self.absorption.as_ref()
+    }
+
+    /// Displacement at the still surface at t [s], without what absorption adds [m].
+    pub fn motion_m(&self, t: f64) -> f64 {
+        self.motion.displacement_m(t)
+    }
+
+    /// Elevation of the wave that it makes, at a distance [m] and t [s].
+    pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
+        self.motion.elevation_m(distance_m, t)
     }
 
     /// Place at rest [m].
@@ -73,7 +127,7 @@ impl Paddle {
         &self.row_heights_m
     }
 
-    /// Displacement [m] and velocity [m/s] of each row at t [s].
+    /// Displacement [m] and velocity [m/s] of each row at t [s], without what absorption adds.
     pub fn rows_at(&self, t: f64) -> impl Iterator<Item = [f64; 2]> {
         let (displacement, velocity) = (self.motion.displacement_m(t), self.motion.velocity_m_s(t));
         self.shares.iter().map(move |share| [share * displacement, share * velocity])
@@ -82,7 +136,8 @@ impl Paddle {
     /// How far any row goes seaward and shoreward of its place of rest, upper bounds [m].
     pub fn reach_m(&self) -> [f64; 2] {
         let largest = self.shares.iter().copied().fold(0.0, f64::max);
-        self.motion.reach_m().map(|reach| largest * reach)
+        let absorbed = self.absorption.map_or(0.0, |absorption| absorption.reach_m);
+        self.motion.reach_m().map(|reach| largest * (reach + absorbed))
     }
 }
 

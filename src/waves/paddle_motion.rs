@@ -56,6 +56,10 @@ impl PaddleShape {
 pub struct RegularMotion {
     /// Angular frequency [rad/s].
     omega: f64,
+    /// Wave number [1/m].
+    number: f64,
+    /// Amplitude of the wave [m].
+    amplitude_m: f64,
     /// Amplitude at that frequency, half of the stroke [m].
     first_m: f64,
     /// Amplitude at twice that frequency [m].
@@ -73,7 +77,8 @@ impl RegularMotion {
             PaddleShape::Piston => second_order_m(wave.height_m, k, depth),
             PaddleShape::Flap { .. } => 0.0,
         };
-        Self { omega: wave.angular_frequency(), first_m, second_m, ramp_s: ramp_periods * wave.period_s }
+        let (omega, amplitude_m) = (wave.angular_frequency(), 0.5 * wave.height_m);
+        Self { omega, number: k, amplitude_m, first_m, second_m, ramp_s: ramp_periods * wave.period_s }
     }
 
     /// Stroke at first order [m].
@@ -96,6 +101,27 @@ impl RegularMotion {
     pub fn velocity_m_s(&self, t: f64) -> f64 {
         let ([share, rate], [x, v]) = (self.ramp(t), self.full(t));
         rate * x + share * v
+    }
+
+    /// Elevation of the wave that is made, of first order, at a distance [m] from the paddle and t [s].
+    pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
+        let since = t - self.number * distance_m / self.omega;
+        self.ramp(since)[0] * self.amplitude_m * (self.omega * since).cos()
+    }
+
+    /// Speed of the crests [m/s].
+    pub fn celerity_m_s(&self) -> f64 {
+        self.omega / self.number
+    }
+
+    /// Velocity of the paddle over the elevation of the wave that it makes [1/s].
+    pub fn velocity_per_elevation(&self) -> f64 {
+        self.omega * self.first_m / self.amplitude_m
+    }
+
+    /// Period [s].
+    pub fn period_s(&self) -> f64 {
+        2.0 * PI / self.omega
     }
 
     /// Displacement [m] and velocity [m/s] without the ramp.

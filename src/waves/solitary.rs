@@ -72,6 +72,12 @@ impl SolitaryWave {
         self.celerity_m_s() * eta / (self.depth_m + eta)
     }
 
+    /// Elevation of the wave at the piston [m]: that by which the water there has its velocity.
+    pub fn elevation_at_piston_m(&self, t: f64) -> f64 {
+        let u = self.piston_velocity_m_s(t);
+        self.depth_m * u / (self.celerity_m_s() - u)
+    }
+
     /// Phase theta at the piston, from -3.8 to 3.8 over the stroke: the root of
     /// theta + (H/d) tanh theta = k c (t - T/2), by Newton's method. (tanh 3.8 = 0.999: the ends are met to 1e-4.)
     fn phase(&self, t: f64) -> f64 {

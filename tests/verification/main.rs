@@ -1,5 +1,6 @@
 //! The parts of the program, and all of it, against answers known from mechanics. Run with `--release`.
 
+mod absorption;
 mod blocks;
 mod buoyancy;
 mod conservation;

@@ -111,7 +111,7 @@ pub enum WavemakerFile {
     /// A piston in rows that follow the water of the layered flume model (multi-layer piston); for all waves.
     MlPiston {},
     /// A rigid piston that moves by wave theory in the depth where it stands; for solitary and regular waves.
-    Piston {},
+    Piston(PistonFile),
     /// A paddle that turns about a hinge, by first-order theory; for regular waves.
     Flap(FlapFile),
 }
@@ -127,6 +127,16 @@ impl WavemakerFile {
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
+}
+
+/// A rigid piston.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PistonFile {
+    /// Distance of a gauge that moves with the piston [m]; what it shows beyond the wave that is made comes back, and the
+    /// piston takes it up. Without it the piston sends it out again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub absorption_gauge_m: Option<f64>,
 }
 
 /// A paddle that turns about a hinge.

@@ -1,0 +1,78 @@
+//! A piston that takes up the wave that a wall sends back to it.
+
+use glam::DVec2;
+use serde_json::{Value, json};
+
+use super::tanks::{GRAVITY, run_until, simulation};
+
+const DEPTH: f64 = 0.3;
+const LENGTH: f64 = 4.0;
+
+/// A tank with a piston that makes a solitary wave, and a wall.
+fn tank(dp: f64, height: f64, absorbs: bool) -> Value {
+    let mut wavemaker = json!({ "kind": "piston" });
+    if absorbs {
+        wavemaker["absorption_gauge_m"] = json!(4.0 * dp);
+    }
+    json!({
+        "title": "A solitary wave between a piston and a wall",
+        "flume": { "bed_m": [[0.0, 0.0], [LENGTH, 0.0]], "still_water_level_m": DEPTH },
+        "domain": { "x_m": [0.0, LENGTH], "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 0.6, "dp_m": dp },
+        "numerics": { "viscosity_alpha": 0.01 },
+        "fluid": { "sound_speed_factor": 10.0 },
+        "wave": { "kind": "solitary", "height_m": height },
+        "wavemaker": wavemaker,
+        "stop": { "duration_s": 20.0 }
+    })
+}
+
+/// Highest elevation in the middle of the tank [m]: of the wave on its first way, and after it has come back from the
+/// wall to the piston.
+fn crests(dp: f64, height: f64, absorbs: bool) -> [f64; 2] {
+    let mut tank = simulation(&tank(dp, height, absorbs));
+    let celerity = (GRAVITY * (DEPTH + height)).sqrt();
+    // The crest leaves the piston in the middle of its stroke.
+    let outskirt = (0.75 * height / (DEPTH * DEPTH * (DEPTH + height))).sqrt();
+    let leaves = (3.8 + height / DEPTH) / (outskirt * celerity);
+    let [first, back, again] = [0.5, 1.5, 2.5].map(|lengths| leaves + lengths * LENGTH / celerity);
+    // Half way between its passages in either direction the wave is nowhere near the middle.
+    let (until, from) = (0.5 * (first + back), back + 0.75 * (again - back));
+    let mut crests = [0.0_f64; 2];
+    run_until(&mut tank, again + 0.2 * LENGTH / celerity, |now| {
+        if now.steps.is_multiple_of(10) && (now.time < until || now.time > from) {
+            let level = now.sampler().surface(DVec2::new(0.5 * LENGTH, 5.0 * dp), 0.0, 0.6).unwrap() - DEPTH;
+            let crest = &mut crests[usize::from(now.time > until)];
+            *crest = crest.max(level);
+        }
+    });
+    println!(
+        "dp = {dp} m, absorbing: {absorbs}: crest {:.4} m, after it has come back {:+.4} m ({:.1} %); piston carried {:+.3} m",
+        crests[0],
+        crests[1],
+        100.0 * crests[1] / crests[0],
+        tank.absorbed.displacement_m
+    );
+    crests
+}
+
+fn compare(dp: f64, height: f64) -> [f64; 2] {
+    [false, true].map(|absorbs| {
+        let [first, again] = crests(dp, height, absorbs);
+        again / first
+    })
+}
+
+#[test]
+fn a_piston_takes_up_what_comes_back_coarse() {
+    let [without, with] = compare(0.05, 0.09);
+    // 10 % is asked for after one return; 6 % is reached, an eighth of a particle distance.
+    assert!(without > 0.5 && with < 0.1);
+}
+
+/// `cargo test --release --test verification -- --ignored --nocapture a_piston_takes_up_what_comes_back_fine`
+#[test]
+#[ignore = "5 minutes on 2 cores"]
+fn a_piston_takes_up_what_comes_back_fine() {
+    let [without, with] = compare(0.025, 0.06);
+    assert!(without > 0.5 && with < 0.1);
+}
