@@ -20,8 +20,36 @@ pub struct Gauge {
     pub quantity: Quantity,
     /// Place [m]; the z of an elevation gauge is the still water level.
     pub at: [f64; 3],
+    /// Whether it moves.
+    pub motion: Motion,
     /// Inside the particle domain; outside it only the flume model writes the gauge.
     pub in_domain: bool,
+}
+
+/// How a gauge moves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Motion {
+    /// Not at all.
+    Fixed,
+    /// With a unit, counted from 0.
+    OnUnit(usize),
+    /// Along a way: times from the start of the particles [s] and displacements [m].
+    Way(Vec<[f64; 4]>),
+}
+
+impl Gauge {
+    /// Displacement along its way [m], a time [s] after the start of the particles; nothing for others.
+    pub fn displacement(&self, time: f64) -> [f64; 3] {
+        let Motion::Way(way) = &self.motion else { return [0.0; 3] };
+        let after = way.partition_point(|point| point[0] <= time);
+        let place = |i: usize| [way[i][1], way[i][2], way[i][3]];
+        if after == 0 || after == way.len() {
+            return place(after.saturating_sub(1));
+        }
+        let (from, to) = (place(after - 1), place(after));
+        let share = (time - way[after - 1][0]) / (way[after][0] - way[after - 1][0]);
+        std::array::from_fn(|k| from[k] + share * (to[k] - from[k]))
+    }
 }
 
 /// What a gauge measures.
@@ -62,6 +90,7 @@ pub(super) fn validate(
     file: &[GaugeFile],
     flume: Option<&Flume>,
     domain: Option<&Domain>,
+    units: usize,
     reach: Reach,
     check: &mut Checker,
 ) -> Vec<Gauge> {
@@ -74,17 +103,21 @@ pub(super) fn validate(
     let mut gauges = Vec::new();
     for (index, gauge) in file.iter().enumerate() {
         let path = format!("gauges[{index}]");
-        let (quantity, at) = match gauge {
+        let (quantity, at, motion) = match gauge {
             GaugeFile::Elevation(elevation) => {
                 let y = elevation.y_m.unwrap_or(0.5 * domain.width);
                 validate_elevation(&path, elevation.x_m, y, flume, domain, reach, check);
-                (Quantity::Elevation, [elevation.x_m, y, flume.still_level])
+                (Quantity::Elevation, [elevation.x_m, y, flume.still_level], Motion::Fixed)
             }
-            GaugeFile::Pressure(point) => (Quantity::Pressure, validate_point(&path, point, flume, domain, check)),
-            GaugeFile::Velocity(point) => (Quantity::Velocity, validate_point(&path, point, flume, domain, check)),
+            GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => {
+                validate_point(&path, point, flume, domain, check);
+                let pressure = matches!(gauge, GaugeFile::Pressure(_));
+                let quantity = if pressure { Quantity::Pressure } else { Quantity::Velocity };
+                (quantity, point.at_m, validate_motion(&path, point, units, check))
+            }
         };
         let in_domain = at[0] >= domain.x[0] && at[0] <= domain.x[1];
-        gauges.push(Gauge { name: name(gauge).to_owned(), quantity, at, in_domain });
+        gauges.push(Gauge { name: name(gauge).to_owned(), quantity, at, motion, in_domain });
     }
     gauges
 }
@@ -126,7 +159,7 @@ fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain
     within(&format!("{path}.y_m"), y, [0.0, domain.width], "the domain's width", check);
 }
 
-fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain, check: &mut Checker) -> [f64; 3] {
+fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain, check: &mut Checker) {
     let [x, y, z] = point.at_m;
     within(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
     within(&format!("{path}.at_m[1]"), y, [0.0, domain.width], "the domain's width", check);
@@ -139,7 +172,35 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
             "there is no water inside an obstacle: move the gauge to its face",
         );
     }
-    point.at_m
+}
+
+fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Checker) -> Motion {
+    let rises = point.way.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+    let finite = point.way.iter().flatten().all(|value| value.is_finite());
+    if !(rises && finite) {
+        check.refuse(
+            &format!("{path}.way"),
+            format!("{} points", point.way.len()),
+            "points [t, x, y, z] of finite numbers with rising times",
+            "write times from the start of the particles [s] and displacements [m]",
+        );
+    }
+    match point.on_unit {
+        None if point.way.is_empty() => Motion::Fixed,
+        None => Motion::Way(point.way.clone()),
+        Some(unit) => {
+            if unit == 0 || unit as usize > units {
+                let allowed =
+                    if units == 0 { "left out: there are no units".to_owned() } else { format!("1 to {units}") };
+                check.refuse(&format!("{path}.on_unit"), unit, allowed, "units are counted from 1, as in the tables");
+            }
+            if !point.way.is_empty() {
+                let advice = "a gauge moves with a unit or along a way of its own";
+                check.refuse(&format!("{path}.way"), "given", "left out with `on_unit`", advice);
+            }
+            Motion::OnUnit((unit as usize).saturating_sub(1))
+        }
+    }
 }
 
 fn within(path: &str, value: f64, [low, high]: [f64; 2], place: &str, check: &mut Checker) {

@@ -36,7 +36,7 @@ pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
 pub use file::{Boundary, DensityDiffusion, FluidField, Sides, SolitaryTheory, Viscosity, WallSlip};
 pub use flume::{Flume, Mound};
-pub use gauges::{Gauge, Quantity};
+pub use gauges::{Gauge, Motion, Quantity};
 pub use given_wave::{GivenWave, ROWS_FILE};
 pub use materials::{FrictionPair, Material};
 pub use numerics::{Fluid, Numerics};

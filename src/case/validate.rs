@@ -143,7 +143,8 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let units = file.units.as_ref().map(|row| units::validate(row, &around, check));
     let contact = run::validate_contact(&file.contact, check);
     let reach = gauges::Reach::of(&file.wave, wavemaker);
-    let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), reach, check);
+    let count = units.as_ref().and_then(Option::as_ref).map_or(0, |units| units.placements.len());
+    let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), count, reach, check);
     let output = output::validate(&file.output, stop.duration, domain.as_ref(), check);
     let units = match units {
         None => None,

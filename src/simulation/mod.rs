@@ -45,7 +45,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::{
-    case::Case,
+    case::{Case, Gauge, Motion},
     geometry::armour_unit::ArmourUnit,
     particles::{bed::Outline, boundary::Boundary, water::Water},
     rigid::{BodyState, Load, RigidWorld},
@@ -192,6 +192,18 @@ impl Simulation {
     pub fn wavemaker_front(&self) -> Option<f64> {
         let front = |wavemaker: &Wavemaker| wavemaker.front_m(self.flume_time()) + self.absorbed.displacement_m;
         self.wavemaker.as_ref().map(front)
+    }
+
+    /// Where a gauge is now [m].
+    pub fn place_of(&self, gauge: &Gauge) -> DVec3 {
+        let at = DVec3::from_array(gauge.at);
+        match (&gauge.motion, &self.units) {
+            (Motion::OnUnit(unit), Some(units)) => {
+                let (now, start) = (&units.states()[*unit], &units.start[*unit]);
+                now.position + now.rotation * (start.rotation.inverse() * (at - start.position))
+            }
+            _ => at + DVec3::from_array(gauge.displacement(self.time)),
+        }
     }
 
     /// The water, to be measured; valid after [`Self::begin_step`].

@@ -261,7 +261,7 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
     let mut row = vec![simulation.flume_time()];
     for gauge in wet_gauges(case) {
-        let at = glam::DVec3::from_array(gauge.at);
+        let at = simulation.place_of(gauge);
         let sample = || sampler.sample(at).filter(|_| at.x > wet_from);
         match gauge.quantity {
             Quantity::Elevation => {

@@ -137,6 +137,13 @@ pub struct ElevationFile {
 pub struct PointFile {
     /// Name in tables and plots.
     pub name: String,
-    /// Place [m].
+    /// Place at the start [m].
     pub at_m: [f64; 3],
+    /// Unit that the point moves with, counted from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub on_unit: Option<u32>,
+    /// Way of a point that moves: times from the start of the particles [s] and displacements [m], [t, x, y, z] each; it
+    /// moves straight between them and stays at the last.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub way: Vec<[f64; 4]>,
 }
