@@ -70,8 +70,8 @@ mod tests {
             out.push(coming(t) + state.velocity_m_s / 5.0);
         }
         let largest = out.iter().fold(0.0_f64, |most, eta| most.max(eta.abs()));
-        // (a omega)^2 / 2 with omega = 3 per second: 4.5 %.
-        assert!(largest < 0.05 * 0.03, "{}", largest / 0.03);
+        // What is left at second order is a^2 eta'' / 4, 4.5 % of this crest; 5.2 % with the orders beyond.
+        assert!(largest < 0.06 * 0.03, "{}", largest / 0.03);
         // It has gone back by the volume of the wave over its velocity: 5 (2/3) 0.03.
         assert!((state.displacement_m + 0.1).abs() < 0.002);
     }
