@@ -32,7 +32,7 @@ impl MlPiston {
     /// apart.
     ///
     /// In periodic waves the water drifts, at the surface with the waves and below against them, and would carry the rows
-    /// ever further apart. With `drawn_back_s` they are drawn back to where they stood, in this time [s], a few periods.
+    /// ever further apart. With `drawn_back_s` both are drawn back to where they stood, in this time [s], a few periods.
     ///
     /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at its end.
     ///
@@ -52,16 +52,17 @@ impl MlPiston {
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
         let standing = particles_at_start(record, x0_m, row_heights_m, start_s);
         let mut particles = standing.clone();
+        let mut moved = vec![0.0; row_heights_m.len()];
         let mut velocities = vec![Vec::with_capacity(knots); row_heights_m.len()];
         for knot in 0..knots {
             let t = start_s + knot as f64 * interval_s;
-            let back = |x: f64| drawn_back_s.map_or(0.0, |time| (x0_m - x) / time);
-            let mut speeds: Vec<[f64; 2]> =
-                particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0 + back(x)]).collect();
+            let mut speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
             // Particles keep their order in height but for those that touch the bed or a broken surface.
             speeds.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            for (series, &height) in velocities.iter_mut().zip(row_heights_m) {
-                series.push(at_height(&speeds, height));
+            for ((series, moved), &height) in velocities.iter_mut().zip(&mut moved).zip(row_heights_m) {
+                let velocity = at_height(&speeds, height) - drawn_back_s.map_or(0.0, |time| *moved / time);
+                *moved += interval_s * velocity;
+                series.push(velocity);
             }
             for (particle, standing) in particles.iter_mut().zip(&standing) {
                 *particle = follow(record, *particle, t, interval_s);

@@ -48,11 +48,11 @@ fn rows_swing_with_the_water_of_regular_waves_and_do_not_drift_away() {
         println!("row at {height:.2} m swings by {:.4} m, theory {theory:.4} m, about {mean:+.4} m", high - low);
         // 5 %: the wave is not linear (H/d = 0.075), and a little comes back from the sponge.
         assert!(((high - low) / theory - 1.0).abs() < 0.05);
-        // The flow back below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, for the six seconds in which rows are
-        // drawn back; in the 45 s of the run it would carry them seven times as far.
-        assert!(mean.abs() < 0.02);
+        // 5 mm: the flow back below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would carry the rows by 10 mm in the
+        // six seconds in which they are drawn back and by 70 mm in the run; 0.7 mm is reached.
+        assert!(mean.abs() < 0.005);
     }
-    assert!(piston.seaward_reach_m() > 0.01);
+    assert!(piston.shoreward_reach_m() > 0.015);
 }
 
 #[test]
