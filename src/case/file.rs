@@ -14,9 +14,7 @@ pub use objects::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-pub use wave_source::{
-    GivenWaveFile, OpenfoamLinesFile, OpenfoamProbesFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile,
-};
+pub use wave_source::{GivenWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
 pub use waves::{
     FlapFile, IrregularFile, PistonFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile,
 };

@@ -5,17 +5,11 @@ use std::sync::Arc;
 
 use super::check::{Checker, above, show};
 use super::domain::Domain;
-use super::file::{
-    GivenWaveFile, OpenfoamLinesFile, OpenfoamProbesFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile,
-};
+use super::file::{GivenWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
 use super::flume::Flume;
 use crate::waves::external::{
     error::ExternalError,
-    openfoam::{
-        Frame, Up,
-        lines::{self, Lines},
-        probes::{self, Probes},
-    },
+    openfoam::{Frame, Up, Vertical, lines, probes},
     swash::{self, Column, TableFile, Tables},
     table::{Layers, Place, VelocityTable},
     velx,
@@ -99,27 +93,26 @@ fn read(source: &WaveSourceFile, base: &Path, place: &Place, check: &mut Checker
     match source {
         WaveSourceFile::Dualsphysics(VelxFile { path }) => Some(velx::read(&base.join(path), place)),
         WaveSourceFile::Swash(file) => read_swash(file, base, place, check),
-        WaveSourceFile::OpenfoamProbes(OpenfoamProbesFile { folder, velocity, water, up, origin_z_m }) => {
-            let (folder, water) = (&base.join(folder), water.as_deref());
-            Some(probes::read(
-                &Probes { folder, velocity, water, frame: frame(*up, *origin_z_m), surface: None },
-                place,
-            ))
-        }
-        WaveSourceFile::OpenfoamLines(OpenfoamLinesFile { folder, line, velocity, water, up, origin_z_m }) => {
-            let (folder, water) = (&base.join(folder), water.as_deref());
-            let frame = frame(*up, *origin_z_m);
-            Some(lines::read(&Lines { folder, line, velocity, water, frame, surface: None }, place))
-        }
+        WaveSourceFile::Openfoam(file) => Some(read_openfoam(file, base, place)),
     }
 }
 
-fn frame(up: UpFile, origin_z_m: f64) -> Frame {
-    let up = match up {
+fn read_openfoam(file: &OpenfoamFile, base: &Path, place: &Place) -> Read {
+    let up = match file.up {
         UpFile::Y => Up::Y,
         UpFile::Z => Up::Z,
     };
-    Frame { up, origin_z_m }
+    let vertical = Vertical {
+        folder: &base.join(&file.folder),
+        velocity: &file.velocity,
+        water: file.water.as_deref(),
+        frame: Frame { up, origin_z_m: file.origin_z_m },
+        surface: None,
+    };
+    match &file.line {
+        Some(line) => lines::read(&vertical, line, place),
+        None => probes::read(&vertical, place),
+    }
 }
 
 fn read_swash(file: &SwashFile, base: &Path, place: &Place, check: &mut Checker) -> Option<Read> {

@@ -61,7 +61,7 @@ fn write(table: &VelocityTable, folder: &Path) -> [Value; 3] {
             "format": "swash", "layer_shares": [0.5, 0.3, 0.2], "velocity": { "path": "velocity.tbl" },
             "level": { "path": "level.tbl", "columns": ["tsec", "watl"] }
         }),
-        json!({ "format": "openfoam_probes", "folder": "probes", "water": "alpha.water", "up": "y", "origin_z_m": 0.1 }),
+        json!({ "format": "openfoam", "folder": "probes", "water": "alpha.water", "up": "y", "origin_z_m": 0.1 }),
     ]
 }
 

@@ -25,10 +25,8 @@ pub enum WaveSourceFile {
     Dualsphysics(VelxFile),
     /// Tables of SWASH.
     Swash(SwashFile),
-    /// Probes of OpenFOAM.
-    OpenfoamProbes(OpenfoamProbesFile),
-    /// Sampled lines of OpenFOAM.
-    OpenfoamLines(OpenfoamLinesFile),
+    /// Probes or a sampled line of OpenFOAM.
+    Openfoam(OpenfoamFile),
 }
 
 /// A `_velx` file.
@@ -75,38 +73,20 @@ pub enum UpFile {
     Z,
 }
 
-/// Probes of OpenFOAM over the height at one place.
+/// Probes over the height at one place, or a line there that was sampled at each time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct OpenfoamProbesFile {
-    /// The folder of the function object, e.g. `postProcessing/probes`, with one folder for each start of the run.
+pub struct OpenfoamFile {
+    /// The folder of the function object, e.g. `postProcessing/probes`, with one folder for each start of the run; of a
+    /// line, one for each time.
     pub folder: PathBuf,
+    /// Name of the line; without it there are probes.
+    #[serde(default)]
+    pub line: Option<String>,
     /// Name of the velocity.
     #[serde(default = "default_velocity")]
     pub velocity: String,
-    /// Name of the share of water, by which samples in air are left out; probed at the same points.
-    #[serde(default)]
-    pub water: Option<String>,
-    /// Axis that points up.
-    #[serde(default)]
-    pub up: UpFile,
-    /// Level of OpenFOAM's origin [m], in the z of `flume.bed_m`.
-    #[serde(default)]
-    pub origin_z_m: f64,
-}
-
-/// Lines over the height at one place that OpenFOAM sampled at each time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct OpenfoamLinesFile {
-    /// The folder of the function object, with one folder for each time.
-    pub folder: PathBuf,
-    /// Name of the line.
-    pub line: String,
-    /// Name of the velocity.
-    #[serde(default = "default_velocity")]
-    pub velocity: String,
-    /// Name of the share of water, by which samples in air are left out.
+    /// Name of the share of water, by which samples in air are left out; sampled at the same points.
     #[serde(default)]
     pub water: Option<String>,
     /// Axis that points up.

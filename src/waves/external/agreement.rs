@@ -3,7 +3,7 @@
 use std::fs::{self, File};
 use std::path::Path;
 
-use super::openfoam::{Frame, Up, probes};
+use super::openfoam::{Frame, Up, Vertical, probes};
 use super::swash::{self, Heading};
 use super::table::{Layers, Place, VelocityTable};
 use super::velx;
@@ -53,7 +53,7 @@ fn through_probes(folder: &Path) -> VelocityTable {
     fs::create_dir(folder.join("0")).unwrap();
     probes::write(&table(), &levels(), 3.0, frame, File::create(folder.join("0/U")).unwrap()).unwrap();
     probes::write_water(&table(), &levels(), 3.0, frame, File::create(folder.join("0/alpha.water")).unwrap()).unwrap();
-    let probes = probes::Probes { folder, velocity: "U", water: Some("alpha.water"), frame, surface: None };
+    let probes = Vertical { folder, velocity: "U", water: Some("alpha.water"), frame, surface: None };
     probes::read(&probes, &PLACE).unwrap()
 }
 

@@ -21,3 +21,4 @@ mod samples;
 mod starts;
 
 pub use frame::{Frame, Up};
+pub use samples::Vertical;

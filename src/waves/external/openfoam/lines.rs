@@ -7,60 +7,42 @@
 use std::path::Path;
 
 use super::super::error::ExternalError;
-use super::super::surface::SurfaceSeries;
 use super::super::table::{Place, VelocityTable};
 use super::super::text_file::TextFile;
 use super::frame::Frame;
-use super::samples::{Sample, in_water};
+use super::samples::{Sample, Vertical, in_water};
 use super::starts::time_folders;
 
-/// A vertical line, sampled at every output time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lines<'a> {
-    /// `postProcessing/<name>`.
-    pub folder: &'a Path,
-    /// Name of the line.
-    pub line: &'a str,
-    /// Name of the velocity, `U`.
-    pub velocity: &'a str,
-    /// Name of the share of water, such as `alpha.water`; `None` if the line is always in water.
-    pub water: Option<&'a str>,
-    /// The axes.
-    pub frame: Frame,
-    /// Level of the surface, if it is known.
-    pub surface: Option<&'a SurfaceSeries>,
-}
-
-/// Read a sampled line, leaving out the points in air.
+/// Read a sampled line by its name, leaving out the points in air.
 ///
 /// # Errors
 /// If a file cannot be read or a line is wrong, or the values cannot be right at the place.
-pub fn read(lines: &Lines, place: &Place) -> Result<VelocityTable, ExternalError> {
+pub fn read(vertical: &Vertical, line: &str, place: &Place) -> Result<VelocityTable, ExternalError> {
     let (mut times_s, mut heights_m, mut velocities_m_s) = (Vec::new(), Vec::new(), Vec::new());
-    for (time, folder) in time_folders(lines.folder)? {
-        let (heights, velocities) = in_water(read_moment(lines, &folder)?.into_iter());
+    for (time, folder) in time_folders(vertical.folder)? {
+        let (heights, velocities) = in_water(read_moment(vertical, line, &folder)?.into_iter());
         times_s.push(time);
         heights_m.push(heights);
         velocities_m_s.push(velocities);
     }
-    let surface_z_m = lines.surface.map(|surface| surface.at_times(&times_s)).transpose()?;
-    VelocityTable { times_s, surface_z_m, heights_m, velocities_m_s }.checked(lines.folder, place)
+    let surface_z_m = vertical.surface.map(|surface| surface.at_times(&times_s)).transpose()?;
+    VelocityTable { times_s, surface_z_m, heights_m, velocities_m_s }.checked(vertical.folder, place)
 }
 
 /// The points of one time.
-fn read_moment(lines: &Lines, folder: &Path) -> Result<Vec<Sample>, ExternalError> {
-    let path = |fields: &str| folder.join(format!("{}_{fields}.xy", lines.line));
-    let Some(water) = lines.water else {
-        let points = read_points(lines, &path(lines.velocity), 3)?;
+fn read_moment(vertical: &Vertical, line: &str, folder: &Path) -> Result<Vec<Sample>, ExternalError> {
+    let path = |fields: &str| folder.join(format!("{line}_{fields}.xy"));
+    let Some(water) = vertical.water else {
+        let points = read_points(vertical.frame, &path(vertical.velocity), 3)?;
         return Ok(points.iter().map(|p| Sample { z_m: p.z_m, u_m_s: p.values[0], water: 1.0 }).collect());
     };
-    let both = path(&format!("{water}_{}", lines.velocity));
+    let both = path(&format!("{water}_{}", vertical.velocity));
     if both.is_file() {
-        let points = read_points(lines, &both, 4)?;
+        let points = read_points(vertical.frame, &both, 4)?;
         return Ok(points.iter().map(|p| Sample { z_m: p.z_m, u_m_s: p.values[1], water: p.values[0] }).collect());
     }
-    let velocity = read_points(lines, &path(lines.velocity), 3)?;
-    let shares = read_points(lines, &path(water), 1)?;
+    let velocity = read_points(vertical.frame, &path(vertical.velocity), 3)?;
+    let shares = read_points(vertical.frame, &path(water), 1)?;
     if velocity.len() != shares.len() {
         let problem = format!("{} points, but {} with a velocity", shares.len(), velocity.len());
         return Err(ExternalError::file(&path(water), problem, "sample both fields in one function object"));
@@ -77,7 +59,7 @@ struct Point {
 
 /// The points of a file with so many values each. A point on a face between cells stands twice in some kinds of line:
 /// the first of them counts.
-fn read_points(lines: &Lines, path: &Path, values: usize) -> Result<Vec<Point>, ExternalError> {
+fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, ExternalError> {
     let text =
         TextFile::read(path, "sample `fields (U alpha.water)` with `setFormat raw`, and give the name of the line")?;
     let mut points: Vec<Point> = Vec::new();
@@ -91,7 +73,7 @@ fn read_points(lines: &Lines, path: &Path, values: usize) -> Result<Vec<Point>, 
         };
         let values = numbers.split_off(coordinates);
         let point = <[f64; 3]>::try_from(numbers.as_slice()).unwrap_or([numbers[0]; 3]);
-        let z_m = lines.frame.z(point);
+        let z_m = frame.z(point);
         if points.last().is_none_or(|last| last.z_m != z_m) {
             points.push(Point { z_m, values });
         }
@@ -123,7 +105,7 @@ mod tests {
 
     fn lines(folder: &Path, water: Option<&'static str>) -> Result<VelocityTable, ExternalError> {
         let frame = Frame { up: Up::Z, origin_z_m: 0.0 };
-        read(&Lines { folder, line: "gauge", velocity: "U", water, frame, surface: None }, &PLACE)
+        read(&Vertical { folder, velocity: "U", water, frame, surface: None }, "gauge", &PLACE)
     }
 
     #[test]

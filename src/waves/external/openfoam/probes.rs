@@ -7,36 +7,20 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::super::error::ExternalError;
-use super::super::surface::SurfaceSeries;
 use super::super::table::{Place, VelocityTable};
 use super::frame::Frame;
-use super::samples::{Sample, in_water};
+use super::samples::{Sample, Vertical, in_water};
 use super::starts::Joined;
 
 /// Probes further apart than this across the vertical do not stand at one place [m].
 const ONE_PLACE_M: f64 = 1e-3;
-
-/// Probes on a vertical.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Probes<'a> {
-    /// `postProcessing/<name>`.
-    pub folder: &'a Path,
-    /// Name of the velocity, `U`.
-    pub velocity: &'a str,
-    /// Name of the share of water, such as `alpha.water`; `None` if every probe is always in water.
-    pub water: Option<&'a str>,
-    /// The axes.
-    pub frame: Frame,
-    /// Level of the surface, if it is known.
-    pub surface: Option<&'a SurfaceSeries>,
-}
 
 /// Read probes, leaving out those in air.
 ///
 /// # Errors
 /// If a file cannot be read or a line is wrong, the probes do not stand on one vertical, velocity and share of water do
 /// not belong together, or the values cannot be right at the place.
-pub fn read(probes: &Probes, place: &Place) -> Result<VelocityTable, ExternalError> {
+pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalError> {
     let velocity = Joined::read(probes.folder, probes.velocity)?;
     let points = Points::of(&velocity, 3, probes.folder, probes.velocity)?;
     let levels_m = points.levels_m(probes)?;
@@ -79,7 +63,7 @@ impl Points {
     }
 
     /// Their levels z [m], if they stand on one vertical.
-    fn levels_m(&self, probes: &Probes) -> Result<Vec<f64>, ExternalError> {
+    fn levels_m(&self, probes: &Vertical) -> Result<Vec<f64>, ExternalError> {
         let first = probes.frame.place(self.0[0]);
         let apart = |point: &&[f64; 3]| {
             let place = probes.frame.place(**point);
@@ -158,6 +142,7 @@ mod tests {
 
     use super::super::Up;
     use super::*;
+    use crate::waves::external::surface::SurfaceSeries;
     use crate::waves::external::table::Layers;
 
     const PLACE: Place = Place { bed_z_m: -1.0, still_water_z_m: 0.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
@@ -184,8 +169,8 @@ mod tests {
         write_water(table, &LEVELS, 2.0, FRAME, fs::File::create(folder.join("alpha.water")).unwrap()).unwrap();
     }
 
-    fn probes(folder: &Path) -> Probes<'_> {
-        Probes { folder, velocity: "U", water: Some("alpha.water"), frame: FRAME, surface: None }
+    fn probes(folder: &Path) -> Vertical<'_> {
+        Vertical { folder, velocity: "U", water: Some("alpha.water"), frame: FRAME, surface: None }
     }
 
     #[test]
@@ -205,10 +190,10 @@ mod tests {
         assert!(in_air > 5);
         let surface =
             SurfaceSeries::new(folder.path(), table.times_s.clone(), table.surface_z_m.clone().unwrap()).unwrap();
-        let below = read(&Probes { surface: Some(&surface), ..probes(folder.path()) }, &PLACE).unwrap();
+        let below = read(&Vertical { surface: Some(&surface), ..probes(folder.path()) }, &PLACE).unwrap();
         assert_eq!((below.surface_z_m, below.heights_m), (table.surface_z_m, back.heights_m));
         let all =
-            read(&Probes { water: None, ..probes(folder.path()) }, &Place { still_water_z_m: 0.2, ..PLACE }).unwrap();
+            read(&Vertical { water: None, ..probes(folder.path()) }, &Place { still_water_z_m: 0.2, ..PLACE }).unwrap();
         assert_eq!(all.heights_m, table.heights_m);
     }
 
@@ -232,7 +217,7 @@ mod tests {
         let rows = "0 (1 0 0) (-1e+300 -1e+300 -1e+300) (2 0 0)\n1 (1 0 0) (-1e+300 -1e+300 -1e+300) (2 0 0)\n";
         let read = |rows: &str| {
             fs::write(folder.path().join("0/U"), format!("{head}{rows}")).unwrap();
-            read(&Probes { water: None, ..probes(folder.path()) }, &PLACE).unwrap()
+            read(&Vertical { water: None, ..probes(folder.path()) }, &PLACE).unwrap()
         };
         let with = read(rows);
         assert_eq!((&with.heights_m[1], &with.velocities_m_s[1]), (&vec![-0.75, -0.5], &vec![1.0, 2.0]));
@@ -244,14 +229,16 @@ mod tests {
     fn probes_that_do_not_belong_together_are_named() {
         let folder = tempfile::tempdir().unwrap();
         write_start(folder.path(), "0", &table(0, 5, 0.0));
-        let message = |probes: Probes| read(&probes, &PLACE).unwrap_err().to_string();
-        let up = Probes { frame: Frame { up: Up::Z, origin_z_m: 0.0 }, ..probes(folder.path()) };
+        let message = |probes: Vertical| read(&probes, &PLACE).unwrap_err().to_string();
+        let up = Vertical { frame: Frame { up: Up::Z, origin_z_m: 0.0 }, ..probes(folder.path()) };
         assert!(message(up).contains("do not stand on one vertical; write one vertical a function object, and check"));
         assert!(
-            message(Probes { velocity: "alpha.water", ..up })
+            message(Vertical { velocity: "alpha.water", ..up })
                 .contains("`alpha.water` has 4 columns for 4 probes; it must")
         );
-        assert!(message(Probes { water: Some("alpha"), ..probes(folder.path()) }).contains("has a file `alpha`; give"));
+        assert!(
+            message(Vertical { water: Some("alpha"), ..probes(folder.path()) }).contains("has a file `alpha`; give")
+        );
         let path = folder.path().join("0/alpha.water");
         let shorter = fs::read_to_string(&path).unwrap().trim_end().rsplit_once('\n').unwrap().0.to_owned();
         fs::write(path, shorter).unwrap();

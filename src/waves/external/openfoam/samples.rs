@@ -1,10 +1,30 @@
-//! Samples of a vertical at one moment: those in the water, from the bed up.
+//! A vertical that was sampled, and at one moment its samples in the water, from the bed up.
+
+use std::path::Path;
+
+use super::super::surface::SurfaceSeries;
+use super::frame::Frame;
 
 /// Water has at least this share of a sampled cell [-]; less is air, whose velocity is not the water's.
 const WATER: f64 = 0.5;
 
 /// OpenFOAM writes about 1e300 for points outside the mesh.
 const OUTSIDE_MESH: f64 = 1e30;
+
+/// What a function object has sampled on a vertical.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertical<'a> {
+    /// `postProcessing/<name>`.
+    pub folder: &'a Path,
+    /// Name of the velocity, `U`.
+    pub velocity: &'a str,
+    /// Name of the share of water, such as `alpha.water`; `None` if every sample is always in water.
+    pub water: Option<&'a str>,
+    /// The axes.
+    pub frame: Frame,
+    /// Level of the surface, if it is known.
+    pub surface: Option<&'a SurfaceSeries>,
+}
 
 /// A sampled point.
 #[derive(Debug, Clone, Copy)]
