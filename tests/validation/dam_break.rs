@@ -9,7 +9,9 @@ use std::{path::Path, sync::Arc};
 
 use breakwater::{case::Case, simulation::Simulation};
 
-const MEASURED: &str = "../shared/data/koshizuka_oka1996/dam_tip_position.txt";
+use super::data;
+
+const MEASURED: &str = "koshizuka_oka1996/dam_tip_position.txt";
 
 /// Times until which tips are compared [s]: the end wall at 4 m is not yet felt.
 const LATEST: f64 = 0.7;
@@ -29,17 +31,7 @@ const POTENTIAL_FLOW: [f64; 37] = [
 
 /// Times [s] and positions of the tip [m] as measured, `None` where the data do not lie beside the crate.
 fn measured_tips() -> Option<Vec<[f64; 2]>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(MEASURED);
-    let Ok(bytes) = std::fs::read(&path) else {
-        println!("skipped: no measurements at {}", path.display());
-        return None;
-    };
-    // Two columns below a citation, which is not in UTF-8, and a heading.
-    let text = String::from_utf8_lossy(&bytes);
-    let numbers = |line: &str| line.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>();
-    let rows: Vec<[f64; 2]> =
-        text.lines().filter_map(|line| numbers(line).ok()).filter_map(|row| row.try_into().ok()).collect();
-    assert!(rows.len() > 10, "{}: only {} rows understood", path.display(), rows.len());
+    let rows = data::rows_of::<2>(MEASURED)?;
     Some(rows.into_iter().filter(|[time, _]| *time <= LATEST).collect())
 }
 

@@ -9,7 +9,9 @@ use std::{path::Path, sync::Arc};
 use breakwater::{case::Case, simulation::Simulation};
 use serde_json::{Value, json};
 
-const SERIES: &str = "../shared/data/dualsphysics_dambreak3d/series.csv";
+use super::data;
+
+const SERIES: &str = "dualsphysics_dambreak3d/series.csv";
 
 /// x of the back wall's surface in the other calculation [m].
 const SHIFT: f64 = 0.02;
@@ -27,16 +29,9 @@ struct Moment {
 
 /// The other calculation up to a time [s]; `None` where the data do not lie beside the crate.
 fn reference(end: f64) -> Option<Vec<Moment>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(SERIES);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no series at {}", path.display());
-        return None;
-    };
-    let row = |line: &str| {
-        let numbers: Vec<f64> = line.split(',').map(|number| number.parse().unwrap()).collect();
-        Moment { time: numbers[0], tip: numbers[1], kinetic: numbers[4] }
-    };
-    Some(text.lines().skip(1).map(row).filter(|moment| moment.time <= end + 1e-3).collect())
+    let rows = data::rows_of::<6>(SERIES)?;
+    let moments = rows.into_iter().map(|[time, tip, _, _, kinetic, _]| Moment { time, tip, kinetic });
+    Some(moments.filter(|moment| moment.time <= end + 1e-3).collect())
 }
 
 /// The case file with some of its values changed.
@@ -113,8 +108,9 @@ fn with_mdbc() -> [(&'static str, Value); 2] {
 /// The case as it is up to a time [s].
 fn assert_same(end: f64) {
     let Some(found) = compare("as it is", &[], end) else { return };
-    // A particle distance is what the lattice resolves. 2 %: 1.2 % is reached at 0.8 s and 0.5 % at 0.6 s; density diffusion of the walls' own density
-    // makes 3 % of it at 0.12 s and 12 % at 0.6 s, a building one particle narrower 7 %.
+    // A particle distance is what the lattice resolves. 2 %: 1.2 % is reached at 0.8 s and 0.5 % at 0.6 s; density
+    // diffusion of the walls' own density makes 3 % of it at 0.12 s and 12 % at 0.6 s, a building one particle narrower
+    // 7 %.
     assert!(found.tip < DP && found.kinetic < 0.02);
 }
 

@@ -11,7 +11,9 @@ use std::{f64::consts::TAU, path::Path, sync::Arc};
 use breakwater::{case::Case, simulation::Simulation};
 use glam::{DMat4, DVec4};
 
-const MEASURED: &str = "../shared/data/ren2015_floating_box/motion.csv";
+use super::data;
+
+const MEASURED: &str = "ren2015_floating_box/motion.csv";
 const CASE: &str = "cases/verification/floating-box.json";
 
 /// Period of the waves [s].
@@ -25,18 +27,7 @@ const FULL_CREST: f64 = 0.035;
 type Row = [f64; 4];
 
 fn measured() -> Option<Vec<Row>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(MEASURED);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no measurements at {}", path.display());
-        return None;
-    };
-    let row = |line: &str| {
-        let numbers: Vec<f64> = line.split(',').filter_map(|field| field.trim().parse().ok()).collect();
-        <[f64; 4]>::try_from(numbers).ok()
-    };
-    let rows: Vec<Row> = text.lines().skip(1).filter_map(row).collect();
-    assert!(rows.len() > 100, "{}: only {} rows understood", path.display(), rows.len());
-    Some(rows)
+    data::rows_of(MEASURED)
 }
 
 /// The case with another particle distance [m], ten particles wide. The box leaves a gap of a fiftieth of a particle

@@ -4,14 +4,14 @@
 //! Lengths over the depth d, times over sqrt(d/g); x from the shore of still water out to sea; at t = 0 the crest is at
 //! X1 = 19.85 + arccosh(sqrt(20)) / sqrt(3H/4d), half a wave length before the toe.
 
-use std::path::Path;
-
 use breakwater::geometry::profile::Profile;
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
 use breakwater::waves::record::FlumeRecord;
 use breakwater::waves::solitary::ThirdOrderSolitary;
+
+use super::data;
 
 const GRAVITY: f64 = 9.81;
 const COT_BETA: f64 = 19.85;
@@ -95,19 +95,6 @@ impl Beach {
     }
 }
 
-/// Rows of numbers in a file of the shared data; `None` where the data do not lie beside the crate.
-fn rows(name: &str) -> Option<Vec<Vec<f64>>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no data at {}", path.display());
-        return None;
-    };
-    let numbers = |line: &str| line.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>();
-    let rows: Vec<Vec<f64>> = text.lines().filter_map(|line| numbers(line).ok()).filter(|r| r.len() > 1).collect();
-    assert!(rows.len() > 10, "{}: only {} rows understood", path.display(), rows.len());
-    Some(rows)
-}
-
 fn rms(errors: &[f64]) -> f64 {
     (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
 }
@@ -128,8 +115,8 @@ fn profile_error(beach: &Beach, record: &FlumeRecord, index: usize, points: impl
 /// t = 35, 40 .. 70.
 fn differences_from_analytic(pressure: Pressure, cell: f64) -> Option<Vec<f64>> {
     let folder = "nthmp_bp01_simple_beach_analytic";
-    let series = rows(&format!("{folder}/canonical_ts.txt"))?;
-    let profiles = rows(&format!("{folder}/canonical_profiles.txt"))?;
+    let series = data::rows(&format!("{folder}/canonical_ts.txt"))?;
+    let profiles = data::rows(&format!("{folder}/canonical_profiles.txt"))?;
     let beach = Beach { height: 0.019, depth_m: 1.0, cell, pressure, friction: Friction::None };
     let times: Vec<f64> = (0..8).map(|i| 35.0 + 5.0 * f64::from(i)).collect();
     let record = beach.run(&[0.25, 9.95], &times, 101.0);
@@ -174,8 +161,10 @@ fn dispersive_wave_on_the_beach_is_near_the_analytic_solution() {
 /// Root mean square differences from measured profiles over H after the shift of the clock, common to all of them, that
 /// is best on average, and that shift.
 fn differences_from_laboratory(height: f64, depth_m: f64, name: &str, times: &[f64]) -> Option<(Vec<f64>, f64)> {
-    let files: Vec<Vec<Vec<f64>>> =
-        times.iter().map(|t| rows(&format!("nthmp_bp04_simple_beach_lab/Case{name}.t={t}"))).collect::<Option<_>>()?;
+    let files: Vec<Vec<Vec<f64>>> = times
+        .iter()
+        .map(|t| data::rows(&format!("nthmp_bp04_simple_beach_lab/Case{name}.t={t}")))
+        .collect::<Option<_>>()?;
     let beach = Beach { height, depth_m, cell: 0.1, pressure: Pressure::NonHydrostatic, friction: GLASS };
     let shifts: Vec<f64> = (-15..16).map(|i| 0.1 * f64::from(i)).collect();
     // The model is read at every time with every shift; the record sorts its profiles by time.
@@ -233,7 +222,7 @@ fn run_up_errors(pairs: &[Vec<f64>]) -> Vec<f64> {
 /// Every twelfth of the pairs that are cheap to compute.
 #[test]
 fn run_up_is_that_of_the_laboratory() {
-    let Some(pairs) = rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
+    let Some(pairs) = data::rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
     let few: Vec<Vec<f64>> = pairs.into_iter().filter(|pair| pair[0] > 0.03).step_by(12).collect();
     let errors = run_up_errors(&few);
     let median = errors[errors.len() / 2].abs();
@@ -246,7 +235,7 @@ fn run_up_is_that_of_the_laboratory() {
 #[test]
 #[ignore = "ten minutes"]
 fn all_run_ups_of_the_laboratory() {
-    let Some(pairs) = rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
+    let Some(pairs) = data::rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
     assert!(pairs.len() >= 77);
     let errors = run_up_errors(&pairs);
     let median = errors[errors.len() / 2].abs();

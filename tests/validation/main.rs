@@ -5,6 +5,7 @@
 
 mod dam_break;
 mod dam_break_3d;
+mod data;
 mod floating_box;
 mod flume_bar;
 mod flume_run_up;

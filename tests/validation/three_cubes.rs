@@ -6,7 +6,9 @@ use breakwater::{case::Case, simulation::Simulation};
 use glam::DVec3;
 use serde_json::Value;
 
-const FOLDER: &str = "../shared/data/canelas2016_three_cubes";
+use super::data;
+
+const FOLDER: &str = "canelas2016_three_cubes";
 
 /// x of the back wall in the experiment's axes [m].
 const BACK_WALL: f64 = -1.0;
@@ -24,16 +26,9 @@ const SERIES: [(&str, usize, usize); 3] = [("x_bottom", 0, 0), ("x_top", 2, 0), 
 
 /// A series from the gate's opening on; `None` where the data do not lie beside the crate.
 fn measured(name: &str) -> Option<Vec<Measured>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(FOLDER).join(format!("{name}.csv"));
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no measurements at {}", path.display());
-        return None;
-    };
-    let row = |line: &str| {
-        let numbers: Vec<f64> = line.split(',').map(|number| number.parse().unwrap()).collect();
-        Measured { time: numbers[0], place: numbers[1], error: numbers[2] }
-    };
-    Some(text.lines().skip(1).map(row).filter(|measured| measured.time > 0.0).collect())
+    let rows = data::rows_of::<3>(&format!("{FOLDER}/{name}.csv"))?;
+    let measured = rows.into_iter().map(|[time, place, error]| Measured { time, place, error });
+    Some(measured.filter(|measured| measured.time > 0.0).collect())
 }
 
 /// Places of the cubes [m] at times [s], in the experiment's axes.
