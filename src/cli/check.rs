@@ -74,6 +74,9 @@ fn print(case: &Case) {
             sea.significant_height_m, sea.peak_period_s, sea.peak_enhancement, sea.seed, sea.depth_m
         ),
     }
+    if let Wavemaker::Piston { absorption_gauge: Some(distance) } = case.wavemaker {
+        println!("  wavemaker   takes up the waves that come back to it, by a gauge {distance} m before it");
+    }
     println!(
         "  domain      x = {} to {} m, {} m wide, still depth up to {:.3} m",
         case.domain.x[0], case.domain.x[1], case.domain.width, case.domain.depth

@@ -103,18 +103,20 @@ fn latest_arrival(case: &Case, x: f64) -> f64 {
             let peak = RegularWave { height_m, period_s, depth_m: mean_depth, gravity };
             (peak.group_velocity_m_s(), ramp_periods * period_s)
         }
-        Wave::None | Wave::Given(_) | Wave::Solitary(_) | Wave::SolitaryInflow(_) => (long, 0.0),
+        Wave::Solitary(wave) => (long, wave.duration_s()),
+        Wave::SolitaryInflow(wave) => (long, 2.0 * wave.half_length_m() / wave.celerity_m_s()),
+        Wave::None | Wave::Given(_) => (long, 0.0),
     };
     ARRIVAL_ALLOWANCE * way / speed + growth
 }
 
 /// Flume time, or time of the files that the wave comes from, at which the particles start [s].
 pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
-    let (place, depth) = (case.domain.x[0], case.flume.still_level);
+    let (place, level) = (case.domain.x[0], case.flume.still_level);
     match (case.domain.start, record, &case.wave) {
         (Start::At(start), ..) => start,
         (Start::AtShare(share), Some(record), _) => start_time(record, place, share),
-        (Start::AtShare(share), None, Wave::Given(wave)) => start_of_rows(&wave.rows, depth, share),
+        (Start::AtShare(share), None, Wave::Given(wave)) => start_of_rows(&wave.rows, level, share),
         (Start::AtShare(_), None, _) => 0.0,
     }
 }

@@ -39,7 +39,8 @@ const LEAST_DETERMINANT: f64 = 0.01;
 
 /// How far the centroid of the water lies from the node towards the boundary, in h, where trust in the fitted gradient
 /// begins to fall and where none is left. It is 0.42 h for a node at the surface of deep water on a bed, and below
-/// nothing for one in the water or beside it, at a wall that stands in the surface.
+/// nothing for one in the water or beside it, at a wall that stands in the surface. The two numbers are calibrated: with
+/// 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
 const TRUST: [f64; 2] = [0.1, 0.2];
 
 /// Smallest piece of an array that is worth a task of the thread pool.
@@ -195,8 +196,8 @@ impl NodeSums {
         // From the node back to the particle, in h.
         let back = -2.0 * to_surface / parameters.kernel.h;
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
-        let below_centroid = back.z - f64::from(self.value[3]) / occupied;
-        let mean = f64::from(self.value_f) / occupied + hydrostatic * below_centroid * parameters.kernel.h;
+        let above_centroid = back.z - f64::from(self.value[3]) / occupied;
+        let mean = f64::from(self.value_f) / occupied + hydrostatic * above_centroid * parameters.kernel.h;
         // As under the dynamic boundary condition, a wall does not pull at a sheet or a drop.
         let mean = mean.max(0.0);
         let trust = self.trust(to_surface);
@@ -222,5 +223,38 @@ impl NodeSums {
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
         let rows = [[w, wx, wy, wz, value_f], [gx, xx, xy, xz, fx], [gy, xy, yy, yz, fy], [gz, xz, yz, zz, fz]];
         solve(rows, LEAST_DETERMINANT * w.powi(4))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sums as a lone layer of water gives them: its centroid at (0, 0, z) h from the node, excess density f [kg/m3].
+    fn layer(z: f32, f: f32) -> NodeSums {
+        NodeSums { value: [0.3, 0.0, 0.0, 0.3 * z], value_f: 0.3 * f, ..NodeSums::default() }
+    }
+
+    #[test]
+    fn gradients_are_trusted_in_the_water_and_not_above_a_sheet() {
+        let bed = DVec3::new(0.0, 0.0, 0.01);
+        for (z, trust) in [(0.3, 1.0), (-0.1, 1.0), (-0.15, 0.5), (-0.2, 0.0), (-0.5, 0.0)] {
+            assert!((layer(z, 0.0).trust(bed) - trust).abs() < 1e-6, "{z}");
+        }
+        // What counts is the side of the wall: water below a ceiling lies towards the node.
+        assert_eq!(layer(-0.5, 0.0).trust(-bed), 1.0);
+    }
+
+    #[test]
+    fn a_wall_presses_on_a_sheet_and_does_not_pull_at_it() {
+        let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
+        let to_surface = DVec3::new(0.0, 0.0, 0.005);
+        let rho0 = parameters.tait.rho0;
+        let pressed = layer(-0.5, 3.0).density_at(&parameters, to_surface);
+        // Half h above the boundary particle's mirror image, less the way from the centroid down to the particle.
+        let way = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
+        let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * way;
+        assert!((pressed - rho0 - expected).abs() < 1e-6);
+        assert_eq!(layer(-0.5, -3.0).density_at(&parameters, to_surface), rho0);
     }
 }

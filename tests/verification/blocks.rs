@@ -70,8 +70,17 @@ pub fn inside(point: DVec3) -> bool {
 }
 
 /// Rates that the solver finds, and the water in their order.
-pub fn rates(parameters: Parameters, mut water: Water, low: DVec3, high: DVec3) -> (Water, Vec<Rate>) {
-    let mut boundary = Boundary::new(&[], &[], &[], 0, RHO0);
+pub fn rates(parameters: Parameters, water: Water, low: DVec3, high: DVec3) -> (Water, Vec<Rate>) {
+    rates_beside(parameters, water, Boundary::new(&[], &[], &[], 0, RHO0), [low, high])
+}
+
+/// The same beside boundary particles.
+pub fn rates_beside(
+    parameters: Parameters,
+    mut water: Water,
+    mut boundary: Boundary,
+    [low, high]: [DVec3; 2],
+) -> (Water, Vec<Rate>) {
     let mut solver = Solver::new(parameters, low, high);
     solver.sort(&mut water, &boundary);
     solver.list(&water, &boundary);

@@ -5,6 +5,7 @@ mod blocks;
 mod buoyancy;
 mod conservation;
 mod convergence;
+mod diffusion;
 mod flume_ends;
 mod flume_order;
 mod flume_shore;
