@@ -350,3 +350,39 @@ fn a_disk_that_is_full_ends_the_run() {
     assert!(message.contains("fluid.vtkhdf: HDF5: "), "{message}");
     assert!(!message.contains("panicked") && !out.join("summary.json").exists(), "{message}");
 }
+
+/// A wave along a short flume beside itself, as OpenFOAM's function object interfaceHeight would write it.
+#[test]
+fn wave_beside_another_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("flume.json");
+    let content = json!({
+        "title": "A wave along a short flume",
+        "flume": { "bed_m": [[0.0, 0.0], [20.0, 0.0]], "still_water_level_m": 0.4 },
+        "domain": { "x_m": [8.0, 12.0], "width_m": 0.5, "sides": "periodic", "top_z_m": 0.6, "dp_m": 0.05 },
+        "wave": { "kind": "solitary", "height_m": 0.04 },
+        "gauges": [{ "kind": "elevation", "name": "middle", "x_m": 6.0 }],
+        "stop": { "duration_s": 2.0 }
+    });
+    std::fs::write(&case, content.to_string()).unwrap();
+    let (alone, beside) = (folder.path().join("alone"), folder.path().join("beside"));
+    succeed(&["wave", path(&case), "--out", path(&alone)]);
+    let piston = std::fs::read_to_string(alone.join("flume_piston.csv")).unwrap();
+    assert!(piston.starts_with("time_s,displacement_m,velocity_m_s\n0,0,"), "{}", &piston[..60]);
+
+    let table = std::fs::read_to_string(alone.join("flume_gauges.csv")).unwrap();
+    let position = |line: &str| {
+        let (time, eta) = line.split_once(',').unwrap();
+        format!("{time} (6 0 {})\n", 0.4 + 1.1 * eta.parse::<f64>().unwrap())
+    };
+    let other = folder.path().join("height");
+    std::fs::create_dir_all(other.join("0")).unwrap();
+    std::fs::write(other.join("0/position.dat"), table.lines().skip(1).map(position).collect::<String>()).unwrap();
+    let said = succeed(&["wave", path(&case), "--out", path(&beside), "--beside", path(&other)]);
+    assert!(said.contains("(+10.0 %)") && said.contains("0.00 s)"), "{said}");
+    assert!(std::fs::read_to_string(beside.join("wave.html")).unwrap().contains("dashed"));
+
+    let message = refuse(&["wave", path(&case), "--out", path(&folder.path().join("none")), "--beside", path(&alone)]);
+    assert!(message.contains("position.dat"), "{message}");
+    assert!(!folder.path().join("none").exists());
+}

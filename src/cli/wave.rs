@@ -6,9 +6,13 @@ use clap::Args;
 
 use super::{Trouble, fresh_folder, load, stem};
 use crate::{
-    case::{Wave, Wavemaker},
-    output::{OutputError, write_atomically, write_flume_gauges, write_wave_page},
+    case::{Quantity, Wave, Wavemaker},
+    output::{OutputError, write_atomically, write_flume_gauges, write_flume_piston, write_wave_page},
     simulation::incoming::{ml_piston, particle_start, run_flume},
+    waves::external::{
+        comparison::Comparison,
+        openfoam::{Frame, Up, gauges},
+    },
 };
 
 /// Run the wave along the flume without particles, in seconds: gauges, the ML-piston's motion and a plot.
@@ -22,6 +26,11 @@ pub struct WaveArguments {
     /// Replace what the folder holds.
     #[arg(long)]
     overwrite: bool,
+    /// Compare with OpenFOAM (z pointing up): its folder postProcessing with probes of alpha.water on a vertical in a folder
+    /// for each gauge of the case, as tools/openfoam leaves it; or that of the function object interfaceHeight, whose
+    /// locations are the gauges in their order.
+    #[arg(long, value_name = "FOLDER")]
+    beside: Option<PathBuf>,
 }
 
 impl WaveArguments {
@@ -42,6 +51,13 @@ impl WaveArguments {
                 "wave: the case has no wave; give it one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}",
             );
         };
+        let elevations = || case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+        let names: Vec<&str> = elevations().map(|gauge| gauge.name.as_str()).collect();
+        let frame = Frame { up: Up::Z, origin_z_m: 0.0 };
+        let beside = match &self.beside {
+            Some(folder) => gauges::read(folder, &names, "alpha.water", frame).map_err(Trouble::refused)?,
+            None => Vec::new(),
+        };
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(format!("{}-wave", stem(&self.case))));
         fresh_folder(&dir, self.overwrite)?;
         let start = particle_start(&case, Some(&record));
@@ -52,14 +68,29 @@ impl WaveArguments {
             let mut table = Vec::new();
             piston.write_velx(&mut table).map_err(OutputError::io(&path))?;
             write_atomically(&path, &table)?;
-            write_wave_page(&case, &record, &piston, &dir)
+            if let Wave::Solitary(wave) = &case.wave {
+                write_flume_piston(wave, &dir.join("flume_piston.csv"))?;
+            }
+            write_wave_page(&case, &record, &piston, &beside, &dir)
         };
         let page = write().map_err(Trouble::failed)?;
         println!("wavemaker of the particles at x = {} m, from flume time {start:.2} s", case.domain.x[0]);
-        let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == crate::case::Quantity::Elevation);
-        for (number, gauge) in gauges.enumerate() {
+        for (number, gauge) in elevations().enumerate() {
             let (height, time) = record.crest(number);
             println!("  {:8} x = {:6.2} m: crest {:.4} m at {time:.2} s", gauge.name, gauge.at[0], height);
+            if let Some(series) = beside.get(number) {
+                let other = Comparison::new(&record, number, series, case.flume.still_level);
+                println!(
+                    "  {:8} {:13} beside it {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
+                    "",
+                    "",
+                    other.crest_m,
+                    100.0 * other.height,
+                    other.crest_s,
+                    other.delay_s,
+                    100.0 * other.rms
+                );
+            }
         }
         println!("water kept to {:.1e} of its volume", record.volume_error);
         println!("plot: {}", page.display());

@@ -39,5 +39,5 @@ pub use summary::{
 pub use table::Table;
 pub use unit_surface::UnitSurface;
 pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries, WaterSnapshot, WaterSnapshots};
-pub use wave_page::{write_flume_gauges, write_wave_page};
+pub use wave_page::{write_flume_gauges, write_flume_piston, write_wave_page};
 pub use writer::Writer;

@@ -10,8 +10,11 @@ use super::{
 };
 use crate::{
     case::{Case, Quantity},
-    waves::{ml_piston::MlPiston, record::FlumeRecord},
+    waves::{external::surface::SurfaceSeries, ml_piston::MlPiston, record::FlumeRecord, solitary::SolitaryWave},
 };
+
+/// Time between rows of the piston's motion, at most [s].
+const PISTON_INTERVAL: f64 = 0.02;
 
 /// Elevations of the flume model at the elevation gauges of the case.
 ///
@@ -28,7 +31,20 @@ pub fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Res
     series.append_rows(record.times_s().iter().enumerate().map(row))
 }
 
-/// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston.
+/// Motion of the flume's own piston, from the start to the end of its stroke.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_flume_piston(wave: &SolitaryWave, path: &Path) -> Result<(), OutputError> {
+    let mut series = CsvSeries::create(path, &["time_s", "displacement_m", "velocity_m_s"])?;
+    let steps = (wave.duration_s() / PISTON_INTERVAL).ceil();
+    let time = |k: u32| f64::from(k) / steps * wave.duration_s();
+    let row = |t: f64| [t, wave.piston_displacement_m(t), wave.piston_velocity_m_s(t)];
+    series.append_rows((0..=steps as u32).map(|k| row(time(k))))
+}
+
+/// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston; another program's surface at
+/// the gauges `beside` it, if there are any.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -36,6 +52,7 @@ pub fn write_wave_page(
     case: &Case,
     record: &FlumeRecord,
     piston: &MlPiston,
+    beside: &[SurfaceSeries],
     dir: &Path,
 ) -> Result<PathBuf, OutputError> {
     let path = dir.join("wave.html");
@@ -45,7 +62,7 @@ pub fn write_wave_page(
         short(piston.place_m(), 3),
         short(piston.start_s(), 2)
     );
-    let charts = [gauge_chart(case, record), profile_chart(record), piston_chart(piston)];
+    let charts = [gauge_chart(case, record, beside), profile_chart(record), piston_chart(piston)];
     let figures: String = charts.iter().map(|chart| format!("<figure>{}</figure>\n", chart.svg())).collect();
     let body = format!("<h1>{}</h1>\n<p class=\"lead\">{lead}</p>\n{figures}", escape(&case.title));
     write_atomically(&path, page(&case.title, &body).as_bytes())?;
@@ -63,15 +80,26 @@ fn chart(title: &str, x_label: &str, y_label: &str, lines: Vec<Line>) -> LineCha
     }
 }
 
-fn gauge_chart(case: &Case, record: &FlumeRecord) -> LineChart {
+fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> LineChart {
     let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
-    let lines = gauges.zip(&record.gauge_elevations_m).enumerate().map(|(colour, (gauge, eta))| Line {
-        name: format!("{} at x = {} m", gauge.name, short(gauge.at[0], 2)),
-        points: record.times_s().iter().zip(eta).map(|(t, eta)| [*t, *eta]).collect(),
+    let mut lines: Vec<Line> = gauges
+        .zip(&record.gauge_elevations_m)
+        .enumerate()
+        .map(|(colour, (gauge, eta))| Line {
+            name: format!("{} at x = {} m", gauge.name, short(gauge.at[0], 2)),
+            points: record.times_s().iter().zip(eta).map(|(t, eta)| [*t, *eta]).collect(),
+            colour,
+            ..Line::default()
+        })
+        .collect();
+    lines.extend(beside.iter().enumerate().map(|(colour, series)| Line {
+        name: if colour == 0 { "dashed: beside it".to_owned() } else { String::new() },
+        points: series.points().map(|[t, z]| [t, z - case.flume.still_level]).collect(),
         colour,
+        dashed: true,
         ..Line::default()
-    });
-    chart("Surface at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines.collect())
+    }));
+    chart("Surface at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines)
 }
 
 /// The surface over the recorded window at five moments about the highest crest.

@@ -9,6 +9,7 @@
 //! | [`openfoam`] | probes, sampled lines and `interfaceHeight` of OpenFOAM |
 //! | [`error`] | what can be wrong with such files |
 
+pub mod comparison;
 pub mod error;
 pub mod openfoam;
 pub mod surface;

@@ -14,6 +14,7 @@
 //! OpenFOAM.
 
 mod frame;
+pub mod gauges;
 pub mod interface_height;
 pub mod lines;
 pub mod probes;

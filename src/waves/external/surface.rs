@@ -27,6 +27,28 @@ impl SurfaceSeries {
         Ok(Self { file: file.to_owned(), times_s, z_m })
     }
 
+    /// Times [s] and levels z [m].
+    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.times_s.iter().zip(&self.z_m).map(|(&t, &z)| [t, z])
+    }
+
+    /// Highest level z [m] and its time [s], from the parabola through the highest point and its neighbours.
+    pub fn crest(&self) -> (f64, f64) {
+        let highest = (0..self.z_m.len()).max_by(|&a, &b| self.z_m[a].total_cmp(&self.z_m[b])).unwrap_or(0);
+        let (top, time) = (self.z_m[highest], self.times_s[highest]);
+        if highest == 0 || highest + 1 == self.z_m.len() {
+            return (top, time);
+        }
+        let (before, after) = (time - self.times_s[highest - 1], self.times_s[highest + 1] - time);
+        let (rise, fall) = ((top - self.z_m[highest - 1]) / before, (self.z_m[highest + 1] - top) / after);
+        let curvature = 2.0 * (fall - rise) / (before + after);
+        if curvature >= 0.0 {
+            return (top, time);
+        }
+        let slope = (rise * after + fall * before) / (before + after);
+        (top - 0.5 * slope * slope / curvature, time - slope / curvature)
+    }
+
     /// Levels z [m] at other times [s], on straight lines between those known.
     ///
     /// # Errors
@@ -53,6 +75,15 @@ impl SurfaceSeries {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn crest_is_the_top_of_a_parabola() {
+        let parabola = |t: f64| 3.0 - (t - 1.1).powi(2);
+        let times = vec![0.0, 0.5, 1.0, 1.7, 2.0];
+        let series = SurfaceSeries::new(Path::new("wl"), times.clone(), times.into_iter().map(parabola).collect());
+        let (level, time) = series.unwrap().crest();
+        assert!((level - 3.0).abs() < 1e-12 && (time - 1.1).abs() < 1e-12);
+    }
 
     #[test]
     fn levels_lie_on_lines_and_end_with_the_series() {

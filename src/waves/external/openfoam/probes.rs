@@ -7,6 +7,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::super::error::ExternalError;
+use super::super::surface::SurfaceSeries;
 use super::super::table::{Place, VelocityTable};
 use super::frame::Frame;
 use super::samples::{Sample, Vertical, in_water};
@@ -35,6 +36,25 @@ pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalE
     }
     let surface_z_m = probes.surface.map(|surface| surface.at_times(&velocity.times_s)).transpose()?;
     VelocityTable { times_s: velocity.times_s, surface_z_m, heights_m, velocities_m_s }.checked(probes.folder, place)
+}
+
+/// Level of the surface from the share of water on a vertical: the water between its lowest and highest probe, above what is
+/// full of water below it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_surface(folder: &Path, water: &str, frame: Frame) -> Result<SurfaceSeries, ExternalError> {
+    let joined = Joined::read(folder, water)?;
+    let vertical = Vertical { folder, velocity: water, water: None, frame, surface: None };
+    let levels_m = Points::of(&joined, 1, folder, water)?.levels_m(&vertical)?;
+    let mut upwards: Vec<usize> = (0..levels_m.len()).collect();
+    upwards.sort_by(|&a, &b| levels_m[a].total_cmp(&levels_m[b]));
+    let surface = |row: &Vec<f64>| {
+        let between = |pair: &[usize]| 0.5 * (row[pair[0]] + row[pair[1]]) * (levels_m[pair[1]] - levels_m[pair[0]]);
+        levels_m[upwards[0]] + upwards.windows(2).map(between).sum::<f64>()
+    };
+    let z_m = joined.rows.iter().map(surface).collect();
+    SurfaceSeries::new(folder, joined.times_s, z_m)
 }
 
 /// Places of the probes that have values.
@@ -142,7 +162,6 @@ mod tests {
 
     use super::super::Up;
     use super::*;
-    use crate::waves::external::surface::SurfaceSeries;
     use crate::waves::external::table::Layers;
 
     const PLACE: Place = Place { bed_z_m: -1.0, still_water_z_m: 0.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
