@@ -9,6 +9,7 @@ mod diffusion;
 mod flume_ends;
 mod flume_order;
 mod flume_shore;
+mod fudo_waves;
 mod given_waves;
 mod incoming_waves;
 mod lattice;
