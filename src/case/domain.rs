@@ -1,10 +1,10 @@
 //! The part of the flume that is filled with particles, validated.
 
 use super::check::{Checker, above, from, show};
-use super::damping_zone::{self, DampingZone};
 use super::file::{DomainFile, Sides, WaterFile};
 use super::flume::Flume;
 use super::obstacles;
+use super::zones::{self, DampingZone, RelaxationZone};
 use crate::geometry::axis_box::AxisBox;
 
 /// Particles along one direction at most.
@@ -41,6 +41,8 @@ pub struct Domain {
     pub start: Start,
     /// Where the water is slowed down, if anywhere.
     pub damping_zone: Option<DampingZone>,
+    /// Where the water is led to the velocity of the flume model, if anywhere.
+    pub relaxation_zone: Option<RelaxationZone>,
     /// Fixed boxes in the water.
     pub obstacles: Vec<AxisBox>,
 }
@@ -112,7 +114,9 @@ pub(super) fn validate(
         }
     }
     let (water, depth) = validate_water(file, flume, check)?;
-    let damping_zone = file.damping_zone.map(|zone| damping_zone::validate(&zone, file.x_m, check));
+    let damping_zone = file.damping_zone.map(|zone| zones::validate_damping(&zone, file.x_m, check));
+    let relaxation_zone =
+        file.relaxation_zone.map(|zone| zones::validate_relaxation(&zone, file.x_m, damping_zone.as_ref(), check));
     let obstacles = obstacles::validate(file, flume, check);
     if check.count() > before {
         return None;
@@ -134,6 +138,7 @@ pub(super) fn validate(
         depth,
         start: file.start_s.map_or(Start::AtShare(file.start_at_share), Start::At),
         damping_zone,
+        relaxation_zone,
         obstacles,
     })
 }

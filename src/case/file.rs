@@ -184,6 +184,11 @@ pub struct DomainFile {
     // Left out at its default, so that cases that do not use it keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_zone: Option<DampingZoneFile>,
+    /// Where the water before the wavemaker is led to the velocity of the flume model, so that what comes back from the
+    /// structure is not sent back once more.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relaxation_zone: Option<RelaxationZoneFile>,
     /// Fixed boxes in the water.
     // Left out at its default, so that cases that do not use it keep their hash.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -208,6 +213,18 @@ pub struct DampingZoneFile {
 
 fn default_damping_per_s() -> f64 {
     10.0
+}
+
+/// A zone in which the velocity v of the water goes over to that of the flume model, dv/dt = -f (v - v_flume). The rate f falls
+/// as the square of the distance from `coefficient_per_s` at the wavemaker to 0 at the end of the zone.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RelaxationZoneFile {
+    /// Shoreward end of the zone [m].
+    pub end_x_m: f64,
+    /// Rate at the wavemaker [1/s].
+    #[serde(default = "default_damping_per_s")]
+    pub coefficient_per_s: f64,
 }
 
 /// A fixed box along the axes that the water flows round. Where it reaches the bed or an end of the domain it stands

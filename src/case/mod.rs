@@ -5,7 +5,6 @@
 
 mod centres;
 mod check;
-mod damping_zone;
 mod domain;
 mod error;
 mod estimate;
@@ -29,8 +28,8 @@ mod units;
 mod validate;
 mod wave;
 mod wavemaker;
+mod zones;
 
-pub use damping_zone::DampingZone;
 pub use domain::{Domain, Start, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
@@ -50,3 +49,4 @@ pub use units::{Placement, Units};
 pub use validate::Case;
 pub use wave::Wave;
 pub use wavemaker::Wavemaker;
+pub use zones::{DampingZone, RelaxationZone};

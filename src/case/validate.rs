@@ -19,6 +19,7 @@ use super::run::{self, Contact, Stop};
 use super::units::{self, Surroundings, Units};
 use super::wave::{self, Wave};
 use super::wavemaker::{self, Wavemaker};
+use super::zones;
 
 /// A larger case file is no case file [bytes].
 const LARGEST_FILE: u64 = 16 << 20;
@@ -151,6 +152,8 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         Some(row) => Some(row?),
     };
     let wave = wave?;
+    let relaxation = domain.as_ref().and_then(|domain| domain.relaxation_zone.as_ref());
+    zones::validate_wave(relaxation, &wave, wavemaker, check);
     let (file, text, read) = self_contained(file, text, &wave);
     let case = Case {
         title: file.title.clone(),

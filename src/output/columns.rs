@@ -51,7 +51,8 @@ pub const CONTACTS: [&str; 11] = [
 ];
 
 /// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start from
-/// bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from the damping zone.
+/// bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from damping and
+/// relaxation zone.
 pub const ENERGY: [&str; 10] = [
     "time_s",
     "kinetic_j",
@@ -62,7 +63,7 @@ pub const ENERGY: [&str; 10] = [
     "from_boundary_j",
     "from_viscosity_j",
     "from_diffusion_j",
-    "from_damping_zone_j",
+    "from_zones_j",
 ];
 
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its

@@ -17,8 +17,8 @@ pub struct Balance {
     pub viscosity: f64,
     /// From density diffusion.
     pub diffusion: f64,
-    /// From the damping zone, booked in every step.
-    pub damping: f64,
+    /// From damping and relaxation zone, booked in every step.
+    pub zones: f64,
     /// Time [s] and powers [W] of the last row.
     last: Option<(f64, [f64; 3])>,
 }

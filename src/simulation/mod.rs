@@ -6,8 +6,8 @@
 //! | [`incoming`] | make its wave, in the flume model or by a paddle |
 //! | this one | one step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
+//! | `zones` | water that goes over to a velocity of its own at the ends of the domain |
 //! | `absorb` | a piston that takes up the waves that come back |
-//! | `damping` | slowing the water down before the end of the domain |
 //! | [`failure`] | what can go wrong in a step, and finding out where |
 //! | [`energy`], [`balance`] | energy of water and units, and where it goes |
 //! | [`extremes`] | the fastest, the lightest and the densest water |
@@ -23,7 +23,6 @@
 mod absorb;
 pub mod balance;
 pub mod checkpoint;
-mod damping;
 mod diagnostics;
 pub mod energy;
 pub mod extremes;
@@ -39,6 +38,7 @@ pub mod setup;
 pub mod snapshots;
 pub mod statistics;
 pub mod summary;
+mod zones;
 
 use std::sync::Arc;
 
@@ -141,7 +141,7 @@ impl Simulation {
         });
         self.solver.rates();
         self.solver.correct(dt, &mut self.water, &mut self.boundary);
-        self.damp(dt);
+        self.relax_in_zones(dt);
         self.sum_unit_loads(dt);
         self.keep_water_out(dt);
         self.advance_units(dt)?;

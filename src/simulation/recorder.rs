@@ -291,7 +291,7 @@ fn energy_row(simulation: &mut Simulation) -> [f64; 10] {
         balance.boundary,
         balance.viscosity,
         balance.diffusion,
-        balance.damping,
+        balance.zones,
     ]
 }
 

@@ -18,7 +18,7 @@ fn case(height: f64, dp: f64) -> Value {
         "title": "A wave of the Fudo experiment over the bare slope",
         "flume": { "bed_m": [[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]], "still_water_level_m": STILL_LEVEL },
         "domain": {
-            "x_m": [PISTON_X, 44.0], "width_m": 9.0 * dp, "sides": "periodic", "top_z_m": 1.15, "dp_m": dp,
+            "x_m": [PISTON_X, 44.0], "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 1.15, "dp_m": dp,
             "start_at_share": 0.02
         },
         "fluid": { "sound_speed_factor": 10.0 },

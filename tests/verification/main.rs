@@ -15,6 +15,7 @@ mod incoming_waves;
 mod lattice;
 mod operators;
 mod regular_waves;
+mod relaxation;
 mod reproducibility;
 mod rigid;
 mod solitary_wave;

@@ -92,7 +92,7 @@ fn run(tank: &Tank) -> Seen {
     run_until(&mut simulation, end, |now| {
         if now.steps.is_multiple_of(20) {
             balance.add(now.time, now.solver().powers(&now.water));
-            energies.push([now.energy().total(), now.statistics.balance.damping]);
+            energies.push([now.energy().total(), now.statistics.balance.zones]);
         }
         if now.time >= first && now.steps.is_multiple_of(4) {
             let level = |x: f64| now.sampler().surface(DVec2::new(x, middle), 0.0, top).unwrap();

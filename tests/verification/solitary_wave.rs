@@ -33,7 +33,7 @@ impl Wave {
             "title": "A solitary wave along a flat bed",
             "flume": { "bed_m": [[0.0, 0.0], [last + 16.0, 0.0]], "still_water_level_m": DEPTH },
             "domain": {
-                "x_m": [FIRST - 2.0 * DEPTH, last + 8.0 * DEPTH], "width_m": 9.0 * self.dp, "sides": "periodic",
+                "x_m": [FIRST - 2.0 * DEPTH, last + 8.0 * DEPTH], "width_m": 10.0 * self.dp, "sides": "periodic",
                 "top_z_m": 1.6 * DEPTH + 2.0 * self.height * DEPTH, "dp_m": self.dp,
                 "start_s": self.passing(FIRST - DEPTH)
             },
@@ -112,8 +112,8 @@ fn crest(simulation: &Simulation, x: f64) -> (f64, f64) {
 fn loss_of_height_against_resolution_and_viscosity() {
     let loss = |dp, alpha, slip| Wave { height: 0.1, travel: 10.0, dp, alpha, slip }.loss_over(20.0);
     let coarse = loss(0.025, 0.04, "original");
-    // Every depth takes the same share: what six depths say about twenty.
-    let short = Wave { height: 0.1, travel: 6.0, dp: 0.025, alpha: 0.04, slip: "original" }.loss_over(20.0);
+    // Every depth takes the same share: what four depths say about twenty.
+    let short = Wave { height: 0.1, travel: 4.0, dp: 0.025, alpha: 0.04, slip: "original" }.loss_over(20.0);
     assert!((short / coarse - 1.0).abs() < 0.15);
     loss(0.025, 0.04, "free_slip");
     let thin = loss(0.025, 0.01, "original");
@@ -126,8 +126,8 @@ fn loss_of_height_against_resolution_and_viscosity() {
 /// Five particles in the height, the defaults: asked is less than 5 % over 20 d. `cargo test --release --test
 /// verification -- --ignored --nocapture keeps_its_height_with_five`.
 #[test]
-#[ignore = "40 minutes on 2 cores"]
+#[ignore = "half an hour on 2 cores"]
 fn a_solitary_wave_keeps_its_height_with_five_particles_in_it() {
-    let loss = Wave { height: 0.1, travel: 6.0, dp: 0.01, alpha: 0.04, slip: "original" }.loss_over(20.0);
+    let loss = Wave { height: 0.1, travel: 4.0, dp: 0.01, alpha: 0.04, slip: "original" }.loss_over(20.0);
     assert!(loss < 0.05);
 }
