@@ -79,7 +79,7 @@ impl Reach {
         match wave {
             WaveFile::None {} => Self::DomainWithoutWave,
             WaveFile::File(_) => Self::DomainWithPaddle,
-            _ if wavemaker == Wavemaker::MlPiston => Self::Flume,
+            _ if wavemaker.is_ml_piston() => Self::Flume,
             _ => Self::DomainWithPaddle,
         }
     }

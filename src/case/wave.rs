@@ -70,7 +70,7 @@ impl Wavemaker {
     /// What moves, over a bed at the level `bed_z` [m].
     pub fn shape(self, bed_z: f64) -> PaddleShape {
         match self {
-            Self::MlPiston | Self::Piston { .. } => PaddleShape::Piston,
+            Self::MlPiston { .. } | Self::Piston { .. } => PaddleShape::Piston,
             Self::Flap { hinge_z } => PaddleShape::Flap { hinge_m: hinge_z - bed_z },
         }
     }
@@ -109,7 +109,7 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
             "remove `domain.water` for a wave, or `wave` for a dam break",
         );
     }
-    if around.wavemaker != Wavemaker::MlPiston {
+    if !around.wavemaker.is_ml_piston() {
         refuse_start(around.domain_file, check);
     }
     let wave = match file {
@@ -166,7 +166,7 @@ fn validate_solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Che
         SolitaryTheory::Boussinesq => piston(PistonTheory::Boussinesq),
         SolitaryTheory::Rayleigh => piston(PistonTheory::Rayleigh),
         SolitaryTheory::ThirdOrder => {
-            if around.wavemaker != Wavemaker::MlPiston {
+            if !around.wavemaker.is_ml_piston() {
                 check.refuse(
                     "wave.theory",
                     "\"third_order\"",
@@ -205,7 +205,7 @@ fn validate_regular(file: &RegularFile, around: &Surroundings, check: &mut Check
         "m",
         &format!("higher waves of this period, {} m long in {} m of water, break", show(length), show(depth)),
     );
-    if sound && around.wavemaker == Wavemaker::MlPiston {
+    if sound && around.wavemaker.is_ml_piston() {
         let permanent = StreamFunctionWave::new(wave, MeanFlow::NoTransport);
         refuse_impossible(permanent.err(), "wave.height_m", height_m, check);
     }
@@ -268,7 +268,7 @@ impl Surroundings<'_> {
     /// Still depth where the wave is made [m].
     fn depth(&self) -> Option<f64> {
         let flume = self.flume?;
-        if self.wavemaker == Wavemaker::MlPiston {
+        if self.wavemaker.is_ml_piston() {
             return Some(flume.offshore_depth());
         }
         Some(flume.still_depth(self.domain?.x[0]))
@@ -280,7 +280,7 @@ impl Surroundings<'_> {
         if depth > 0.0 {
             return Some(depth);
         }
-        if self.wavemaker == Wavemaker::MlPiston {
+        if self.wavemaker.is_ml_piston() {
             check.refuse(
                 "flume.still_water_level_m",
                 show(self.flume?.still_level),

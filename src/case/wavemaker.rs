@@ -18,7 +18,10 @@ const FURTHEST_HINGE: f64 = 1e5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wavemaker {
     /// Rows that follow the water of the flume model.
-    MlPiston,
+    MlPiston {
+        /// Distance of the gauge by which they absorb what comes back, if they do [m].
+        absorption_gauge: Option<f64>,
+    },
     /// A rigid piston.
     Piston {
         /// Distance of the gauge by which it absorbs what comes back, if it does [m].
@@ -29,6 +32,21 @@ pub enum Wavemaker {
         /// Level of the hinge [m].
         hinge_z: f64,
     },
+}
+
+impl Wavemaker {
+    /// Whether the wave comes from the flume model or files.
+    pub fn is_ml_piston(&self) -> bool {
+        matches!(self, Self::MlPiston { .. })
+    }
+
+    /// Distance of the gauge by which it absorbs what comes back, if it does [m].
+    pub fn absorption_gauge(&self) -> Option<f64> {
+        match *self {
+            Self::MlPiston { absorption_gauge } | Self::Piston { absorption_gauge } => absorption_gauge,
+            Self::Flap { .. } => None,
+        }
+    }
 }
 
 /// Validate the kind of wavemaker against that of the wave: what is not implemented does not pass.
@@ -60,7 +78,7 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
         _ => {}
     }
     match file {
-        WavemakerFile::MlPiston {} => Wavemaker::MlPiston,
+        WavemakerFile::MlPiston(piston) => Wavemaker::MlPiston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Piston(piston) => Wavemaker::Piston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Flap(flap) => {
             let highest = flume.map_or(FURTHEST_HINGE, |flume| flume.still_level);
@@ -79,7 +97,7 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
 
 fn name(file: &WavemakerFile) -> &'static str {
     match file {
-        WavemakerFile::MlPiston {} => "ml_piston",
+        WavemakerFile::MlPiston(_) => "ml_piston",
         WavemakerFile::Piston(_) => "piston",
         WavemakerFile::Flap(_) => "flap",
     }
@@ -97,18 +115,27 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
             "start the domain further from the shore",
         );
     }
-    if let Wavemaker::Piston { absorption_gauge: Some(gauge) } = wavemaker {
+    if let Some(gauge) = wavemaker.absorption_gauge() {
         // Nearer than four particles the gauge would show the gap at the piston.
         let (nearest, furthest) = (4.0 * domain.dp, 0.5 * (domain.x[1] - domain.x[0]));
         let advice = "a depth from the piston is usual; what comes back must not be what has just gone out";
         check.number("wavemaker.absorption_gauge_m", gauge, from(nearest).up_to(furthest), "m", advice);
     }
+    if wavemaker.is_ml_piston() && wavemaker.absorption_gauge().is_some() && matches!(wave, Wave::None | Wave::Given(_))
+    {
+        check.refuse(
+            "wavemaker.absorption_gauge_m",
+            "present",
+            "absent, because no wave comes from the flume model: the surface that the gauge should show is not known",
+            "leave it out",
+        );
+    }
     match wave {
         Wave::None | Wave::Given(_) => {}
-        Wave::Solitary(wave) if wavemaker == Wavemaker::MlPiston => {
+        Wave::Solitary(wave) if wavemaker.is_ml_piston() => {
             validate_distance("the piston's reach", flume.ends()[0] + wave.stroke_m(), domain, check);
         }
-        _ if wavemaker == Wavemaker::MlPiston => {
+        _ if wavemaker.is_ml_piston() => {
             validate_distance("a depth from the inflow", flume.ends()[0] + flume.offshore_depth(), domain, check);
         }
         Wave::SolitaryInflow(_) | Wave::Irregular { .. } => {}

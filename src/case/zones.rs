@@ -70,7 +70,7 @@ pub(super) fn validate_relaxation(
 
 /// Refuse a relaxation zone where no wave comes from the flume model.
 pub(super) fn validate_wave(zone: Option<&RelaxationZone>, wave: &Wave, wavemaker: Wavemaker, check: &mut Checker) {
-    let from_flume = wavemaker == Wavemaker::MlPiston && !matches!(wave, Wave::None | Wave::Given(_));
+    let from_flume = wavemaker.is_ml_piston() && !matches!(wave, Wave::None | Wave::Given(_));
     if zone.is_some() && !from_flume {
         check.refuse(
             "domain.relaxation_zone",

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{Trouble, load};
 use crate::{
-    case::{Case, Wave, Wavemaker},
+    case::{Case, Wave},
     simulation::progress::readable,
 };
 
@@ -57,7 +57,7 @@ fn print(case: &Case) {
                 wave.length_m(),
                 wave.depth_m
             );
-            if case.wavemaker == Wavemaker::MlPiston {
+            if case.wavemaker.is_ml_piston() {
                 println!("; flows into the flume");
             } else {
                 let motion = case.wavemaker.motion(wave, *ramp_periods, case.flume.profile.z(case.domain.x[0]));
@@ -74,7 +74,7 @@ fn print(case: &Case) {
             sea.significant_height_m, sea.peak_period_s, sea.peak_enhancement, sea.seed, sea.depth_m
         ),
     }
-    if let Wavemaker::Piston { absorption_gauge: Some(distance) } = case.wavemaker {
+    if let Some(distance) = case.wavemaker.absorption_gauge() {
         println!("  wavemaker   takes up the waves that come back to it, by a gauge {distance} m before it");
     }
     println!(

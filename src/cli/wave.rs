@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{Trouble, fresh_folder, load, stem};
 use crate::{
-    case::{Quantity, Wave, Wavemaker},
+    case::{Quantity, Wave},
     output::{OutputError, write_atomically, write_flume_gauges, write_flume_piston, write_wave_page},
     simulation::incoming::{ml_piston, particle_start, run_flume},
     waves::external::{
@@ -40,7 +40,7 @@ impl WaveArguments {
         if matches!(case.wave, Wave::Given(_)) {
             return refuse("wave.kind: the wave comes from files of another program, so that no flume model runs");
         }
-        if case.wave != Wave::None && case.wavemaker != Wavemaker::MlPiston {
+        if case.wave != Wave::None && !case.wavemaker.is_ml_piston() {
             return refuse(
                 "wavemaker.kind: the wave is made in the particles, so that no flume model runs; `breakwater check` shows \
                  the wave's length and the paddle's stroke",

@@ -1,28 +1,33 @@
-//! Active absorption of the waves that come back to a piston.
+//! Active absorption of the waves that come back to a piston, rigid or in rows.
 
 use glam::DVec2;
 
 use super::Simulation;
 use crate::{
     particles::boundary::Boundary,
-    waves::{absorption::AbsorptionState, paddle::Paddle, wavemaker::Wavemaker},
+    waves::{absorption::AbsorptionState, wavemaker::Wavemaker},
 };
 
 impl Simulation {
     /// Read the surface before the piston, and let it take up what comes back over the step of length `dt` [s].
     pub(super) fn absorb(&mut self, dt: f64) {
-        let Some(Wavemaker::Paddle(paddle)) = &self.wavemaker else { return };
-        let Some(absorption) = paddle.absorption() else { return };
-        let excess = self.excess(paddle, absorption.gauge_m, self.flume_time());
+        let Some(wavemaker) = &self.wavemaker else { return };
+        let Some(absorption) = wavemaker.absorption() else { return };
+        let excess = self.excess(wavemaker, absorption.gauge_m, self.flume_time());
         absorption.advance(&mut self.absorbed, excess, dt);
     }
 
     /// Elevation beyond that of the wave that is made [m], at a distance from the piston [m]; nothing where it is dry.
-    fn excess(&self, paddle: &Paddle, distance: f64, t: f64) -> f64 {
+    fn excess(&self, wavemaker: &Wavemaker, distance: f64, t: f64) -> f64 {
         let (domain, flume) = (&self.case.domain, &self.case.flume);
-        let x = paddle.place_m() + self.absorbed.displacement_m + paddle.motion_m(t) + distance;
+        let x = wavemaker.surface_m(t) + self.absorbed.displacement_m + distance;
         let surface = self.sampler().surface(DVec2::new(x, 0.5 * domain.width), flume.profile.z(x), domain.top_z);
-        surface.map_or(0.0, |z| z - flume.still_level - paddle.elevation_m(distance, t))
+        let made = match (wavemaker, &self.flume) {
+            (Wavemaker::Paddle(paddle), _) => paddle.elevation_m(distance, t),
+            (Wavemaker::MlPiston(_), Some(record)) => record.elevation(x, t),
+            (Wavemaker::MlPiston(_), None) => 0.0,
+        };
+        surface.map_or(0.0, |z| z - flume.still_level - made)
     }
 }
 

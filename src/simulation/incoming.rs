@@ -3,6 +3,7 @@
 use crate::{
     case::{self, Case, Quantity, Start, Wave},
     waves::{
+        absorption::Absorption,
         flume::{self, FlumeError, FlumeSetup, WaveSource},
         incoming::IncomingWave,
         irregular::IrregularWave,
@@ -37,7 +38,7 @@ const DRIFT_PERIODS: f64 = 4.0;
 /// # Errors
 /// If the flume model fails.
 pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
-    if case.wavemaker != case::Wavemaker::MlPiston {
+    if !case.wavemaker.is_ml_piston() {
         return Ok(None);
     }
     let Some(wave) = source(&case.wave)? else { return Ok(None) };
@@ -133,7 +134,15 @@ pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
 /// What makes the case's wave in the particles, if it has one.
 pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
     if let Some(record) = flume {
-        return Some(Wavemaker::MlPiston(ml_piston(case, record, start)));
+        let piston = ml_piston(case, record, start);
+        return Some(Wavemaker::MlPiston(match case.wavemaker.absorption_gauge() {
+            Some(gauge) => {
+                let (depth, period) = (case.flume.still_depth(case.domain.x[0]), case.wave.period());
+                let reach = piston.shoreward_reach_m().max(piston.seaward_reach_m());
+                piston.absorbing(Absorption::of_piston(gauge, depth, period, case.fluid.gravity, reach))
+            }
+            None => piston,
+        }));
     }
     let place = case.domain.x[0];
     let bed = case.flume.profile.z(place);

@@ -84,7 +84,7 @@ fn wave(case: &Case) -> Option<WaveSummary> {
         (Wave::Solitary(wave), _) if wave.theory == PistonTheory::Boussinesq => ("solitary", "boussinesq"),
         (Wave::Solitary(_), _) => ("solitary", "rayleigh"),
         (Wave::SolitaryInflow(_), _) => ("solitary", "third_order"),
-        (Wave::Regular { .. }, Wavemaker::MlPiston) => ("regular", "stream_function"),
+        (Wave::Regular { .. }, Wavemaker::MlPiston { .. }) => ("regular", "stream_function"),
         (Wave::Regular { .. }, Wavemaker::Piston { .. }) => ("regular", "madsen"),
         (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
         (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),

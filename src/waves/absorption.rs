@@ -10,7 +10,11 @@
 //! eta_out = eta_in - y and slow waves that is y + (tau - a) y' / 2 = eta_in: for tau = a there is no lag, and the loop is
 //! stable for any a, because the delayed term is not larger than the other.
 
+use std::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
+
+use super::regular::linear_wavenumber_per_m;
 
 /// How a piston absorbs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +42,29 @@ pub struct AbsorptionState {
     excess_m: f64,
 }
 
+/// Periods over which an absorbing piston in periodic waves is drawn back to where it would stand without absorption: long
+/// enough that the velocity of absorption loses no more than 1 / (2 pi 10) = 1.6 % of itself, out of phase, and short enough
+/// that the mass which waves carry does not push the piston away.
+pub(super) const RETURN_PERIODS: f64 = 10.0;
+
 impl Absorption {
+    /// For a piston of full depth [m] in waves of a period [s], or in long ones without a period, with a gauge at a distance
+    /// [m]; it goes no further than `reach_m` [m] from its own motion. By linear theory waves of the speed c carry the
+    /// velocity (c/d) eta.
+    pub fn of_piston(gauge_m: f64, depth_m: f64, period_s: Option<f64>, gravity: f64, reach_m: f64) -> Self {
+        let celerity = period_s.map_or((gravity * depth_m).sqrt(), |period| {
+            let omega = TAU / period;
+            omega / linear_wavenumber_per_m(omega, depth_m, gravity)
+        });
+        Self {
+            gauge_m,
+            way_s: gauge_m / celerity,
+            velocity_per_elevation: celerity / depth_m,
+            reach_m,
+            return_s: period_s.map(|period| RETURN_PERIODS * period),
+        }
+    }
+
     /// Take a reading, the elevation beyond that of the wave that is made [m], and move over a step `dt` [s].
     pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
         state.excess_m += (1.0 - (-dt / self.way_s).exp()) * (excess_m - state.excess_m);

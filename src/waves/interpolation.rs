@@ -1,5 +1,7 @@
 //! Cubic interpolation on unevenly spaced points, falling back to a straight line where a neighbour is dry.
 
+use std::ops::Range;
+
 /// Where to read between points: first index, its weights and how many points count.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stencil {
@@ -44,6 +46,11 @@ impl Stencil {
     /// One of the points read: if it is not usable, none is.
     pub(super) fn point(&self) -> usize {
         self.first
+    }
+
+    /// The points that count.
+    pub(super) fn points(&self) -> Range<usize> {
+        self.first..self.first + self.points
     }
 
     /// Weighted sum of `value(index)`.

@@ -11,6 +11,7 @@
 
 use std::io;
 
+use crate::waves::absorption::Absorption;
 use crate::waves::record::FlumeRecord;
 use crate::waves::velx::Velx;
 
@@ -25,6 +26,7 @@ pub struct MlPiston {
     velocities: Vec<Vec<f64>>,
     /// Displacements at the knots [m], one list a row.
     displacements: Vec<Vec<f64>>,
+    absorption: Option<Absorption>,
 }
 
 impl MlPiston {
@@ -118,7 +120,17 @@ impl MlPiston {
             all
         };
         let displacements = velocities.iter().map(integrate).collect();
-        Self { place_m, row_heights_m, start_s, interval_s, velocities, displacements }
+        Self { place_m, row_heights_m, start_s, interval_s, velocities, displacements, absorption: None }
+    }
+
+    /// The same rows, taking up together what comes back to them.
+    pub fn absorbing(self, absorption: Absorption) -> Self {
+        Self { absorption: Some(absorption), ..self }
+    }
+
+    /// How they take up what comes back, if they do.
+    pub fn absorption(&self) -> Option<&Absorption> {
+        self.absorption.as_ref()
     }
 
     /// Levels z of the rows [m].

@@ -1,13 +1,8 @@
 //! A rigid paddle in the particles: rows that move in proportion to one motion.
 
-use crate::waves::absorption::Absorption;
+use crate::waves::absorption::{Absorption, RETURN_PERIODS};
 use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::solitary::SolitaryWave;
-
-/// Periods over which an absorbing paddle in periodic waves is drawn back to where it would stand without absorption: long
-/// enough that the velocity of absorption loses no more than 1 / (2 pi 10) = 1.6 % of itself, out of phase, and short enough
-/// that the mass which waves carry does not push the paddle away.
-const RETURN_PERIODS: f64 = 10.0;
 
 /// Motion of a paddle at the still surface, t [s] from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]

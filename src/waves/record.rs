@@ -148,25 +148,30 @@ impl FlumeRecord {
     /// Surface level z [m] at x [m] and t [s], as [`Self::elevation`].
     pub fn surface_level_m(&self, x: f64, t: f64) -> f64 {
         let bed = self.profile.z(x);
-        self.blend(x, t, |at| if self.is_wet(at) { self.surface_m[at] } else { bed }).max(bed)
+        self.surface_between(&self.between(x, t), bed)
+    }
+
+    fn surface_between(&self, between: &Between, bed: f64) -> f64 {
+        between.blend(|at| if self.is_wet(at) { self.surface_m[at] } else { bed }).max(bed)
     }
 
     /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s]: above the surface those of the surface, below the
     /// bed those of the bed. u between the layers is a parabola in the height above the bed, w is linear.
     pub fn velocity(&self, x: f64, z: f64, t: f64) -> (f64, f64) {
         let bed = self.profile.z(x);
-        let depth = self.surface_level_m(x, t) - bed;
+        let between = self.between(x, t);
+        let depth = self.surface_between(&between, bed) - bed;
         let height = if depth > 0.0 { ((z - bed) / depth).clamp(0.0, 1.0) } else { 0.0 };
         let k = self.layers;
-        let u = self.blend(x, t, |at| profile_of_u(&self.u[at * k..(at + 1) * k], height));
-        let w = self.blend(x, t, |at| profile_of_w(&self.w[at * (k + 1)..(at + 1) * (k + 1)], height));
+        let u = between.blend(|at| profile_of_u(&self.u[at * k..(at + 1) * k], height));
+        let w = between.blend(|at| profile_of_w(&self.w[at * (k + 1)..(at + 1) * (k + 1)], height));
         (u, w)
     }
 
     /// Mean of the horizontal velocity over the depth [m/s] at x [m] and t [s].
     pub fn mean_velocity(&self, x: f64, t: f64) -> f64 {
         let k = self.layers;
-        self.blend(x, t, |at| self.u[at * k..(at + 1) * k].iter().sum::<f64>() / k as f64)
+        self.between(x, t).blend(|at| self.u[at * k..(at + 1) * k].iter().sum::<f64>() / k as f64)
     }
 
     /// The flow in the whole window at t [s].
@@ -208,18 +213,31 @@ impl FlumeRecord {
         Stencil::at(&self.times_s, t, |_| true)
     }
 
-    /// `value` of a recorded point, blended in space and time; dry points keep out of the cubic in space.
-    fn blend(&self, x: f64, t: f64, value: impl Fn(usize) -> f64) -> f64 {
-        let points = self.window_x_m.len();
-        self.in_time(t).apply(|record| {
-            let first = record * points;
-            Stencil::at(&self.window_x_m, x, |i| self.is_wet(first + i)).apply(|i| value(first + i))
-        })
+    /// Where to read for x [m] and t [s]; points that are dry at one of the times keep out of the cubic in space.
+    fn between(&self, x: f64, t: f64) -> Between {
+        let (time, points) = (self.in_time(t), self.window_x_m.len());
+        let wet = |i: usize| time.points().all(|record| self.is_wet(record * points + i));
+        Between { time, place: Stencil::at(&self.window_x_m, x, wet), points }
     }
 
     /// Whether there is water at a recorded point.
     fn is_wet(&self, at: usize) -> bool {
         self.surface_m[at] > self.profile.z(self.window_x_m[at % self.window_x_m.len()]) + FILM_M
+    }
+}
+
+/// A place and moment between recorded points.
+struct Between {
+    time: Stencil,
+    place: Stencil,
+    /// Points of one record.
+    points: usize,
+}
+
+impl Between {
+    /// `value` of a recorded point, blended in space and time.
+    fn blend(&self, value: impl Fn(usize) -> f64) -> f64 {
+        self.time.apply(|record| self.place.apply(|i| value(record * self.points + i)))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A new kind of wavemaker is a variant here: it tells where each of its rows is and how fast it moves along x.
 
-use crate::waves::{ml_piston::MlPiston, paddle::Paddle};
+use crate::waves::{absorption::Absorption, ml_piston::MlPiston, paddle::Paddle};
 
 /// A wavemaker made of rows of particles.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,14 @@ impl Wavemaker {
         }
     }
 
+    /// How it takes up what comes back, if it does.
+    pub fn absorption(&self) -> Option<&Absorption> {
+        match self {
+            Self::MlPiston(piston) => piston.absorption(),
+            Self::Paddle(paddle) => paddle.absorption(),
+        }
+    }
+
     /// Levels z of the rows [m].
     pub fn row_heights_m(&self) -> &[f64] {
         match self {
@@ -38,6 +46,15 @@ impl Wavemaker {
                 rows.map(|row| [piston.displacement_m(row, t), piston.velocity_m_s(row, t)]).collect()
             }
             Self::Paddle(paddle) => paddle.rows_at(t).collect(),
+        }
+    }
+
+    /// Where it stands at the still surface at t [s] of the flume [m]: rows of the water go to within a few per cent as far at
+    /// any height.
+    pub fn surface_m(&self, t: f64) -> f64 {
+        match self {
+            Self::MlPiston(piston) => piston.place_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),
+            Self::Paddle(paddle) => paddle.place_m() + paddle.motion_m(t),
         }
     }
 

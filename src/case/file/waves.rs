@@ -109,7 +109,7 @@ pub enum SolitaryTheory {
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WavemakerFile {
     /// A piston in rows that follow the water of the layered flume model (multi-layer piston); for all waves.
-    MlPiston {},
+    MlPiston(PistonFile),
     /// A rigid piston that moves by wave theory in the depth where it stands; for solitary and regular waves.
     Piston(PistonFile),
     /// A paddle that turns about a hinge, by first-order theory; for regular waves.
@@ -118,7 +118,7 @@ pub enum WavemakerFile {
 
 impl Default for WavemakerFile {
     fn default() -> Self {
-        Self::MlPiston {}
+        Self::MlPiston(PistonFile { absorption_gauge_m: None })
     }
 }
 
@@ -129,7 +129,7 @@ impl WavemakerFile {
     }
 }
 
-/// A rigid piston.
+/// What a piston, rigid or in rows, does with the waves that come back to it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
