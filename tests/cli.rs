@@ -338,8 +338,8 @@ fn a_disk_that_is_full_ends_the_run() {
     let mut many_snapshots = read_json(&case);
     many_snapshots["output"] = json!({ "fluid_interval_s": 0.002, "units_interval_s": 0.0 });
     std::fs::write(&case, many_snapshots.to_string()).unwrap();
-    // No file may grow beyond 2400 blocks of 512 or 1024 bytes, a fifth of what the water would need. Ignoring the signal
-    // makes the limit an error of the write, as on a full disk.
+    // No file may grow beyond 2400 blocks of 512 or 1024 bytes, a fifth of what the water would need. Ignoring the
+    // signal makes the limit an error of the write, as on a full disk.
     let output = Command::new("sh")
         .args(["-c", "trap '' XFSZ; ulimit -f 2400; exec \"$0\" run \"$1\" --out \"$2\" --quiet"])
         .args([env!("CARGO_BIN_EXE_breakwater"), path(&case), path(&out)])
@@ -385,4 +385,27 @@ fn wave_beside_another_program() {
     let message = refuse(&["wave", path(&case), "--out", path(&folder.path().join("none")), "--beside", path(&alone)]);
     assert!(message.contains("position.dat"), "{message}");
     assert!(!folder.path().join("none").exists());
+}
+
+/// What `tools/openfoam` writes; running it needs OpenFOAM.
+#[test]
+fn the_flume_for_openfoam_is_written() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("vof");
+    let case = root.join("cases/fudo/H4.5-slice.json");
+    let command = ["--out", path(&out), "--coarsen", "4", "2", "--breakwater", env!("CARGO_BIN_EXE_breakwater")];
+    let Ok(done) = Command::new(root.join("tools/openfoam/flume")).arg(&case).args(command).output() else {
+        println!("skipped: no python3");
+        return;
+    };
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    // Cells of 8 cm on 19 m of level bed; the four gauges of the case and the column at the wavemaker.
+    assert!(read("system/blockMeshDict").contains("(238 1 55)"), "{}", read("system/blockMeshDict"));
+    assert_eq!(read("system/controlDict").matches("type            probes;").count(), 5);
+    assert!(read("constant/piston").starts_with("(\n(0 (0 0 0))\n"));
+    let driven: Value = serde_json::from_str(&read("H4.5-slice-openfoam.json")).unwrap();
+    assert_eq!(driven["wave"]["source"]["format"], "openfoam");
+    assert_eq!(driven["wave"]["source"]["water"], "alpha.water");
 }

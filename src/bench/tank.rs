@@ -26,8 +26,8 @@ pub struct Tank {
 }
 
 impl Tank {
-    /// A tank of a length, width and mean depth [m] whose walls are half as high again, with the surface z(x) [m] and the
-    /// velocity v(x, z) [m/s] of the water; `unit` are the particles of its one unit, if there are any.
+    /// A tank of a length, width and mean depth [m] whose walls are half as high again, with the surface z(x) [m] and
+    /// the velocity v(x, z) [m/s] of the water; `unit` are the particles of its one unit, if there are any.
     pub fn new(
         instructions: InstructionSet,
         parameters: Parameters,

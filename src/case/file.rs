@@ -199,8 +199,8 @@ pub(super) fn default_start_share() -> f64 {
     0.03
 }
 
-/// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows as the square of the distance from
-/// 0 at the seaward end of the zone to `coefficient_per_s` at its shoreward end, and keeps that value beyond.
+/// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows as the square of the distance
+/// from 0 at the seaward end of the zone to `coefficient_per_s` at its shoreward end, and keeps that value beyond.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DampingZoneFile {
@@ -215,8 +215,8 @@ fn default_damping_per_s() -> f64 {
     10.0
 }
 
-/// A zone in which the velocity v of the water goes over to that of the flume model, dv/dt = -f (v - v_flume). The rate f falls
-/// as the square of the distance from `coefficient_per_s` at the wavemaker to 0 at the end of the zone.
+/// A zone in which the velocity v of the water goes over to that of the flume model, dv/dt = -f (v - v_flume). The
+/// rate f falls as the square of the distance from `coefficient_per_s` at the wavemaker to 0 at the end of the zone.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RelaxationZoneFile {

@@ -53,7 +53,8 @@ pub(super) fn validate(
     check: &mut Checker,
 ) -> Option<GivenWave> {
     if let Some(celerity) = file.celerity_m_s {
-        // No wave is faster than a solitary one at its breaking height, sqrt(1.8 g d); twice that leaves room for currents.
+        // No wave is faster than a solitary one at its breaking height, sqrt(1.8 g d); twice that leaves room for
+        // currents.
         let fastest = 2.0 * (1.8 * gravity * flume.still_depth(domain.x[0])).sqrt();
         let advice = "a long wave travels at sqrt(g (d + H))";
         check.number("wave.celerity_m_s", celerity, above(0.0).up_to(fastest), "m/s", advice);

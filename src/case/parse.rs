@@ -28,9 +28,9 @@ pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
     }
 }
 
-/// Three things that the parser calls syntax errors are a key's: a number beyond the largest float, something else where
-/// a name in quotes must stand, and the surplus entries of a list of fixed length (the text is then JSON to a reader who
-/// expects nothing).
+/// Three things that the parser calls syntax errors are a key's: a number beyond the largest float, something else
+/// where a name in quotes must stand, and the surplus entries of a list of fixed length (the text is then JSON to a
+/// reader who expects nothing).
 fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
     let key = |problem: &str, advice: &str| CaseError::Key {
         file: name.to_owned(),

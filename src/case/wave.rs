@@ -17,7 +17,8 @@ use crate::waves::stream_function::StreamFunctionWave;
 /// Shortest regular wave, in depths.
 const SHORTEST_LENGTH: f64 = 0.1;
 
-/// The wave, for the depth where it is made: at the seaward end of the flume, or of the domain if a paddle makes it there.
+/// The wave, for the depth where it is made: at the seaward end of the flume, or of the domain if a paddle makes it
+/// there.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Wave {
     /// No wave.

@@ -17,8 +17,8 @@ pub struct DampingZone {
 }
 
 impl DampingZone {
-    /// Rate f at x [1/s]: the coefficient times the square of the share of the zone that lies seaward of x; 0 before the
-    /// zone, the coefficient beyond it.
+    /// Rate f at x [1/s]: the coefficient times the square of the share of the zone that lies seaward of x; 0 before
+    /// the zone, the coefficient beyond it.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((x - self.x[0]) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
@@ -35,28 +35,30 @@ pub struct RelaxationZone {
 }
 
 impl RelaxationZone {
-    /// Rate f at x [1/s]: the coefficient times the square of the share of the zone that lies shoreward of x; 0 beyond the
-    /// zone.
+    /// Rate f at x [1/s]: the coefficient times the square of the share of the zone that lies shoreward of x; 0 beyond
+    /// the zone.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((self.x[1] - x) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
     }
 }
 
-/// Validate a relaxation zone that begins at the seaward end of a domain between two x [m] and must end before a damping zone.
+/// Validate a relaxation zone that begins at the seaward end of a domain between two x [m] and must end before a
+/// damping zone.
 pub(super) fn validate_relaxation(
     file: &RelaxationZoneFile,
     domain_x: [f64; 2],
     damping: Option<&DampingZone>,
     check: &mut Checker,
 ) -> RelaxationZone {
-    let [seaward, shoreward] = [domain_x[0], damping.map_or(domain_x[1], |zone| zone.x[0])];
+    let seaward = domain_x[0];
+    let shoreward = damping.map_or(domain_x[1], |zone| zone.x[0]).max(seaward + f64::EPSILON);
     check.number(
         "domain.relaxation_zone.end_x_m",
         file.end_x_m,
         above(seaward).up_to(shoreward),
         "m",
-        "it begins at the wavemaker; a quarter of a wavelength is usual, and it must be longer than the wavemaker's stroke",
+        "it begins at the wavemaker; a wavelength is usual",
     );
     check.number(
         "domain.relaxation_zone.coefficient_per_s",

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Trouble, load};
 use crate::{
     case::{Case, Wave},
-    simulation::progress::readable,
+    simulation::{incoming::particle_start, progress::readable, setup::check_times},
 };
 
 /// Full evaluations of a particle's rates per second and core that the estimate of the run time counts on; a step
@@ -28,7 +28,12 @@ impl CheckArguments {
         let mut refusals = Vec::new();
         for path in &self.cases {
             match load(path) {
-                Ok(case) => print(&case),
+                Ok(case) => {
+                    if let Err(reason) = check_times(&case, particle_start(&case, None)) {
+                        refusals.push(format!("{}: {reason}", path.display()));
+                    }
+                    print(&case);
+                }
                 Err(Trouble::Refused(reason) | Trouble::Failed(reason)) => refusals.push(reason),
             }
         }

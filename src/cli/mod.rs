@@ -109,7 +109,7 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 20] = [
+const RESULT_FILES: [&str; 21] = [
     "case.json",
     "checkpoint.h5",
     "compare.csv",
@@ -120,6 +120,7 @@ const RESULT_FILES: [&str; 20] = [
     "failed.h5",
     "fluid.vtkhdf",
     "flume_gauges.csv",
+    "flume_piston.csv",
     "gauges.csv",
     "ml_piston_velx.csv",
     "picture.svg",

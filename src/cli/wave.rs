@@ -26,9 +26,9 @@ pub struct WaveArguments {
     /// Replace what the folder holds.
     #[arg(long)]
     overwrite: bool,
-    /// Compare with OpenFOAM (z pointing up): its folder postProcessing with probes of alpha.water on a vertical in a folder
-    /// for each gauge of the case, as tools/openfoam leaves it; or that of the function object interfaceHeight, whose
-    /// locations are the gauges in their order.
+    /// Compare with OpenFOAM (z pointing up): its folder postProcessing with probes of alpha.water on a vertical in a
+    /// folder for each gauge of the case, as tools/openfoam leaves it; or that of the function object interfaceHeight,
+    /// whose locations are the gauges in their order.
     #[arg(long, value_name = "FOLDER")]
     beside: Option<PathBuf>,
 }
@@ -55,6 +55,9 @@ impl WaveArguments {
         let names: Vec<&str> = elevations().map(|gauge| gauge.name.as_str()).collect();
         let frame = Frame { up: Up::Z, origin_z_m: 0.0 };
         let beside = match &self.beside {
+            Some(_) if names.is_empty() => {
+                return refuse("gauges: --beside needs gauges of the kind \"elevation\" to compare by");
+            }
             Some(folder) => gauges::read(folder, &names, "alpha.water", frame).map_err(Trouble::refused)?,
             None => Vec::new(),
         };
@@ -78,8 +81,12 @@ impl WaveArguments {
         for (number, gauge) in elevations().enumerate() {
             let (height, time) = record.crest(number);
             println!("  {:8} x = {:6.2} m: crest {:.4} m at {time:.2} s", gauge.name, gauge.at[0], height);
-            if let Some(series) = beside.get(number) {
-                let other = Comparison::new(&record, number, series, case.flume.still_level);
+            let compared =
+                beside.get(number).map(|series| Comparison::new(&record, number, series, case.flume.still_level));
+            if let Some(None) = compared {
+                println!("  {:8} {:13} beside it: no time in common, or no wave", "", "");
+            }
+            if let Some(Some(other)) = compared {
                 println!(
                     "  {:8} {:13} beside it {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",

@@ -111,9 +111,9 @@ impl ArmourUnit {
         properties.inertia * (mass_kg / properties.volume)
     }
 
-    /// Rotation in which the unit stands: a Tetrapod on three legs with the fourth one up, a cuboid on a face. At azimuth
-    /// 0 one of the lower legs points seaward (-x); the azimuth [rad] turns the unit counter-clockwise seen from above,
-    /// so pi points it shoreward.
+    /// Rotation in which the unit stands: a Tetrapod on three legs with the fourth one up, a cuboid on a face. At
+    /// azimuth 0 one of the lower legs points seaward (-x); the azimuth [rad] turns the unit counter-clockwise seen
+    /// from above, so pi points it shoreward.
     pub fn standing_rotation(&self, azimuth: f64) -> DQuat {
         DQuat::from_rotation_z(azimuth)
     }

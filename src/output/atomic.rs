@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::OutputError;
 
-/// Writes `bytes` to `path` so that a reader, or a run killed half way, finds the old file or the new one, never a part:
-/// written beside it under a temporary name, synced to the disk, renamed.
+/// Writes `bytes` to `path` so that a reader, or a run killed half way, finds the old file or the new one, never a
+/// part: written beside it under a temporary name, synced to the disk, renamed.
 ///
 /// # Errors
 /// If the file cannot be written; the old one is then untouched.

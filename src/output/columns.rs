@@ -50,8 +50,8 @@ pub const CONTACTS: [&str; 11] = [
     "impulse_n_s",
 ];
 
-/// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start from
-/// bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from damping and
+/// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start
+/// from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from damping and
 /// relaxation zone.
 pub const ENERGY: [&str; 10] = [
     "time_s",
@@ -66,10 +66,10 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
-/// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its
-/// change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all steps
-/// since the row before, `steps` counts from the start, `dt_s` is the length of the step that comes. `lost_particles` is
-/// 0 in a sound run.
+/// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3`
+/// its change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all
+/// steps since the row before, `steps` counts from the start, `dt_s` is the length of the step that comes.
+/// `lost_particles` is 0 in a sound run.
 pub const DIAGNOSTICS: [&str; 9] = [
     "time_s",
     "volume_m3",

@@ -84,7 +84,8 @@ pub struct UnitSummary {
     pub displacement_m: f64,
     /// Whether it moved further than the damage distance.
     pub damaged: bool,
-    /// Direction of the displacement seen from above [deg]: 0 shoreward, positive towards larger y; 0 if it did not move.
+    /// Direction of the displacement seen from above [deg]: 0 shoreward, positive towards larger y; 0 if it did not
+    /// move.
     pub direction_deg: f64,
     /// Centre of mass at the start [m].
     pub start_m: [f64; 3],
@@ -92,7 +93,8 @@ pub struct UnitSummary {
     pub end_m: [f64; 3],
     /// Angle of the single rotation from first to last orientation [deg], 0 to 180.
     pub rotation_deg: f64,
-    /// Largest force of the water beyond the mean force of the still water, as a mean over an interval of the series [N].
+    /// Largest force of the water beyond the mean force of the still water, as a mean over an interval of the series
+    /// [N].
     pub peak_fluid_force_n: f64,
     /// Largest force of bed and neighbours together, as such a mean [N].
     pub peak_contact_force_n: f64,

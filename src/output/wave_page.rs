@@ -43,8 +43,8 @@ pub fn write_flume_piston(wave: &SolitaryWave, path: &Path) -> Result<(), Output
     series.append_rows((0..=steps as u32).map(|k| row(time(k))))
 }
 
-/// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston; another program's surface at
-/// the gauges `beside` it, if there are any.
+/// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston; another program's
+/// surface at the gauges `beside` it, if there are any.
 ///
 /// # Errors
 /// If the file cannot be written.

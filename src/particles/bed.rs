@@ -93,9 +93,9 @@ impl Outline {
     /// Divide what of a parallel of the outline belongs to its layer evenly into parts about dp long, and add the
     /// middle and the length of each [m]. The parallel is `place`, by the length along it, at the distance `depth` [m].
     ///
-    /// The lengths must sum to that of the layer exactly, at edges too: sum_b V_b grad W_ab vanishes only if the volumes
-    /// fill the space behind the surface. Whole particles kept or left out at the apex and the toes of a wedge of 45
-    /// degrees, half a dp^2 a layer and flank, pushed the water there away with 2.5 g and drew it in with 1 g.
+    /// The lengths must sum to that of the layer exactly, at edges too: sum_b V_b grad W_ab vanishes only if the
+    /// volumes fill the space behind the surface. Whole particles kept or left out at the apex and the toes of a wedge
+    /// of 45 degrees, half a dp^2 a layer and flank, pushed the water there away with 2.5 g and drew it in with 1 g.
     fn divide(&self, depth: f64, dp: f64, length: f64, place: impl Fn(f64) -> DVec2, all: &mut Vec<(DVec2, f64)>) {
         for [from, to] in self.stretches(depth, dp, length, &place) {
             let count = ((to - from) / dp).round().max(1.0);
@@ -245,7 +245,8 @@ mod tests {
             let area: f64 = outline.layers(dp, 3).iter().map(|(_, length)| length * dp).sum();
             let length: f64 = outline.points.windows(2).map(|p| p[0].distance(p[1])).sum();
             let turns = outline.points.windows(3).map(|p| left_normal(&p[0..2]).angle_to(left_normal(&p[1..3])));
-            // Down to the depth d a hollow corner with the turn t adds the sector t d^2 / 2, a crest loses tan(t / 2) d^2.
+            // Down to the depth d a hollow corner with the turn t adds the sector t d^2 / 2, a crest loses tan(t / 2)
+            // d^2.
             let at_corners: f64 = turns.map(|t| if t > 0.0 { 0.5 * t } else { (0.5 * t).tan() }).sum();
             let depth = 3.0 * dp;
             let exact = length * depth + at_corners * depth * depth;

@@ -127,8 +127,8 @@ mod tests {
         let volume: f64 = water.mass.iter().zip(&water.density).map(|(m, rho)| m / rho).sum();
         // 1e-9: the midpoint rule is exact for straight lines.
         assert!((volume / (0.1 * (0.3 * 2.0 - 0.2)) - 1.0).abs() < 1e-9);
-        // The shallowest column, 0.1 m, holds five: a share differs from rho0 dp^3 by a tenth, and the density from rho0
-        // by a per cent at most.
+        // The shallowest column, 0.1 m, holds five: a share differs from rho0 dp^3 by a tenth, and the density from
+        // rho0 by a per cent at most.
         assert!(water.mass.iter().all(|m| (m / (1000.0 * 0.02_f64.powi(3)) - 1.0).abs() < 0.12));
         let deepest = water.position.iter().zip(&water.density).min_by(|a, b| a.0.z.total_cmp(&b.0.z)).unwrap();
         assert!((TAIT.pressure(*deepest.1) - 9810.0 * (0.3 - deepest.0.z)).abs() < 1e-6);

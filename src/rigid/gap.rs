@@ -1,8 +1,8 @@
 //! Nearest points of the cores of two rounded parts.
 //!
 //! parry's GJK gives the nearest points of two convex cores to a relative accuracy of about 5e-8 in distance, but its
-//! direction then is good to the root of that only. A few alternating projections with the closed-form nearest points of
-//! the cores make the direction exact, so that a contact at rest sees the same normal in every step.
+//! direction then is good to the root of that only. A few alternating projections with the closed-form nearest points
+//! of the cores make the direction exact, so that a contact at rest sees the same normal in every step.
 
 use glam::{DQuat, DVec3};
 use parry3d_f64::math::Pose;
@@ -71,8 +71,8 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
     Nearest::Points(q_a * p_a + x_a, q_a * p_b + x_a)
 }
 
-/// Alternating projections at most: each one shrinks the error by the ratio of the rounding to the radii, a few tens per
-/// cent; 60 are reached only where two sides lie flush and any of the points will do.
+/// Alternating projections at most: each one shrinks the error by the ratio of the rounding to the radii, a few tens
+/// per cent; 60 are reached only where two sides lie flush and any of the points will do.
 const POLISH: usize = 60;
 
 #[cfg(test)]

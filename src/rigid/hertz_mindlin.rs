@@ -5,9 +5,9 @@
 //! d overlap [m], v_n normal velocity [m/s] (positive when the bodies part), d_t tangential spring [m], v_t tangential
 //! velocity [m/s].
 //!
-//! The damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e for a contact that may pull at its end.
-//! Here it may not, and that formula would give 0.55 for e = 0.5. [`damping_factor`] inverts the restitution of the law
-//! as it is used, so that what comes out is what was put in.
+//! The damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e for a contact that may pull at its
+//! end. Here it may not, and that formula would give 0.55 for e = 0.5. [`damping_factor`] inverts the restitution of
+//! the law as it is used, so that what comes out is what was put in.
 
 use std::f64::consts::PI;
 

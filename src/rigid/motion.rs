@@ -4,8 +4,8 @@
 //! dq/dt = (1/2) omega q, omega = R I^-1 R^T L,
 //! by the classical fourth-order Runge-Kutta method. Free spin therefore keeps L to the last bit. rapier's integrator
 //! corrects the angular velocity by an explicit gyroscopic term and keeps only the length of L: for a free asymmetric
-//! body with inertia (1, 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 of its length within a second (see
-//! the test), so the poses are integrated here and rapier serves as the reference in the test only.
+//! body with inertia (1, 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 of its length within
+//! a second (see the test), so the poses are integrated here and rapier serves as the reference in the test only.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -102,8 +102,8 @@ mod tests {
     }
 
     /// Time between two flips of a body with inertia (1, 2, 3) spun about its middle axis: 2 K(k)/p with
-    /// p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3), k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E I_1)) for
-    /// L^2 > 2 E I_2, K by the arithmetic-geometric mean; the roles of 1 and 3 change otherwise.
+    /// p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3), k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E I_1))
+    /// for L^2 > 2 E I_2, K by the arithmetic-geometric mean; the roles of 1 and 3 change otherwise.
     fn flip_time(w: DVec3) -> f64 {
         let i = DVec3::new(1.0, 2.0, 3.0);
         let (two_e, l2) = ((i * w * w).element_sum(), (i * i * w * w).element_sum());

@@ -18,7 +18,8 @@ use super::setup::RigidSetup;
 /// the tests); an impact lasts about two thirds of this period.
 const STEPS_PER_PERIOD: f64 = 80.0;
 
-/// Longest substep [s]: what comes nearer than this time at twice the speed is looked for, so that nothing is jumped into.
+/// Longest substep [s]: what comes nearer than this time at twice the speed is looked for, so that nothing is jumped
+/// into.
 const LONGEST_SUBSTEP: f64 = 1e-3;
 
 /// Rigid bodies with their contacts.

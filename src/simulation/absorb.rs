@@ -25,14 +25,16 @@ impl Simulation {
         let made = match (wavemaker, &self.flume) {
             (Wavemaker::Paddle(paddle), _) => paddle.elevation_m(distance, t),
             (Wavemaker::MlPiston(_), Some(record)) => record.elevation(x, t),
-            (Wavemaker::MlPiston(_), None) => 0.0,
+            (Wavemaker::MlPiston(_), None) => {
+                unreachable!("a case with this gauge and without the flume model is refused")
+            }
         };
         surface.map_or(0.0, |z| z - flume.still_level - made)
     }
 }
 
-/// Displacement [m] and velocity [m/s] of the wavemaker's rows at t [s], `before_end` [s] before the end of the step that
-/// absorption has moved over.
+/// Displacement [m] and velocity [m/s] of the wavemaker's rows at t [s], `before_end` [s] before the end of the step
+/// that absorption has moved over.
 pub(super) fn rows(wavemaker: &Wavemaker, absorbed: &AbsorptionState, t: f64, before_end: f64) -> Vec<[f64; 2]> {
     let offset = absorbed.displacement_m - before_end * absorbed.velocity_m_s;
     wavemaker.rows_at(t).into_iter().map(|[x, v]| [x + offset, v + absorbed.velocity_m_s]).collect()

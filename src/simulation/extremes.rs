@@ -16,8 +16,8 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Extremes of the finite values; none without water. Of equal particles the first is named, so that the result does
-    /// not depend on the number of threads.
+    /// Extremes of the finite values; none without water. Of equal particles the first is named, so that the result
+    /// does not depend on the number of threads.
     pub fn of(water: &Water) -> Option<Self> {
         let of_particle = |i: usize| Self {
             fastest: (water.velocity[i].length(), i),

@@ -98,8 +98,8 @@ pub enum Failure {
     Units { time: f64, step: u64, source: RigidError },
 }
 
-/// Name the particle whose state is not finite, if possible one whose place is still known, or, where only a rate is not,
-/// the fastest.
+/// Name the particle whose state is not finite, if possible one whose place is still known, or, where only a rate is
+/// not, the fastest.
 pub(super) fn not_finite(simulation: &Simulation) -> Failure {
     let water = &simulation.water;
     let first = |bad: &dyn Fn(usize) -> bool| (0..water.len()).find(|&i| bad(i));

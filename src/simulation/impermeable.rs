@@ -20,12 +20,13 @@ use crate::{
     waves::wavemaker::Wavemaker,
 };
 
-/// Distance from a surface, in particle distances, at which the approach of a particle ends: half of that of calm water.
+/// Distance from a surface, in particle distances, at which the approach of a particle ends: half of that of calm
+/// water.
 pub const NEAREST: f64 = 0.25;
 
 impl Simulation {
-    /// Take away the velocities into bed, walls, wavemaker and units at the end of a step of length `dt` [s]; the units'
-    /// share is added to their loads.
+    /// Take away the velocities into bed, walls, wavemaker and units at the end of a step of length `dt` [s]; the
+    /// units' share is added to their loads.
     pub(super) fn keep_water_out(&mut self, dt: f64) {
         let nearest = NEAREST * self.case.domain.dp;
         let flume_time = self.flume_time() + dt;

@@ -25,8 +25,8 @@ const RECORDS_PER_PERIOD: f64 = 60.0;
 /// The flume's flow is recorded this far beyond both ends of the particles [m]: the piston's particles wander.
 const FLUME_MARGIN: f64 = 1.5;
 
-/// Longest flume time that is looked through for the arrival of the wave, as a multiple of the time that its energy takes
-/// from where it is made to the particles.
+/// Longest flume time that is looked through for the arrival of the wave, as a multiple of the time that its energy
+/// takes from where it is made to the particles.
 const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
 /// Periods over which the rows of a piston in periodic waves are drawn back to where they stood, against the drift of

@@ -128,7 +128,8 @@ impl Simulation {
     /// impermeable surfaces, units.
     ///
     /// # Errors
-    /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the bed.
+    /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the
+    /// bed.
     pub fn finish_step(&mut self, dt: f64) -> Result<(), Failure> {
         self.absorb(dt);
         let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);

@@ -1,8 +1,8 @@
 //! Series and snapshots of a run: gauges, units, contacts, energy, diagnostics as tables; water and units for ParaView.
 //!
 //! Rows of the tables are short and written at once. Snapshots and checkpoints are long: a thread of their own writes
-//! them, in the order in which they were given (see [`Writer`]), so that a checkpoint never counts a snapshot that is not in its
-//! file yet.
+//! them, in the order in which they were given (see [`Writer`]), so that a checkpoint never counts a snapshot that is
+//! not in its file yet.
 //!
 //! Every time is that of the flume: 0 when the paddle starts.
 
@@ -139,8 +139,8 @@ impl Recorder {
         Ok(())
     }
 
-    /// Write everything once more at the end of the run, and wait until all of it is in the files; `dt` is the length of
-    /// the step that would come [s].
+    /// Write everything once more at the end of the run, and wait until all of it is in the files; `dt` is the length
+    /// of the step that would come [s].
     ///
     /// # Errors
     /// If a file cannot be written.

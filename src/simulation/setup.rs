@@ -127,8 +127,11 @@ impl Simulation {
     }
 }
 
-/// Refuse a run that goes on after the files with its wave.
-fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
+/// Refuse a run that goes on after the files with its wave, if its particles start at a time [s] of theirs.
+///
+/// # Errors
+/// If the files end before the run.
+pub fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
     let case::Wave::Given(wave) = &case.wave else { return Ok(()) };
     let ([_, end], duration) = (wave.times(), case.stop.duration);
     if start + duration <= end { Ok(()) } else { Err(SetupError::WaveEnds { duration, start, end }) }
@@ -170,8 +173,8 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Bed, mound and end walls; where a wavemaker stands, the bed goes on under its layers as far as they reach [m] instead
-/// of the seaward wall.
+/// Bed, mound and end walls; where a wavemaker stands, the bed goes on under its layers as far as they reach [m]
+/// instead of the seaward wall.
 fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;

@@ -1,12 +1,14 @@
 //! Zones at the ends of the domain in which the water is led to a velocity of its own.
 //!
-//! dv/dt = -f(x) (v - v'), solved exactly over a step, after the forces have been: v <- v' + (v - v') exp(-f dt). No rate is too
-//! large for it, and what the water receives is known to rounding.
+//! dv/dt = -f(x) (v - v'), solved exactly over a step, after the forces have been: v <- v' + (v - v') exp(-f dt). No
+//! rate is too large for it, and what the water receives is known to rounding.
 //!
-//! - Damping zone, v' = 0: waves do not come back from the shoreward end (after the passive absorption of Altomare et al. 2017,
+//! - Damping zone, v' = 0: waves do not come back from the shoreward end (after the passive absorption of Altomare et
+//!   al. 2017,
 //!   section 2.4; Molteni et al. 2013 call such zones sponge layers).
-//! - Relaxation zone, v' that of the flume model: the wave comes in from the seaward end, and what the structure sends back does
-//!   not return from there (Altomare et al. 2018).
+//! - Relaxation zone, v' that of the flume model: the wave comes in from the seaward end, and what the structure sends
+//!   back
+//!   returns from there weaker (Altomare et al. 2018).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -34,8 +36,8 @@ impl Simulation {
     }
 }
 
-/// Lead velocities to a target, a function of the place [m], at a rate [1/s], a function of x [m]; returns the energy that the
-/// water receives [J].
+/// Lead velocities to a target, a function of the place [m], at a rate [1/s], a function of x [m]; returns the energy
+/// that the water receives [J].
 fn relax(water: &mut Water, rate: impl Fn(f64) -> f64 + Sync, target: impl Fn(DVec3) -> DVec3 + Sync, dt: f64) -> f64 {
     let pieces = (water.position.par_chunks(PIECE), water.velocity.par_chunks_mut(PIECE), water.mass.par_chunks(PIECE));
     let received: Vec<f64> = pieces

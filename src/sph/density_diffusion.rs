@@ -6,9 +6,9 @@
 //! one, as in Molteni & Colagrossi (2009). And equation 5, rho_ab^H = rho0 g z_ab, is a pressure; its density follows
 //! from the equation of state: rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
 //!
-//! Boundary particles of the dynamic boundary condition have an excess density of their own, by which they keep the water
-//! off. They and the water in their reach are left out, as in DualSPHysics: diffusion would carry that excess away, and
-//! the water would sink into the wall.
+//! Boundary particles of the dynamic boundary condition have an excess density of their own, by which they keep the
+//! water off. They and the water in their reach are left out, as in DualSPHysics: diffusion would carry that excess
+//! away, and the water would sink into the wall.
 
 use super::{equation_of_state::Tait, lanes::Real};
 

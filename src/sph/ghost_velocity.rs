@@ -1,5 +1,5 @@
-//! Velocity of the water at the ghost nodes of mDBC, by the same corrected interpolation as the density there, for walls
-//! that hold the water or let it slide.
+//! Velocity of the water at the ghost nodes of mDBC, by the same corrected interpolation as the density there, for
+//! walls that hold the water or let it slide.
 
 use glam::DVec3;
 

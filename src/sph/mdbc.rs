@@ -11,8 +11,8 @@
 //!
 //! Where too few particles surround the node the matrix is ill-conditioned. The stated fall-back is then the mean
 //! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. It also
-//! takes over where all the water lies between node and boundary, a thin sheet on a dry bed: a gradient fitted to one or
-//! two layers would be carried to far behind them, and its errors drive the sheet apart. A node without neighbours
+//! takes over where all the water lies between node and boundary, a thin sheet on a dry bed: a gradient fitted to one
+//! or two layers would be carried to far behind them, and its errors drive the sheet apart. A node without neighbours
 //! leaves its particle at the reference density: there is no water to press on.
 
 pub(super) mod node_sums;
@@ -39,8 +39,8 @@ const LEAST_DETERMINANT: f64 = 0.01;
 
 /// How far the centroid of the water lies from the node towards the boundary, in h, where trust in the fitted gradient
 /// begins to fall and where none is left. It is 0.42 h for a node at the surface of deep water on a bed, and below
-/// nothing for one in the water or beside it, at a wall that stands in the surface. The two numbers are calibrated: with
-/// 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
+/// nothing for one in the water or beside it, at a wall that stands in the surface. The two numbers are calibrated:
+/// with 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
 const TRUST: [f64; 2] = [0.1, 0.2];
 
 /// Smallest piece of an array that is worth a task of the thread pool.
@@ -209,7 +209,8 @@ impl NodeSums {
         rho0 + excess
     }
 
-    /// Trust in a fitted gradient, from 0 to 1; `to_surface` [m] is half the way from the boundary particle to this node.
+    /// Trust in a fitted gradient, from 0 to 1; `to_surface` [m] is half the way from the boundary particle to this
+    /// node.
     pub(super) fn trust(&self, to_surface: DVec3) -> f64 {
         let [occupied, x, y, z] = self.value.map(f64::from);
         let behind = -DVec3::new(x, y, z).dot(to_surface.normalize_or_zero()) / occupied;

@@ -265,8 +265,8 @@ impl BoundingBox {
     }
 }
 
-/// The test whether points lie within reach of a box, as many at a time as there are lanes, in single precision; the reach is widened by
-/// its rounding.
+/// The test whether points lie within reach of a box, as many at a time as there are lanes, in single precision; the
+/// reach is widened by its rounding.
 struct Near<L> {
     low: [L; 3],
     high: [L; 3],

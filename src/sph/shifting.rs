@@ -2,8 +2,8 @@
 //!
 //!   dr = -A h |v| dt grad C,   C = sum_b V_b W_ab,
 //!
-//! from where they are dense to where they are sparse. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab
-//! falls below what a full neighbourhood has, the shift fades out.
+//! from where they are dense to where they are sparse. Near the free surface, where div r = sum_b V_b r_ba . grad_a
+//! W_ab falls below what a full neighbourhood has, the shift fades out.
 
 use glam::DVec3;
 

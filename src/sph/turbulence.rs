@@ -1,4 +1,5 @@
-//! Sub-particle-scale turbulence (Gotoh et al. 2001; Dalrymple & Rogers 2006): Smagorinsky's eddy viscosity in the stress
+//! Sub-particle-scale turbulence (Gotoh et al. 2001; Dalrymple & Rogers 2006): Smagorinsky's eddy viscosity in the
+//! stress
 //!
 //!   tau = 2 nu_t rho (S - tr S / 3) - 2/3 rho C_I D^2 |S|^2,   nu_t = (C_s D)^2 |S|,   |S| = sqrt(2 S : S),
 //!
@@ -19,8 +20,8 @@ impl Smagorinsky {
         Self { eddy: (0.12 * dp).powi(2), isotropic: 0.0066 * dp * dp }
     }
 
-    /// tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz, from the gradient d v_i / d x_j [1/s] and the density
-    /// [kg/m3].
+    /// tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz, from the gradient d v_i / d x_j [1/s] and the
+    /// density [kg/m3].
     pub fn specific_stress(&self, gradient: [[f64; 3]; 3], rho: f64) -> [f64; 6] {
         let strain = |i: usize, j: usize| 0.5 * (gradient[i][j] + gradient[j][i]);
         let square: f64 = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| strain(i, j).powi(2)).sum();

@@ -11,8 +11,8 @@
 //!   sum_b m_b 2 K nu / (rho_a + rho_b) (v_ab . r_ab) / (r_ab^2 + 0.01 h^2) grad_a W_ab,
 //!
 //! along the line between the particles. Inside the water both tend to nu laplace v where div v = 0 (Espanol & Revenga
-//! 2003; Hu & Adams 2006). But only the second conserves angular momentum, and at a free surface it alone takes what the
-//! stress of a Newtonian fluid takes: 2 mu S : S a volume, and not mu |grad v|^2 (Colagrossi et al. 2011).
+//! 2003; Hu & Adams 2006). But only the second conserves angular momentum, and at a free surface it alone takes what
+//! the stress of a Newtonian fluid takes: 2 mu S : S a volume, and not mu |grad v|^2 (Colagrossi et al. 2011).
 
 use super::{lanes::Real, turbulence::Smagorinsky};
 

@@ -1,14 +1,14 @@
 //! Active absorption: a piston that moves with the waves that come back to it, so that they do not go out again.
 //!
-//! Schaffer & Klopman (2000), "Review of multidirectional active wave absorption methods"; Altomare et al. (2017), section
-//! 2.3. A gauge that moves with the piston shows the surface; what it shows beyond the wave that is being made comes back,
-//! eta_in, or goes out wrongly, eta_out. The piston moves seaward at U = -(eta_in + eta_out) u/eta, with u/eta = sqrt(g/d)
-//! for long waves; what goes out is then eta_out = eta_in + U eta/u = 0.
+//! Schaffer & Klopman (2000), "Review of multidirectional active wave absorption methods"; Altomare et al. (2017),
+//! section 2.3. A gauge that moves with the piston shows the surface; what it shows beyond the wave that is being made
+//! comes back, eta_in, or goes out wrongly, eta_out. The piston moves seaward at U = -(eta_in + eta_out) u/eta, with
+//! u/eta = sqrt(g/d) for long waves; what goes out is then eta_out = eta_in + U eta/u = 0.
 //!
-//! The gauge stands a time a before the piston: it sees eta_in by a too early and eta_out by a too late. Readings, which
-//! scatter by a twentieth of a particle distance, are smoothed, tau y' = eta_in(t + a) + eta_out(t - a) - y. With
-//! eta_out = eta_in - y and slow waves that is y + (tau - a) y' / 2 = eta_in: for tau = a there is no lag, and the loop is
-//! stable for any a, because the delayed term is not larger than the other.
+//! The gauge stands a time a before the piston: it sees eta_in by a too early and eta_out by a too late. Readings,
+//! which scatter by a twentieth of a particle distance, are smoothed, tau y' = eta_in(t + a) + eta_out(t - a) - y. With
+//! eta_out = eta_in - y and slow waves that is y + (tau - a) y' / 2 = eta_in: for tau = a there is no lag, and the
+//! loop is stable for any a, because the delayed term is not larger than the other.
 
 use std::f64::consts::TAU;
 
@@ -42,24 +42,27 @@ pub struct AbsorptionState {
     excess_m: f64,
 }
 
-/// Periods over which an absorbing piston in periodic waves is drawn back to where it would stand without absorption: long
-/// enough that the velocity of absorption loses no more than 1 / (2 pi 10) = 1.6 % of itself, out of phase, and short enough
-/// that the mass which waves carry does not push the piston away.
+/// Periods over which an absorbing piston in periodic waves is drawn back to where it would stand without absorption:
+/// long enough that the velocity of absorption loses no more than 1 / (2 pi 10) = 1.6 % of itself, out of phase, and
+/// short enough that the mass which waves carry does not push the piston away.
 pub(super) const RETURN_PERIODS: f64 = 10.0;
 
 impl Absorption {
-    /// For a piston of full depth [m] in waves of a period [s], or in long ones without a period, with a gauge at a distance
-    /// [m]; it goes no further than `reach_m` [m] from its own motion. By linear theory waves of the speed c carry the
-    /// velocity (c/d) eta.
+    /// For a piston of full depth [m] in waves of a period [s], or in long ones without a period, with a gauge at a
+    /// distance [m]; it goes no further than `reach_m` [m] from its own motion. By linear theory a piston that moves
+    /// at U makes waves of eta = U 4 sinh^2(kd) / (omega (sinh 2kd + 2kd)) (Biesel 1951), long ones of U sqrt(d/g).
     pub fn of_piston(gauge_m: f64, depth_m: f64, period_s: Option<f64>, gravity: f64, reach_m: f64) -> Self {
-        let celerity = period_s.map_or((gravity * depth_m).sqrt(), |period| {
+        let long = (gravity * depth_m).sqrt();
+        let (celerity, velocity_per_elevation) = period_s.map_or((long, long / depth_m), |period| {
             let omega = TAU / period;
-            omega / linear_wavenumber_per_m(omega, depth_m, gravity)
+            let number = linear_wavenumber_per_m(omega, depth_m, gravity);
+            let kd = number * depth_m;
+            (omega / number, omega * ((2.0 * kd).sinh() + 2.0 * kd) / (4.0 * kd.sinh().powi(2)))
         });
         Self {
             gauge_m,
             way_s: gauge_m / celerity,
-            velocity_per_elevation: celerity / depth_m,
+            velocity_per_elevation,
             reach_m,
             return_s: period_s.map(|period| RETURN_PERIODS * period),
         }
@@ -79,6 +82,8 @@ impl Absorption {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
+    use crate::waves::regular::RegularWave;
 
     const DT: f64 = 0.001;
     const PISTON: Absorption =
@@ -100,6 +105,18 @@ mod tests {
         assert!(largest < 0.06 * 0.03, "{}", largest / 0.03);
         // It has gone back by the volume of the wave over its velocity: 5 (2/3) 0.03.
         assert!((state.displacement_m + 0.1).abs() < 0.002);
+    }
+
+    #[test]
+    fn a_piston_of_rows_absorbs_as_a_rigid_one() {
+        let wave = RegularWave { height_m: 0.02, period_s: 1.2, depth_m: 0.4, gravity: 9.81 };
+        let rigid = RegularMotion::new(&wave, PaddleShape::Piston, 2.0);
+        let rows = Absorption::of_piston(0.2, wave.depth_m, Some(wave.period_s), wave.gravity, 0.1);
+        assert!((rows.velocity_per_elevation / rigid.velocity_per_elevation() - 1.0).abs() < 1e-9);
+        assert!((rows.way_s * rigid.celerity_m_s() / 0.2 - 1.0).abs() < 1e-9);
+        // Very long waves are as those without a period.
+        let [long, without] = [Some(200.0), None].map(|period| Absorption::of_piston(0.2, 0.4, period, 9.81, 0.1));
+        assert!((long.velocity_per_elevation / without.velocity_per_elevation - 1.0).abs() < 1e-4);
     }
 
     #[test]

@@ -310,7 +310,8 @@ mod tests {
     #[test]
     fn wave_doubles_at_the_end_wall_and_comes_back() {
         let record = run(&setup()).unwrap();
-        // Run-up of a solitary wave on a wall, 2H + H^2 / 2d = 2.04 H to second order; the generated wave is within 1 %.
+        // Run-up of a solitary wave on a wall, 2H + H^2 / 2d = 2.04 H to second order; the generated wave is within 1
+        // %.
         assert!((record.crest(1).0 / 0.04 - 2.04).abs() < 0.03, "{}", record.crest(1).0 / 0.04);
         assert!(record.volume_error < 1e-12);
         let back = (record.crest(1).1 / 0.05) as usize;

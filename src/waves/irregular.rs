@@ -2,9 +2,9 @@
 //!
 //! Hasselmann et al. (1973): S(f) ~ f^-5 exp(-1.25 (f_p/f)^4) gamma^a, a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)), s = 0.07
 //! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is the sum of waves of amplitude
-//! sqrt(2 S df), evenly spaced in frequency with random phases, so it repeats after 1/df. Velocities are those of linear
-//! waves with the depth stretched to the surface (Wheeler 1970). Waves bound to groups are left out: the nonlinear flume
-//! model makes them, together with free long waves that a wavemaker of second order would suppress.
+//! sqrt(2 S df), evenly spaced in frequency with random phases, so it repeats after 1/df. Velocities are those of
+//! linear waves with the depth stretched to the surface (Wheeler 1970). Waves bound to groups are left out: the
+//! nonlinear flume model makes them, together with free long waves that a wavemaker of second order would suppress.
 
 use std::f64::consts::TAU;
 
@@ -88,7 +88,8 @@ impl IrregularWave {
         self.components.iter().map(|c| c.amplitude * c.angle(t).cos()).sum()
     }
 
-    /// Horizontal velocity [m/s] at z [m] above still water: a omega cosh(k d s) / sinh(k d) cos, s = (z + d)/(d + eta).
+    /// Horizontal velocity [m/s] at z [m] above still water: a omega cosh(k d s) / sinh(k d) cos, s = (z + d)/(d +
+    /// eta).
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
         let d = self.sea.depth_m;
         let stretched = d * ((z + d) / (d + self.elevation_m(t))).clamp(0.0, 1.0);

@@ -1,8 +1,8 @@
 //! K-layer non-hydrostatic model of a flume, in one horizontal dimension.
 //!
 //! Zijlema, Stelling & Smit (2011), "SWASH: An operational public domain code for simulating wave fields and rapidly
-//! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). Layers of equal share of the
-//! depth, u at the faces, w in the middle of each layer, H in the cells:
+//! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). Layers of equal share
+//! of the depth, u at the faces, w in the middle of each layer, H in the cells:
 //!
 //! ```text
 //! dH/dt + dx sum(h_m u_m) = 0
@@ -309,8 +309,8 @@ mod tests {
         })
     }
 
-    /// c^2 / (g d) of small waves, mu = k d: of the Keller box with one and two layers, linearised from the equations in
-    /// `pressure`; else exact.
+    /// c^2 / (g d) of small waves, mu = k d: of the Keller box with one and two layers, linearised from the equations
+    /// in `pressure`; else exact.
     fn dispersion(layers: usize, mu: f64) -> f64 {
         match layers {
             1 => 1.0 / (1.0 + mu.powi(2) / 4.0),
@@ -323,8 +323,8 @@ mod tests {
     fn standing_wave_has_the_period_of_linear_theory() {
         // Two half waves in the box, k d = 2.5: hydrostatic waves would be 60 % too fast.
         let k = std::f64::consts::PI;
-        // Against the scheme's own dispersion only grid and time step remain, k^2 dx^2 / 24 = 2e-4; eight layers are within
-        // 1e-3 of the exact one.
+        // Against the scheme's own dispersion only grid and time step remain, k^2 dx^2 / 24 = 2e-4; eight layers are
+        // within 1e-3 of the exact one.
         for (layers, tolerance) in [(1, 5e-4), (2, 5e-4), (8, 1e-3)] {
             let period = std::f64::consts::TAU / (k * (9.81 * 0.8 * dispersion(layers, k * 0.8)).sqrt());
             let mut flume = basin(layers);

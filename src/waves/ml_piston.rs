@@ -1,13 +1,14 @@
 //! Multi-layer piston: a wavemaker for particles whose rows follow the water of a flume run.
 //!
-//! Altomare, Dominguez, Crespo, Suzuki, Caceres & Gomez-Gesteira (2015), "Hybridization of the wave propagation model SWASH
-//! and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall: they must move as
-//! the water that stands at x0 when the particles start, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t). Integrating the Eulerian
-//! u(x0, t) instead gives too short a stroke.
+//! Altomare, Dominguez, Crespo, Suzuki, Caceres & Gomez-Gesteira (2015), "Hybridization of the wave propagation model
+//! SWASH and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall: they
+//! must move as the water that stands at x0 when the particles start, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t).
+//! Integrating the Eulerian u(x0, t) instead gives too short a stroke.
 //!
 //! Rows move in x only and keep their height, while the water rises and falls. So one water particle is followed from
-//! each row's height (in space, x and z), and at each moment a row takes the velocity interpolated in height between the
-//! followed particles; below the lowest it takes the lowest's, above the highest (at the still surface) the highest's.
+//! each row's height (in space, x and z), and at each moment a row takes the velocity interpolated in height between
+//! the followed particles; below the lowest it takes the lowest's, above the highest (at the still surface) the
+//! highest's.
 
 use std::io;
 
@@ -30,13 +31,15 @@ pub struct MlPiston {
 }
 
 impl MlPiston {
-    /// Rows at the given levels z [m] standing at `x0_m` at the start, moving until the end [s], from knots `interval_s`
-    /// apart.
+    /// Rows at the given levels z [m] standing at `x0_m` at the start, moving until the end [s], from knots
+    /// `interval_s` apart.
     ///
-    /// In periodic waves the water drifts, at the surface with the waves and below against them, and would carry the rows
-    /// ever further apart. With `drawn_back_s` both are drawn back to where they stood, in this time [s], a few periods.
+    /// In periodic waves the water drifts, at the surface with the waves and below against them, and would carry the
+    /// rows ever further apart. With `drawn_back_s` both are drawn back to where they stood, in this time [s], a few
+    /// periods.
     ///
-    /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at its end.
+    /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at
+    /// its end.
     ///
     /// # Panics
     /// If there is no row, the interval is not above zero, the end not after the start, or x0 outside the window.
@@ -168,14 +171,20 @@ impl MlPiston {
     /// How far a row goes seaward of its place at rest [m]: nothing, if it is less than the distance of two rows, which
     /// lies within the layers behind them.
     pub fn seaward_reach_m(&self) -> f64 {
-        let furthest = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
+        let own = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
+        let furthest = own - self.absorbed_reach_m();
         let spacing = self.row_heights_m.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
         if -furthest < spacing { 0.0 } else { -furthest }
     }
 
     /// How far a row goes shoreward of its place at rest [m].
     pub fn shoreward_reach_m(&self) -> f64 {
-        self.displacements.iter().flatten().fold(0.0, |most, &d| most.max(d))
+        self.displacements.iter().flatten().fold(0.0_f64, |most, &d| most.max(d)) + self.absorbed_reach_m()
+    }
+
+    /// How far absorption may carry the rows to either side [m].
+    fn absorbed_reach_m(&self) -> f64 {
+        self.absorption.map_or(0.0, |absorption| absorption.reach_m)
     }
 
     /// Velocity of a row [m/s] at t [s] of the flume, the derivative of the displacement: 0 before the start and after

@@ -36,7 +36,8 @@ impl PaddleShape {
     /// H/S = 4 sinh kd / (sinh 2kd + 2kd) times the integral of k f(z) cosh kz from the bed to the surface. That is
     ///
     ///   sinh kd                                              for a piston,
-    ///   sinh kd - (cosh kd - cosh k z_h) / (k (d - z_h))     for a flap with the hinge z_h above the bed; z_h = 0 in the
+    ///   sinh kd - (cosh kd - cosh k z_h) / (k (d - z_h))     for a flap with the hinge z_h above the bed; z_h = 0 in
+    ///   the
     ///                                                        second cosh where it lies below.
     pub fn height_per_stroke(&self, k: f64, depth: f64) -> f64 {
         let kd = k * depth;

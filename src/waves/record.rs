@@ -1,5 +1,5 @@
-//! What a flume run leaves behind: gauges, profiles of the surface, the shore, and the whole flow in a window, to be asked
-//! at any place and time.
+//! What a flume run leaves behind: gauges, profiles of the surface, the shore, and the whole flow in a window, to be
+//! asked at any place and time.
 
 use crate::geometry::profile::Profile;
 use crate::waves::interpolation::Stencil;
@@ -155,8 +155,8 @@ impl FlumeRecord {
         between.blend(|at| if self.is_wet(at) { self.surface_m[at] } else { bed }).max(bed)
     }
 
-    /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s]: above the surface those of the surface, below the
-    /// bed those of the bed. u between the layers is a parabola in the height above the bed, w is linear.
+    /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s]: above the surface those of the surface, below
+    /// the bed those of the bed. u between the layers is a parabola in the height above the bed, w is linear.
     pub fn velocity(&self, x: f64, z: f64, t: f64) -> (f64, f64) {
         let bed = self.profile.z(x);
         let between = self.between(x, t);

@@ -191,8 +191,8 @@ mod tests {
         assert!((w.velocity_m_s(0.0, 0.0) / u - 1.0).abs() < 1e-3);
     }
 
-    /// Speed by Stokes' fifth-order theory without mean current (Fenton 1985, table 1): c sqrt(k/g) = C0 + e^2 C2 + e^4 C4,
-    /// e = k H / 2, S = sech(2 k d).
+    /// Speed by Stokes' fifth-order theory without mean current (Fenton 1985, table 1): c sqrt(k/g) = C0 + e^2 C2 +
+    /// e^4 C4, e = k H / 2, S = sech(2 k d).
     fn stokes_celerity(k: f64, height: f64, depth: f64) -> f64 {
         let s = 1.0 / (2.0 * k * depth).cosh();
         let c0 = (k * depth).tanh().sqrt();
@@ -216,7 +216,8 @@ mod tests {
 
     #[test]
     fn long_wave_is_a_train_of_solitary_waves() {
-        // Ursell number 150: over the depth in the trough the crest is a solitary wave, whose speed on that depth is known.
+        // Ursell number 150: over the depth in the trough the crest is a solitary wave, whose speed on that depth is
+        // known.
         let w = wave(0.08, 14.0, 1.0, MeanFlow::NoCurrent);
         let trough = 1.0 + w.elevation_m(PI);
         let e = 0.08 / trough;

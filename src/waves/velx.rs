@@ -1,5 +1,6 @@
 //! The `_velx` file of DualSPHysics' multi-layer piston in one dimension (Altomare et al. 2015): a line
-//! `px:;x;py:;y`, a line `time;pz_0;...;vel_0;...`, then a row a time with the heights and the velocities; separator `;`.
+//! `px:;x;py:;y`, a line `time;pz_0;...;vel_0;...`, then a row a time with the heights and the velocities; separator
+//! `;`.
 
 use std::io::{self, BufRead, Write};
 

@@ -49,8 +49,8 @@ impl Wavemaker {
         }
     }
 
-    /// Where it stands at the still surface at t [s] of the flume [m]: rows of the water go to within a few per cent as far at
-    /// any height.
+    /// Where it stands at t [s] of the flume [m]: a paddle at the still surface, a multi-layer piston with its highest
+    /// row.
     pub fn surface_m(&self, t: f64) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.place_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),

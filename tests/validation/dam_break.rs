@@ -1,9 +1,9 @@
 //! Tip of a breaking dam: Koshizuka & Oka (1996), a column of width L and height 2L, here with L = 1 m.
 //!
-//! The points are those of Martin & Moyce (1952) with a = 57 mm, scaled to L = 1 m. They trail every exact solution: the
-//! tip of inviscid water behind a gate that vanishes, [`POTENTIAL_FLOW`], is 10 to 18 % ahead of them from the second
-//! point on, by 49 to 65 ms, and no lag puts it onto the first two points at once. What a computation can be held to is
-//! therefore the exact solution, and the measurement after a lag common to all points.
+//! The points are those of Martin & Moyce (1952) with a = 57 mm, scaled to L = 1 m. They trail every exact solution:
+//! the tip of inviscid water behind a gate that vanishes, [`POTENTIAL_FLOW`], is 10 to 18 % ahead of them from the
+//! second point on, by 49 to 65 ms, and no lag puts it onto the first two points at once. What a computation can be
+//! held to is therefore the exact solution, and the measurement after a lag common to all points.
 
 use std::{path::Path, sync::Arc};
 
@@ -128,8 +128,8 @@ fn compare(dp: f64) -> (f64, Option<f64>) {
 #[test]
 fn tip_of_the_dam_break_coarse() {
     let (from_exact, from_measured) = compare(0.04);
-    // 9.1 % is reached, all of it too slow, and growing: with alpha h c0 / 10 the water is as viscous as oil, and the bed
-    // holds the thin tip back. It falls with dp.
+    // 9.1 % is reached, all of it too slow, and growing: with alpha h c0 / 10 the water is as viscous as oil, and the
+    // bed holds the thin tip back. It falls with dp.
     assert!(from_exact < 0.1);
     assert!(from_measured.is_none_or(|left| left < 0.05));
 }

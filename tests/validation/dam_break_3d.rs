@@ -1,8 +1,9 @@
 //! Three-dimensional dam break in a tank with a building, beside the same calculation with DualSPHysics v5.4.
 //!
-//! Both solve the same equations with the same constants and the same lattice, so the comparison is one of programs, not
-//! with nature. The other program's walls are one layer of particles under the dynamic boundary condition; its place of
-//! the tip, the largest x of a water particle, counts from half a particle distance outside the wall's surface.
+//! Both solve the same equations with the same constants and the same lattice, so the comparison is one of programs,
+//! not with nature. The other program's walls are one layer of particles under the dynamic boundary condition; its
+//! place of the tip, the largest x of a water particle, counts from half a particle distance outside the wall's
+//! surface.
 
 use std::{path::Path, sync::Arc};
 

@@ -1,10 +1,10 @@
-//! A box that floats freely in regular waves: Ren, He, Dong & Wen (2015), 0.30 m long, 0.20 m high, half as heavy as water,
-//! in 0.40 m of water, H = 0.10 m, T = 1.2 s.
+//! A box that floats freely in regular waves: Ren, He, Dong & Wen (2015), 0.30 m long, 0.20 m high, half as heavy as
+//! water, in 0.40 m of water, H = 0.10 m, T = 1.2 s.
 //!
-//! The measurement has no common zero of time with a computation: the first full heave crest of both is aligned. Motions
-//! are compared by what fits them best in the five periods after it, a + b t + C cos(omega t) + S sin(omega t):
-//! amplitude and phase of heave and roll, drift of surge. A box that drifts with the waves meets fewer of them: omega is
-//! the one with which heave is fitted best.
+//! The measurement has no common zero of time with a computation: the first full heave crest of both is aligned.
+//! Motions are compared by what fits them best in the five periods after it, a + b t + C cos(omega t) + S sin(omega t):
+//! amplitude and phase of heave and roll, drift of surge. A box that drifts with the waves meets fewer of them: omega
+//! is the one with which heave is fitted best.
 
 use std::{f64::consts::TAU, path::Path, sync::Arc};
 

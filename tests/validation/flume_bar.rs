@@ -1,8 +1,8 @@
 //! Regular waves over a submerged bar: Beji & Battjes, T = 2.02 s, H = 2 cm in 0.4 m of water.
 //!
-//! The bar, 1:20 up and 1:10 down, is 0.1 m below the surface; behind it harmonics that were bound to the wave run free.
-//! A beach of 1:25 from x = 18.95 m on closes the flume. The surface was measured at eight gauges; the clocks of flume and
-//! model differ by one shift common to all of them.
+//! The bar, 1:20 up and 1:10 down, is 0.1 m below the surface; behind it harmonics that were bound to the wave run
+//! free. A beach of 1:25 from x = 18.95 m on closes the flume. The surface was measured at eight gauges; the clocks of
+//! flume and model differ by one shift common to all of them.
 
 use breakwater::geometry::profile::Profile;
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
@@ -61,8 +61,8 @@ fn skill(points: &[[f64; 2]], model: impl Fn(f64) -> f64) -> f64 {
     1.0 - (error / variance).sqrt()
 }
 
-/// Period of the measured series [s]: the one with which six harmonics fit all gauges best. The files' clock runs 1 % fast,
-/// or the paddle did; the relation of the gauges to each other is that of waves of [`PERIOD_S`].
+/// Period of the measured series [s]: the one with which six harmonics fit all gauges best. The files' time axis is
+/// 1 % short; the relation of the gauges to each other is that of waves of [`PERIOD_S`].
 const MEASURED_PERIOD_S: f64 = 2.0;
 /// Middle of the measured series [s].
 const MIDDLE_S: f64 = 36.0;
@@ -129,9 +129,9 @@ fn compare(layers: usize, cell_m: f64) -> Option<[Vec<f64>; 2]> {
 #[test]
 fn harmonics_behind_the_bar() {
     let Some([as_it_is, corrected]) = compare(2, 0.025) else { return };
-    // The aim is 0.8 at every gauge. What was reached, rounded down, so that a change for the worse shows; what is missing is
-    // in the clocks of the files: they repeat after 2.00 s, not 2.02 s, and the best shifts of neighbouring gauges go up and
-    // down by 0.05 s, which no error of a wave's speed does.
+    // The aim is 0.8 at every gauge. What was reached, rounded down, so that a change for the worse shows; what is
+    // missing is in the clocks of the files: they repeat after 2.00 s, not 2.02 s, and the best shifts of neighbouring
+    // gauges go up and down by 0.05 s, which no error of a wave's speed does.
     assert!(mean(&as_it_is) > 0.77 && as_it_is.iter().all(|skill| *skill > 0.57));
     assert!(mean(&corrected) > 0.79 && corrected.iter().all(|skill| *skill > 0.62));
 }

@@ -111,8 +111,8 @@ fn profile_error(beach: &Beach, record: &FlumeRecord, index: usize, points: impl
     rms(&points.map(difference).collect::<Vec<f64>>())
 }
 
-/// Root mean square differences from the analytic solution over H: the series at x = 0.25 and 9.95, then the profiles at
-/// t = 35, 40 .. 70.
+/// Root mean square differences from the analytic solution over H: the series at x = 0.25 and 9.95, then the profiles
+/// at t = 35, 40 .. 70.
 fn differences_from_analytic(pressure: Pressure, cell: f64) -> Option<Vec<f64>> {
     let folder = "nthmp_bp01_simple_beach_analytic";
     let series = data::rows(&format!("{folder}/canonical_ts.txt"))?;
@@ -154,7 +154,8 @@ fn shallow_water_on_the_beach_is_the_analytic_solution() {
 fn dispersive_wave_on_the_beach_is_near_the_analytic_solution() {
     let Some(errors) = differences_from_analytic(Pressure::NonHydrostatic, 0.1) else { return };
     let worst = errors.iter().copied().fold(0.0, f64::max);
-    // The series where the wave is still long, at x = 9.95, is held to little more than 3 %; the shore at t = 70 is worst.
+    // The series where the wave is still long, at x = 9.95, is held to little more than 3 %; the shore at t = 70 is
+    // worst.
     assert!(errors[1] < 0.035 && worst < 0.065);
 }
 
@@ -203,7 +204,8 @@ fn run_up_errors(pairs: &[Vec<f64>]) -> Vec<f64> {
     let error = |pair: &Vec<f64>| {
         let [height, measured, depth_m] = [pair[0], pair[1], 0.01 * pair[2]];
         let [smooth, broken] = run_up_law(height);
-        // Twenty cells on the way of the shore, at least eight for the lowest waves, and the wave's own length resolved.
+        // Twenty cells on the way of the shore, at least eight for the lowest waves, and the wave's own length
+        // resolved.
         let cell = (COT_BETA * smooth.min(broken) / 20.0).clamp(0.05, 0.06);
         let beach = Beach { height, depth_m, cell, pressure: Pressure::NonHydrostatic, friction: GLASS };
         let computed = beach.run_up();

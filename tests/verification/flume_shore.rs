@@ -46,7 +46,8 @@ fn flume(profile: Profile, layers: usize, friction: Friction) -> LayeredFlume {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A hump of water that runs to one side or falls apart, on any bed: no depth below zero, no number lost, no water lost.
+    /// A hump of water that runs to one side or falls apart, on any bed: no depth below zero, no number lost, no water
+    /// lost.
     #[test]
     fn water_stays_water_on_any_bed(
         profile in beds(),

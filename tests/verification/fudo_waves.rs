@@ -1,5 +1,5 @@
-//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m, over the bare slope and up the shore,
-//! beside the flume model 0.5, 1, 2 and 4 m from the piston.
+//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m, over the bare slope and up the
+//! shore, beside the flume model 0.5, 1, 2 and 4 m from the piston.
 
 use breakwater::simulation::Simulation;
 use glam::DVec2;
@@ -58,7 +58,7 @@ fn crest(series: &[[f64; 2]]) -> [f64; 2] {
 fn deviations(height: f64, dp: f64) -> [f64; 2] {
     let mut tank: Simulation = simulation(&case(height, dp));
     let (mut particles, mut flume) = (vec![Vec::new(); 4], vec![Vec::new(); 4]);
-    // Half a second after the crest has passed the last place, the wave being as fast as in its mean depth.
+    // 0.8 s after the flume's crest has passed the last place.
     let end = |now: &Simulation| {
         let record = now.flume.as_ref().unwrap();
         let last = PISTON_X + DISTANCES[3];

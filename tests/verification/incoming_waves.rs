@@ -48,8 +48,8 @@ fn rows_swing_with_the_water_of_regular_waves_and_do_not_drift_away() {
         println!("row at {height:.2} m swings by {:.4} m, theory {theory:.4} m, about {mean:+.4} m", high - low);
         // 5 %: the wave is not linear (H/d = 0.075), and a little comes back from the sponge.
         assert!(((high - low) / theory - 1.0).abs() < 0.05);
-        // 5 mm: the flow back below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would carry the rows by 10 mm in the
-        // six seconds in which they are drawn back and by 70 mm in the run; 0.7 mm is reached.
+        // 5 mm: the flow back below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would carry the rows by 10 mm in
+        // the six seconds in which they are drawn back and by 70 mm in the run; 0.7 mm is reached.
         assert!(mean.abs() < 0.005);
     }
     assert!(piston.shoreward_reach_m() > 0.015);
@@ -70,7 +70,8 @@ fn a_sea_of_the_case_has_its_height_and_its_seed() {
     };
     let (case, record) = ordered(&sea(1), 70.0);
     println!("H_s = {:.4} m at 4 m", significant(&record));
-    // The whole sea passes once. 10 %: the shortest waves, which a cell of 0.05 m does not resolve, hold 4 % of the height.
+    // The whole sea passes once. 10 %: the shortest waves, which a cell of 0.05 m does not resolve, hold 4 % of the
+    // height.
     assert!((significant(&record) / 0.03 - 1.0).abs() < 0.1);
     let (other, _) = ordered(&sea(2), 1.0);
     assert_ne!(case.hash, other.hash);

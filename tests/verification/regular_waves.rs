@@ -202,8 +202,9 @@ fn ren_wave(dp: f64) {
     let tank = ren(dp);
     let seen = run(&tank);
     report(&tank, &seen);
-    // At dp = 0.04 m, 2.5 particles in the height, 9.5 % too low, 0.002 rad early and 1.6 % reflected are reached; how much
-    // of the height viscosity, the bed and the coarse surface take has not been told apart. 5 % reflected is what a flume's absorber may send back.
+    // At dp = 0.04 m, 2.5 particles in the height, 9.5 % too low, 0.002 rad early and 1.6 % reflected are reached; how
+    // much of the height viscosity, the bed and the coarse surface take has not been told apart. 5 % reflected is what
+    // a flume's absorber may send back.
     assert!((seen.incident / tank.wave.height_m - 1.0).abs() < 0.1);
     assert!(seen.phase.abs() < 0.1);
     assert!(seen.reflection < 0.05);

@@ -1,4 +1,5 @@
-//! A multi-layer piston and the wave that a wall sends back to it: without anything, with a relaxation zone, with absorption.
+//! A multi-layer piston and the wave that a wall sends back to it: without anything, with a relaxation zone, with
+//! absorption.
 
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -32,8 +33,8 @@ fn tank(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> Value {
     case
 }
 
-/// Crest at the gauge in the flume model [m], and by the particles on the first way and when it has come back from the wall
-/// to the piston.
+/// Crest at the gauge in the flume model [m], and by the particles on the first way and when it has come back from the
+/// wall to the piston.
 fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     let mut tank = simulation(&tank(dp, zone, gauge));
     let celerity = (GRAVITY * (DEPTH + HEIGHT)).sqrt();
@@ -45,7 +46,7 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     let back = passing + 2.0 * (TANK[1] - GAUGE) / celerity;
     let again = back + 2.0 * (GAUGE - TANK[0]) / celerity;
     let (until, from) = (0.5 * (passing + back), back + 0.7 * (again - back));
-    let mut crests = [incident, 0.0, 0.0];
+    let mut crests = [incident, f64::MIN, f64::MIN];
     let end = again + 0.5 - tank.start;
     run_until(&mut tank, end, |now| {
         let time = now.flume_time();
@@ -71,7 +72,7 @@ fn a_multi_layer_piston_takes_up_what_comes_back() {
     // The wave of 1.8 particles in its height comes in 5.7 % too low; without absorption 2.7 %.
     assert!((first / flume - 1.0).abs() < 0.08);
     // 10 % is asked for after one return.
-    assert!(again < 0.1 * first);
+    assert!((-first..0.1 * first).contains(&again));
 }
 
 /// `cargo test --release --test verification -- --ignored --nocapture returning_waves::`

@@ -28,14 +28,15 @@ fn frequency() -> f64 {
     (GRAVITY * K * (K * DEPTH).tanh()).sqrt()
 }
 
-/// Decay and period of theory. With n the growth and m^2 = k^2 + n / nu, the linear Navier-Stokes equations over a bed that
-/// lets the water slide give
+/// Decay and period of theory. With n the growth and m^2 = k^2 + n / nu, the linear Navier-Stokes equations over a bed
+/// that lets the water slide give
 ///
 ///   (n + 2 nu k^2)^2 + sigma^2 = 4 nu^2 k^3 m tanh(kd) / tanh(md),
 ///
-/// for infinite depth the equation of Lamb (1932, article 349). The first two terms of n in sqrt(nu k^2 / sigma) stand here:
-/// -2 nu k^2 + i sigma, the power 2 mu S : S of the flow without vorticity being the same share of its energy at all depths;
-/// and that of the layer with vorticity below the surface. The next changes the decay by less than 1 %.
+/// for infinite depth the equation of Lamb (1932, article 349). The first two terms of n in sqrt(nu k^2 / sigma) stand
+/// here:
+/// -2 nu k^2 + i sigma, the power 2 mu S : S of the flow without vorticity being the same share of its energy at all
+/// depths; and that of the layer with vorticity below the surface. The next changes the decay by less than 1 %.
 fn theory() -> Seen {
     let of_the_layer = 2f64.sqrt() * NU.powf(1.5) * K.powi(3) * (K * DEPTH).tanh() / frequency().sqrt();
     Seen { period: 2.0 * PI / (frequency() - of_the_layer), decay: 2.0 * NU * K * K - of_the_layer }
@@ -97,15 +98,16 @@ fn a_standing_wave_has_the_period_and_the_decay_of_theory() {
     let [period, decay] = errors(14.0, Viscosity::MonaghanGingold { nu: NU });
     // 1 %: a fourteenth of the depth lies between particles.
     assert!(period.abs() < 0.01, "{period}");
-    // 10 %: a particle at the surface lacks half of its neighbours, and with them friction, over a layer of about dp / 2,
-    // where the power 2 mu S : S falls with e^(2kz): k dp = 11 % is missing; the noise of the particles adds some.
+    // 10 %: a particle at the surface lacks half of its neighbours, and with them friction, over a layer of about dp /
+    // 2, where the power 2 mu S : S falls with e^(2kz): k dp = 11 % is missing; the noise of the particles adds some.
     assert!(decay.abs() < 0.1, "{decay}");
 }
 
 #[test]
 fn under_lo_and_shao_a_standing_wave_decays_too_slowly() {
     let [_, decay] = errors(10.0, Viscosity::Laminar { nu: NU, turbulence: None });
-    // The power mu grad v : grad v is half of 2 mu S : S in a flow without vorticity (Colagrossi et al. 2011), less what is
-    // missing at the surface: a third of theory is seen. 40 to 80 % too little: anything else is another viscosity.
+    // The power mu grad v : grad v is half of 2 mu S : S in a flow without vorticity (Colagrossi et al. 2011), less
+    // what is missing at the surface: a third of theory is seen. 40 to 80 % too little: anything else is another
+    // viscosity.
     assert!((-0.8..-0.4).contains(&decay), "{decay}");
 }

@@ -83,8 +83,8 @@ fn a_flat_tank_stays_hydrostatic() {
         calming.early,
         calming.late
     );
-    // 1 %: a seventh of what a particle distance of water weighs here. The weight of the compressed water is 0.2 % of it
-    // (g d / 2 c0^2, c0 being 15 sqrt(g d)); the kernel, cut off at the surface, makes most of the rest.
+    // 1 %: a seventh of what a particle distance of water weighs here. The weight of the compressed water is 0.2 % of
+    // it (g d / 2 c0^2, c0 being 15 sqrt(g d)); the kernel, cut off at the surface, makes most of the rest.
     assert!(largest < 0.01);
     // It starts in equilibrium but for the kernel's truncation at the surface, and what that stirs up dies away.
     assert!(calming.late < 0.5 * calming.early);

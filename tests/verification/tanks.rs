@@ -176,8 +176,8 @@ impl BareTank {
     }
 }
 
-/// Volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level), whose divergence is 1 and which does
-/// not cross the cut, through the surface below the level.
+/// Volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level), whose divergence is 1 and which
+/// does not cross the cut, through the surface below the level.
 pub fn volume_below(solid: &Solid, level: f64) -> f64 {
     let vertices = solid.vertices();
     solid.triangles().iter().map(|corners| flux_below(corners.map(|c| vertices[c as usize]), level)).sum()

@@ -1,4 +1,5 @@
-//! Both forms of laminar viscosity, with walls that hold the water and walls that let it slide, against exact solutions.
+//! Both forms of laminar viscosity, with walls that hold the water and walls that let it slide, against exact
+//! solutions.
 
 use std::f64::consts::PI;
 
@@ -97,9 +98,9 @@ fn force_driven_flow_in_a_duct_sticks_to_the_walls() {
 
 #[test]
 fn force_driven_flow_in_a_duct_with_the_viscosity_of_monaghan_and_gingold() {
-    // 3.5 %: 2.8 % is seen, 2.4 % with 28 particles a side. The walls make the water too stiff by about 2.7 and 1.9 %. To
-    // this the sum over the particles adds 0.1 and 0.5 % here, more with more particles (1.1 % at this h / dp and no dp); that
-    // of Lo & Shao takes 1.4 % away with 20 a side, so that there the errors partly cancel.
+    // 3.5 %: 2.8 % is seen, 2.4 % with 28 particles a side. The walls make the water too stiff by about 2.7 and 1.9 %.
+    // To this the sum over the particles adds 0.1 and 0.5 % here, more with more particles (1.1 % at this h / dp and
+    // no dp); that of Lo & Shao takes 1.4 % away with 20 a side, so that there the errors partly cancel.
     assert!(error_in_the_duct(20.0, monaghan_gingold) < 0.035);
 }
 
@@ -162,8 +163,8 @@ impl Vortex {
     }
 }
 
-/// Move the particles by up to `most` [m] along each axis, the same way each time (the generator is Knuth's MMIX), and let
-/// them settle under a pressure [Pa], without which nothing would drive them apart.
+/// Move the particles by up to `most` [m] along each axis, the same way each time (the generator is Knuth's MMIX), and
+/// let them settle under a pressure [Pa], without which nothing would drive them apart.
 fn settle(tank: &mut BareTank, most: f64, pressure: f64) {
     let mut state = 1_u64;
     let mut number = || {
@@ -178,8 +179,8 @@ fn settle(tank: &mut BareTank, most: f64, pressure: f64) {
         *density = compressed;
     }
     let mut time = 0.0;
-    // 0.3 s: sound has crossed the box three times, and viscosity has brought the particles to a fiftieth of the speed that
-    // the vortex will have.
+    // 0.3 s: sound has crossed the box three times, and viscosity has brought the particles to a fiftieth of the speed
+    // that the vortex will have.
     while time < 0.3 {
         time += tank.step(|_| ());
     }
@@ -202,14 +203,15 @@ fn a_taylor_green_vortex_decays_at_its_rate() {
     for (form, name) in [(lo_shao as fn(f64) -> _, "Lo & Shao"), (monaghan_gingold, "Monaghan & Gingold")] {
         let excess = Vortex::new(20.0, form, Start::Settled).excess_of_decay();
         println!("Taylor-Green, {name}, 20 particles a side: decay {:+.1} %", 100.0 * excess);
-        // 8 %. The sum for the viscosity and the walls make 1.4 % (test above, settled particles). The strain of the vortex
-        // pushes particles together, they give way sideways, and viscosity takes the energy of this noise: 4 %. Pressure,
-        // with which the water answers the noise, takes 1 %. All this falls with dp: over the first second 5.7 and 4.2 %
-        // are seen with 20 and 30 particles a side, the power 0.8.
-        // Started on the lattice the vortex decays 23 and 21 % too fast with 20 and with 40 particles a side: its strain deforms
-        // the lattice until it collapses, all at once, between 0.3 and 0.6 s; for a moment viscosity then takes twice what
-        // it should. Density diffusion after Antuono et al. (2010) or a correction of the velocity for the shift (Lind et al.
-        // 2012) change that by 2 % at most; a threefold shift with the largest speed in place of the local one halves it.
+        // 8 %. The sum for the viscosity and the walls make 1.4 % (test above, settled particles). The strain of the
+        // vortex pushes particles together, they give way sideways, and viscosity takes the energy of this noise: 4 %.
+        // Pressure, with which the water answers the noise, takes 1 %. All this falls with dp: over the first second
+        // 5.7 and 4.2 % are seen with 20 and 30 particles a side, the power 0.8.
+        // Started on the lattice the vortex decays 23 and 21 % too fast with 20 and with 40 particles a side: its
+        // strain deforms the lattice until it collapses, all at once, between 0.3 and 0.6 s; for a moment viscosity
+        // then takes twice what it should. Density diffusion after Antuono et al. (2010) or a correction of the
+        // velocity for the shift (Lind et al. 2012) change that by 2 % at most; a threefold shift with the largest
+        // speed in place of the local one halves it.
         assert!(excess.abs() < 0.08, "{name}: {excess}");
     }
 }

@@ -1,5 +1,5 @@
-//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume. Run with `--release`:
-//! half a minute.
+//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume. Run with
+//! `--release`: half a minute.
 
 use breakwater::geometry::profile::Profile;
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
@@ -263,7 +263,8 @@ fn run_up_on_a_plane_beach() {
     };
     let run_up = record.times_s().iter().map(wet).fold(0.0, f64::max) - STILL_LEVEL_M;
     println!("R/d = {:.4}", run_up / 0.8);
-    // The laboratory's spread and a cell's rise of 2.5 mm (0.003 d) on either side: without friction the model is above it.
+    // The laboratory's spread and a cell's rise of 2.5 mm (0.003 d) on either side: without friction the model is
+    // above it.
     assert!((0.071..0.081).contains(&(run_up / 0.8)));
 }
 

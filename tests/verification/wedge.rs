@@ -83,8 +83,8 @@ fn stillness(boundary: &str, dp: f64, duration: f64) -> Stillness {
 fn water_over_a_coarse_wedge_is_still() {
     let seen = stillness("mdbc", 0.025, 0.5);
     // 2 %: two fifths of what a particle distance of water weighs here; the columns of particles, which do not follow
-    // the flanks, are still settling. When the layers behind the surface held too much at the apex and too little at the
-    // toes, it was -7 % and +6 % there.
+    // the flanks, are still settling. When the layers behind the surface held too much at the apex and too little at
+    // the toes, it was -7 % and +6 % there.
     assert!(seen.pressure < 0.02, "{seen:?}");
     // 0.5 %: what is asked of the five seconds.
     assert!(seen.velocity < 0.005, "{seen:?}");
@@ -97,7 +97,7 @@ fn water_over_a_wedge_is_still_for_five_seconds() {
     let modified = stillness("mdbc", 0.02, 5.0);
     // For comparison; nothing is asked of it.
     stillness("dbc", 0.02, 5.0);
-    // 1 % and 0.5 %: a quarter of what a particle distance of water weighs here, and a thirteenth of the Mach number 1/15
-    // that the scheme allows.
+    // 1 % and 0.5 %: a quarter of what a particle distance of water weighs here, and a thirteenth of the Mach number
+    // 1/15 that the scheme allows.
     assert!(modified.pressure < 0.01 && modified.velocity < 0.005, "{modified:?}");
 }

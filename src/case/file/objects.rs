@@ -28,8 +28,8 @@ pub struct UnitsFile {
     /// Place of the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_m: Option<f64>,
-    /// Centres [x, y, z] of the units one by one [m], in the place of `count`, `pitch_m`, `x_m` and `first_y_m`. Units may
-    /// stand on each other.
+    /// Centres [x, y, z] of the units one by one [m], in the place of `count`, `pitch_m`, `x_m` and `first_y_m`. Units
+    /// may stand on each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centres_m: Option<Vec<[f64; 3]>>,
     /// Place of the first unit across the flume [m]; without it, the row is centred.
@@ -142,8 +142,8 @@ pub struct PointFile {
     /// Unit that the point moves with, counted from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_unit: Option<u32>,
-    /// Way of a point that moves: times from the start of the particles [s] and displacements [m], [t, x, y, z] each; it
-    /// moves straight between them and stays at the last.
+    /// Way of a point that moves: times from the start of the particles [s] and displacements [m], [t, x, y, z] each;
+    /// it moves straight between them and stays at the last.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub way: Vec<[f64; 4]>,
 }

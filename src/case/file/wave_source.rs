@@ -11,8 +11,9 @@ use serde::{Deserialize, Serialize};
 pub struct GivenWaveFile {
     /// The files.
     pub source: WaveSourceFile,
-    /// Speed at which the wave travels [m/s]. With it the rows of the wavemaker move as water that leaves the place where
-    /// the velocity is known; without it they move with the velocity at that place, and their stroke is too short.
+    /// Speed at which the wave travels [m/s]. With it the rows of the wavemaker move as water that leaves the place
+    /// where the velocity is known; without it they move with the velocity at that place, and their stroke is too
+    /// short.
     #[serde(default)]
     pub celerity_m_s: Option<f64>,
 }
@@ -56,8 +57,8 @@ pub struct SwashFile {
 pub struct SwashTableFile {
     /// The file.
     pub path: PathBuf,
-    /// Its columns in their order, needed where no header names them: `tsec`, `watl`, `velk1`, `velk2` (x of a layer, the
-    /// first at the surface), `velx` (averaged over the depth), `-` for anything else.
+    /// Its columns in their order, needed where no header names them: `tsec`, `watl`, `velk1`, `velk2` (x of a layer,
+    /// the first at the surface), `velx` (averaged over the depth), `-` for anything else.
     #[serde(default)]
     pub columns: Vec<String>,
 }

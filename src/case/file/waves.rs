@@ -133,8 +133,8 @@ impl WavemakerFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
-    /// Distance of a gauge that moves with the piston [m]; what it shows beyond the wave that is made comes back, and the
-    /// piston takes it up. Without it the piston sends it out again.
+    /// Distance of a gauge that moves with the piston [m]; what it shows beyond the wave that is made comes back, and
+    /// the piston takes it up. Without it the piston sends it out again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
 }

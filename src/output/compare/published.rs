@@ -52,8 +52,8 @@ pub struct Resolution {
     pub runtime_h: f64,
     /// Deviation of the mean displacement from the measured one, (SPH1 - EXP) / EXP [%].
     ///
-    /// Table 6 does not define its error. At 0.005 m it prints +4.4, +2.0 and +2.1 % where Tables A1 to A3 have SPH1 below
-    /// the measurement by about as much, so its error is read as (EXP - SPH1) / EXP at every resolution.
+    /// Table 6 does not define its error. At 0.005 m it prints +4.4, +2.0 and +2.1 % where Tables A1 to A3 have SPH1
+    /// below the measurement by about as much, so its error is read as (EXP - SPH1) / EXP at every resolution.
     pub deviation_percent: f64,
 }
 

@@ -38,7 +38,8 @@ impl Eye {
     }
 }
 
-/// The surface with no more detail than can be seen at `scale` [px/m]: vertices in one cell of a grid become their mean.
+/// The surface with no more detail than can be seen at `scale` [px/m]: vertices in one cell of a grid become their
+/// mean.
 pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
     let cell = |v: &[f64; 3]| v.map(|c| (c * scale / DETAIL).floor() as i64);
     let mut cells: BTreeMap<[i64; 3], (u32, [f64; 3], f64)> = BTreeMap::new();

@@ -40,7 +40,8 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// The slab about the layer of particles next to the middle of the flume; layers lie at half spacings from the side.
+    /// The slab about the layer of particles next to the middle of the flume; layers lie at half spacings from the
+    /// side.
     pub fn in_the_middle(width: f64, spacing: f64) -> Self {
         Self { y: ((0.5 * width / spacing).floor() + 0.5) * spacing, spacing }
     }

@@ -1,6 +1,6 @@
 //! The flume model beside another program, at one gauge.
 
-use super::surface::SurfaceSeries;
+use super::{surface::SurfaceSeries, table::linear};
 use crate::waves::record::FlumeRecord;
 
 /// How another program's surface at a gauge differs from the flume model's.
@@ -20,20 +20,18 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compare a series with the flume model's at a gauge, in still water of the level [m].
-    pub fn new(record: &FlumeRecord, gauge: usize, other: &SurfaceSeries, still_level_m: f64) -> Self {
+    /// Compare a series with the flume model's at a gauge, in still water of the level [m]; `None` if they have no
+    /// time in common or the flume model shows no crest there.
+    pub fn new(record: &FlumeRecord, gauge: usize, other: &SurfaceSeries, still_level_m: f64) -> Option<Self> {
         let (ours_m, ours_s) = record.crest(gauge);
         let (top_m, crest_s) = other.crest();
         let crest_m = top_m - still_level_m;
-        let differences = other.points().filter(|[t, _]| (0.0..=record.end_s()).contains(t)).map(|[t, z]| {
-            let place = t / record.interval_s;
-            let series = &record.gauge_elevations_m[gauge];
-            let before = (place as usize).min(series.len() - 2);
-            let ours = series[before] + (place - before as f64) * (series[before + 1] - series[before]);
-            z - still_level_m - ours
-        });
+        let series = &record.gauge_elevations_m[gauge];
+        let common = other.points().filter(|[t, _]| (0.0..=record.end_s()).contains(t));
+        let differences = common.map(|[t, z]| z - still_level_m - linear(record.times_s(), series, t));
         let (count, sum) = differences.fold((0, 0.0), |(count, sum), d| (count + 1, sum + d * d));
-        let rms = (sum / f64::from(count.max(1))).sqrt() / ours_m;
-        Self { crest_m, crest_s, height: crest_m / ours_m - 1.0, delay_s: crest_s - ours_s, rms }
+        let rms = (sum / f64::from(count)).sqrt() / ours_m;
+        let compared = Self { crest_m, crest_s, height: crest_m / ours_m - 1.0, delay_s: crest_s - ours_s, rms };
+        (count > 0 && ours_m > 0.0).then_some(compared)
     }
 }

@@ -17,13 +17,17 @@ impl SurfaceSeries {
     /// Levels z [m] at rising times [s] from a file.
     ///
     /// # Errors
-    /// If the times do not rise or leave a gap.
+    /// If the times do not rise or leave a gap, or a level is not a number.
     ///
     /// # Panics
     /// If there is not one level for each time.
     pub fn new(file: &Path, times_s: Vec<f64>, z_m: Vec<f64>) -> Result<Self, ExternalError> {
         assert_eq!(times_s.len(), z_m.len(), "a level for each time");
         check_times(file, &times_s)?;
+        if let Some(i) = z_m.iter().position(|z| !z.is_finite()) {
+            let problem = format!("a level of {} m", z_m[i]);
+            return Err(ExternalError::moment(file, times_s[i], problem, "correct or delete the row"));
+        }
         Ok(Self { file: file.to_owned(), times_s, z_m })
     }
 

@@ -1,8 +1,8 @@
 //! Tables of SWASH: the water level and the velocity by layer at one point over time.
 //!
 //! They come from commands such as `TABLE 'P' NOHEADER 'level.tbl' TSEC WATL OUTPUT 0 0.1 SEC` and
-//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`, with one point in the set `'P'`. After the user manual of
-//! SWASH (11.01A, sections 4.6.2 and 5.1) and its source:
+//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`, with one point in the set `'P'`. After the user
+//! manual of SWASH (11.01A, sections 4.6.2 and 5.1) and its source:
 //!
 //! | what | how it stands in the file |
 //! | --- | --- |

@@ -1,19 +1,19 @@
-//! Velocity along x over height and time at one place: what every reader gives, after the checks that find files in other
-//! units, with holes, or of another place.
+//! Velocity along x over height and time at one place: what every reader gives, after the checks that find files in
+//! other units, with holes, or of another place.
 
 use std::path::Path;
 
 use super::error::ExternalError;
 
-/// An interval longer than this many median ones is a gap: output at every tenth step with one row lost has 2, a restart
-/// that lost its first output a few.
+/// An interval longer than this many median ones is a gap: output at every tenth step with one row lost has 2, a
+/// restart that lost its first output a few.
 const GAP: f64 = 5.0;
 
 /// Velocities above this many sqrt(g d) are taken for another unit: water leaves a breaking crest at less than 2.
 const FASTEST: f64 = 3.0;
 
-/// Levels may lie outside the water by this share of the depth: cells at the surface are partly filled, and an overturning
-/// crest stands higher than the level that holds the same water.
+/// Levels may lie outside the water by this share of the depth: cells at the surface are partly filled, and an
+/// overturning crest stands higher than the level that holds the same water.
 const OUTSIDE: f64 = 0.1;
 
 /// Velocity along x over height and time at one place, from another program.
@@ -62,8 +62,8 @@ impl VelocityTable {
     /// The table as read from `file`, if its values can be right at the place; every reader ends here.
     ///
     /// # Errors
-    /// If times do not rise or leave a gap, a value is not finite, the surface lies below the bed, levels do not rise or
-    /// lie outside the water, there are too few of them, or a velocity is too high for the depth.
+    /// If times do not rise or leave a gap, a value is not finite, the surface lies below the bed, levels do not rise
+    /// or lie outside the water, there are too few of them, or a velocity is too high for the depth.
     ///
     /// # Panics
     /// If the lists are not of the same shape, or the place has no water.

@@ -1,6 +1,6 @@
 //! Advection of u and w: conservative in momentum (Stelling & Duinmeijer 2003, section 3), third-order upwind
-//! interpolation (Leonard 1979) where the water is deep and unbroken, elsewhere limited second order (van Leer 1974), first
-//! order next to dry ground.
+//! interpolation (Leonard 1979) where the water is deep and unbroken, elsewhere limited second order (van Leer 1974),
+//! first order next to dry ground.
 
 use super::LayeredFlume;
 use super::surface::van_leer;
@@ -93,8 +93,8 @@ fn quick(far: f64, up: f64, down: f64) -> f64 {
     0.75 * up + 0.375 * down - 0.125 * far
 }
 
-/// What the exchange with the layers below and above brings to layer m: omega_above (v_above - v) - omega_below (v_below - v),
-/// v at an interface the mean of both layers.
+/// What the exchange with the layers below and above brings to layer m: omega_above (v_above - v) - omega_below
+/// (v_below - v), v at an interface the mean of both layers.
 fn exchanged(below: f64, above: f64, layers: &[f64], m: usize) -> f64 {
     let jump = |other: usize| 0.5 * (layers[other] - layers[m]);
     let from_below = if m > 0 { below * jump(m - 1) } else { 0.0 };

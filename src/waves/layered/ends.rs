@@ -10,8 +10,8 @@
 
 use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
 
-/// Integral of the sponge's rate over the way, on the celerity of a long wave [-]: one that goes in and comes back keeps
-/// exp(-6) = 0.25 % of its height.
+/// Integral of the sponge's rate over the way, on the celerity of a long wave [-]: one that goes in and comes back
+/// keeps exp(-6) = 0.25 % of its height.
 const SPONGE_STRENGTH: f64 = 6.0;
 /// Nodes of Gauss's rule of two points on a layer from -1 to 1: exact for a cubic profile.
 const GAUSS: f64 = 0.577_350_269_189_625_8;

@@ -6,9 +6,9 @@
 //! smooth:  c_f = max(3 / Re, 0.0279 Re^(-1/4)),  Re = |U| H / nu
 //! ```
 //!
-//! with the mean velocity U over the depth H: the stress on the bed, rho c_f |U| U, shared by the layers in proportion to
-//! their motion. The model has no turbulence that would carry the stress upwards, so a stress on the lowest layer alone
-//! would let the others glide over it. Zijlema, Stelling & Smit (2011), equation 6, for one layer.
+//! with the mean velocity U over the depth H: the stress on the bed, rho c_f |U| U, shared by the layers in proportion
+//! to their motion. The model has no turbulence that would carry the stress upwards, so a stress on the lowest layer
+//! alone would let the others glide over it. Zijlema, Stelling & Smit (2011), equation 6, for one layer.
 //!
 //! The smooth bed has the stress 3 mu U / H of a laminar film, and above that Blasius's (1913) law for smooth walls,
 //! f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8): Manning's n holds where roughness decides, and

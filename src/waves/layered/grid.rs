@@ -1,8 +1,8 @@
 //! Cells that follow the piston: the arbitrary Lagrangian-Eulerian mapping in one dimension.
 //!
-//! Near the piston the faces are stretched evenly, x = x0 + X (1 - x0 / L) for x0 < L; farther away they stand still. The
-//! piston is the first face, water crosses no wall, and every flux is relative to the moving faces, so the volume of
-//! the water stays what it was, to rounding, whatever the stroke. (An inflow at x = 0 with the piston's velocity
+//! Near the piston the faces are stretched evenly, x = x0 + X (1 - x0 / L) for x0 < L; farther away they stand still.
+//! The piston is the first face, water crosses no wall, and every flux is relative to the moving faces, so the volume
+//! of the water stays what it was, to rounding, whatever the stroke. (An inflow at x = 0 with the piston's velocity
 //! would have to be told how much water the moving wall displaces, and would let the wave start at the wrong place.)
 
 use crate::geometry::profile::Profile;

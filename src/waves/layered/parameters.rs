@@ -15,8 +15,8 @@ pub struct LayeredParameters {
     pub gravity_m_s2: f64,
     /// Number of layers K.
     pub layers: usize,
-    /// Width of a cell [m]: not below a twentieth of the depth, where waves as short as the grid are no longer resolved by a
-    /// few layers.
+    /// Width of a cell [m]: not below a twentieth of the depth, where waves as short as the grid are no longer
+    /// resolved by a few layers.
     pub cell_m: f64,
     /// Time step [s].
     pub step_s: f64,

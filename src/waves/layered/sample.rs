@@ -4,8 +4,8 @@ use super::{LayeredFlume, THIN_M};
 use crate::waves::interpolation::Stencil;
 use crate::waves::record::SurfacePoint;
 
-/// Film at which the shore is read, as a share of the largest still depth [-]: laboratory observers see the tongue of the
-/// water, not what it leaves behind.
+/// Film at which the shore is read, as a share of the largest still depth [-]: laboratory observers see the tongue of
+/// the water, not what it leaves behind.
 const SHORE_FILM_SHARE: f64 = 1e-3;
 
 /// Flow at one place and moment.

@@ -169,7 +169,8 @@ fn on_the_surface(wave: &SteadyWave, m: usize, stream: &mut [f64], bernoulli: &m
     [psi + wave.q, 0.5 * (u * u + v * v) + y - wave.r]
 }
 
-/// Gauss's elimination with pivots by column; the solution takes the place of `right`. `None` if the matrix is singular.
+/// Gauss's elimination with pivots by column; the solution takes the place of `right`. `None` if the matrix is
+/// singular.
 fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> Option<()> {
     let n = right.len();
     for p in 0..n {

@@ -39,7 +39,8 @@ fn a_cube_slides_above_the_friction_angle_and_not_below() {
     for (share, slides) in [(0.98, false), (1.02, true)] {
         let mut world = on_slope(stack(1, 0.0), share * 0.45f64.atan());
         run(&mut world, 1.0, 1e-4);
-        // 2 % above, g (sin - mu cos) = 0.07 m/s2 carries it 36 mm in the second; below, the springs give by micrometres.
+        // 2 % above, g (sin - mu cos) = 0.07 m/s2 carries it 36 mm in the second; below, the springs give by
+        // micrometres.
         assert_eq!(world.states()[0].position.x > 0.01, slides, "{share}: {}", world.states()[0].position.x);
     }
 }

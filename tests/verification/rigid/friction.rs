@@ -76,7 +76,8 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
             let mut angle = 0.9 * f64::atan(mu);
             world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
             run(&mut world, 0.5, 1e-4);
-            // It slides when it is faster than 0.2 mm/s: 0.05 s or 0.05 degrees after the start, 0.3 % of the smaller angle.
+            // It slides when it is faster than 0.2 mm/s: 0.05 s or 0.05 degrees after the start, 0.3 % of the smaller
+            // angle.
             while world.states()[0].velocity.length() < 2e-4 {
                 angle += rate * 1e-4;
                 world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));

@@ -1,7 +1,7 @@
 //! The surface at gauges, as OpenFOAM's function objects leave it.
 //!
-//! `interfaceHeight` writes it for all gauges together. Where that is not at hand (Debian's OpenFOAM 1912 lacks it), `probes`
-//! of the share of water on a vertical tell it: the water between the lowest and the highest of them.
+//! `interfaceHeight` writes it for all gauges together. Where that is not at hand (Debian's OpenFOAM 1912 lacks it),
+//! `probes` of the share of water on a vertical tell it: the water between the lowest and the highest of them.
 
 use std::path::Path;
 
@@ -10,13 +10,14 @@ use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 use super::{interface_height, probes};
 
-/// The surface at gauges of the given names: from the function object interfaceHeight, whose locations are the gauges in their
-/// order, if its folder is given, otherwise from a folder of the gauge's name for each, with probes of `water` on a vertical.
+/// The surface at gauges of the given names: from the function object interfaceHeight, whose locations are the gauges
+/// in their order, if its folder is given, otherwise from a folder of the gauge's name for each, with probes of
+/// `water` on a vertical.
 ///
 /// # Errors
 /// If a folder or file cannot be read or understood.
 pub fn read(folder: &Path, names: &[&str], water: &str, frame: Frame) -> Result<Vec<SurfaceSeries>, ExternalError> {
-    if names.first().is_some_and(|name| folder.join(name).is_dir()) {
+    if names.iter().any(|name| folder.join(name).is_dir()) {
         return names.iter().map(|name| probes::read_surface(&folder.join(name), water, frame)).collect();
     }
     (0..names.len()).map(|location| interface_height::read_position(folder, frame, location)).collect()

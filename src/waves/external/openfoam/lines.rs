@@ -1,8 +1,9 @@
 //! Sampled lines: `postProcessing/<name>/<t>/<line>_U.xy`, a row a point: its coordinates, then the components.
 //!
-//! They come from a function object `sets` with `setFormat raw; fields (U alpha.water);` and a line with `axis z` (or y,
-//! whichever points up) or `axis xyz`; `axis distance` does not tell the level. Up to v2112 each type of field has its own
-//! file, `<line>_U.xy` and `<line>_alpha.water.xy`; later ones write `<line>_alpha.water_U.xy`, the share of water first.
+//! They come from a function object `sets` with `setFormat raw; fields (U alpha.water);` and a line with `axis z` (or
+//! y, whichever points up) or `axis xyz`; `axis distance` does not tell the level. Up to v2112 each type of field has
+//! its own file, `<line>_U.xy` and `<line>_alpha.water.xy`; later ones write `<line>_alpha.water_U.xy`, the share of
+//! water first.
 
 use std::path::Path;
 

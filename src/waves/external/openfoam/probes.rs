@@ -1,7 +1,7 @@
 //! Probes: `postProcessing/<name>/<t0>/U` with a line `# Probe 0 (x y z)` for each and a row `t (ux uy uz) ...` a time.
 //!
-//! The share of water at the same points, in `alpha.water` beside it, tells which of them are in air. A probe outside the
-//! mesh has `# Not Found` behind its place, and either a value of -1e300 or none (`includeOutOfBounds false`).
+//! The share of water at the same points, in `alpha.water` beside it, tells which of them are in air. A probe outside
+//! the mesh has `# Not Found` behind its place, and either a value of -1e300 or none (`includeOutOfBounds false`).
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::super::error::ExternalError;
 use super::super::surface::SurfaceSeries;
 use super::super::table::{Place, VelocityTable};
 use super::frame::Frame;
-use super::samples::{Sample, Vertical, in_water};
+use super::samples::{OUTSIDE_MESH, Sample, Vertical, in_water};
 use super::starts::Joined;
 
 /// Probes further apart than this across the vertical do not stand at one place [m].
@@ -38,8 +38,8 @@ pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalE
     VelocityTable { times_s: velocity.times_s, surface_z_m, heights_m, velocities_m_s }.checked(probes.folder, place)
 }
 
-/// Level of the surface from the share of water on a vertical: the water between its lowest and highest probe, above what is
-/// full of water below it.
+/// Level of the surface from the share of water on a vertical: the water between its lowest and highest probe, above
+/// what is full of water below it.
 ///
 /// # Errors
 /// As [`read`].
@@ -47,7 +47,12 @@ pub fn read_surface(folder: &Path, water: &str, frame: Frame) -> Result<SurfaceS
     let joined = Joined::read(folder, water)?;
     let vertical = Vertical { folder, velocity: water, water: None, frame, surface: None };
     let levels_m = Points::of(&joined, 1, folder, water)?.levels_m(&vertical)?;
-    let mut upwards: Vec<usize> = (0..levels_m.len()).collect();
+    let in_mesh = |probe: &usize| joined.rows[0][*probe].abs() < OUTSIDE_MESH;
+    let mut upwards: Vec<usize> = (0..levels_m.len()).filter(in_mesh).collect();
+    if upwards.is_empty() {
+        let problem = format!("no probe of `{water}` lies in the mesh");
+        return Err(ExternalError::file(folder, problem, "check the places of the probes"));
+    }
     upwards.sort_by(|&a, &b| levels_m[a].total_cmp(&levels_m[b]));
     let surface = |row: &Vec<f64>| {
         let between = |pair: &[usize]| 0.5 * (row[pair[0]] + row[pair[1]]) * (levels_m[pair[1]] - levels_m[pair[0]]);
@@ -126,7 +131,8 @@ pub fn write(table: &VelocityTable, levels_m: &[f64], x_m: f64, frame: Frame, ou
     write_field(&table.times_s, levels_m, x_m, frame, value, out)
 }
 
-/// Write the share of water beside [`write()`]: 1 up to the surface, 0 above; 1 everywhere if the table does not tell it.
+/// Write the share of water beside [`write()`]: 1 up to the surface, 0 above; 1 everywhere if the table does not tell
+/// it.
 ///
 /// # Errors
 /// If writing fails.

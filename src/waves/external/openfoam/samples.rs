@@ -9,7 +9,7 @@ use super::frame::Frame;
 const WATER: f64 = 0.5;
 
 /// OpenFOAM writes about 1e300 for points outside the mesh.
-const OUTSIDE_MESH: f64 = 1e30;
+pub(super) const OUTSIDE_MESH: f64 = 1e30;
 
 /// What a function object has sampled on a vertical.
 #[derive(Debug, Clone, Copy, PartialEq)]

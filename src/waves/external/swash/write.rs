@@ -27,7 +27,8 @@ pub fn write_level(table: &VelocityTable, place: &Place, heading: Heading, mut o
     Ok(())
 }
 
-/// Write `TSEC VELK` for layers with the given shares of the depth [-], from the surface down; velocities along y are 0.
+/// Write `TSEC VELK` for layers with the given shares of the depth [-], from the surface down; velocities along y are
+/// 0.
 ///
 /// # Errors
 /// If writing fails.
