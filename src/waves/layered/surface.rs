@@ -2,8 +2,7 @@
 //!
 //! * Depth at a face: mean of both sides in calm deep water; where the flow is shallow, fast or broken the level of the
 //!   upwind side (Stelling & Duinmeijer 2003) over the higher bed of both, carried to the face along limited slopes.
-//! * Breaking: the front turns hydrostatic where it rises faster than 0.6 sqrt(g H) and stays so above 0.3 (Smit,
-//! Zijlema
+//! * Breaking: the front turns hydrostatic where it rises faster than 0.6 sqrt(g H) and stays so above 0.3 (Smit, Zijlema
 //!   & Stelling 2013), which lets it steepen into a bore that the momentum-conservative scheme dissipates.
 
 use super::{Breaking, LayeredFlume, Pressure, THIN_M};
