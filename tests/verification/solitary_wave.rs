@@ -121,8 +121,8 @@ fn loss_of_height_against_resolution_and_viscosity() {
     assert!(thin < coarse && coarse < thick && fine < coarse && slipping < coarse && fine_slipping < fine);
 }
 
-/// Five particles in the height, the defaults: asked is less than 5 % over 20 d; 8.6 % is reached, because the bed holds the
-/// water with the viscosity of the scheme (docs/validation.md). `cargo test --release --test
+/// Five particles in the height, the defaults: asked is less than 5 % over 20 d; 8.6 % is what four
+/// depths extrapolate to (docs/validation.md). `cargo test --release --test
 /// verification -- --ignored --nocapture keeps_its_height_with_five`.
 #[test]
 #[ignore = "half an hour on 2 cores"]
