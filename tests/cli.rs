@@ -395,7 +395,8 @@ fn the_flume_for_openfoam_is_written() {
     let out = folder.path().join("vof");
     let case = root.join("cases/fudo/H4.5-slice.json");
     let command = ["--out", path(&out), "--coarsen", "4", "2", "--breakwater", env!("CARGO_BIN_EXE_breakwater")];
-    let Ok(done) = Command::new(root.join("tools/openfoam/flume")).arg(&case).args(command).output() else {
+    let script = root.join("tools/openfoam/flume");
+    let Ok(done) = Command::new("python3").arg(script).arg(&case).args(command).output() else {
         println!("skipped: no python3");
         return;
     };

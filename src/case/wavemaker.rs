@@ -78,6 +78,17 @@ pub(super) fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flu
         _ => {}
     }
     match file {
+        WavemakerFile::MlPiston(piston)
+            if piston.absorption_gauge_m.is_some() && matches!(wave, WaveFile::None {} | WaveFile::File(_)) =>
+        {
+            check.refuse(
+                "wavemaker.absorption_gauge_m",
+                "present",
+                "absent, because no wave comes from the flume model: the surface that the gauge should show is not known",
+                "leave it out",
+            );
+            Wavemaker::MlPiston { absorption_gauge: None }
+        }
         WavemakerFile::MlPiston(piston) => Wavemaker::MlPiston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Piston(piston) => Wavemaker::Piston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Flap(flap) => {
@@ -120,15 +131,6 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
         let (nearest, furthest) = (4.0 * domain.dp, 0.5 * (domain.x[1] - domain.x[0]));
         let advice = "a depth from the piston is usual; what comes back must not be what has just gone out";
         check.number("wavemaker.absorption_gauge_m", gauge, from(nearest).up_to(furthest), "m", advice);
-    }
-    if wavemaker.is_ml_piston() && wavemaker.absorption_gauge().is_some() && matches!(wave, Wave::None | Wave::Given(_))
-    {
-        check.refuse(
-            "wavemaker.absorption_gauge_m",
-            "present",
-            "absent, because no wave comes from the flume model: the surface that the gauge should show is not known",
-            "leave it out",
-        );
     }
     match wave {
         Wave::None | Wave::Given(_) => {}

@@ -51,8 +51,7 @@ pub(super) fn validate_relaxation(
     damping: Option<&DampingZone>,
     check: &mut Checker,
 ) -> RelaxationZone {
-    let seaward = domain_x[0];
-    let shoreward = damping.map_or(domain_x[1], |zone| zone.x[0]).max(seaward + f64::EPSILON);
+    let [seaward, shoreward] = [domain_x[0], damping.map_or(domain_x[1], |zone| zone.x[0])];
     check.number(
         "domain.relaxation_zone.end_x_m",
         file.end_x_m,

@@ -81,22 +81,18 @@ impl WaveArguments {
         for (number, gauge) in elevations().enumerate() {
             let (height, time) = record.crest(number);
             println!("  {:8} x = {:6.2} m: crest {:.4} m at {time:.2} s", gauge.name, gauge.at[0], height);
-            let compared =
-                beside.get(number).map(|series| Comparison::new(&record, number, series, case.flume.still_level));
-            if let Some(None) = compared {
-                println!("  {:8} {:13} beside it: no time in common, or no wave", "", "");
-            }
-            if let Some(Some(other)) = compared {
-                println!(
-                    "  {:8} {:13} beside it {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
-                    "",
+            let Some(series) = beside.get(number) else { continue };
+            match Comparison::new(&record, number, series, case.flume.still_level) {
+                Some(other) => println!(
+                    "  {:22} beside it {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",
                     other.crest_m,
                     100.0 * other.height,
                     other.crest_s,
                     other.delay_s,
                     100.0 * other.rms
-                );
+                ),
+                None => println!("  {:22} beside it: no time in common, or no wave", ""),
             }
         }
         println!("water kept to {:.1e} of its volume", record.volume_error);

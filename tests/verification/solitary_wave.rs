@@ -121,12 +121,12 @@ fn loss_of_height_against_resolution_and_viscosity() {
     assert!(thin < coarse && coarse < thick && fine < coarse && slipping < coarse && fine_slipping < fine);
 }
 
-/// Five particles in the height, the defaults: asked is less than 5 % over 20 d; 8.6 % is what four
-/// depths extrapolate to (docs/validation.md). `cargo test --release --test
-/// verification -- --ignored --nocapture keeps_its_height_with_five`.
+/// Five particles in the height, the defaults: asked is less than 5 % over 20 d; 8.6 % is what four depths
+/// extrapolate to, the whole way has not been run (docs/validation.md). `cargo test --release --test verification --
+/// --ignored --nocapture keeps_its_height_with_five`.
 #[test]
-#[ignore = "half an hour on 2 cores"]
+#[ignore = "two hours on 2 cores, and not known to pass"]
 fn a_solitary_wave_keeps_its_height_with_five_particles_in_it() {
-    let loss = Wave { height: 0.1, travel: 4.0, dp: 0.01, alpha: 0.04, slip: "original" }.loss_over(20.0);
-    assert!(loss < 0.09);
+    let loss = Wave { height: 0.1, travel: 10.0, dp: 0.01, alpha: 0.04, slip: "original" }.loss_over(20.0);
+    assert!(loss < 0.05);
 }
