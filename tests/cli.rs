@@ -177,6 +177,14 @@ fn schema_prints_json() {
     assert!(schema["properties"]["domain"].is_object() && schema["properties"]["flume"].is_object());
 }
 
+/// As with `breakwater schema | head`.
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let mut program = breakwater().arg("schema").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(program.stdout.take());
+    assert_eq!(text(&program.wait_with_output().unwrap().stderr), "");
+}
+
 #[test]
 fn a_run_writes_what_it_promises() {
     let folder = tempfile::tempdir().unwrap();
