@@ -22,8 +22,17 @@ pub struct VelocitySums {
     first: [[f32; 3]; 3],
 }
 
+/// Velocity of the water at a ghost node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GhostVelocity {
+    /// [m/s].
+    pub velocity: DVec3,
+    /// From 0, where the water is too thin to be fitted, to 1.
+    pub trust: f64,
+}
+
 impl GhostNodes {
-    /// Velocity of the water at the node of each boundary particle [m/s], `None` where it is dry; to be called after
+    /// What the water does at the node of each boundary particle, `None` where it is dry; to be called after
     /// [`GhostNodes::densities`].
     pub fn velocities(
         &mut self,
@@ -31,7 +40,7 @@ impl GhostNodes {
         bin_x: f32,
         records: &[Record],
         to_surface: &[DVec3],
-        out: &mut Vec<Option<DVec3>>,
+        out: &mut Vec<Option<GhostVelocity>>,
     ) {
         self.velocity_sums.resize(self.sums.len(), VelocitySums::default());
         sum_round_nodes(parameters, bin_x, &self.split, &self.lists, records, &mut self.velocity_sums);
@@ -41,7 +50,7 @@ impl GhostNodes {
         }
     }
 
-    fn velocity(&self, node: usize, to_surface: DVec3) -> Option<DVec3> {
+    fn velocity(&self, node: usize, to_surface: DVec3) -> Option<GhostVelocity> {
         let (sums, of_velocity) = (&self.sums[node], &self.velocity_sums[node]);
         let occupied = f64::from(sums.value[0]);
         if occupied < DRY {
@@ -53,7 +62,7 @@ impl GhostNodes {
             let mean = value / occupied;
             sums.value_and_gradient(value, first).map_or(mean, |[f, ..]| mean + trust * (f - mean))
         };
-        Some(DVec3::from_array(std::array::from_fn(component)))
+        Some(GhostVelocity { velocity: DVec3::from_array(std::array::from_fn(component)), trust })
     }
 }
 

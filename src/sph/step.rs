@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::{
     density_diffusion::Diffusion,
+    ghost_velocity::GhostVelocity,
     gradients::Gradients,
     grid::{Bins, Grid},
     group::Group,
@@ -45,7 +46,7 @@ pub struct Solver {
     records: Vec<Record>,
     ghosts: GhostNodes,
     /// Velocity of the water at the ghost nodes; empty if the walls do not ask for it.
-    ghost_velocity: Vec<Option<DVec3>>,
+    ghost_velocity: Vec<Option<GhostVelocity>>,
     gradients: Gradients,
     half: Water,
     half_density: Vec<f64>,

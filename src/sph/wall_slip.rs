@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::ghost_velocity::GhostVelocity;
+
 /// Which velocity a boundary particle shows to the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallSlip {
@@ -14,16 +16,18 @@ pub enum WallSlip {
 }
 
 impl WallSlip {
-    /// Velocity to be shown [m/s], from that of the wall and of the water at the ghost node [m/s] and the way to the
-    /// surface [m]. A dry node leaves the velocity of the wall.
-    pub fn velocity(self, wall: DVec3, ghost: Option<DVec3>, to_surface: DVec3) -> DVec3 {
-        let Some(ghost) = ghost else { return wall };
+    /// Velocity to be shown [m/s], from that of the wall [m/s], the water at the ghost node and the way to the surface
+    /// [m]. A dry node leaves the velocity of the wall; where water is thin, nothing is mirrored, for a sheet that is
+    /// met by what it does itself bounces.
+    pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3) -> DVec3 {
+        let Some(GhostVelocity { velocity, trust }) = ghost else { return wall };
+        let relative = velocity - wall;
         match self {
             Self::Original => wall,
-            Self::NoSlip => 2.0 * wall - ghost,
+            Self::NoSlip => wall - trust * relative,
             Self::FreeSlip => {
                 let normal = to_surface.normalize_or_zero();
-                ghost - 2.0 * (ghost - wall).dot(normal) * normal
+                velocity - (1.0 + trust) * relative.dot(normal) * normal
             }
         }
     }
@@ -36,9 +40,14 @@ mod tests {
     #[test]
     fn the_mean_of_ghost_and_particle_obeys_the_condition() {
         let (wall, ghost, up) = (DVec3::new(0.1, 0.0, 0.2), DVec3::new(1.0, 2.0, -3.0), DVec3::Z * 0.05);
-        let mean = |slip: WallSlip| 0.5 * (slip.velocity(wall, Some(ghost), up) + ghost);
+        let of_water = |trust| Some(GhostVelocity { velocity: ghost, trust });
+        let mean = |slip: WallSlip| 0.5 * (slip.velocity(wall, of_water(1.0), up) + ghost);
         assert!((mean(WallSlip::NoSlip) - wall).length() < 1e-15);
         assert!((mean(WallSlip::FreeSlip) - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
         assert_eq!(WallSlip::NoSlip.velocity(wall, None, up), wall);
+        // A thin sheet slides, and meets a wall that does not answer.
+        let sliding = WallSlip::FreeSlip.velocity(wall, of_water(0.0), up);
+        assert!((sliding - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
+        assert_eq!(WallSlip::NoSlip.velocity(wall, of_water(0.0), up), wall);
     }
 }
