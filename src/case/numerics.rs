@@ -108,10 +108,7 @@ pub(super) fn validate_numerics(
         "",
         "0 for none; 2 is usual",
     );
-    if file.wall_slip != WallSlip::Original && file.boundary == Boundary::Dbc {
-        let slip = if file.wall_slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
-        check.refuse("numerics.wall_slip", slip, "\"original\" with \"dbc\"", "set numerics.boundary to \"mdbc\"");
-    }
+    let wall_slip = validate_slip(file, check);
     check.number("numerics.diffusion_delta", file.diffusion_delta, from(0.0).up_to(1.0), "", "0.1 is usual");
     check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
     refuse_unstable_diffusion(file, check);
@@ -148,10 +145,25 @@ pub(super) fn validate_numerics(
         shifting: file.shifting_coefficient,
         cfl: file.cfl,
         boundary: file.boundary,
-        wall_slip: file.wall_slip,
+        wall_slip,
         boundary_layers: file.boundary_layers as usize,
         hold_units: file.hold_units_s,
     })
+}
+
+/// What walls show to the water: free slip if nothing is written. The layer at a wall that the viscosity of the scheme
+/// slows down is many times thicker than that of real water, and long waves lose height and speed to it.
+fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
+    match (file.boundary, file.wall_slip) {
+        (Boundary::Mdbc, slip) => slip.unwrap_or(WallSlip::FreeSlip),
+        (Boundary::Dbc, None | Some(WallSlip::Original)) => WallSlip::Original,
+        (Boundary::Dbc, Some(slip)) => {
+            let slip = if slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
+            let mend = "set numerics.boundary to \"mdbc\"";
+            check.refuse("numerics.wall_slip", slip, "\"original\" with \"dbc\"", mend);
+            WallSlip::Original
+        }
+    }
 }
 
 /// Density diffusion takes the shortest wave of the particles down at the rate 2 delta h c0 sum_b V_b |G_ab|, at most

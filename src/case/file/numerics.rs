@@ -25,8 +25,9 @@ pub struct NumericsFile {
     pub cfl: f64,
     /// How walls, wavemaker and units act on the water.
     pub boundary: Boundary,
-    /// Velocity that boundary particles show to the water under mDBC.
-    pub wall_slip: WallSlip,
+    /// Velocity that boundary particles show to the water; by default free slip under mDBC.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_slip: Option<WallSlip>,
     /// Layers of particles in walls and bed.
     pub boundary_layers: u32,
     /// Time for which the units are held while the water comes to rest round them [s].
@@ -45,7 +46,7 @@ impl Default for NumericsFile {
             shifting_coefficient: 0.0,
             cfl: 0.2,
             boundary: Boundary::Mdbc,
-            wall_slip: WallSlip::Original,
+            wall_slip: None,
             boundary_layers: 3,
             hold_units_s: 0.2,
         }
