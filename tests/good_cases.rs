@@ -114,9 +114,9 @@ fn derived_numbers_are_those_of_the_published_run() {
 #[test]
 fn estimate_counts_the_water_of_the_dam_break() {
     let case = case("verification/dam-break.json");
-    // 1 m x 2 m x 0.26 m of particles of (0.02 m)^3.
-    assert_eq!(case.estimate().fluid, 65_000.0);
-    assert_eq!((case.domain.nx, case.domain.ny, case.domain.nz), (200, 13, 150));
+    // 1 m x 2 m of particles of (0.01 m)^2.
+    assert_eq!(case.estimate().fluid, 20_000.0);
+    assert_eq!((case.domain.nx, case.domain.ny, case.domain.nz), (400, 1, 300));
 }
 
 #[test]

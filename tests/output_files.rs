@@ -111,6 +111,7 @@ fn summary(units: u32) -> Summary {
         domain_x_m: [35.0, 41.0],
         domain_width_m: 0.08 * f64::from(units.max(1)),
         side_walls: units == 15,
+        two_dimensional: false,
         steps: 151_234,
         simulated_s: 8.0,
         start_s: 11.25,

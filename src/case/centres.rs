@@ -67,7 +67,8 @@ fn validate_centre(
     let [reach_x, reach_y] = shape.reach();
     let across = match domain.sides {
         Sides::Periodic => [0.0, domain.width],
-        Sides::Walls => [reach_y, domain.width - reach_y],
+        // Units are refused in two dimensions.
+        Sides::Walls | Sides::TwoDimensional => [reach_y, domain.width - reach_y],
     };
     let along = [domain.x[0] + reach_x, domain.x[1] - reach_x];
     let highest = flume.ground_between([x - reach_x, x + reach_x]).1;

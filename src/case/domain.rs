@@ -93,16 +93,15 @@ pub(super) fn validate(
         "m",
         "write the particle distance in metres, e.g. 0.007",
     );
-    check.number("domain.width_m", file.width_m, above(0.0).up_to(1e4), "m", "write the width across the flume");
     validate_start(file, check);
     let flume = flume?;
     validate_extent(file, flume, check);
     if check.count() > before {
         return None;
     }
-    validate_width(file, smoothing_factor, check);
+    let width = validate_width(file, smoothing_factor, check)?;
     let (bottom_z, _) = flume.ground_between(file.x_m);
-    let lengths = [file.x_m[1] - file.x_m[0], file.width_m, file.top_z_m - bottom_z];
+    let lengths = [file.x_m[1] - file.x_m[0], width, file.top_z_m - bottom_z];
     for (name, length) in ["along the flume", "across the flume", "upwards"].into_iter().zip(lengths) {
         if length / file.dp_m > MOST_ALONG {
             check.refuse(
@@ -117,20 +116,20 @@ pub(super) fn validate(
     let damping_zone = file.damping_zone.map(|zone| zones::validate_damping(&zone, file.x_m, check));
     let relaxation_zone =
         file.relaxation_zone.map(|zone| zones::validate_relaxation(&zone, file.x_m, damping_zone.as_ref(), check));
-    let obstacles = obstacles::validate(file, flume, check);
+    let obstacles = obstacles::validate(file, width, flume, check);
     if check.count() > before {
         return None;
     }
     let count = |length: f64| ((length / file.dp_m).round() as usize).max(1);
-    let ny = count(file.width_m);
+    let ny = count(width);
     Some(Domain {
         x: file.x_m,
-        width: file.width_m,
+        width,
         sides: file.sides,
         top_z: file.top_z_m,
         bottom_z,
         dp: file.dp_m,
-        dy: file.width_m / ny as f64,
+        dy: width / ny as f64,
         nx: count(lengths[0]),
         ny,
         nz: (lengths[2] / file.dp_m).ceil() as usize,
@@ -191,36 +190,58 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
     );
 }
 
-fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker) {
+/// Width across the flume [m]: what is written, or one particle distance in two dimensions.
+fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker) -> Option<f64> {
+    let width = match (file.sides, file.width_m) {
+        (Sides::TwoDimensional, None) => return Some(file.dp_m),
+        (Sides::TwoDimensional, Some(width)) => {
+            check.refuse(
+                "domain.width_m",
+                show(width),
+                "left out where `domain.sides` is \"two_dimensional\"",
+                "take the key out, or write \"periodic\" or \"walls\" for a flume of this width",
+            );
+            return None;
+        }
+        (Sides::Periodic | Sides::Walls, None) => {
+            check.refuse("domain.width_m", "(missing)", "a width in metres", "write the width across the flume");
+            return None;
+        }
+        (Sides::Periodic | Sides::Walls, Some(width)) => width,
+    };
+    if !check.number("domain.width_m", width, above(0.0).up_to(1e4), "m", "write the width across the flume") {
+        return None;
+    }
     let h = smoothing_factor * 3f64.sqrt() * file.dp_m;
     let least = 4.0 * h + file.dp_m;
-    if file.sides == Sides::Periodic && file.width_m < least {
+    if file.sides == Sides::Periodic && width < least {
         check.refuse(
             "domain.width_m",
-            show(file.width_m),
+            show(width),
             format!("at least 4h + dp = {} m with periodic sides, or a particle acts on its own image", show(least)),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }
-    if file.width_m < file.dp_m {
+    if width < file.dp_m {
         check.refuse(
             "domain.width_m",
-            show(file.width_m),
+            show(width),
             format!("at least one particle distance, {} m", show(file.dp_m)),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }
-    let layers = (file.width_m / file.dp_m).round().max(1.0);
-    let stretch = file.width_m / layers / file.dp_m;
+    let layers = (width / file.dp_m).round().max(1.0);
+    let stretch = width / layers / file.dp_m;
     // Beyond a few per cent the lattice is visibly not cubic, and the density sum at rest drifts.
     if (stretch - 1.0).abs() > 0.03 {
         check.warn(format!(
             "domain.width_m = {} is {:.2} particle distances: the spacing across the flume becomes {:.3} dp",
-            show(file.width_m),
-            file.width_m / file.dp_m,
+            show(width),
+            width / file.dp_m,
             stretch
         ));
     }
+    Some(width)
 }
 
 fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Option<(Water, f64)> {

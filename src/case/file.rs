@@ -162,8 +162,9 @@ pub struct MoundFile {
 pub struct DomainFile {
     /// Seaward and shoreward end [m]. The wavemaker (or a wall) stands at the first, a wall at the second.
     pub x_m: [f64; 2],
-    /// Width across the flume [m].
-    pub width_m: f64,
+    /// Width across the flume [m]; left out in two dimensions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_m: Option<f64>,
     /// What closes the domain across the flume.
     pub sides: Sides,
     /// Top of the walls [m]; a particle that rises above it by one wall height has escaped.
@@ -246,6 +247,8 @@ pub enum Sides {
     Periodic,
     /// Solid walls at y = 0 and y = width.
     Walls,
+    /// Nothing changes across the flume: a layer one particle thick, computed in two dimensions.
+    TwoDimensional,
 }
 
 /// Where the water stands at the start.

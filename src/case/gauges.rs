@@ -2,7 +2,7 @@
 
 use super::check::{Checker, show};
 use super::domain::Domain;
-use super::file::{GaugeFile, PointFile, WaveFile};
+use super::file::{GaugeFile, PointFile, Sides, WaveFile};
 use super::flume::Flume;
 use super::wavemaker::Wavemaker;
 
@@ -149,6 +149,12 @@ fn validate_names(file: &[GaugeFile], check: &mut Checker) {
     }
 }
 
+/// Where gauges can stand across the flume [m]: in two dimensions it is all the same.
+fn across(domain: &Domain) -> [f64; 2] {
+    let everywhere = [f64::MIN, f64::MAX];
+    if domain.sides == Sides::TwoDimensional { everywhere } else { [0.0, domain.width] }
+}
+
 fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain, reach: Reach, check: &mut Checker) {
     let (ends, place) = match reach {
         Reach::Flume => (flume.ends(), "the flume"),
@@ -156,13 +162,13 @@ fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain
         Reach::DomainWithPaddle => (domain.x, "the domain (the wave is made there)"),
     };
     within(&format!("{path}.x_m"), x, ends, place, check);
-    within(&format!("{path}.y_m"), y, [0.0, domain.width], "the domain's width", check);
+    within(&format!("{path}.y_m"), y, across(domain), "the domain's width", check);
 }
 
 fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain, check: &mut Checker) {
     let [x, y, z] = point.at_m;
     within(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
-    within(&format!("{path}.at_m[1]"), y, [0.0, domain.width], "the domain's width", check);
+    within(&format!("{path}.at_m[1]"), y, across(domain), "the domain's width", check);
     within(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the water's height", check);
     if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.holds(point.at_m.into())) {
         check.refuse(

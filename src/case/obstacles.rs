@@ -23,7 +23,8 @@ const FLUSH: f64 = 1e-6;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Validate the obstacles; those that stand on the ground or against a wall have no open face there.
-pub(super) fn validate(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
+/// `width` [m] is that of the domain.
+pub(super) fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
     if file.obstacles.len() > MOST_OBSTACLES {
         check.refuse(
             "domain.obstacles",
@@ -36,7 +37,7 @@ pub(super) fn validate(file: &DomainFile, flume: &Flume, check: &mut Checker) ->
     let mut found: Vec<AxisBox> = Vec::new();
     for (index, obstacle) in file.obstacles.iter().enumerate() {
         let path = format!("domain.obstacles[{index}]");
-        let Some(obstacle) = validate_one(&path, obstacle, file, flume, check) else { continue };
+        let Some(obstacle) = validate_one(&path, obstacle, file, width, flume, check) else { continue };
         let too_near = found.iter().position(|other| gap(&obstacle, other) < NARROWEST * file.dp_m);
         match too_near {
             Some(other) => check.refuse(
@@ -55,20 +56,26 @@ fn validate_one(
     path: &str,
     file: &BoxFile,
     domain: &DomainFile,
+    width: f64,
     flume: &Flume,
     check: &mut Checker,
 ) -> Option<AxisBox> {
     let before = check.count();
     let dp = domain.dp_m;
-    let ends = [domain.x_m, [0.0, domain.width_m], [f64::NEG_INFINITY, domain.top_z_m]];
-    for (axis, ends) in ends.into_iter().enumerate() {
+    let ends = [domain.x_m, [0.0, width], [f64::NEG_INFINITY, domain.top_z_m]];
+    let planar = domain.sides == Sides::TwoDimensional;
+    for (axis, ends) in ends.into_iter().enumerate().filter(|(axis, _)| !(planar && *axis == 1)) {
         validate_extent(path, axis, [file.low_m[axis], file.high_m[axis]], ends, dp, check);
     }
     if check.count() > before {
         return None;
     }
-    let (low, high) = (DVec3::from_array(file.low_m), DVec3::from_array(file.high_m));
-    let open_ends = [domain.x_m, [0.0, domain.width_m]];
+    let (mut low, mut high) = (DVec3::from_array(file.low_m), DVec3::from_array(file.high_m));
+    if planar {
+        // In two dimensions it goes through the layer, wherever it lies across the flume.
+        (low.y, high.y) = (0.0, width);
+    }
+    let open_ends = [domain.x_m, [0.0, width]];
     let mut open = [[true; 2]; 3];
     for (axis, ends) in open_ends.into_iter().enumerate() {
         let gaps = [low[axis] - ends[0], ends[1] - high[axis]];

@@ -82,7 +82,8 @@ pub(super) fn place(
     let first_y = row.first_y.unwrap_or(0.5 * (domain.width - length));
     match domain.sides {
         Sides::Periodic => validate_periodic_row(row, domain.width, first_y, check),
-        Sides::Walls => {
+        // Units are refused in two dimensions.
+        Sides::Walls | Sides::TwoDimensional => {
             let widest = length + 2.0 * reach;
             if widest > domain.width {
                 check.refuse(

@@ -2,7 +2,7 @@
 
 use super::check::{Checker, above, show};
 use super::domain::Domain;
-use super::file::UnitsFile;
+use super::file::{Sides, UnitsFile};
 use super::flume::Flume;
 use super::materials::{self, FrictionPair, Material};
 use super::unit_shape::{self, UnitShape};
@@ -103,6 +103,15 @@ fn place(
 ) -> Option<Vec<Placement>> {
     let row = if file.centres_m.is_none() { Some(row::validate(file, shape, check)?) } else { None };
     let (shape, flume, domain) = (shape?, around.flume?, around.domain?);
+    if domain.sides == Sides::TwoDimensional {
+        check.refuse(
+            "domain.sides",
+            "\"two_dimensional\"",
+            "\"periodic\" or \"walls\" in a case with units",
+            "units move and turn in three dimensions: write `domain.width_m` and one of the two",
+        );
+        return None;
+    }
     if !domain.obstacles.is_empty() {
         check.refuse(
             "domain.obstacles",

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{Trouble, load};
 use crate::{
-    case::{Case, Wave},
+    case::{Case, Sides, Wave},
     simulation::{incoming::particle_start, progress::readable, setup::check_times},
 };
 
@@ -82,9 +82,13 @@ fn print(case: &Case) {
     if let Some(distance) = case.wavemaker.absorption_gauge() {
         println!("  wavemaker   takes up the waves that come back to it, by a gauge {distance} m before it");
     }
+    let across = match case.domain.sides {
+        Sides::TwoDimensional => "two-dimensional".to_owned(),
+        Sides::Periodic | Sides::Walls => format!("{} m wide", case.domain.width),
+    };
     println!(
-        "  domain      x = {} to {} m, {} m wide, still depth up to {:.3} m",
-        case.domain.x[0], case.domain.x[1], case.domain.width, case.domain.depth
+        "  domain      x = {} to {} m, {across}, still depth up to {:.3} m",
+        case.domain.x[0], case.domain.x[1], case.domain.depth
     );
     if let Some(units) = &case.units {
         println!("  units       {} of {} m and {} kg", units.placements.len(), units.shape.height(), units.mass);

@@ -57,6 +57,9 @@ pub struct Summary {
     pub domain_width_m: f64,
     /// Whether the domain is closed by solid side walls; else what leaves on one side enters on the other.
     pub side_walls: bool,
+    /// Whether the domain is a layer of particles, computed in two dimensions.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub two_dimensional: bool,
     /// Lower and upper corner of each fixed obstacle [m].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles_m: Vec<[[f64; 3]; 2]>,

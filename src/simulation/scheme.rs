@@ -25,10 +25,15 @@ pub fn parameters(case: &Case) -> Parameters {
         case::DensityDiffusion::Fourtakas => DensityDiffusion::Fourtakas,
         case::DensityDiffusion::Antuono => DensityDiffusion::Antuono,
     };
+    let kernel = match case.domain.sides {
+        case::Sides::TwoDimensional => Wendland::in_layer(numerics.h, case.domain.width),
+        case::Sides::Periodic | case::Sides::Walls => Wendland::new(numerics.h),
+    };
+    let shifting = Shifting { coefficient: numerics.shifting, h: numerics.h, dp, dimensions: kernel.dimensions() };
     let laminar = |turbulence| Viscosity::Laminar { nu: numerics.nu, turbulence };
     Parameters {
         dp,
-        kernel: Wendland::new(numerics.h),
+        kernel,
         viscosity: match numerics.viscosity {
             case::Viscosity::Artificial => Viscosity::Artificial { alpha: numerics.alpha },
             case::Viscosity::Laminar => laminar(None),
@@ -42,7 +47,7 @@ pub fn parameters(case: &Case) -> Parameters {
             case::WallSlip::NoSlip => WallSlip::NoSlip,
             case::WallSlip::FreeSlip => WallSlip::FreeSlip,
         },
-        shifting: (numerics.shifting > 0.0).then_some(Shifting { coefficient: numerics.shifting, h: numerics.h, dp }),
+        shifting: (numerics.shifting > 0.0).then_some(shifting),
         gravity: fluid.gravity,
         cfl: numerics.cfl,
         boundary: match numerics.boundary {

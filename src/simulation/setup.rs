@@ -287,7 +287,8 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
         ground: Some(Ground { profile: case.flume.profile.clone(), material: material(units.ground_material) }),
         sides: match case.domain.sides {
             case::Sides::Periodic => rigid::Sides::Periodic { width: case.domain.width },
-            case::Sides::Walls => rigid::Sides::Walls { width: case.domain.width },
+            // Units are refused in two dimensions.
+            case::Sides::Walls | case::Sides::TwoDimensional => rigid::Sides::Walls { width: case.domain.width },
         },
         end_walls: Some(case.domain.x),
         wall_material: material(units.ground_material),

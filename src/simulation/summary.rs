@@ -44,6 +44,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         domain_x_m: case.domain.x,
         domain_width_m: case.domain.width,
         side_walls: case.domain.sides == Sides::Walls,
+        two_dimensional: case.domain.sides == Sides::TwoDimensional,
         obstacles_m: case.domain.obstacles.iter().map(|o| [o.low, o.high].map(|corner| corner.to_array())).collect(),
         steps: simulation.steps,
         simulated_s: simulation.time,

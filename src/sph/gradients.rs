@@ -123,6 +123,8 @@ impl Sums {
     /// M^-1, or the identity at an edge of the water.
     fn renormalisation(&self) -> DMat3 {
         let [xx, yy, zz, xy, xz, yz] = self.moments.map(f64::from);
+        // In a two-dimensional flume all neighbours lie in one plane, and nothing changes across it.
+        let yy = if yy == 0.0 { 1.0 } else { yy };
         let moments = DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz));
         if moments.determinant() > LEAST_DETERMINANT { moments.inverse() } else { DMat3::IDENTITY }
     }

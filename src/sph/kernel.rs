@@ -1,7 +1,11 @@
-//! Quintic Wendland kernel (Wendland 1995) in three dimensions, support 2h.
+//! Quintic Wendland kernel (Wendland 1995), support 2h.
 //!
-//! W(q) = alpha_D (1 - q/2)^4 (2q + 1), alpha_D = 21 / (16 pi h^3), q = r/h <= 2.
-//! Its gradient is grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3: no division by r.
+//! W(q) = alpha_D (1 - q/2)^4 (2q + 1), q = r/h <= 2, with alpha_D = 21 / (16 pi h^3) in three dimensions. A
+//! two-dimensional flume is a layer of one particle; with alpha_D = 7 / (4 pi h^2 t), t its thickness, volumes, masses
+//! and forces keep their units, and every sum over the layer is the two-dimensional one.
+//! The gradient is grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3: no division by r.
+
+use std::f64::consts::PI;
 
 use super::lanes::Real;
 
@@ -13,13 +17,29 @@ pub struct Wendland {
     inv_2h: f32,
     alpha: f32,
     gradient: f32,
+    /// Dimensions, 2 or 3.
+    dimensions: u32,
 }
 
 impl Wendland {
-    /// Kernel with smoothing length `h` [m].
+    /// Kernel in three dimensions with smoothing length `h` [m].
     pub fn new(h: f64) -> Self {
-        let alpha = 21.0 / (16.0 * std::f64::consts::PI * h.powi(3));
-        Self { h, inv_2h: (0.5 / h) as f32, alpha: alpha as f32, gradient: (-5.0 * alpha / (h * h)) as f32 }
+        Self::with(h, 21.0 / (16.0 * PI * h.powi(3)), 3)
+    }
+
+    /// Kernel in two dimensions with smoothing length `h` [m], for a layer of particles of this thickness [m].
+    pub fn in_layer(h: f64, thickness: f64) -> Self {
+        Self::with(h, 7.0 / (4.0 * PI * h * h * thickness), 2)
+    }
+
+    fn with(h: f64, alpha: f64, dimensions: u32) -> Self {
+        let gradient = -5.0 * alpha / (h * h);
+        Self { h, inv_2h: (0.5 / h) as f32, alpha: alpha as f32, gradient: gradient as f32, dimensions }
+    }
+
+    /// 2 for a layer of particles, else 3.
+    pub fn dimensions(&self) -> u32 {
+        self.dimensions
     }
 
     /// Radius of the support 2h [m].
@@ -79,7 +99,7 @@ mod tests {
     fn integral(h: f64, f: impl Fn(f64) -> f64) -> f64 {
         let n = 20_000;
         let dr = 2.0 * h / f64::from(n);
-        (0..n).map(|i| (f64::from(i) + 0.5) * dr).map(|r| 4.0 * std::f64::consts::PI * r * r * f(r) * dr).sum()
+        (0..n).map(|i| (f64::from(i) + 0.5) * dr).map(|r| 4.0 * PI * r * r * f(r) * dr).sum()
     }
 
     #[test]
@@ -87,6 +107,14 @@ mod tests {
         let kernel = Wendland::new(0.02);
         // 1e-6: the constants are kept in single precision.
         assert!((integral(0.02, |r| kernel.value(kernel.closeness(r))) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn integrates_to_one_over_a_layer() {
+        let kernel = Wendland::in_layer(0.02, 0.01);
+        // 4 pi r^2 of the integral is a circle's 2 pi r times the thickness, and what is left over.
+        let over_layer = |r: f64| kernel.value(kernel.closeness(r)) * 0.01 / (2.0 * r);
+        assert!((integral(0.02, over_layer) - 1.0).abs() < 1e-6);
     }
 
     #[test]

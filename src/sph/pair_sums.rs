@@ -126,7 +126,8 @@ impl Constants {
         let Parameters { kernel, diffusion, tait, viscosity, .. } = *parameters;
         let (alpha, nu) = match viscosity {
             Viscosity::Artificial { alpha } => (alpha, 0.0),
-            Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } => (0.0, nu),
+            Viscosity::Laminar { nu, .. } => (0.0, nu),
+            Viscosity::MonaghanGingold { nu } => (0.0, 2.0 * (f64::from(kernel.dimensions()) + 2.0) * nu),
         };
         let (h, rho0) = (kernel.h as f32, tait.rho0 as f32);
         Self { kernel, diffusion, h, rho0, alpha: alpha as f32, nu: nu as f32 }

@@ -16,6 +16,9 @@ const SURFACE: f64 = 0.5;
 /// Smallest scaled determinant for which the linear fit is trusted; see [`super::mdbc`].
 const LEAST_DETERMINANT: f64 = 0.01;
 
+/// Second moment of the kernel along each axis, int W x^2 dV [h^2]; 5/18 in two dimensions.
+const SECOND_MOMENT: f64 = 4.0 / 15.0;
+
 /// The sorted water of a step, ready to be measured.
 #[derive(Clone, Copy)]
 pub struct Sampler<'a> {
@@ -56,7 +59,9 @@ impl Sampler<'_> {
                 let members = self.bins.start[row + x.start()]..self.bins.start[row + x.end() + 1];
                 for b in members.map(|b| b as usize) {
                     let mut r = self.water.position[b] - point;
-                    if let Some(width) = grid.periodic_width {
+                    if self.kernel.dimensions() == 2 {
+                        r.y = 0.0;
+                    } else if let Some(width) = grid.periodic_width {
                         r.y -= width * (r.y / width).round();
                     }
                     if r.length_squared() < reach * reach {
@@ -83,7 +88,7 @@ impl Sampler<'_> {
     pub fn sample(&self, point: DVec3) -> Option<Sample> {
         let per_h = 1.0 / self.kernel.h;
         // Moments of (1, x, y, z) against (1, x, y, z, p, u, v, w).
-        let moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
+        let mut moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
             let weight = self.weight(r, b);
             let [x, y, z] = (r * per_h).to_array();
             let [u, v, w] = self.water.velocity[b].to_array();
@@ -100,10 +105,14 @@ impl Sampler<'_> {
         if occupied < 0.2 {
             return None;
         }
+        if self.kernel.dimensions() == 2 {
+            // Nothing changes across the flume.
+            moments[2][2] = SECOND_MOMENT * occupied;
+        }
         let value = |field: usize| {
             let rows = moments.map(|row| [row[0], row[1], row[2], row[3], row[4 + field]]);
-            // The second moments of a full neighbourhood are 1/6 h^2 each.
-            solve(rows, LEAST_DETERMINANT * occupied.powi(4) / 216.0).map_or(moments[0][4 + field] / occupied, |s| s[0])
+            solve(rows, LEAST_DETERMINANT * SECOND_MOMENT.powi(3) * occupied.powi(4))
+                .map_or(moments[0][4 + field] / occupied, |s| s[0])
         };
         Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
     }

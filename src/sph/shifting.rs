@@ -7,11 +7,8 @@
 
 use glam::DVec3;
 
-/// div r of a particle at the surface, below which nothing is shifted [-].
-const SURFACE: f64 = 2.75;
-
-/// div r of a full neighbourhood in three dimensions [-].
-const FULL: f64 = 3.0;
+/// div r of a particle at the surface, below which nothing is shifted, in two and in three dimensions [-].
+const SURFACE: [f64; 2] = [1.5, 2.75];
 
 /// Longest shift as a share of the distance between particles.
 const LONGEST: f64 = 0.1;
@@ -25,12 +22,15 @@ pub struct Shifting {
     pub h: f64,
     /// Distance between particles [m].
     pub dp: f64,
+    /// Dimensions, 2 or 3, which is div r of a full neighbourhood.
+    pub dimensions: u32,
 }
 
 impl Shifting {
     /// Shift over a step of length `dt` [s], from speed [m/s], grad C [1/m] and div r [-].
     pub fn shift(&self, dt: f64, speed: f64, concentration_gradient: DVec3, divergence: f64) -> DVec3 {
-        let inside = ((divergence - SURFACE) / (FULL - SURFACE)).clamp(0.0, 1.0);
+        let (full, surface) = (f64::from(self.dimensions), SURFACE[self.dimensions as usize - 2]);
+        let inside = ((divergence - surface) / (full - surface)).clamp(0.0, 1.0);
         let shift = -inside * self.coefficient * self.h * speed * dt * concentration_gradient;
         shift.clamp_length_max(LONGEST * self.dp)
     }
@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn goes_down_the_concentration_and_not_at_the_surface() {
-        let shifting = Shifting { coefficient: 2.0, h: 0.02, dp: 0.01 };
+        let shifting = Shifting { coefficient: 2.0, h: 0.02, dp: 0.01, dimensions: 3 };
         let shift = shifting.shift(1e-4, 1.0, DVec3::X, 3.1);
         assert!((shift - DVec3::X * -4e-6).length() < 1e-18);
         assert_eq!(shifting.shift(1e-4, 1.0, DVec3::X, 2.5), DVec3::ZERO);

@@ -60,11 +60,11 @@ pub fn laminar_factor<R: Real>(nu: f32, rho_a: R, rho_b: R) -> R {
     R::splat(4.0 * nu) * rho_a * rho_b / (rho_a + rho_b)
 }
 
-/// rho_a rho_b Pi_ab [Pa] of Monaghan & Gingold's form in three dimensions, Pi_ab = -20 nu / (rho_a + rho_b) times the
-/// [`approach_rate`] [1/s], of either sign: it resists parting as well.
+/// rho_a rho_b Pi_ab [Pa] of Monaghan & Gingold's form, Pi_ab = -2 K nu / (rho_a + rho_b) times the [`approach_rate`]
+/// [1/s], of either sign: it resists parting as well.
 #[inline(always)]
-pub fn monaghan_gingold_stress<R: Real>(nu: f32, rate: R, rho_a: R, rho_b: R) -> R {
-    R::splat(-20.0 * nu) * rate * rho_a * rho_b / (rho_a + rho_b)
+pub fn monaghan_gingold_stress<R: Real>(k_nu: f32, rate: R, rho_a: R, rho_b: R) -> R {
+    R::splat(-2.0 * k_nu) * rate * rho_a * rho_b / (rho_a + rho_b)
 }
 
 #[cfg(test)]

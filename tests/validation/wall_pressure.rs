@@ -28,7 +28,7 @@ fn wall_pressure(diffusion: &str, sound_speed_factor: f64) -> Result<Vec<f64>, F
         "title": "Dam break against a wall",
         "flume": { "bed_m": [[0.0, 0.0], [4.0, 0.0]], "still_water_level_m": 2.0 },
         "domain": {
-            "x_m": [0.0, 4.0], "width_m": 10.0 * DP, "sides": "periodic", "top_z_m": 3.0, "dp_m": DP,
+            "x_m": [0.0, 4.0], "sides": "two_dimensional", "top_z_m": 3.0, "dp_m": DP,
             "water": { "kind": "block", "x_m": [0.0, 1.0], "top_z_m": 2.0 }
         },
         "fluid": { "sound_speed_factor": sound_speed_factor },

@@ -13,31 +13,38 @@ use breakwater::sph::{
 use glam::DVec3;
 
 use super::tanks::{BareTank, GRAVITY, RHO0, dam_break, parameters, run_until, simulation};
+use super::two_dimensional::in_two_dimensions;
 
 #[test]
 fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
-    let mut dam = simulation(&dam_break(0.05, 0.5));
-    let mass: f64 = dam.water.mass.iter().sum();
-    let start = dam.energy();
-    let (mut last, mut rise, mut lowest) = (start.total(), 0.0_f64, start.total());
-    run_until(&mut dam, 0.5, |now| {
-        let total = now.energy().total();
-        rise = rise.max(total - lowest);
-        lowest = lowest.min(total);
-        last = total;
-    });
-    let end = dam.energy();
-    println!(
-        "dam break: total {:.1} to {last:.1} J, highest above an earlier lowest {rise:.2e} J, kinetic {:.1} J",
-        start.total(),
-        end.kinetic
-    );
-    assert!(end.kinetic > 0.1 * start.potential);
-    // 1e-4 was reached: waves of compression run to and fro through the column, do work on the bed and get it back.
-    assert!(rise < 3e-4 * start.potential);
-    assert!(last < start.total());
-    // The sum runs over the same masses, sorted otherwise: rounding.
-    assert!((dam.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
+    // 5e-5 and 3.4e-4 are reached, in the first 50 ms: the pressure wave of the release runs to and fro through the column,
+    // does work on bed and wall and gets it back. Walls that mirror the water's velocity take part in it: they give 0.3 %
+    // of the energy in that time, and nothing afterwards.
+    for (slip, most) in [("original", 3e-4), ("free_slip", 6e-4)] {
+        let mut case = in_two_dimensions(dam_break(0.025, 0.5));
+        case["numerics"] = serde_json::json!({ "wall_slip": slip });
+        let mut dam = simulation(&case);
+        let mass: f64 = dam.water.mass.iter().sum();
+        let start = dam.energy();
+        let (mut last, mut rise, mut lowest) = (start.total(), 0.0_f64, start.total());
+        run_until(&mut dam, 0.5, |now| {
+            let total = now.energy().total();
+            rise = rise.max(total - lowest);
+            lowest = lowest.min(total);
+            last = total;
+        });
+        let end = dam.energy();
+        println!(
+            "dam break, {slip}: total {:.1} to {last:.1} J, highest above an earlier lowest {rise:.2e} J, kinetic {:.1} J",
+            start.total(),
+            end.kinetic
+        );
+        assert!(end.kinetic > 0.1 * start.potential);
+        assert!(rise < most * start.potential);
+        assert!(last < start.total());
+        // The sum runs over the same masses, sorted otherwise: rounding.
+        assert!((dam.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
+    }
 }
 
 /// A ball of water of a radius [m] that spins, flies and swings; no two particles alike.
@@ -165,7 +172,7 @@ fn which_terms_keep_momentum_and_angular_momentum() {
     loses_turn("laminar, viscous", &|p| p.viscosity = laminar(1e-3, None));
     loses_turn("laminar, water", &|p| p.viscosity = laminar(1e-6, None));
     loses_turn("turbulence", &|p| p.viscosity = laminar(0.0, Some(Smagorinsky::new(dp))));
-    loses_turn("shifting", &|p| p.shifting = Some(Shifting { coefficient: 2.0, h: p.kernel.h, dp }));
+    loses_turn("shifting", &|p| p.shifting = Some(Shifting { coefficient: 2.0, h: p.kernel.h, dp, dimensions: 3 }));
 }
 
 /// Water that sloshes in a tank: what its energy loses is what walls, viscosity and diffusion take.

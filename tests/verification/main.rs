@@ -22,6 +22,7 @@ mod solitary_wave;
 mod standing_wave;
 mod still_water;
 mod tanks;
+mod two_dimensional;
 mod viscous_flow;
 mod wavemaker;
 mod waves;

@@ -64,7 +64,7 @@ impl PressureError {
 
 #[test]
 fn a_flat_tank_stays_hydrostatic() {
-    let (length, depth, dp, end) = (0.24, 0.3, 0.02, 0.6);
+    let (length, depth, dp, end) = (0.24, 0.3, 0.02, 2.4);
     let mut tank = simulation(&still_tank(length, 0.2, depth, dp, end));
     let mass: f64 = tank.water.mass.iter().sum();
     let at = |x: f64, z: f64| DVec3::new(x, 0.1, z);

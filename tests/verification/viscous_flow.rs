@@ -33,14 +33,15 @@ fn viscous(viscosity: Viscosity, slip: WallSlip) -> impl FnOnce(&mut Parameters)
         parameters.viscosity = viscosity;
         parameters.slip = slip;
         let (h, dp) = (parameters.kernel.h, parameters.dp);
-        parameters.shifting = Some(Shifting { coefficient: 2.0, h, dp });
+        parameters.shifting = Some(Shifting { coefficient: 2.0, h, dp, dimensions: 3 });
     }
 }
 
 #[test]
 fn the_stress_of_monaghan_and_gingold_resists_both_ways_and_spares_rotation() {
     let (nu, h, r2, rho_a, rho_b) = (0.01_f32, 0.02_f32, 1e-4_f64, 1000.0, 1010.0);
-    let stress = |v_dot_r: f64| monaghan_gingold_stress(nu, approach_rate(h, v_dot_r, r2), rho_a, rho_b);
+    // K = 10 in three dimensions.
+    let stress = |v_dot_r: f64| monaghan_gingold_stress(10.0 * nu, approach_rate(h, v_dot_r, r2), rho_a, rho_b);
     // rho_a rho_b 4 (D + 2) nu / (rho_a + rho_b) (v . r) / (r^2 + 0.01 h^2); 1e-6: constants in single precision.
     let exact = rho_a * rho_b * 20.0 * 0.01 / (rho_a + rho_b) * 1e-3 / (r2 + 0.01 * 0.02 * 0.02);
     assert!((stress(-1e-3) / exact - 1.0).abs() < 1e-6 && (stress(1e-3) / exact + 1.0).abs() < 1e-6);

@@ -18,7 +18,7 @@ fn wedge(boundary: &str, dp: f64, duration: f64) -> Value {
         "flume": {
             "bed_m": [[0.0, 0.0], [0.85, 0.0], [1.1, 0.25], [1.35, 0.0], [2.2, 0.0]], "still_water_level_m": DEPTH
         },
-        "domain": { "x_m": TANK, "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 0.8, "dp_m": dp },
+        "domain": { "x_m": TANK, "sides": "two_dimensional", "top_z_m": 0.8, "dp_m": dp },
         "numerics": { "boundary": boundary },
         "stop": { "duration_s": duration }
     })

@@ -38,8 +38,20 @@ fn header(summary: &Summary) -> String {
         1 => parts.push("one armour unit".to_owned()),
         n => parts.push(format!("{n} armour units in one row")),
     }
-    parts.push(format!("{} m of flume width", short(summary.domain_width_m, 3)));
+    parts.push(match summary.two_dimensional {
+        true => "two-dimensional".to_owned(),
+        false => format!("{} m of flume width", short(summary.domain_width_m, 3)),
+    });
     format!("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape(&summary.title), escape(&parts.join(" \u{b7} ")))
+}
+
+/// Width and sides of the domain.
+fn across(summary: &Summary) -> String {
+    let sides = if summary.side_walls { "between side walls" } else { "periodic across the flume" };
+    match summary.two_dimensional {
+        true => "two-dimensional".to_owned(),
+        false => format!("{} m wide, {sides}", short(summary.domain_width_m, 3)),
+    }
 }
 
 fn key_figures(summary: &Summary) -> String {
@@ -247,11 +259,10 @@ fn facts(summary: &Summary) -> String {
         (
             "Domain",
             format!(
-                "x = {} to {} m, {} m wide, {}",
+                "x = {} to {} m, {}",
                 short(summary.domain_x_m[0], 3),
                 short(summary.domain_x_m[1], 3),
-                short(summary.domain_width_m, 3),
-                if summary.side_walls { "between side walls" } else { "periodic across the flume" }
+                across(summary)
             ),
         ),
         (

@@ -1,0 +1,82 @@
+//! A layer of particles, computed in two dimensions, is what a slice of the same flume is.
+
+use breakwater::simulation::Simulation;
+use glam::{DVec2, DVec3};
+use serde_json::{Value, json};
+
+use super::tanks::{GRAVITY, RHO0, dam_break, run_until, simulation, still_tank};
+
+/// The same case as a layer of particles.
+pub fn in_two_dimensions(mut case: Value) -> Value {
+    let domain = case["domain"].as_object_mut().unwrap();
+    domain.remove("width_m");
+    domain["sides"] = json!("two_dimensional");
+    case
+}
+
+/// Place of the foremost water [m] and kinetic energy a metre of width [J/m].
+fn tip_and_energy(simulation: &Simulation) -> [f64; 2] {
+    let water = &simulation.water;
+    let tip = water.position.iter().map(|p| p.x).fold(f64::MIN, f64::max);
+    let energy: f64 = water.mass.iter().zip(&water.velocity).map(|(m, v)| 0.5 * m * v.length_squared()).sum();
+    [tip, energy / simulation.case.domain.width]
+}
+
+#[test]
+fn a_dam_breaks_as_in_a_slice() {
+    let (dp, end) = (0.08, 0.6);
+    let [slice, layer] = [dam_break(dp, 1.0), in_two_dimensions(dam_break(dp, 1.0))].map(|case| {
+        let mut tank = simulation(&case);
+        run_until(&mut tank, end, |_| ());
+        tip_and_energy(&tank)
+    });
+    println!("tip {:.3} and {:.3} m, energy {:.1} and {:.1} J/m", slice[0], layer[0], slice[1], layer[1]);
+    // The same motion from other places of the particles: half a particle distance, and 2 %.
+    assert!((slice[0] - layer[0]).abs() < 0.5 * dp && (slice[1] / layer[1] - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn nothing_moves_across_the_flume() {
+    let mut tank = simulation(&in_two_dimensions(dam_break(0.08, 1.0)));
+    run_until(&mut tank, 0.4, |_| ());
+    assert!(tank.water.position.iter().all(|p| p.y == 0.04) && tank.water.velocity.iter().all(|v| v.y == 0.0));
+}
+
+#[test]
+fn gauges_measure_a_layer() {
+    let (depth, dp) = (0.4, 0.02);
+    let mut tank = simulation(&in_two_dimensions(still_tank(1.0, 0.2, depth, dp, 1.0)));
+    let mut read = Vec::new();
+    run_until(&mut tank, 1.0, |now| {
+        let sampler = now.sampler();
+        // Where across the flume does not matter.
+        let level = sampler.surface(DVec2::new(0.5, 3.0), 0.0, 0.6).unwrap();
+        let at = DVec3::new(0.5, -1.0, 0.1);
+        read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at)];
+    });
+    // 0.1 dp; 2 % of the pressure, which rings a little after one second; 2 % of the sum of W V.
+    assert!((read[0] - depth).abs() < 0.1 * dp, "{read:?}");
+    assert!((read[1] / (RHO0 * GRAVITY * (depth - 0.1)) - 1.0).abs() < 0.02, "{read:?}");
+    assert!((read[2] - 1.0).abs() < 0.02, "{read:?}");
+}
+
+/// Where water thins out on a beach one or two layers of particles lie over the bed.
+#[test]
+fn still_water_stays_still_on_a_beach() {
+    let mut tank = simulation(&json!({
+        "title": "Still water on a beach",
+        "flume": { "bed_m": [[0.0, -0.1], [4.0, 0.1 / 3.0]], "still_water_level_m": 0.0 },
+        "domain": { "x_m": [0.0, 4.0], "sides": "two_dimensional", "top_z_m": 0.3, "dp_m": 0.02 },
+        "fluid": { "sound_speed_factor": 10.0 },
+        "stop": { "duration_s": 4.0 }
+    }));
+    let mut fastest = 0.0_f64;
+    run_until(&mut tank, 3.0, |now| {
+        if now.time > 1.0 {
+            fastest = now.water.velocity.iter().map(|v| v.length()).fold(fastest, f64::max);
+        }
+    });
+    println!("fastest {fastest:.3} m/s");
+    // A quarter of sqrt(g d), five particles deep; walls that pull at the water drive it to 1.6 m/s.
+    assert!(fastest < 0.25);
+}
