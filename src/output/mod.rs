@@ -17,7 +17,7 @@ mod atomic;
 pub mod columns;
 mod compare;
 mod error;
-mod plot;
+pub mod plot;
 mod report;
 mod series;
 mod summary;

@@ -5,6 +5,7 @@
 //! X1 = 19.85 + arccosh(sqrt(20)) / sqrt(3H/4d), half a wave length before the toe.
 
 use breakwater::geometry::profile::Profile;
+use breakwater::output::plot::{Line, LineChart};
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
@@ -198,27 +199,47 @@ fn profiles_are_those_of_the_laboratory() {
     }
 }
 
-/// Relative error of the run-up of the pairs `(H/d, R/d, d in cm)`, sorted by its size; printed with both laws.
-fn run_up_errors(pairs: &[Vec<f64>]) -> Vec<f64> {
+/// A run-up on the beach: H/d, and R/d as measured and as computed.
+struct RunUp {
+    height: f64,
+    measured: f64,
+    computed: f64,
+}
+
+impl RunUp {
+    fn error(&self) -> f64 {
+        self.computed / self.measured - 1.0
+    }
+}
+
+/// The run-up of the pairs `(H/d, R/d, d in cm)`, printed with both laws.
+fn run_ups(pairs: &[Vec<f64>]) -> Vec<RunUp> {
     println!("  H/d    R/d measured  computed  error   laws: unbroken, broken");
-    let error = |pair: &Vec<f64>| {
+    let run_up = |pair: &Vec<f64>| {
         let [height, measured, depth_m] = [pair[0], pair[1], 0.01 * pair[2]];
         let [smooth, broken] = run_up_law(height);
         // Twenty cells on the way of the shore, at least eight for the lowest waves, and the wave's own length
         // resolved.
         let cell = (COT_BETA * smooth.min(broken) / 20.0).clamp(0.05, 0.06);
         let beach = Beach { height, depth_m, cell, pressure: Pressure::NonHydrostatic, friction: GLASS };
-        let computed = beach.run_up();
-        let error = computed / measured - 1.0;
+        let run_up = RunUp { height, measured, computed: beach.run_up() };
         println!(
-            "  {height:.3}  {measured:.3}         {computed:.4}    {:+5.1} %  {smooth:.3} {broken:.3}",
-            100.0 * error
+            "  {height:.3}  {measured:.3}         {:.4}    {:+5.1} %  {smooth:.3} {broken:.3}",
+            run_up.computed,
+            100.0 * run_up.error()
         );
-        error
+        run_up
     };
-    let mut errors: Vec<f64> = pairs.iter().map(error).collect();
+    pairs.iter().map(run_up).collect()
+}
+
+/// Median of the errors' sizes [-], printed with the largest error.
+fn median_error(run_ups: &[RunUp]) -> f64 {
+    let mut errors: Vec<f64> = run_ups.iter().map(RunUp::error).collect();
     errors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    errors
+    let (median, worst) = (errors[errors.len() / 2].abs(), errors[errors.len() - 1]);
+    println!("median of {}: {:.1} %, largest {:+.1} %", errors.len(), 100.0 * median, 100.0 * worst);
+    median
 }
 
 /// Every twelfth of the pairs that are cheap to compute.
@@ -226,22 +247,54 @@ fn run_up_errors(pairs: &[Vec<f64>]) -> Vec<f64> {
 fn run_up_is_that_of_the_laboratory() {
     let Some(pairs) = data::rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
     let few: Vec<Vec<f64>> = pairs.into_iter().filter(|pair| pair[0] > 0.03).step_by(12).collect();
-    let errors = run_up_errors(&few);
-    let median = errors[errors.len() / 2].abs();
-    println!("median of {}: {:.1} %, largest {:+.1} %", errors.len(), 100.0 * median, 100.0 * errors[errors.len() - 1]);
     // The measurements of like waves differ by up to 13 % (H/d = 0.009).
-    assert!(median < 0.1);
+    assert!(median_error(&run_ups(&few)) < 0.1);
 }
 
-/// All of them: `cargo test --release --test validation -- --ignored --nocapture all_run_ups`, ten minutes.
+/// Run-up of laboratory and model beside both laws, on logarithmic axes: an SVG file.
+fn picture(run_ups: &[RunUp]) -> String {
+    let at = |height: f64, run_up: f64| [height.log10(), run_up.log10()];
+    let line = |name: &str, points: Vec<[f64; 2]>, colour: usize, dots: bool| Line {
+        name: name.to_owned(),
+        points,
+        colour,
+        dots,
+        ..Line::default()
+    };
+    // Points, not lines: each pair stands alone, between two breaks.
+    let alone = |value: fn(&RunUp) -> f64| {
+        run_ups.iter().flat_map(|r| [at(r.height, value(r)), [f64::NAN; 2]]).collect::<Vec<[f64; 2]>>()
+    };
+    let law = |broken: usize, from: f64, to: f64| {
+        let heights = (0..=40).map(|k| from * (to / from).powf(f64::from(k) / 40.0));
+        heights.map(|height| at(height, run_up_law(height)[broken])).collect::<Vec<[f64; 2]>>()
+    };
+    let chart = LineChart {
+        title: "Run-up of solitary waves on a beach of 1:19.85".to_owned(),
+        x_label: "log10 of the height over the depth".to_owned(),
+        y_label: "log10 of the run-up over the depth".to_owned(),
+        lines: vec![
+            line("law of unbroken waves", law(0, 0.004, 0.06), 2, false),
+            line("law of broken waves", law(1, 0.03, 0.7), 3, false),
+            line("laboratory (Synolakis 1987)", alone(|r| r.measured), 0, true),
+            line("breakwater", alone(|r| r.computed), 1, true),
+        ],
+        size: [760.0, 460.0],
+        ..LineChart::default()
+    };
+    // The colours of the reports' style sheet.
+    let style = format!("><style>{}</style>", include_str!("../../src/output/report/style.css"));
+    chart.svg().replacen('>', &style, 1)
+}
+
+/// All of them, and their picture: `cargo test --release --test validation -- --ignored --nocapture all_run_ups`.
 #[test]
 #[ignore = "ten minutes"]
 fn all_run_ups_of_the_laboratory() {
     let Some(pairs) = data::rows("nthmp_bp04_simple_beach_lab/Lab_runup.txt") else { return };
     assert!(pairs.len() >= 77);
-    let errors = run_up_errors(&pairs);
-    let median = errors[errors.len() / 2].abs();
-    let worst = errors[errors.len() - 1];
-    println!("median of {}: {:.1} %, largest {:+.1} %", errors.len(), 100.0 * median, 100.0 * worst);
-    assert!(median < 0.1);
+    let run_ups = run_ups(&pairs);
+    let images = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images");
+    std::fs::write(images.join("run-up.svg"), picture(&run_ups)).unwrap();
+    assert!(median_error(&run_ups) < 0.1);
 }
