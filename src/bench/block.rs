@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, DVec3};
 
 use super::{PHASES, tank::Tank};
-use crate::sph::{lanes::InstructionSet, parameters::Parameters, step::Solver};
+use crate::sph::{lanes::InstructionSet, parameters::Parameters, step::Solver, wall_slip::WallSlip};
 
 const GRAVITY: f64 = 9.81;
 
@@ -24,7 +24,9 @@ impl Block {
     pub fn new(instructions: InstructionSet, particles: usize, support_per_dp: f64, moving: bool) -> Self {
         let side = (particles as f64).cbrt().round().max(8.0) * DP;
         let h = 0.5 * support_per_dp * DP;
-        let parameters = Parameters::published(DP, h, 15.0 * (GRAVITY * side).sqrt(), GRAVITY, Some(side));
+        let mut parameters = Parameters::published(DP, h, 15.0 * (GRAVITY * side).sqrt(), GRAVITY, Some(side));
+        // As case files have it.
+        parameters.slip = WallSlip::FreeSlip;
         // The lowest mode of the tank: water falls along one wall and rises along the other.
         let speed = if moving { 0.3 * (GRAVITY * side).sqrt() } else { 0.0 };
         let wave = std::f64::consts::PI / side;

@@ -1,26 +1,21 @@
 //! Velocity of the water at the ghost nodes of mDBC, by the same corrected interpolation as the density there, for
 //! walls that hold the water or let it slide.
+//!
+//! The interpolation is linear in what it interpolates: with the equations solved for the weights of their left-hand
+//! sides, the velocity is one weighted sum over the water round the node, v = sum_b (a W + b . r_b g) V_b v_b.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::{
     lanes::Lanes,
     mdbc::{
-        DRY, GhostNodes,
+        DRY, GhostNodes, NodeSums, PIECE,
         node_sums::{NodeTerms, Pair, sum_round_nodes},
     },
     parameters::Parameters,
     records::Record,
 };
-
-/// For each component of the velocity, sums over the water round a node, lengths in h.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct VelocitySums {
-    /// sum W V v_i.
-    value: [f32; 3],
-    /// sum g V (x, y, z) v_i with g = -G h^2.
-    first: [[f32; 3]; 3],
-}
 
 /// Velocity of the water at a ghost node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +25,10 @@ pub struct GhostVelocity {
     /// From 0, where the water is too thin to be fitted, to 1.
     pub trust: f64,
 }
+
+/// Weighted sum of the velocities round a node [m/s].
+#[derive(Debug, Clone, Copy, Default)]
+pub struct VelocitySum([f32; 3]);
 
 impl GhostNodes {
     /// What the water does at the node of each boundary particle, `None` where it is dry; to be called after
@@ -42,51 +41,58 @@ impl GhostNodes {
         to_surface: &[DVec3],
         out: &mut Vec<Option<GhostVelocity>>,
     ) {
-        self.velocity_sums.resize(self.sums.len(), VelocitySums::default());
-        sum_round_nodes(parameters, bin_x, &self.split, &self.lists, records, &mut self.velocity_sums);
-        out.resize(self.sums.len(), None);
-        for (node, &particle) in self.bins.order.iter().enumerate() {
-            out[particle as usize] = self.velocity(node, to_surface[particle as usize]);
+        let Self { sums, velocity_weights, velocity_sums, split, lists, bins, .. } = self;
+        velocity_weights.resize(sums.len(), [0.0; 4]);
+        (&mut *velocity_weights, &*sums, &bins.order)
+            .into_par_iter()
+            .with_min_len(PIECE)
+            .for_each(|(weights, sums, &i)| *weights = velocity_weights_of(sums, parameters, to_surface[i as usize]));
+        velocity_sums.resize(sums.len(), VelocitySum::default());
+        sum_round_nodes(parameters, bin_x, split, velocity_weights, lists, records, velocity_sums);
+        out.resize(sums.len(), None);
+        for ((sums, velocity), &particle) in sums.iter().zip(velocity_sums).zip(&bins.order) {
+            let trust = sums.trust(to_surface[particle as usize]);
+            let wet = f64::from(sums.value[0]) >= DRY;
+            let velocity = DVec3::from_array(velocity.0.map(f64::from));
+            out[particle as usize] = wet.then_some(GhostVelocity { velocity, trust });
         }
-    }
-
-    fn velocity(&self, node: usize, to_surface: DVec3) -> Option<GhostVelocity> {
-        let (sums, of_velocity) = (&self.sums[node], &self.velocity_sums[node]);
-        let occupied = f64::from(sums.value[0]);
-        if occupied < DRY {
-            return None;
-        }
-        let trust = sums.trust(to_surface);
-        let component = |i: usize| {
-            let (value, first) = (f64::from(of_velocity.value[i]), of_velocity.first[i].map(f64::from));
-            let mean = value / occupied;
-            sums.value_and_gradient(value, first).map_or(mean, |[f, ..]| mean + trust * (f - mean))
-        };
-        Some(GhostVelocity { velocity: DVec3::from_array(std::array::from_fn(component)), trust })
     }
 }
 
-impl NodeTerms<12> for VelocitySums {
+/// Weights of W V and of r g V for the velocity at a node, without the constant factors of W and g: of the mean and, as
+/// far as they are trusted, of the four equations. `to_surface` [m] is half the way from the boundary particle to it.
+fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
+    let occupied = f64::from(sums.value[0]);
+    if occupied < DRY {
+        return [0.0; 4];
+    }
+    let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));
+    let fitted = (trust > 0.0).then(|| sums.weights()).flatten().unwrap_or(mean);
+    let kernel = &parameters.kernel;
+    // g = -G h^2, r in h.
+    let (w, g) = (f64::from(kernel.scale()), -f64::from(kernel.gradient_scale()) * kernel.h);
+    std::array::from_fn(|k| {
+        let weight = mean[k] + trust * (fitted[k] - mean[k]);
+        (weight * if k == 0 { w } else { g }) as f32
+    })
+}
+
+impl NodeTerms<3, 4> for VelocitySum {
     #[inline(always)]
-    fn add<L: Lanes>(sums: &mut [L; 12], pair: &Pair<L>, b: &Record) {
-        let g = pair.r.map(|r| pair.gv * r);
-        for i in 0..3 {
-            let v = L::splat(b.velocity[i]);
-            sums[i] = pair.wv.mul_add(v, sums[i]);
-            for (sum, g) in sums[3 + 3 * i..6 + 3 * i].iter_mut().zip(g) {
-                *sum = g.mul_add(v, *sum);
-            }
+    fn add<L: Lanes>(sums: &mut [L; 3], weights: &[L; 4], pair: &Pair<L>, b: &Record) {
+        let [x, y, z] = pair.r;
+        let along = weights[1].mul_add(x, weights[2].mul_add(y, weights[3] * z));
+        let weight = weights[0].mul_add(pair.wv, along * pair.gv);
+        for (sum, v) in sums.iter_mut().zip(b.velocity) {
+            *sum = weight.mul_add(L::splat(v), *sum);
         }
     }
 
-    fn factors(w: f32, g: f32, h: f32) -> [f32; 12] {
-        std::array::from_fn(|k| if k < 3 { w } else { g / h })
+    fn factors(_: f32, _: f32, _: f32) -> [f32; 3] {
+        [1.0; 3]
     }
 
-    fn of_sums(sums: [f32; 12]) -> Self {
-        Self {
-            value: std::array::from_fn(|i| sums[i]),
-            first: std::array::from_fn(|i| std::array::from_fn(|k| sums[3 + 3 * i + k])),
-        }
+    fn of_sums(sums: [f32; 3]) -> Self {
+        Self(sums)
     }
 }

@@ -23,7 +23,7 @@ use rayon::prelude::*;
 
 use self::node_sums::{NodeTerms, Pair, sum_round_nodes};
 use super::{
-    ghost_velocity::VelocitySums,
+    ghost_velocity::VelocitySum,
     grid::{Bins, Grid},
     lanes::{InstructionSet, Lanes},
     neighbours::{NeighbourLists, Sources},
@@ -51,7 +51,7 @@ const TRUST: [f64; 2] = [0.1, 0.2];
 const SPREAD: [f64; 2] = [0.4, 0.7];
 
 /// Smallest piece of an array that is worth a task of the thread pool.
-const PIECE: usize = 1024;
+pub(super) const PIECE: usize = 1024;
 
 /// Sum of W V below which a node is dry: less than a lone particle gives from one dp away.
 pub(super) const DRY: f64 = 0.01;
@@ -67,7 +67,9 @@ pub struct GhostNodes {
     pub(super) sums: Vec<NodeSums>,
     /// Densities of the boundary particles in the order of the nodes [kg/m3].
     densities: Vec<f64>,
-    pub(super) velocity_sums: Vec<VelocitySums>,
+    /// Weights of the water's velocities, and the velocities, in the order of the nodes.
+    pub(super) velocity_weights: Vec<[f32; 4]>,
+    pub(super) velocity_sums: Vec<VelocitySum>,
 }
 
 /// Sums over the water round one ghost node, lengths in h.
@@ -96,7 +98,8 @@ impl GhostNodes {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
         let sums = self.split.capacity() * size_of::<[f32; 4]>()
             + self.sums.capacity() * size_of::<NodeSums>()
-            + self.velocity_sums.capacity() * size_of::<VelocitySums>();
+            + self.velocity_sums.capacity() * size_of::<VelocitySum>()
+            + self.velocity_weights.capacity() * size_of::<[f32; 4]>();
         points + sums + self.bins.bytes() + self.lists.bytes()
     }
 
@@ -129,7 +132,8 @@ impl GhostNodes {
 
         self.sums.resize(self.sorted.len(), NodeSums::default());
         let bin_x = grid.size.x as f32;
-        sum_round_nodes(parameters, bin_x, &self.split, &self.lists, records, &mut self.sums);
+        let nothing = vec![[0.0; 0]; count];
+        sum_round_nodes(parameters, bin_x, &self.split, &nothing, &self.lists, records, &mut self.sums);
         self.densities.resize(count, 0.0);
         (&mut self.densities, &self.sums, &self.bins.order)
             .into_par_iter()
@@ -141,9 +145,9 @@ impl GhostNodes {
     }
 }
 
-impl NodeTerms<17> for NodeSums {
+impl NodeTerms<17, 0> for NodeSums {
     #[inline(always)]
-    fn add<L: Lanes>(sums: &mut [L; 17], pair: &Pair<L>, b: &Record) {
+    fn add<L: Lanes>(sums: &mut [L; 17], _: &[L; 0], pair: &Pair<L>, b: &Record) {
         let Pair { r: [x, y, z], wv, gv } = *pair;
         let f = L::splat(b.excess_density);
         let (gx, gy, gz) = (gv * x, gv * y, gv * z);
@@ -234,15 +238,32 @@ impl NodeSums {
     }
 
     /// Solution [f, h grad f] of the four equations with the given left-hand sides, if they are well conditioned.
-    pub(super) fn value_and_gradient(&self, value_f: f64, [fx, fy, fz]: [f64; 3]) -> Option<[f64; 4]> {
+    fn value_and_gradient(&self, value_f: f64, [fx, fy, fz]: [f64; 3]) -> Option<[f64; 4]> {
+        let [a, b, c, d] = self.matrix();
+        let with = |[k, x, y, z]: [f64; 4], right: f64| [k, x, y, z, right];
+        self.solve([with(a, value_f), with(b, fx), with(c, fy), with(d, fz)])
+    }
+
+    /// Weights of the four left-hand sides in f, the same for whatever is interpolated: the equations transposed.
+    pub(super) fn weights(&self) -> Option<[f64; 4]> {
+        let matrix = self.matrix();
+        let column = |k: usize| [matrix[0][k], matrix[1][k], matrix[2][k], matrix[3][k], f64::from(u8::from(k == 0))];
+        self.solve([column(0), column(1), column(2), column(3)])
+    }
+
+    fn solve(&self, rows: [[f64; 5]; 4]) -> Option<[f64; 4]> {
+        solve(rows, LEAST_DETERMINANT * f64::from(self.value[0]).powi(4))
+    }
+
+    /// The four equations' matrix.
+    fn matrix(&self) -> [[f64; 4]; 4] {
         let [w, wx, wy, wz] = self.value.map(f64::from);
         let [gx, gy, gz] = self.first.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
         // In a two-dimensional flume all neighbours lie in the node's plane, and nothing changes across it: as in a full
         // neighbourhood.
         let yy = if yy == 0.0 { w } else { yy };
-        let rows = [[w, wx, wy, wz, value_f], [gx, xx, xy, xz, fx], [gy, xy, yy, yz, fy], [gz, xz, yz, zz, fz]];
-        solve(rows, LEAST_DETERMINANT * w.powi(4))
+        [[w, wx, wy, wz], [gx, xx, xy, xz], [gy, xy, yy, yz], [gz, xz, yz, zz]]
     }
 }
 

@@ -20,10 +20,10 @@ pub struct Pair<L> {
     pub gv: L,
 }
 
-/// `N` sums over the water round a node.
-pub trait NodeTerms<const N: usize>: Copy + Default + Send {
+/// `N` sums over the water round a node, for which `G` numbers of the node are known.
+pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
     /// Add what a particle contributes, without constant factors.
-    fn add<L: Lanes>(sums: &mut [L; N], pair: &Pair<L>, b: &Record);
+    fn add<L: Lanes>(sums: &mut [L; N], node: &[L; G], pair: &Pair<L>, b: &Record);
 
     /// Constant factors of the sums, from those of W and of -G h^2, with lengths in h [m].
     fn factors(w: f32, g: f32, h: f32) -> [f32; N];
@@ -32,32 +32,37 @@ pub trait NodeTerms<const N: usize>: Copy + Default + Send {
     fn of_sums(sums: [f32; N]) -> Self;
 }
 
-/// Sums for nodes, given as [`crate::sph::records::split_position`] does, with the lists of their neighbours among the
-/// records and the length of a bin [m].
-pub fn sum_round_nodes<S: NodeTerms<N>, const N: usize>(
+/// Sums for nodes, given as [`crate::sph::records::split_position`] does, what is known of each, the lists of their
+/// neighbours among the records and the length of a bin [m].
+pub fn sum_round_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,
     nodes: &[[f32; 4]],
+    known: &[[f32; G]],
     lists: &NeighbourLists,
     records: &[Record],
     sums: &mut [S],
 ) {
-    sums.par_chunks_mut(CHUNK).zip(lists.chunks()).zip(nodes.par_chunks(CHUNK)).for_each(|((sums, chunk), nodes)| {
-        lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, records, sums });
+    let chunks = sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate();
+    chunks.for_each(|(number, (sums, chunk))| {
+        let members = number * CHUNK..number * CHUNK + sums.len();
+        let (nodes, known) = (&nodes[members.clone()], &known[members]);
+        lists.instructions().dispatch(ChunkSums { parameters, bin_x, chunk, nodes, known, records, sums });
     });
 }
 
 /// The sums of one chunk of nodes.
-struct ChunkSums<'a, S, const N: usize> {
+struct ChunkSums<'a, S, const N: usize, const G: usize> {
     parameters: &'a Parameters,
     bin_x: f32,
     chunk: &'a Chunk,
     nodes: &'a [[f32; 4]],
+    known: &'a [[f32; G]],
     records: &'a [Record],
     sums: &'a mut [S],
 }
 
-impl<S: NodeTerms<N>, const N: usize> WithLanes for ChunkSums<'_, S, N> {
+impl<S: NodeTerms<N, G>, const N: usize, const G: usize> WithLanes for ChunkSums<'_, S, N, G> {
     type Output = ();
 
     #[inline(always)]
@@ -81,12 +86,13 @@ impl<S: NodeTerms<N>, const N: usize> WithLanes for ChunkSums<'_, S, N> {
     }
 }
 
-impl<S: NodeTerms<N>, const N: usize> ChunkSums<'_, S, N> {
+impl<S: NodeTerms<N, G>, const N: usize, const G: usize> ChunkSums<'_, S, N, G> {
     #[inline(always)]
     fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; N] {
         let kernel = &self.parameters.kernel;
         let splat = L::splat;
         let node: [L; 4] = std::array::from_fn(|k| lanes_of::<L, [f32; 4]>(cluster, self.nodes, |n| n[k]));
+        let known: [L; G] = std::array::from_fn(|k| lanes_of::<L, [f32; G]>(cluster, self.known, |n| n[k]));
         let width = splat(self.parameters.periodic_width.unwrap_or(0.0) as f32);
         let per_width = splat(self.parameters.periodic_width.map_or(0.0, |width| width.recip() as f32));
         let bin_x = splat(self.bin_x);
@@ -103,7 +109,7 @@ impl<S: NodeTerms<N>, const N: usize> ChunkSums<'_, S, N> {
             let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
             let volume = splat(b.volume);
             let (wv, gv) = (kernel.shape(closeness) * volume, kernel.gradient_shape(closeness) * volume);
-            S::add(&mut sums, &Pair { r: [x, y, z], wv, gv }, b);
+            S::add(&mut sums, &known, &Pair { r: [x, y, z], wv, gv }, b);
         }
         let h = kernel.h as f32;
         let factors = S::factors(kernel.scale(), -kernel.gradient_scale() * h * h, h);
