@@ -17,6 +17,12 @@ const ROUNDING: f64 = 1e-6;
 /// Steps in which a parallel is looked along for places where it comes too near to the outline [dp].
 const LOOKED_AT: f64 = 0.1;
 
+/// Turn of the bed from which a corner that sticks out into the water is an edge [rad]: 20 degrees.
+const EDGE: f64 = 0.35;
+
+/// Distance from an edge in which particles stand for both of its sides [dp]: the usual reach of the kernel.
+const AT_EDGE: f64 = 4.5;
+
 /// Bisections that find the end of a stretch to 1e-7 dp.
 const BISECTIONS: u32 = 20;
 
@@ -68,6 +74,14 @@ impl Outline {
             }
         }
         best.filter(|(signed, _)| *signed < least).map(|(_, normal)| normal)
+    }
+
+    /// Whether a point of the outline is nearer than `reach` [m] to an edge that sticks out into the water.
+    fn is_at_edge(&self, point: DVec2, reach: f64) -> bool {
+        self.points.windows(3).any(|corner| {
+            let turn = left_normal(&corner[0..2]).angle_to(left_normal(&corner[1..3]));
+            turn < -EDGE && corner[1].distance(point) < reach
+        })
     }
 
     /// Points behind the outline at distances (k + 1/2) dp for k below `layers`, about dp apart: the point, and the
@@ -183,12 +197,14 @@ pub fn outline_particles(outline: &Outline, across: &Across, dp: f64, layers: u3
     let section = outline.layers(dp, layers);
     let mut particles = Vec::with_capacity(section.len() * across.count as usize);
     for (point, length) in section {
-        let to_outline = outline.nearest(point) - point;
+        let nearest = outline.nearest(point);
+        let (to_outline, slides) = (nearest - point, !outline.is_at_edge(nearest, AT_EDGE * dp));
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
                 to_surface: DVec3::new(to_outline.x, across.to_inside(y), to_outline.y),
                 volume: length * dp * across.spacing(),
+                slides,
             });
         }
     }
@@ -210,6 +226,7 @@ pub fn side_wall_particles(section: &[(DVec2, f64)], across: &Across, layers: u3
                     position: DVec3::new(point.x, y, point.y),
                     to_surface: DVec3::Y * to_wall,
                     volume: area * across.spacing(),
+                    slides: true,
                 });
             }
         }
@@ -252,6 +269,19 @@ mod tests {
             let exact = length * depth + at_corners * depth * depth;
             // 1e-5: a stretch ends where a point lies nearer by the rounding of 1e-6 of its depth.
             assert!((area / exact - 1.0).abs() < 1e-5, "{area} {exact}");
+        }
+    }
+
+    #[test]
+    fn water_slides_but_at_edges_that_stick_out() {
+        // A quay: an edge at (1, 0.5), hollow corners at its foot and at the walls.
+        let quay = [[0.0, 1.0], [0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]];
+        let outline = Outline::new(quay.map(DVec2::from_array).to_vec());
+        let across = Across { width: 0.02, count: 1, walls: false };
+        for particle in outline_particles(&outline, &across, 0.02, 3) {
+            let foot = particle.position + particle.to_surface;
+            let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
+            assert_eq!(particle.slides, from_edge >= AT_EDGE * 0.02, "{foot}");
         }
     }
 

@@ -17,6 +17,9 @@ pub struct Boundary {
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
+    /// Whether water may slide along it. Particles at an edge that sticks out, and those of units and obstacles, stand
+    /// for surfaces of different directions, and water that slid along all of them would flow together in the solid.
+    pub slides: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
     /// Particles of the piston.
@@ -40,6 +43,8 @@ pub struct BoundaryParticle {
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
+    /// Whether water may slide along it, see [`Boundary::slides`].
+    pub slides: bool,
 }
 
 impl Boundary {
@@ -73,6 +78,7 @@ impl Boundary {
         self.velocity.push(DVec3::ZERO);
         self.to_surface.push(particle.to_surface);
         self.volume.push(particle.volume);
+        self.slides.push(particle.slides);
         self.density.push(rho0);
     }
 
@@ -129,7 +135,7 @@ mod tests {
 
     #[test]
     fn unit_particles_move_as_a_rigid_body() {
-        let particle = BoundaryParticle { position: DVec3::X, to_surface: DVec3::X * 0.1, volume: 1.0 };
+        let particle = BoundaryParticle { position: DVec3::X, to_surface: DVec3::X * 0.1, volume: 1.0, slides: false };
         let mut boundary = Boundary::new(&[], &[], &[particle], 2, 1000.0);
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         boundary.move_unit(

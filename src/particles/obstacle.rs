@@ -21,7 +21,8 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
                 let lattice = DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5;
                 let position = bounds.low + lattice * spacing;
                 if bounds.depth(position) < thickness {
-                    particles.push(BoundaryParticle { position, to_surface: bounds.way_out(position), volume });
+                    let to_surface = bounds.way_out(position);
+                    particles.push(BoundaryParticle { position, to_surface, volume, slides: false });
                 }
             }
         }
@@ -73,6 +74,7 @@ mod tests {
             position: DVec3::new(x, 0.1, -0.01),
             to_surface: DVec3::Z * 0.01,
             volume: 8e-6,
+            slides: false,
         };
         let mut bed = [below(-0.01), below(0.03)];
         cover(&mut bed, &obstacle);

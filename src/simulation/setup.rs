@@ -228,6 +228,7 @@ fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> V
                         position: DVec3::new(case.domain.x[0] - behind, y, z),
                         to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
                         volume: dp * dp * across.spacing(),
+                        slides: true,
                     },
                 ));
             }

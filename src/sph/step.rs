@@ -175,7 +175,8 @@ impl Solver {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
                 let ghost = ghost_velocity.get(i).copied().flatten();
-                let velocity = parameters.slip.velocity(boundary.velocity[i], ghost, boundary.to_surface[i]);
+                let (wall, slides) = (boundary.velocity[i], boundary.slides[i]);
+                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], slides);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
             });
         };

@@ -54,7 +54,7 @@ fn case(tank: &Tank) -> Value {
         "title": "Regular waves",
         "flume": { "bed_m": [[0.0, 0.0], [tank.length, 0.0]], "still_water_level_m": depth_m },
         "domain": {
-            "x_m": [0.0, tank.length], "width_m": 10.0 * tank.dp, "sides": "periodic",
+            "x_m": [0.0, tank.length], "sides": "two_dimensional",
             "top_z_m": 1.5 * depth_m, "dp_m": tank.dp,
             "damping_zone": { "x_m": [tank.zone_from, tank.length] }
         },
@@ -186,16 +186,16 @@ fn regular_waves_have_their_height_and_end_in_the_damping_zone_coarse() {
 
 /// `cargo test --release --test verification -- --ignored --nocapture regular_waves_of_ren`
 #[test]
-#[ignore = "5 minutes on 2 cores"]
+#[ignore = "2 minutes on 2 cores"]
 fn regular_waves_of_ren_medium() {
-    ren_wave(0.04);
+    ren_wave(0.02);
 }
 
 /// `cargo test --release --test verification -- --ignored --nocapture regular_waves_of_ren`
 #[test]
-#[ignore = "an hour on 2 cores"]
+#[ignore = "ten minutes on 2 cores"]
 fn regular_waves_of_ren_fine() {
-    ren_wave(0.02);
+    ren_wave(0.01);
 }
 
 fn ren_wave(dp: f64) {

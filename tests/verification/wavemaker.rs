@@ -81,7 +81,7 @@ fn bare_slope(start_s: f64, dp: f64, sound_speed_factor: f64) -> Value {
         "title": "The 4.5 cm wave against a wall",
         "flume": { "bed_m": [[0.0, 0.0], [19.0, 0.0], [37.9, 0.63]], "still_water_level_m": 0.8 },
         "domain": {
-            "x_m": [36.5, 37.9], "width_m": 10.0 * dp, "sides": "periodic", "top_z_m": 1.1, "dp_m": dp, "start_s": start_s
+            "x_m": [36.5, 37.9], "sides": "two_dimensional", "top_z_m": 1.1, "dp_m": dp, "start_s": start_s
         },
         "fluid": { "sound_speed_factor": sound_speed_factor },
         "wave": { "kind": "solitary", "height_m": 0.045 },
