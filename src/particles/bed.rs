@@ -20,6 +20,11 @@ const LOOKED_AT: f64 = 0.1;
 /// Turn of the bed from which a corner that sticks out into the water is an edge [rad]: 20 degrees.
 const EDGE: f64 = 0.35;
 
+/// Slope from which, and up to the same from the vertical, water does not slide along the bed [rad]: 14 degrees, 1:4.
+/// Over the 1:1 flanks of a wedge, still water that slides begins to circulate: its kinetic energy doubles every second
+/// after ten of them, where it decays if it does not. Waves travel along flatter beds.
+const STEEP: f64 = 0.245;
+
 /// Distance from an edge in which particles stand for both of its sides [dp]: the usual reach of the kernel.
 const AT_EDGE: f64 = 4.5;
 
@@ -198,7 +203,10 @@ pub fn outline_particles(outline: &Outline, across: &Across, dp: f64, layers: u3
     let mut particles = Vec::with_capacity(section.len() * across.count as usize);
     for (point, length) in section {
         let nearest = outline.nearest(point);
-        let (to_outline, slides) = (nearest - point, !outline.is_at_edge(nearest, AT_EDGE * dp));
+        let to_outline = nearest - point;
+        let upright = to_outline.normalize_or_zero().y.abs();
+        let on_flank = (STEEP.sin()..STEEP.cos()).contains(&upright);
+        let slides = !on_flank && !outline.is_at_edge(nearest, AT_EDGE * dp);
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
@@ -273,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn water_slides_but_at_edges_that_stick_out() {
+    fn water_slides_along_bed_and_walls_but_not_at_edges() {
         // A quay: an edge at (1, 0.5), hollow corners at its foot and at the walls.
         let quay = [[0.0, 1.0], [0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]];
         let outline = Outline::new(quay.map(DVec2::from_array).to_vec());
@@ -281,7 +289,14 @@ mod tests {
         for particle in outline_particles(&outline, &across, 0.02, 3) {
             let foot = particle.position + particle.to_surface;
             let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
-            assert_eq!(particle.slides, from_edge >= AT_EDGE * 0.02, "{foot}");
+            // Behind a hollow corner the way to the surface is along neither.
+            let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
+            assert_eq!(particle.slides, from_edge >= AT_EDGE * 0.02 && !behind_corner, "{foot}");
+        }
+        let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
+        for particle in outline_particles(&flank, &across, 0.02, 3) {
+            // 1:2 holds, 1:8 lets slide.
+            assert_eq!(particle.slides, particle.position.x + particle.to_surface.x > 1.1, "{}", particle.position);
         }
     }
 

@@ -17,8 +17,9 @@ pub struct Boundary {
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// Whether water may slide along it. Particles at an edge that sticks out, and those of units and obstacles, stand
-    /// for surfaces of different directions, and water that slid along all of them would flow together in the solid.
+    /// Whether water may slide along it: along beds flatter than 1:4 and along walls. Particles at an edge that sticks
+    /// out, and those of units and obstacles, stand for surfaces of different directions, and water that slid along all
+    /// of them would flow together in the solid.
     pub slides: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
