@@ -284,7 +284,7 @@ fn picture(run_ups: &[RunUp]) -> String {
     };
     // The colours of the reports' style sheet.
     let style = format!("><style>{}</style>", include_str!("../../src/output/report/style.css"));
-    chart.svg().replacen('>', &style, 1)
+    chart.svg().replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1).replacen('>', &style, 1)
 }
 
 /// All of them, and their picture: `cargo test --release --test validation -- --ignored --nocapture all_run_ups`.
