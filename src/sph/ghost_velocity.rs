@@ -8,6 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{
+    grid::Grid,
     lanes::Lanes,
     mdbc::{
         DRY, GhostNodes, NodeSums, PIECE,
@@ -16,6 +17,7 @@ use super::{
     parameters::Parameters,
     records::Record,
 };
+use crate::particles::boundary::Boundary;
 
 /// Velocity of the water at a ghost node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,12 +37,13 @@ impl GhostNodes {
     /// [`GhostNodes::densities`].
     pub fn velocities(
         &mut self,
+        grid: &Grid,
         parameters: &Parameters,
-        bin_x: f32,
         records: &[Record],
-        to_surface: &[DVec3],
+        boundary: &Boundary,
         out: &mut Vec<Option<GhostVelocity>>,
     ) {
+        let (bin_x, to_surface) = (grid.size.x as f32, &boundary.to_surface);
         let Self { sums, velocity_weights, velocity_sums, split, lists, bins, .. } = self;
         velocity_weights.resize(sums.len(), [0.0; 4]);
         (&mut *velocity_weights, &*sums, &bins.order)

@@ -293,6 +293,21 @@ mod tests {
     }
 
     #[test]
+    fn weights_of_the_node_give_the_value_that_the_equations_give() {
+        let sums = NodeSums {
+            value: [0.8, 0.05, -0.02, 0.1],
+            first: [0.06, -0.03, 0.12],
+            second: [0.8, 0.7, 0.6, 0.01, 0.02, -0.03],
+            ..NodeSums::default()
+        };
+        let (value, first) = (0.3, [0.2, -0.1, 0.4]);
+        let [f, ..] = sums.value_and_gradient(value, first).unwrap();
+        let [a, b, c, d] = sums.weights().unwrap();
+        // Rounding of two eliminations.
+        assert!((a * value + b * first[0] + c * first[1] + d * first[2] - f).abs() < 1e-12);
+    }
+
+    #[test]
     fn a_wall_presses_on_a_sheet_and_does_not_pull_at_it() {
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let to_surface = DVec3::new(0.0, 0.0, 0.005);

@@ -189,9 +189,7 @@ impl Solver {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
             if self.parameters.slip != WallSlip::Original {
-                let bin_x = self.grid.size.x as f32;
-                let to_surface = &boundary.to_surface;
-                self.ghosts.velocities(&self.parameters, bin_x, &self.records, to_surface, &mut self.ghost_velocity);
+                self.ghosts.velocities(&self.grid, &self.parameters, &self.records, boundary, &mut self.ghost_velocity);
             }
         }
         self.fill_boundary_records(boundary, &boundary.density);

@@ -125,8 +125,10 @@ fn compare(dp: f64) -> (f64, Option<f64>) {
 #[test]
 fn tip_of_the_dam_break_coarse() {
     let (from_exact, from_measured) = compare(0.02);
-    assert!(from_exact < 0.1);
-    assert!(from_measured.is_none_or(|left| left < 0.05));
+    // 2.5 % is reached, a little more than a particle distance of the last 3.9 m.
+    assert!(from_exact < 0.035);
+    // 2.1 % is reached, 3 % is asked.
+    assert!(from_measured.is_none_or(|left| left < 0.03));
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture tip_of_the_dam_break_fine`: the case as it is,
@@ -136,5 +138,6 @@ fn tip_of_the_dam_break_coarse() {
 fn tip_of_the_dam_break_fine() {
     let [(coarse, _), (fine, from_measured)] = [0.01, 0.005].map(compare);
     assert!(fine < coarse);
-    assert!(from_measured.is_none_or(|left| left < 0.05));
+    // 3 % is asked; 1.9 % is reached with dp = 0.01 m.
+    assert!(from_measured.is_none_or(|left| left < 0.03));
 }

@@ -65,7 +65,7 @@ fn compare(dp: f64, height: f64) -> [f64; 2] {
 #[test]
 fn a_piston_takes_up_what_comes_back() {
     let [without, with] = compare(0.025, 0.09);
-    // 10 % is asked for after one return; 6 % is reached, an eighth of a particle distance.
+    // 10 % is asked for after one return; 4.5 % is reached, a sixth of a particle distance.
     assert!(without > 0.5 && with < 0.1);
 }
 
