@@ -41,7 +41,8 @@ impl Tank {
         let basin = Basin { x: [0.0, length], across, dp, bed: &|_| 0.0, surface, velocity, gravity };
         let top = 1.5 * depth;
         let corners = [[0.0, top], [0.0, 0.0], [length, 0.0], [length, top]];
-        let walls = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, LAYERS);
+        let outline = Outline::new(corners.map(DVec2::from_array).to_vec());
+        let walls = outline_particles(&outline, &across, dp, LAYERS, parameters.kernel.support());
         let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
         let high = DVec3::new(length, width, top) + margin;
         Self {

@@ -25,9 +25,6 @@ const EDGE: f64 = 0.35;
 /// after ten of them, where it decays if it does not. Waves travel along flatter beds.
 const STEEP: f64 = 0.245;
 
-/// Distance from an edge in which particles stand for both of its sides [dp]: the usual reach of the kernel.
-const AT_EDGE: f64 = 4.5;
-
 /// Bisections that find the end of a stretch to 1e-7 dp.
 const BISECTIONS: u32 = 20;
 
@@ -197,8 +194,15 @@ impl Across {
     }
 }
 
-/// Boundary particles behind the outline, all across the flume and into the corners behind side walls.
-pub fn outline_particles(outline: &Outline, across: &Across, dp: f64, layers: u32) -> Vec<BoundaryParticle> {
+/// Boundary particles behind the outline, all across the flume and into the corners behind side walls. Those nearer to
+/// an edge than `reach` [m], the radius of the kernel's support, stand for both of its sides: water does not slide there.
+pub fn outline_particles(
+    outline: &Outline,
+    across: &Across,
+    dp: f64,
+    layers: u32,
+    reach: f64,
+) -> Vec<BoundaryParticle> {
     let section = outline.layers(dp, layers);
     let mut particles = Vec::with_capacity(section.len() * across.count as usize);
     for (point, length) in section {
@@ -206,7 +210,7 @@ pub fn outline_particles(outline: &Outline, across: &Across, dp: f64, layers: u3
         let to_outline = nearest - point;
         let upright = to_outline.normalize_or_zero().y.abs();
         let on_flank = (STEEP.sin()..STEEP.cos()).contains(&upright);
-        let slides = !on_flank && !outline.is_at_edge(nearest, AT_EDGE * dp);
+        let slides = !on_flank && !outline.is_at_edge(nearest, reach);
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
@@ -286,15 +290,16 @@ mod tests {
         let quay = [[0.0, 1.0], [0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]];
         let outline = Outline::new(quay.map(DVec2::from_array).to_vec());
         let across = Across { width: 0.02, count: 1, walls: false };
-        for particle in outline_particles(&outline, &across, 0.02, 3) {
+        let reach = 0.083;
+        for particle in outline_particles(&outline, &across, 0.02, 3, reach) {
             let foot = particle.position + particle.to_surface;
             let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
             // Behind a hollow corner the way to the surface has any direction.
             let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
-            assert!(behind_corner || particle.slides == (from_edge >= AT_EDGE * 0.02), "{foot}");
+            assert!(behind_corner || particle.slides == (from_edge >= reach), "{foot}");
         }
         let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
-        for particle in outline_particles(&flank, &across, 0.02, 3) {
+        for particle in outline_particles(&flank, &across, 0.02, 3, reach) {
             // 1:2 holds, 1:8 lets slide; at the seam the layers go over into each other.
             let x = particle.position.x + particle.to_surface.x;
             assert!((x - 1.0).abs() < 0.1 || particle.slides == (x > 1.0), "{x}");
@@ -304,7 +309,7 @@ mod tests {
     #[test]
     fn behind_a_corner_the_corner_is_nearest() {
         let across = Across { width: 0.2, count: 10, walls: true };
-        let particles = outline_particles(&tank_with_mound(), &across, 0.02, 3);
+        let particles = outline_particles(&tank_with_mound(), &across, 0.02, 3, 0.083);
         let behind = particles.iter().filter(|p| p.position.x < 0.0 && p.position.z < 0.0 && p.position.y < 0.0);
         assert!(behind.clone().count() > 0);
         for particle in behind {

@@ -196,7 +196,7 @@ fn fixed_particles(
     seaward_reach: Option<f64>,
 ) -> Vec<BoundaryParticle> {
     let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
-    let mut particles = outline_particles(outline, across, domain.dp, layers);
+    let mut particles = outline_particles(outline, across, domain.dp, layers, 2.0 * case.numerics.h);
     let bed = |x: f64| case.flume.profile.z(x);
     let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
     let mut sides = basin(case, across, &bed, &top, &at_rest);
@@ -280,7 +280,7 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
         let case::Material { young_modulus, poisson_ratio, restitution, .. } = case.materials[index];
         rigid::Material { young_modulus, poisson_ratio, restitution }
     };
-    let (unit_ground, unit_unit) = (units.friction_ground, units.friction_unit);
+    let (unit_ground, unit_unit) = (units.friction_ground.into(), units.friction_unit.into());
     let world = RigidWorld::new(RigidSetup {
         shape: BodyShape::of_unit(&shape, units.mass),
         bodies: start.clone(),
@@ -294,6 +294,7 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
         end_walls: Some(case.domain.x),
         wall_material: material(units.ground_material),
         friction: Friction { unit_unit, unit_ground, unit_wall: unit_ground },
+        model: rigid::ContactModel::HertzMindlin,
         gravity: DVec3::NEG_Z * case.fluid.gravity,
     })?;
     let (fluid_loads, mean_loads) = (vec![rigid::Load::default(); start.len()], MeanLoads::new(start.len()));

@@ -152,7 +152,8 @@ impl BareTank {
         // Round all four walls, from the middle of the lid.
         let (middle, s) = (0.5 * side, side);
         let corners = [[middle, s], [0.0, s], [0.0, 0.0], [s, 0.0], [s, s], [middle, s]];
-        let fixed = outline_particles(&Outline::new(corners.map(DVec2::from_array).to_vec()), &across, dp, 3);
+        let outline = Outline::new(corners.map(DVec2::from_array).to_vec());
+        let fixed = outline_particles(&outline, &across, dp, 3, parameters.kernel.support());
         let margin = DVec3::new(5.0 * dp, 0.0, 5.0 * dp);
         Self {
             solver: Solver::new(parameters, -margin, DVec3::new(side, width, side) + margin),

@@ -1,0 +1,98 @@
+//! The pieces of a step one by one, on one thread, for each instruction set of the processor: `cargo bench`. Whole steps
+//! on all threads are what `breakwater bench` times.
+
+use breakwater::bench::tank::Tank;
+use breakwater::sph::{
+    kernel::Wendland,
+    lanes::{InstructionSet, Lanes, WithLanes},
+    parameters::Parameters,
+    wall_slip::WallSlip,
+};
+use divan::{Bencher, counter::ItemsCount};
+use glam::DVec2;
+
+/// Particle distance [m] and the cube's edge in particles.
+const DP: f64 = 0.01;
+const EDGE: f64 = 24.0;
+
+fn main() {
+    divan::main();
+}
+
+fn instruction_sets() -> Vec<InstructionSet> {
+    InstructionSet::available()
+}
+
+/// A cube of still water, sorted and listed.
+fn tank(instructions: InstructionSet) -> Tank {
+    let side = EDGE * DP;
+    // 2h/dp = 4.16, as case files have it.
+    let mut parameters = Parameters::published(DP, 2.08 * DP, 15.0 * (9.81 * side).sqrt(), 9.81, Some(side));
+    parameters.slip = WallSlip::FreeSlip;
+    let mut tank = Tank::new(instructions, parameters, [side; 3], &|_| side, &|_, _| DVec2::ZERO, &[]);
+    let Tank { solver, water, boundary } = &mut tank;
+    solver.sort(water, boundary);
+    solver.list(water, boundary);
+    solver.boundary_densities(boundary);
+    tank
+}
+
+/// Time a piece on one thread; what it is counted by are the particles.
+fn piece(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank) + Send) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
+    let mut tank = tank(instructions);
+    let particles = tank.water.len() + tank.boundary.len();
+    let bencher = bencher.counter(ItemsCount::new(particles));
+    pool.install(|| bencher.bench_local(|| run(&mut tank)));
+}
+
+#[divan::bench(args = instruction_sets())]
+fn sort(bencher: Bencher, instructions: InstructionSet) {
+    piece(bencher, instructions, |Tank { solver, water, boundary }| solver.sort(water, boundary));
+}
+
+#[divan::bench(args = instruction_sets())]
+fn neighbour_lists(bencher: Bencher, instructions: InstructionSet) {
+    piece(bencher, instructions, |Tank { solver, water, boundary }| solver.list(water, boundary));
+}
+
+#[divan::bench(args = instruction_sets())]
+fn boundary_densities(bencher: Bencher, instructions: InstructionSet) {
+    piece(bencher, instructions, |Tank { solver, boundary, .. }| solver.boundary_densities(boundary));
+}
+
+#[divan::bench(args = instruction_sets())]
+fn pair_sums(bencher: Bencher, instructions: InstructionSet) {
+    piece(bencher, instructions, |Tank { solver, .. }| solver.rates());
+}
+
+/// The kernel and its gradient, summed over distances.
+struct KernelSum<'a> {
+    kernel: &'a Wendland,
+    distances: &'a [f32],
+}
+
+impl WithLanes for KernelSum<'_> {
+    type Output = f32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> f32 {
+        let (mut values, mut gradients) = (L::splat(0.0), L::splat(0.0));
+        for r in self.distances.chunks_exact(L::COUNT) {
+            let closeness = self.kernel.closeness(L::load(r));
+            values += self.kernel.value(closeness);
+            gradients += self.kernel.gradient_factor(closeness);
+        }
+        (values + gradients).to_array().iter().sum()
+    }
+}
+
+#[divan::bench(args = instruction_sets())]
+fn kernel(bencher: Bencher, instructions: InstructionSet) {
+    let kernel = Wendland::new(2.08 * DP);
+    let count = 4096;
+    let distances: Vec<f32> = (0..count).map(|i| i as f32 / count as f32 * kernel.support() as f32).collect();
+    bencher
+        .counter(ItemsCount::new(distances.len()))
+        .bench(|| instructions.dispatch(KernelSum { kernel: &kernel, distances: divan::black_box(&distances) }));
+}
