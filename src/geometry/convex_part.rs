@@ -1,11 +1,13 @@
 //! Convex parts of a body for contact: a core with a rounding radius, body = core plus ball.
 //!
 //! A rounded part has one normal at each point of its surface, so that neither depth nor normal of a contact jumps. The
-//! cores are smooth shapes with an exact support point and an exact nearest point, in closed form.
+//! cores have an exact support point and an exact nearest point, in closed form.
+
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::cuboid::corner;
+use super::polyhedron::Polyhedron;
 
 /// Truncated cone about a line through the body's origin; both ends count as part of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,18 +73,18 @@ fn on_segment(q: DVec2, a: DVec2, b: DVec2) -> DVec2 {
 }
 
 /// Core of a rounded part.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Core {
     /// A point: the part is a ball about it.
     Point(DVec3),
     /// A truncated cone.
     Cone(TruncatedCone),
-    /// A box along the body's axes about its origin, by its half-edges [m].
-    Block(DVec3),
+    /// A polyhedron.
+    Polyhedron(Arc<Polyhedron>),
 }
 
 /// One convex part of a body in body axes, origin at the centre of mass: core plus ball.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ConvexPart {
     core: Core,
     rounding: f64,
@@ -99,15 +101,15 @@ impl ConvexPart {
         Self { core: Core::Cone(core), rounding }
     }
 
-    /// Box of half-edges `half` [m] about the origin, grown by `rounding` [m].
-    pub fn block(half: DVec3, rounding: f64) -> Self {
-        assert!(half.min_element() > 0.0, "a box needs edges");
-        Self { core: Core::Block(half), rounding }
+    /// Polyhedron whose faces stay where they are and whose edges are rounded by `rounding` [m]; `None` if it is too
+    /// thin for that.
+    pub fn polyhedron(sharp: &Polyhedron, rounding: f64) -> Option<Self> {
+        Some(Self { core: Core::Polyhedron(Arc::new(sharp.shrunk(rounding)?)), rounding })
     }
 
-    /// Half-edges of the core [m] if it is a box.
-    pub fn as_block(&self) -> Option<DVec3> {
-        if let Core::Block(half) = self.core { Some(half) } else { None }
+    /// The core if it is a polyhedron.
+    pub fn as_polyhedron(&self) -> Option<&Polyhedron> {
+        if let Core::Polyhedron(core) = &self.core { Some(core) } else { None }
     }
 
     /// Rounding radius R [m].
@@ -120,19 +122,20 @@ impl ConvexPart {
         match &self.core {
             Core::Point(centre) => *centre,
             Core::Cone(cone) => cone.support(direction),
-            Core::Block(half) => half.copysign(direction),
+            Core::Polyhedron(core) => core.support(direction),
         }
     }
 
     /// Points of the core that can be nearest to a plane whose outward normal is `-direction`: one for each end of the
-    /// part, so that a leg lying on a plane rests on both ends, and all corners of a box, so that it rests on four.
-    pub fn ends(&self, direction: DVec3) -> impl Iterator<Item = DVec3> + use<> {
-        let (ends, count) = match &self.core {
-            Core::Point(centre) => ([*centre; 8], 1),
-            Core::Cone(cone) => (std::array::from_fn(|end| cone.disc_support(end % 2, direction)), 2),
-            Core::Block(half) => (std::array::from_fn(|number| corner(*half, number)), 8),
+    /// part, so that a leg lying on a plane rests on both ends, and all corners of a polyhedron, so that a cube rests on
+    /// four.
+    pub fn ends(&self, direction: DVec3) -> impl Iterator<Item = DVec3> {
+        let (ends, count, corners) = match &self.core {
+            Core::Point(centre) => ([*centre; 2], 1, &[][..]),
+            Core::Cone(cone) => ([0, 1].map(|end| cone.disc_support(end, direction)), 2, &[][..]),
+            Core::Polyhedron(core) => ([DVec3::ZERO; 2], 0, core.corners()),
         };
-        ends.into_iter().take(count)
+        ends.into_iter().take(count).chain(corners.iter().copied())
     }
 
     /// Nearest point of the core [m]; the point itself if it lies inside.
@@ -140,7 +143,7 @@ impl ConvexPart {
         match &self.core {
             Core::Point(centre) => *centre,
             Core::Cone(cone) => cone.nearest(point),
-            Core::Block(half) => point.clamp(-*half, *half),
+            Core::Polyhedron(core) => core.nearest(point),
         }
     }
 
@@ -158,7 +161,10 @@ impl ConvexPart {
                 let reach = half.hypot(cone.radius[0].max(cone.radius[1]));
                 (cone.axis * (cone.along[0] + half), reach + self.rounding)
             }
-            Core::Block(half) => (DVec3::ZERO, half.length() + self.rounding),
+            Core::Polyhedron(core) => {
+                let (centre, radius) = core.bounding_sphere();
+                (centre, radius + self.rounding)
+            }
         }
     }
 }

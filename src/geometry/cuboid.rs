@@ -2,17 +2,10 @@
 
 use glam::DVec3;
 
-use super::convex_part::ConvexPart;
-
-/// Largest rounding radius over the shortest edge: beyond half of it nothing is left of the core [-].
-pub const LARGEST_ROUNDING: f64 = 0.45;
-
-/// Edges of a box as pairs of its corners; bit k of a corner's number tells the side along axis k.
-pub const EDGES: [[usize; 2]; 12] =
-    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+use super::polyhedron::{Polyhedron, PolyhedronError};
 
 /// Corner `number` of a box of half-edges `half` [m] about its centre.
-pub fn corner(half: DVec3, number: usize) -> DVec3 {
+fn corner(half: DVec3, number: usize) -> DVec3 {
     let side = |axis: usize| if number >> axis & 1 == 1 { 1.0 } else { -1.0 };
     half * DVec3::new(side(0), side(1), side(2))
 }
@@ -26,7 +19,10 @@ pub fn surface(edges: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
-/// The convex part of a cuboid: a box smaller by the rounding [m] on every side, and a ball.
-pub fn part(edges: DVec3, rounding: f64) -> ConvexPart {
-    ConvexPart::block(0.5 * edges - rounding, rounding)
+/// A cuboid with the given edges [m] about its centre.
+///
+/// # Errors
+/// If an edge is nothing beside the others.
+pub fn block(edges: DVec3) -> Result<Polyhedron, PolyhedronError> {
+    Polyhedron::hull(&surface(edges).0)
 }

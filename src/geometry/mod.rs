@@ -3,8 +3,14 @@
 pub mod armour_unit;
 pub mod axis_box;
 pub mod convex_part;
+pub mod core_loc;
 pub mod cuboid;
+pub mod dolos;
+pub mod grooved_cube;
+pub mod member;
+pub mod polyhedron;
 pub mod profile;
 pub mod solid;
 pub mod stl;
 pub mod tetrapod;
+pub mod union;

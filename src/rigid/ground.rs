@@ -83,14 +83,14 @@ impl GroundSurface {
     }
 
     /// Places where the ends of a part are near to strip k.
-    fn strip_approaches(
-        &self,
+    fn strip_approaches<'a>(
+        &'a self,
         k: usize,
-        part: &ConvexPart,
+        part: &'a ConvexPart,
         rotation: DQuat,
         position: DVec3,
         reach: f64,
-    ) -> impl Iterator<Item = Approach> + use<'_> {
+    ) -> impl Iterator<Item = Approach> + 'a {
         let strip = &self.strips[k];
         part.ends(rotation.inverse() * -strip.normal).enumerate().filter_map(move |(end, point)| {
             let core = rotation * point + position;
@@ -99,7 +99,7 @@ impl GroundSurface {
             let above = distance > 0.0 || core.z < self.profile.z(core.x);
             // Widened by rounding, so that no foot falls between two strips; `keep` drops what then counts twice.
             let inside = (strip.x[0] - SAME_PLACE..strip.x[1] + SAME_PLACE).contains(&foot);
-            let feature = Feature::Ground { place: 2 * k as u32, end: end as u8 };
+            let feature = Feature::Ground { place: 2 * k as u32, end: end as u16 };
             (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
         })
     }
@@ -188,7 +188,7 @@ impl PlaneWall {
             let core = rotation * point + position;
             let distance = (core - self.origin).dot(self.normal);
             if distance < reach {
-                let feature = Feature::Wall { wall: self.index, end: end as u8 };
+                let feature = Feature::Wall { wall: self.index, end: end as u16 };
                 out.push(Approach { feature, core, normal: self.normal, distance });
             }
         }

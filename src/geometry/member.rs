@@ -1,0 +1,92 @@
+//! A member of a Dolos or Core-Loc: a bar with chamfered edges that tapers from its middle to both ends.
+
+use glam::{DVec2, DVec3};
+
+use super::polyhedron::{Polyhedron, PolyhedronError};
+
+/// A bar about its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Member {
+    /// Its middle [m].
+    pub centre: DVec3,
+    /// Unit vector along it.
+    pub axis: DVec3,
+    /// Unit vector across it, normal to a pair of its faces.
+    pub across: DVec3,
+    /// Half of its length [m].
+    pub half_length: f64,
+    /// Width between faces in the middle and at the ends [m].
+    pub width: [f64; 2],
+    /// What the chamfer takes of each side of the square section, in the middle and at the ends [m].
+    pub chamfer: [f64; 2],
+}
+
+impl Member {
+    /// Its two halves; one if it does not taper.
+    ///
+    /// # Errors
+    /// If widths or length are such that nothing is left.
+    pub fn blocks(&self) -> Result<Vec<Polyhedron>, PolyhedronError> {
+        let [middle, end] = [0, 1].map(|k| octagon(self.width[k], self.chamfer[k]));
+        let at = |section: &[DVec2; 8], s: f64| section.map(|p| self.place(p, s)).to_vec();
+        let l = self.half_length;
+        if self.width[0] == self.width[1] && self.chamfer[0] == self.chamfer[1] {
+            return Ok(vec![Polyhedron::between(&at(&end, -l), &at(&end, l))?]);
+        }
+        Ok(vec![
+            Polyhedron::between(&at(&middle, 0.0), &at(&end, l))?,
+            Polyhedron::between(&at(&end, -l), &at(&middle, 0.0))?,
+        ])
+    }
+
+    fn place(&self, section: DVec2, along: f64) -> DVec3 {
+        self.centre + self.across * section.x + self.axis.cross(self.across) * section.y + self.axis * along
+    }
+}
+
+/// Square of the given width with its corners cut.
+fn octagon(width: f64, chamfer: f64) -> [DVec2; 8] {
+    let (w, s) = (0.5 * width, 0.5 * width - chamfer);
+    [[w, -s], [w, s], [s, w], [-s, w], [-w, s], [-w, -s], [-s, -w], [s, -w]].map(DVec2::from_array)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_frusta_have_the_volume_of_the_prismatoid() {
+        let member = Member {
+            centre: DVec3::ONE,
+            axis: DVec3::Z,
+            across: DVec3::Y,
+            half_length: 3.0,
+            width: [2.0, 1.0],
+            chamfer: [0.2, 0.1],
+        };
+        let blocks = member.blocks().unwrap();
+        assert_eq!(blocks.len(), 2);
+        let area = |w: f64, c: f64| w * w - 2.0 * c * c;
+        // Frustum of similar sections: h/3 (A + B + sqrt(A B)).
+        let (a, b) = (area(2.0, 0.2), area(1.0, 0.1));
+        let expected = a + b + (a * b).sqrt();
+        for block in blocks {
+            assert!((block.volume() / expected - 1.0).abs() < 1e-9, "{} {expected}", block.volume());
+            assert_eq!(block.faces().len(), 10);
+        }
+    }
+
+    #[test]
+    fn a_prism_is_one_block() {
+        let member = Member {
+            centre: DVec3::ZERO,
+            axis: DVec3::X,
+            across: DVec3::Z,
+            half_length: 1.0,
+            width: [1.0; 2],
+            chamfer: [0.25; 2],
+        };
+        let [block] = &member.blocks().unwrap()[..] else { panic!("one block") };
+        assert!((block.volume() - 2.0 * (1.0 - 0.125)).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,428 @@
+//! Convex polyhedra: from planes, from points, made smaller for rounding; nearest and furthest points.
+//!
+//! A polyhedron is cut out of a large box, plane by plane. Armour units with plane faces are unions of them
+//! ([`super::union`]), and their contact is that of the polyhedra, each made smaller and rounded
+//! ([`super::convex_part`]).
+
+use glam::DVec3;
+use parry3d_f64::transformation::try_convex_hull;
+use thiserror::Error;
+
+/// Why points do not span a body.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PolyhedronError {
+    /// Points in one plane, on one line or in one place, or not numbers.
+    #[error("{0} points do not span a convex body: they lie in one plane, or are no numbers")]
+    Flat(usize),
+}
+
+/// Corners nearer to each other than this share of the size of a polyhedron are one.
+const SAME: f64 = 1e-9;
+
+/// A half-space: normal . x <= offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpace {
+    /// Outward unit normal.
+    pub normal: DVec3,
+    /// Distance of the plane from the origin along the normal [m].
+    pub offset: f64,
+}
+
+impl HalfSpace {
+    /// Through a point [m], with an outward normal of any length.
+    pub fn through(point: DVec3, normal: DVec3) -> Self {
+        let normal = normal.normalize();
+        Self { normal, offset: normal.dot(point) }
+    }
+
+    /// Signed distance of a point [m], positive outside.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.offset
+    }
+}
+
+/// A plane face.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    /// Its plane.
+    pub plane: HalfSpace,
+    /// Numbers of its corners, counter-clockwise seen from outside.
+    pub ring: Vec<usize>,
+}
+
+/// An edge between two faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Numbers of its corners.
+    pub ends: [usize; 2],
+    /// Outward normals of its faces.
+    pub normals: [DVec3; 2],
+}
+
+/// A bounded convex polyhedron.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyhedron {
+    corners: Vec<DVec3>,
+    faces: Vec<Face>,
+    edges: Vec<Edge>,
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Polyhedron {
+    /// What the half-spaces have in common inside the cube of half-edge `bound` [m] about the origin; `None` if that is
+    /// nothing or flat.
+    pub fn from_planes(planes: &[HalfSpace], bound: f64) -> Option<Self> {
+        let mut faces = cube(bound);
+        for plane in planes {
+            cut(&mut faces, plane, SAME * bound);
+        }
+        Self::of_faces(faces)
+    }
+
+    /// Convex hull of points [m].
+    ///
+    /// # Errors
+    /// If they do not span a body.
+    pub fn hull(points: &[DVec3]) -> Result<Self, PolyhedronError> {
+        let flat = || PolyhedronError::Flat(points.len());
+        if points.len() < 4 || points.iter().any(|p| !p.is_finite()) {
+            return Err(flat());
+        }
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let size = points.iter().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max);
+        if size.is_nan() || size <= 0.0 {
+            return Err(flat());
+        }
+        // About the origin and of size 1, as the tolerances of the hull like it.
+        let scaled: Vec<DVec3> = points.iter().map(|p| (*p - middle) / size).collect();
+        let (corners, triangles) = try_convex_hull(&scaled).map_err(|_| flat())?;
+        let mut planes: Vec<HalfSpace> = Vec::new();
+        for [a, b, c] in triangles.iter().map(|t| t.map(|v| corners[v as usize])) {
+            let normal = (b - a).cross(c - a);
+            if normal.length() > SAME {
+                let normal = normal.normalize();
+                // All points lie behind a face, whatever the rounding of its own corners.
+                let offset = scaled.iter().map(|p| normal.dot(*p)).fold(f64::MIN, f64::max);
+                let plane = HalfSpace { normal, offset };
+                if !planes.iter().any(|p| same_plane(p, &plane)) {
+                    planes.push(plane);
+                }
+            }
+        }
+        let body = Self::from_planes(&planes, 2.0).ok_or_else(flat)?;
+        let corners = body.corners.iter().map(|c| *c * size + middle).collect();
+        let planes = body.faces.into_iter().map(|face| Face {
+            plane: HalfSpace {
+                normal: face.plane.normal,
+                offset: face.plane.offset * size + face.plane.normal.dot(middle),
+            },
+            ring: face.ring,
+        });
+        Ok(Self::of(corners, planes.collect()))
+    }
+
+    /// Between two polygons in space with as many corners, each counter-clockwise seen from the side of the second.
+    ///
+    /// # Errors
+    /// If they do not span a body.
+    pub fn between(lower: &[DVec3], upper: &[DVec3]) -> Result<Self, PolyhedronError> {
+        let points: Vec<DVec3> = lower.iter().chain(upper).copied().collect();
+        Self::hull(&points)
+    }
+
+    /// Weld the corners of faces.
+    fn of_faces(faces: Vec<(HalfSpace, Vec<DVec3>)>) -> Option<Self> {
+        let extent = faces.iter().flat_map(|(_, ring)| ring).map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let mut corners: Vec<DVec3> = Vec::new();
+        let mut welded = Vec::new();
+        for (plane, ring) in faces {
+            let mut indices: Vec<usize> = Vec::new();
+            for point in ring {
+                let near = |c: &DVec3| c.distance(point) < 10.0 * SAME * extent;
+                let index = corners.iter().position(near).unwrap_or_else(|| {
+                    corners.push(point);
+                    corners.len() - 1
+                });
+                if indices.last() != Some(&index) && indices.first() != Some(&index) {
+                    indices.push(index);
+                }
+            }
+            if indices.len() >= 3 {
+                welded.push(Face { plane, ring: indices });
+            }
+        }
+        (welded.len() >= 4).then(|| Self::of(corners, welded))
+    }
+
+    fn of(corners: Vec<DVec3>, faces: Vec<Face>) -> Self {
+        let mut edges: Vec<Edge> = Vec::new();
+        for (number, face) in faces.iter().enumerate() {
+            for (a, b) in around(&face.ring) {
+                let runs_back = |f: &&Face| around(&f.ring).any(|pair| pair == (b, a));
+                if let Some(other) = faces[number + 1..].iter().find(runs_back) {
+                    edges.push(Edge { ends: [a, b], normals: [face.plane.normal, other.plane.normal] });
+                }
+            }
+        }
+        let [low, high] = corners.iter().fold([DVec3::MAX, DVec3::MIN], |[l, h], c| [l.min(*c), h.max(*c)]);
+        let centre = 0.5 * (low + high);
+        let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
+        Self { corners, faces, edges, centre, radius }
+    }
+
+    /// Corners [m].
+    pub fn corners(&self) -> &[DVec3] {
+        &self.corners
+    }
+
+    /// Faces.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
+    /// Edges.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// Centre and radius of a sphere about it [m].
+    pub fn bounding_sphere(&self) -> (DVec3, f64) {
+        (self.centre, self.radius)
+    }
+
+    /// The corner furthest in `direction` [m].
+    pub fn support(&self, direction: DVec3) -> DVec3 {
+        let further = |best: DVec3, c: &DVec3| if c.dot(direction) > best.dot(direction) { *c } else { best };
+        self.corners.iter().fold(self.corners[0], further)
+    }
+
+    /// At least the distance of a point [m]; exact over a face, negative inside.
+    pub fn least_distance(&self, point: DVec3) -> f64 {
+        self.faces.iter().map(|face| face.plane.distance(point)).fold(f64::MIN, f64::max)
+    }
+
+    /// Nearest point of the solid body [m].
+    pub fn nearest(&self, point: DVec3) -> DVec3 {
+        let mut best = (f64::MAX, point);
+        for face in self.faces.iter().filter(|face| face.plane.distance(point) > 0.0) {
+            let on_face = self.nearest_on(face, point);
+            let distance = on_face.distance_squared(point);
+            if distance < best.0 {
+                best = (distance, on_face);
+            }
+        }
+        best.1
+    }
+
+    /// Nearest point of a face to a point in front of it.
+    fn nearest_on(&self, face: &Face, point: DVec3) -> DVec3 {
+        let foot = point - face.plane.normal * face.plane.distance(point);
+        let mut best = (f64::MAX, foot);
+        let mut inside = true;
+        for (a, b) in around(&face.ring) {
+            let (a, b) = (self.corners[a], self.corners[b]);
+            let along = b - a;
+            if face.plane.normal.cross(along).dot(foot - a) >= 0.0 {
+                continue;
+            }
+            inside = false;
+            let on_edge = a + along * ((foot - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            let distance = on_edge.distance_squared(foot);
+            if distance < best.0 {
+                best = (distance, on_edge);
+            }
+        }
+        if inside { foot } else { best.1 }
+    }
+
+    /// Volume [m3].
+    pub fn volume(&self) -> f64 {
+        let fan = |face: &Face| {
+            let a = self.corners[face.ring[0]] - self.centre;
+            let triangle = |pair: &[usize]| {
+                a.dot((self.corners[pair[0]] - self.centre).cross(self.corners[pair[1]] - self.centre)) / 6.0
+            };
+            face.ring[1..].windows(2).map(triangle).sum::<f64>()
+        };
+        self.faces.iter().map(fan).sum()
+    }
+
+    /// Every face moved inwards by `distance` [m]; `None` if nothing is left.
+    pub fn shrunk(&self, distance: f64) -> Option<Self> {
+        let inwards = |face: &Face| {
+            let offset = face.plane.offset - face.plane.normal.dot(self.centre) - distance;
+            HalfSpace { normal: face.plane.normal, offset }
+        };
+        let planes: Vec<HalfSpace> = self.faces.iter().map(inwards).collect();
+        Some(Self::from_planes(&planes, 2.0 * self.radius)?.translated(self.centre))
+    }
+
+    /// Moved by `shift` [m].
+    pub fn translated(&self, shift: DVec3) -> Self {
+        let corners = self.corners.iter().map(|c| *c + shift).collect();
+        let moved = |face: &Face| {
+            let offset = face.plane.offset + face.plane.normal.dot(shift);
+            Face { plane: HalfSpace { offset, ..face.plane }, ring: face.ring.clone() }
+        };
+        Self::of(corners, self.faces.iter().map(moved).collect())
+    }
+}
+
+/// Consecutive pairs round a ring.
+fn around(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
+    ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
+}
+
+/// Whether two planes differ by rounding only, for bodies of size 1.
+fn same_plane(a: &HalfSpace, b: &HalfSpace) -> bool {
+    // 1e-6: single-precision coordinates of an STL file.
+    a.normal.distance_squared(b.normal) < 1e-12 && (a.offset - b.offset).abs() < 1e-6
+}
+
+/// Faces of the cube of half-edge `half` about the origin.
+fn cube(half: f64) -> Vec<(HalfSpace, Vec<DVec3>)> {
+    let mut faces = Vec::new();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let (mut normal, mut u, mut v) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+            normal[axis] = side;
+            u[(axis + 1) % 3] = half;
+            v[(axis + 2) % 3] = half * side;
+            let middle = normal * half;
+            faces.push((
+                HalfSpace { normal, offset: half },
+                vec![middle - u - v, middle + u - v, middle + u + v, middle - u + v],
+            ));
+        }
+    }
+    faces
+}
+
+/// Keep what lies behind a plane, and close the cut with a face.
+fn cut(faces: &mut Vec<(HalfSpace, Vec<DVec3>)>, plane: &HalfSpace, tolerance: f64) {
+    let mut rim: Vec<DVec3> = Vec::new();
+    for (_, ring) in faces.iter_mut() {
+        let [behind, _] = split(ring, plane, tolerance);
+        rim.extend(behind.iter().filter(|p| plane.distance(**p).abs() <= tolerance));
+        *ring = behind;
+    }
+    faces.retain(|(_, ring)| ring.len() >= 3);
+    // A face that already lies in the plane closes the body.
+    let closed = |(_, ring): &(HalfSpace, Vec<DVec3>)| ring.iter().all(|p| plane.distance(*p).abs() <= tolerance);
+    if faces.iter().any(closed) {
+        return;
+    }
+    let middle = rim.iter().sum::<DVec3>() / rim.len().max(1) as f64;
+    let u = plane.normal.any_orthonormal_vector();
+    let v = plane.normal.cross(u);
+    let angle = |p: &DVec3| (*p - middle).dot(v).atan2((*p - middle).dot(u));
+    rim.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    rim.dedup_by(|a, b| a.distance(*b) <= 2.0 * tolerance);
+    if rim.len() >= 3 {
+        faces.push((*plane, rim));
+    }
+}
+
+/// The parts of a convex polygon behind and before a plane; points within the tolerance [m] belong to both.
+pub(super) fn split(ring: &[DVec3], plane: &HalfSpace, tolerance: f64) -> [Vec<DVec3>; 2] {
+    let (mut behind, mut before) = (Vec::new(), Vec::new());
+    for (index, &a) in ring.iter().enumerate() {
+        let b = ring[(index + 1) % ring.len()];
+        let (d_a, d_b) = (plane.distance(a), plane.distance(b));
+        if d_a <= tolerance {
+            behind.push(a);
+        }
+        if d_a >= -tolerance {
+            before.push(a);
+        }
+        if (d_a > tolerance && d_b < -tolerance) || (d_a < -tolerance && d_b > tolerance) {
+            let crossing = a.lerp(b, d_a / (d_a - d_b));
+            behind.push(crossing);
+            before.push(crossing);
+        }
+    }
+    let solid = |part: Vec<DVec3>, side: f64| {
+        let counts = part.iter().any(|p| plane.distance(*p) * side > tolerance);
+        if counts || side < 0.0 && part.len() == ring.len() { part } else { Vec::new() }
+    };
+    [solid(behind, -1.0), solid(before, 1.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit_cube() -> Polyhedron {
+        let corner = |n: usize| DVec3::new((n & 1) as f64, (n >> 1 & 1) as f64, (n >> 2 & 1) as f64);
+        Polyhedron::hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn the_hull_of_eight_corners_is_a_cube() {
+        let cube = unit_cube();
+        assert_eq!((cube.corners().len(), cube.faces().len(), cube.edges().len()), (8, 6, 12));
+        // Rounding only, here and below.
+        assert!((cube.volume() - 1.0).abs() < 1e-12);
+        assert_eq!(cube.support(DVec3::new(1.0, -1.0, 2.0)).round(), DVec3::new(1.0, 0.0, 1.0));
+    }
+
+    #[test]
+    fn points_inside_and_twice_do_not_matter() {
+        let mut points = unit_cube().corners().to_vec();
+        points.extend([DVec3::splat(0.3), DVec3::new(0.5, 0.5, 1.0), points[3], points[3] + 1e-12]);
+        let hull = Polyhedron::hull(&points).unwrap();
+        assert_eq!((hull.corners().len(), hull.faces().len(), hull.edges().len()), (8, 6, 12));
+    }
+
+    #[test]
+    fn what_is_flat_is_refused() {
+        assert!(Polyhedron::hull(&[DVec3::ZERO; 9]).is_err());
+        assert!(Polyhedron::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y]).is_err());
+        assert!(Polyhedron::hull(&[DVec3::NAN; 4]).is_err());
+    }
+
+    #[test]
+    fn a_frustum_has_its_volume_and_shrinks_to_one_with_parallel_faces() {
+        let square = |half: f64, z: f64| {
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(half * x, half * y, z))
+        };
+        let frustum = Polyhedron::between(&square(2.0, 1.0), &square(1.0, 4.0)).unwrap();
+        // h/3 (A + B + sqrt(A B))
+        assert!((frustum.volume() - (16.0 + 4.0 + 8.0)).abs() < 1e-9, "{}", frustum.volume());
+        let smaller = frustum.shrunk(0.1).unwrap();
+        assert_eq!(smaller.corners().len(), 8);
+        for corner in smaller.corners() {
+            // Each lies at the distance of three faces.
+            let at = frustum.faces().iter().filter(|f| (f.plane.distance(*corner) + 0.1).abs() < 1e-9).count();
+            assert_eq!(at, 3);
+        }
+        assert!(frustum.shrunk(1.6).is_none());
+    }
+
+    #[test]
+    fn the_nearest_point_satisfies_the_support_condition() {
+        let body = unit_cube().shrunk(0.1).unwrap();
+        for i in 0..300 {
+            let (a, b) = (0.7 * f64::from(i), 0.37 * f64::from(i));
+            let q = DVec3::splat(0.5) + DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * 1.3;
+            let p = body.nearest(q);
+            let n = (q - p).normalize();
+            assert!(body.support(n).dot(n) - p.dot(n) < 1e-12);
+            assert!(body.least_distance(q) <= p.distance(q) + 1e-12);
+        }
+        assert_eq!(body.nearest(DVec3::splat(0.5)), DVec3::splat(0.5));
+    }
+
+    #[test]
+    fn every_edge_has_two_faces() {
+        for body in [unit_cube(), unit_cube().shrunk(0.2).unwrap().translated(DVec3::X)] {
+            for edge in body.edges() {
+                let [a, b] = edge.ends.map(|end| body.corners()[end]);
+                for normal in edge.normals {
+                    assert!(normal.dot(b - a).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}

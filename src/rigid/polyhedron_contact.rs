@@ -1,0 +1,184 @@
+//! Where two rounded polyhedra are near each other.
+//!
+//! Two polyhedra that lie flush touch in an area, of which one pair of nearest points is an arbitrary one. What bears is
+//! the polygon that their faces share: its corners are corners of one over a face of the other, and places where
+//! two edges cross. Each of these is a place of contact here. The corners' distances are exact and change smoothly;
+//! where a crossing comes to the end of an edge, the edge is taken to be bent back with the rounding's radius, so that
+//! the crossing fades as the corner takes over.
+
+use glam::DVec3;
+
+use super::gap::Placement;
+use crate::geometry::polyhedron::Polyhedron;
+
+/// Corners and edges of a polyhedron at most: their numbers share those from 0 to [`WHOLE`].
+pub const MOST_FEATURES: usize = WHOLE as usize - 1;
+/// Corners are numbered from 0, edges after them; this is the whole polyhedron.
+pub const WHOLE: u16 = 1023;
+
+/// Square of the sine below which two edges are parallel: 0.6 degrees, at which the corners still bear [-].
+const PARALLEL: f64 = 1e-4;
+/// A crossing counts if the other edge lies outside both faces of an edge, but for this sine [-].
+const BEHIND: f64 = 0.2;
+
+/// A place where two bodies are near each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Near {
+    /// Corner, edge or whole of the first and of the second body.
+    pub features: [u16; 2],
+    /// Nearest points of the cores, world axes [m].
+    pub points: [DVec3; 2],
+    /// How far the surfaces are bent back here [m].
+    pub bent: f64,
+}
+
+/// Places where two polyhedra rounded by `rounding` [m] are nearer than `reach` [m], cores measured; a place without
+/// distance means that the cores overlap.
+pub fn near_places(
+    (a, (q_a, x_a)): (&Polyhedron, Placement),
+    (b, (q_b, x_b)): (&Polyhedron, Placement),
+    rounding: f64,
+    reach: f64,
+) -> Vec<Near> {
+    // Each in the axes of the other.
+    let (back_a, back_b) = (q_a.inverse(), q_b.inverse());
+    let a_at_b: Vec<DVec3> = a.corners().iter().map(|c| back_b * (q_a * *c + x_a - x_b)).collect();
+    let b_at_a: Vec<DVec3> = b.corners().iter().map(|c| back_a * (q_b * *c + x_b - x_a)).collect();
+    if apart(a, &b_at_a, reach) || apart(b, &a_at_b, reach) {
+        return Vec::new();
+    }
+    let (from_a, from_b) = (|p: DVec3| q_a * p + x_a, |p: DVec3| q_b * p + x_b);
+    let mut places = Vec::new();
+    let mut keep = |near: Near| {
+        if near.points[0].distance_squared(near.points[1]) < reach * reach {
+            places.push(near);
+        }
+    };
+    for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
+        let points = [from_b(*corner), from_b(b.nearest(*corner))];
+        keep(Near { features: [number as u16, WHOLE], points, bent: 0.0 });
+    }
+    for (number, corner) in b_at_a.iter().enumerate().filter(|(_, corner)| a.least_distance(**corner) < reach) {
+        let points = [from_a(a.nearest(*corner)), from_a(*corner)];
+        keep(Near { features: [WHOLE, number as u16], points, bent: 0.0 });
+    }
+    let relative = back_a * q_b;
+    let edges_of_b: Vec<EdgeAt> = b
+        .edges()
+        .iter()
+        .map(|edge| EdgeAt { ends: edge.ends.map(|c| b_at_a[c]), normals: edge.normals.map(|n| relative * n) })
+        .collect();
+    for (i, edge) in a.edges().iter().enumerate() {
+        let edge = EdgeAt { ends: edge.ends.map(|c| a.corners()[c]), normals: edge.normals };
+        for (j, other) in edges_of_b.iter().enumerate() {
+            if let Some((points, bent)) = crossing(&edge, other, rounding, reach) {
+                let features = [(a.corners().len() + i) as u16, (b.corners().len() + j) as u16];
+                keep(Near { features, points: points.map(from_a), bent });
+            }
+        }
+    }
+    places
+}
+
+/// Whether a face of the first body tells that the corners of the second are further away than `reach` [m].
+fn apart(body: &Polyhedron, corners: &[DVec3], reach: f64) -> bool {
+    body.faces().iter().any(|face| corners.iter().all(|corner| face.plane.distance(*corner) > reach))
+}
+
+/// An edge with its ends [m] and the outward normals of its faces, in the axes of the first body.
+struct EdgeAt {
+    ends: [DVec3; 2],
+    normals: [DVec3; 2],
+}
+
+impl EdgeAt {
+    /// Whether `direction` points out of the body at the edge.
+    fn points_out(&self, direction: DVec3) -> bool {
+        self.normals.iter().all(|face| face.dot(direction) > -BEHIND)
+    }
+}
+
+/// Nearest points of two edges that cross nearer than `reach` [m], and how far they are bent back there [m], if each lies
+/// on the outer side of the other.
+fn crossing(a: &EdgeAt, b: &EdgeAt, rounding: f64, reach: f64) -> Option<([DVec3; 2], f64)> {
+    let ([a_0, a_1], [b_0, b_1]) = (a.ends, b.ends);
+    let (length_a, length_b) = (a_0.distance(a_1), b_0.distance(b_1));
+    let (u, v) = ((a_1 - a_0) / length_a, (b_1 - b_0) / length_b);
+    let (between, cosine) = (a_0 - b_0, u.dot(v));
+    let sine_squared = 1.0 - cosine * cosine;
+    // The distance of the lines, times the sine.
+    if sine_squared < PARALLEL || between.dot(u.cross(v)).powi(2) > reach * reach * sine_squared {
+        return None;
+    }
+    let s = (cosine * v.dot(between) - u.dot(between)) / sine_squared;
+    let t = (v.dot(between) - cosine * u.dot(between)) / sine_squared;
+    let from_ends = [s, length_a - s, t, length_b - t];
+    if from_ends.iter().any(|distance| *distance <= 0.0) {
+        return None;
+    }
+    let (on_a, on_b) = (a_0 + s * u, b_0 + t * v);
+    let out = (on_b - on_a).normalize_or_zero();
+    if !(a.points_out(out) && b.points_out(-out)) {
+        return None;
+    }
+    let bent = |distance: &f64| (rounding - distance).max(0.0).powi(2) / (2.0 * rounding);
+    Some(([on_a, on_b], from_ends.iter().map(bent).sum()))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+
+    const ROUNDING: f64 = 0.05;
+    /// Edges come after the eight corners.
+    const FIRST_EDGE: u16 = 8;
+
+    fn cube() -> Polyhedron {
+        let side = |number: usize, axis: usize| if number >> axis & 1 == 1 { 0.45 } else { -0.45 };
+        let corner = |number: usize| DVec3::new(side(number, 0), side(number, 1), side(number, 2));
+        Polyhedron::hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn above(x: f64, z: f64, turn: f64) -> Vec<Near> {
+        let upper = (DQuat::from_rotation_z(turn), DVec3::new(x, 0.0, z));
+        near_places((&cube(), (DQuat::IDENTITY, DVec3::ZERO)), (&cube(), upper), ROUNDING, 0.2)
+    }
+
+    #[test]
+    fn boxes_that_lie_flush_touch_at_the_corners_of_the_common_face() {
+        let places = above(0.3, 1.0, 0.0);
+        // Two corners of each are over the other's face; the others are 0.3 away. Edges that only meet are bent back.
+        let bear = places.iter().filter(|near| near.bent == 0.0);
+        assert_eq!(bear.clone().count(), 4);
+        for near in bear {
+            assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn turned_boxes_touch_where_their_edges_cross() {
+        let places = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
+        // The square over the square turned by an eighth: an octagon, no corner of one over the other.
+        let crossings = places.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
+        assert_eq!((crossings.count(), places.len()), (8, 8));
+        for near in places {
+            assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12 && near.bent == 0.0);
+        }
+    }
+
+    #[test]
+    fn a_crossing_fades_before_it_leaves_an_edge() {
+        let edge_up = DQuat::from_rotation_x(0.25 * std::f64::consts::PI);
+        for shift in [0.0, 0.3, 0.41, 0.4499] {
+            let lower = (edge_up, DVec3::ZERO);
+            let across = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
+            let upper = (across * edge_up, DVec3::new(shift, 0.0, 0.9 * 2f64.sqrt() + 0.1));
+            let places = near_places((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
+            let near = places.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
+            let past = (shift - 0.4f64).max(0.0);
+            assert!((near.bent - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.bent);
+        }
+    }
+}
