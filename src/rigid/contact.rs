@@ -4,26 +4,31 @@
 //! places are sorted by a key, so that sums over them have one order whatever the search did.
 
 use glam::{DQuat, DVec3};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::box_contact::{self, Near};
+use super::broad_phase::{self, BodyPair};
 use super::error::RigidError;
 use super::gap::{self, Nearest};
 use super::ground::{Approach, GroundSurface, PlaneWall};
+use super::polyhedron_contact::{self, Near, WHOLE};
 use super::setup::{RigidSetup, Sides};
 use crate::geometry::convex_part::ConvexPart;
+
+/// Bodies or pairs of one task of the thread pool: some ten microseconds of work.
+const PIECE: usize = 16;
 
 /// What a part of a body touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Feature {
-    /// A part of another body (or of the same one), shifted by `image` widths across the flume. For boxes `part` is
-    /// a corner, an edge or the whole, as `box_contact` numbers them.
+    /// A part of another body (or of the same one), shifted by `image` widths across the flume. `part` is its number
+    /// times 1024, and that of its corner or edge, or 1023 for the whole.
     Unit { body: u32, image: i32, part: u16 },
     /// The ground: strip k is place 2 k, the convex corner after it 2 k + 1.
-    Ground { place: u32, end: u8 },
+    Ground { place: u32, end: u16 },
     /// A wall: 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward.
-    Wall { wall: u8, end: u8 },
+    Wall { wall: u8, end: u16 },
 }
 
 /// Name of a contact: body, part and what they touch.
@@ -31,7 +36,7 @@ pub enum Feature {
 pub struct ContactKey {
     /// Number of the body from 0.
     pub body: u32,
-    /// Number of its part from 0.
+    /// Number of its part from 0; against another unit, as [`Feature::Unit`] counts.
     pub part: u16,
     /// What it touches.
     pub feature: Feature,
@@ -59,14 +64,6 @@ pub struct Placements<'a> {
     pub rotation: &'a [DQuat],
     /// Centres of mass [m].
     pub position: &'a [DVec3],
-}
-
-/// Two bodies near each other; `image` is the number of widths by which the second is shifted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyPair {
-    first: usize,
-    second: usize,
-    image: i32,
 }
 
 /// The surfaces that can touch.
@@ -104,32 +101,9 @@ impl Surfaces {
         self.reach
     }
 
-    /// Pairs of bodies whose spheres are nearer than `margin` [m].
+    /// Pairs of bodies whose spheres are nearer than `margin` [m], in the order of their numbers.
     pub fn pairs(&self, position: &[DVec3], margin: f64) -> Vec<BodyPair> {
-        let near = 2.0 * self.reach + margin;
-        let mut pairs = Vec::new();
-        for (first, a) in position.iter().enumerate() {
-            for (second, b) in position.iter().enumerate().skip(first) {
-                let mut add = |image: i32, shift: f64| {
-                    if (*b + DVec3::Y * shift - *a).length_squared() < near * near {
-                        pairs.push(BodyPair { first, second, image });
-                    }
-                };
-                match self.period {
-                    None if first == second => {}
-                    None => add(0, 0.0),
-                    // A body meets its own image once, on the left; the other side is the same contact.
-                    Some(width) if first == second => add(1, width),
-                    Some(width) => {
-                        let nearest = ((a.y - b.y) / width).round() as i32;
-                        for image in [nearest - 1, nearest, nearest + 1] {
-                            add(image, f64::from(image) * width);
-                        }
-                    }
-                }
-            }
-        }
-        pairs
+        broad_phase::pairs(position, 2.0 * self.reach + margin, self.period)
     }
 
     /// All places nearer than `margin` [m], sorted by key.
@@ -140,28 +114,40 @@ impl Surfaces {
         margin: f64,
         time: f64,
     ) -> Result<Vec<Touch>, RigidError> {
-        let mut touches = Vec::new();
-        let mut approaches = Vec::new();
-        for body in 0..placements.position.len() {
-            for (index, part) in self.parts.iter().enumerate() {
-                approaches.clear();
-                let (q, x, near) = (placements.rotation[body], placements.position[body], part.rounding() + margin);
-                if let Some(ground) = &self.ground {
-                    ground.approaches(part, q, x, near, &mut approaches);
-                }
-                for wall in &self.walls {
-                    wall.approaches(part, q, x, near, &mut approaches);
-                }
-                for approach in &approaches {
-                    touches.push(fixed_touch(body, index, part, approach, time)?);
-                }
-            }
-        }
-        for pair in pairs {
-            self.unit_touches(pair, placements, margin, time, &mut touches)?;
-        }
+        let bodies: Vec<usize> = (0..placements.position.len()).collect();
+        let fixed = in_pieces(&bodies, |body, out| self.fixed_touches(*body, placements, margin, time, out));
+        let mutual = in_pieces(pairs, |pair, out| self.unit_touches(pair, placements, margin, time, out));
+        let mut touches = fixed?;
+        touches.extend(mutual?);
         touches.sort_unstable_by_key(|t| t.key);
         Ok(touches)
+    }
+
+    /// Places where a body is near the ground or a wall.
+    fn fixed_touches(
+        &self,
+        body: usize,
+        placements: Placements<'_>,
+        margin: f64,
+        time: f64,
+        touches: &mut Vec<Touch>,
+    ) -> Result<(), RigidError> {
+        let (q, x) = (placements.rotation[body], placements.position[body]);
+        let mut approaches = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            approaches.clear();
+            let near = part.rounding() + margin;
+            if let Some(ground) = &self.ground {
+                ground.approaches(part, q, x, near, &mut approaches);
+            }
+            for wall in &self.walls {
+                wall.approaches(part, q, x, near, &mut approaches);
+            }
+            for approach in &approaches {
+                touches.push(fixed_touch(body, index, part, approach, time)?);
+            }
+        }
+        Ok(())
     }
 
     fn unit_touches(
@@ -190,9 +176,10 @@ impl Surfaces {
                 }
                 let roundings = [part_a.rounding(), part_b.rounding()];
                 let reach = roundings[0] + roundings[1] + margin;
-                if let (Some(half), Some(_)) = (part_a.as_block(), part_b.as_block()) {
-                    for near in box_contact::near_places(half, part_a.rounding(), (q_a, x_a), (q_b, x_b), reach) {
-                        touches.push(unit_touch(pair, near, roundings, shift, time)?);
+                if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
+                    let (a, b) = ((core_a, (q_a, x_a)), (core_b, (q_b, x_b)));
+                    for near in polyhedron_contact::near_places(a, b, 0.5 * (roundings[0] + roundings[1]), reach) {
+                        touches.push(unit_touch(pair, [i, j], near, roundings, shift, time)?);
                     }
                     continue;
                 }
@@ -202,17 +189,45 @@ impl Surfaces {
                     Nearest::Overlap => [x_a; 2],
                     Nearest::Points(p_a, p_b) => [p_a, p_b],
                 };
-                let near = Near { features: [i as u16, j as u16], points, bent: 0.0 };
-                touches.push(unit_touch(pair, near, roundings, shift, time)?);
+                let near = Near { features: [WHOLE; 2], points, bent: 0.0 };
+                touches.push(unit_touch(pair, [i, j], near, roundings, shift, time)?);
             }
         }
         Ok(())
     }
 }
 
-/// Touch of two units with their rounding radii [m].
-fn unit_touch(pair: &BodyPair, near: Near, roundings: [f64; 2], shift: DVec3, time: f64) -> Result<Touch, RigidError> {
-    let Near { features: [part, partner], points: [p_a, p_b], bent } = near;
+/// What `find` adds for each item, in the order of the items; pieces of the list are tasks of the thread pool.
+fn in_pieces<T: Sync>(
+    items: &[T],
+    find: impl Fn(&T, &mut Vec<Touch>) -> Result<(), RigidError> + Sync,
+) -> Result<Vec<Touch>, RigidError> {
+    let piece = |items: &[T]| {
+        let mut touches = Vec::new();
+        items.iter().try_for_each(|item| find(item, &mut touches)).map(|()| touches)
+    };
+    if items.len() <= PIECE {
+        return piece(items);
+    }
+    let pieces: Vec<_> = items.par_chunks(PIECE).map(piece).collect();
+    let mut all = Vec::new();
+    for piece in pieces {
+        all.extend(piece?);
+    }
+    Ok(all)
+}
+
+/// Touch of parts of two units with their rounding radii [m].
+fn unit_touch(
+    pair: &BodyPair,
+    parts: [usize; 2],
+    near: Near,
+    roundings: [f64; 2],
+    shift: DVec3,
+    time: f64,
+) -> Result<Touch, RigidError> {
+    let Near { features, points: [p_a, p_b], bent } = near;
+    let [part, partner] = [0, 1].map(|k| parts[k] as u16 * (WHOLE + 1) + features[k]);
     let distance = (p_a - p_b).length();
     let sum = roundings[0] + roundings[1];
     let overlap = sum - distance;

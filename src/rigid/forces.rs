@@ -4,8 +4,9 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactKey, Feature, Touch};
+use super::contact_law::ContactLaw;
 use super::event::{self, ContactEvent, EventLog};
-use super::hertz_mindlin::{ContactLaw, impact_overlap};
+use super::hertz_mindlin::Material;
 use super::motion::Load;
 use super::setup::RigidSetup;
 
@@ -36,10 +37,19 @@ pub struct Contact {
     pub normal: DVec3,
     /// Tangential spring d_t [m].
     pub spring: DVec3,
-    /// Energy stored in overlap and spring [J].
-    pub elastic: [f64; 2],
+    /// Rolling spring [rad].
+    pub roll: DVec3,
+    /// Energy stored in overlap, tangential and rolling spring [J].
+    pub elastic: [f64; 3],
     /// The record so far.
     pub event: ContactEvent,
+}
+
+impl Contact {
+    /// A contact that has just begun.
+    fn begun(touch: &Touch, event: ContactEvent) -> Self {
+        Self { key: touch.key, normal: touch.normal, spring: DVec3::ZERO, roll: DVec3::ZERO, elastic: [0.0; 3], event }
+    }
 }
 
 /// Velocities of all bodies at one instant.
@@ -93,13 +103,15 @@ pub struct Step {
 impl Laws {
     /// Laws of a world; radius R for a plane, R/2 for two equal roundings.
     pub fn new(setup: &RigidSetup) -> Self {
-        let (mass, friction) = (setup.shape.mass, setup.friction);
+        let RigidSetup { friction, model, material, wall_material, .. } = setup;
+        let mass = setup.shape.mass;
         let radius = setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min);
-        let ground = setup.ground.as_ref().map_or(setup.material, |g| g.material);
+        let ground = setup.ground.as_ref().map_or(*material, |g| g.material);
+        let fixed = |other: &Material, resistance| ContactLaw::new(*model, material, other, resistance, mass, radius);
         Self {
-            unit: ContactLaw::new(&setup.material, &setup.material, friction.unit_unit, 0.5 * mass, 0.5 * radius),
-            ground: ContactLaw::new(&setup.material, &ground, friction.unit_ground, mass, radius),
-            wall: ContactLaw::new(&setup.material, &setup.wall_material, friction.unit_wall, mass, radius),
+            unit: ContactLaw::new(*model, material, material, friction.unit_unit, 0.5 * mass, 0.5 * radius),
+            ground: fixed(&ground, friction.unit_ground),
+            wall: fixed(wall_material, friction.unit_wall),
             mass,
             // Of a symmetric positive tensor: the smallest eigenvalue is at least det / (trace / 2)^2.
             least_inertia: setup.shape.inertia.determinant()
@@ -146,7 +158,7 @@ impl Laws {
 
             let closing = (-v_n).max(0.0);
             if -touch.overlap <= closing * step.horizon {
-                let expected = touch.overlap.max(impact_overlap(law.e_star, law.radius, law.mass, closing));
+                let expected = touch.overlap.max(law.impact_overlap(closing));
                 let s_n = law.normal_stiffness(expected);
                 let share = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
                 // Two bodies on one spring: the frequency is that of twice the stiffness (Gershgorin's bound).
@@ -164,14 +176,12 @@ impl Laws {
                 Some(old) => (Contact { key: touch.key, ..old }, true),
                 None => {
                     let event = event::begin(touch.key, step.time, touch.point, v_n, v_t);
-                    let new =
-                        Contact { key: touch.key, normal: touch.normal, spring: DVec3::ZERO, elastic: [0.0; 2], event };
-                    (new, false)
+                    (Contact::begun(touch, event), false)
                 }
             };
             let moved = if known { v_t_over * step.dt } else { DVec3::ZERO };
-            let spring = turned(contact.spring, contact.normal, touch.normal) + moved;
-            let response = law.respond(touch.overlap, v_n, v_t, spring);
+            let kept = if law.remembers() { turned(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
+            let response = law.respond(touch.overlap, v_n, v_t, kept + moved);
             let force = touch.normal * response.normal + response.tangential;
 
             out.loads[a].force += force;
@@ -181,11 +191,35 @@ impl Laws {
                 out.loads[b].torque -= arm_b.cross(force);
             }
 
-            let stored = [law.normal_energy(touch.overlap), law.tangential_energy(touch.overlap, response.spring)];
+            let across = |v: Velocities<'_>| {
+                let omega = v.angular[a] - b.map_or(DVec3::ZERO, |b| v.angular[b]);
+                omega - touch.normal * omega.dot(touch.normal)
+            };
+            let (omega, omega_over) = (across(now), across(over));
+            let rolled = if known { omega_over * step.dt } else { DVec3::ZERO };
+            let roll = turned(contact.roll, contact.normal, touch.normal) + rolled;
+            let rolling = law.roll(touch.overlap, response.normal, omega, roll);
+            let mut rolling_energy = 0.0;
+            if let Some(rolling) = rolling {
+                out.loads[a].torque += rolling.torque;
+                if let Some(b) = b {
+                    out.loads[b].torque -= rolling.torque;
+                }
+                rolling_energy = 0.5 * law.rolling_stiffness(touch.overlap) * rolling.spring.length_squared();
+                let lost = -rolling.torque.dot(omega_over) * step.dt - (rolling_energy - contact.elastic[2]);
+                *(if rolling.rolling { &mut energy.friction } else { &mut energy.damping }) += lost;
+                contact.roll = rolling.spring;
+            }
+
+            let stored = [
+                law.normal_energy(touch.overlap),
+                law.tangential_energy(touch.overlap, response.spring),
+                rolling_energy,
+            ];
             energy.damping += (law.elastic_force(touch.overlap) - response.normal) * v_n_over * step.dt;
             let lost = -response.tangential.dot(v_t_over) * step.dt - (stored[1] - contact.elastic[1]);
             *(if response.sliding { &mut energy.friction } else { &mut energy.damping }) += lost;
-            energy.elastic += stored[0] + stored[1];
+            energy.elastic += stored.iter().sum::<f64>();
 
             contact.normal = touch.normal;
             contact.spring = response.spring;
@@ -194,7 +228,7 @@ impl Laws {
             out.contacts.push(contact);
         }
         for (old, _) in before.iter().zip(&used).filter(|(_, used)| !**used) {
-            energy.friction += old.elastic[1];
+            energy.friction += old.elastic[1] + old.elastic[2];
             log.push(old.event);
         }
         out.frequency_squared = stiffness.iter().fold(0.0, |most: f64, k| most.max(k / self.mass));

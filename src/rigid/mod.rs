@@ -1,13 +1,15 @@
 //! Rigid armour units and their contact.
 //!
-//! Hertz-Mindlin contact with Coulomb friction (Sunday et al. 2020) between rounded convex parts, the ground (the bed
-//! profile, the same across the flume) and walls.
+//! Contact with Coulomb friction, Hertz-Mindlin by default (Sunday et al. 2020), between rounded convex parts, the
+//! ground (the bed profile, the same across the flume) and walls.
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `hertz_mindlin` | the contact law, a pure function |
+//! | `contact_law` | the contact law, a pure function |
+//! | `hertz_mindlin`, `linear` | its stiffness and damping |
+//! | `broad_phase` | which bodies are near each other |
 //! | `gap` | distance of two rounded parts |
-//! | `box_contact` | where two rounded boxes are near each other |
+//! | `polyhedron_contact` | where two rounded polyhedra are near each other |
 //! | `ground` | distance to the bed profile and to walls |
 //! | `contact` | touching places of all bodies |
 //! | `forces` | forces of all contacts, their history and energy |
@@ -17,15 +19,18 @@
 //! | `world` | substeps: the entry to this module |
 //! | `snapshot` | state for checkpoints |
 
-mod box_contact;
+mod broad_phase;
 pub mod contact;
+pub mod contact_law;
 mod error;
 pub mod event;
 pub mod forces;
 mod gap;
 mod ground;
 pub mod hertz_mindlin;
+pub mod linear;
 pub mod motion;
+mod polyhedron_contact;
 mod setup;
 mod snapshot;
 mod world;
@@ -36,6 +41,6 @@ pub use event::ContactEvent;
 pub use forces::Energy;
 pub use hertz_mindlin::Material;
 pub use motion::{BodyState, Load};
-pub use setup::{BodyShape, Friction, Ground, RigidSetup, Sides};
+pub use setup::{BodyShape, ContactModel, Friction, Ground, Resistance, RigidSetup, Sides};
 pub use snapshot::RigidSnapshot;
 pub use world::RigidWorld;

@@ -5,9 +5,13 @@ use glam::{DMat3, DVec3};
 use super::error::RigidError;
 use super::hertz_mindlin::Material;
 use super::motion::BodyState;
+use super::polyhedron_contact::MOST_FEATURES;
 use crate::geometry::armour_unit::ArmourUnit;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
+
+/// Convex parts of a body at most: their numbers share 16 bits with those of corners and edges.
+pub const MOST_PARTS: usize = 63;
 
 /// Shape and mass of a body, the same for all bodies of a world; body axes with the origin at the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,15 +66,49 @@ pub enum Sides {
     Walls { width: f64 },
 }
 
-/// Coulomb's coefficients [-].
+/// The law of all contacts; see [`super::contact_law`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ContactModel {
+    /// Hertz and Mindlin with tangential history.
+    #[default]
+    HertzMindlin,
+    /// Linear springs; every [`Resistance`] needs its stiffness.
+    Linear,
+    /// As Chrono 4.0 has it between meshes.
+    Chrono4,
+}
+
+/// How a pair of surfaces resists sliding, rolling and, if the pair has values of its own, impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resistance {
+    /// Coulomb's coefficient at rest [-].
+    pub static_friction: f64,
+    /// Coulomb's coefficient while sliding [-].
+    pub kinetic_friction: f64,
+    /// Coefficient of rolling resistance [-].
+    pub rolling: f64,
+    /// Coefficient of restitution [-]; without it, the smaller one of the two materials.
+    pub restitution: Option<f64>,
+    /// Stiffness of the linear law [N/m].
+    pub stiffness: Option<f64>,
+}
+
+impl From<f64> for Resistance {
+    /// One coefficient of friction, and nothing besides.
+    fn from(friction: f64) -> Self {
+        Self { static_friction: friction, kinetic_friction: friction, rolling: 0.0, restitution: None, stiffness: None }
+    }
+}
+
+/// Resistance of the pairs of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Between two bodies.
-    pub unit_unit: f64,
+    pub unit_unit: Resistance,
     /// Between a body and the ground.
-    pub unit_ground: f64,
+    pub unit_ground: Resistance,
     /// Between a body and a wall.
-    pub unit_wall: f64,
+    pub unit_wall: Resistance,
 }
 
 /// Everything a rigid world is made of.
@@ -90,8 +128,10 @@ pub struct RigidSetup {
     pub end_walls: Option<[f64; 2]>,
     /// Material of side and end walls.
     pub wall_material: Material,
-    /// Coulomb's coefficients.
+    /// Resistance of the pairs of surfaces.
     pub friction: Friction,
+    /// The law of all contacts.
+    pub model: ContactModel,
     /// Acceleration of gravity [m/s2].
     pub gravity: DVec3,
 }
@@ -110,6 +150,13 @@ impl RigidSetup {
         if self.shape.parts.is_empty() {
             return refuse("the number of convex parts", 0.0, "at least 1");
         }
+        if self.shape.parts.len() > MOST_PARTS {
+            return refuse("the number of convex parts", self.shape.parts.len() as f64, "at most 63");
+        }
+        let features = |part: &ConvexPart| part.as_polyhedron().map_or(0, |p| p.corners().len() + p.edges().len());
+        if let Some(part) = self.shape.parts.iter().find(|p| features(p) > MOST_FEATURES) {
+            return refuse("the number of corners and edges of a convex part", features(part) as f64, "at most 1022");
+        }
         if let Some(part) = self.shape.parts.iter().find(|p| p.rounding().is_nan() || p.rounding() <= 0.0) {
             return refuse("the rounding radius", part.rounding(), "positive");
         }
@@ -125,9 +172,21 @@ impl RigidSetup {
                 return refuse("the coefficient of restitution", material.restitution, "between 0 and 1");
             }
         }
-        let friction = [self.friction.unit_unit, self.friction.unit_ground, self.friction.unit_wall];
-        if let Some(bad) = friction.iter().find(|mu| !(**mu >= 0.0 && mu.is_finite())) {
-            return refuse("the coefficient of friction", *bad, "0 or greater");
+        for pair in [self.friction.unit_unit, self.friction.unit_ground, self.friction.unit_wall] {
+            let coefficients = [pair.static_friction, pair.kinetic_friction, pair.rolling];
+            if let Some(bad) = coefficients.iter().find(|mu| !(**mu >= 0.0 && mu.is_finite())) {
+                return refuse("a coefficient of friction or rolling resistance", *bad, "0 or greater");
+            }
+            if pair.kinetic_friction > pair.static_friction {
+                return refuse("kinetic friction", pair.kinetic_friction, "at most static friction");
+            }
+            if let Some(e) = pair.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
+                return refuse("the coefficient of restitution", e, "between 0 and 1");
+            }
+            let stiffness = pair.stiffness.unwrap_or_default();
+            if self.model == ContactModel::Linear && !(stiffness > 0.0 && stiffness.is_finite()) {
+                return refuse("the stiffness of a contact [N/m]", stiffness, "positive under the linear law");
+            }
         }
         if let Sides::Periodic { width } | Sides::Walls { width } = self.sides
             && !(width > 0.0 && width.is_finite())

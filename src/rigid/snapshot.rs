@@ -40,7 +40,8 @@ struct ContactSnapshot {
     key: ContactKey,
     normal: [f64; 3],
     spring: [f64; 3],
-    elastic: [f64; 2],
+    roll: [f64; 3],
+    elastic: [f64; 3],
     event: ContactEvent,
 }
 
@@ -67,6 +68,7 @@ impl RigidWorld {
             key: c.key,
             normal: c.normal.to_array(),
             spring: c.spring.to_array(),
+            roll: c.roll.to_array(),
             elastic: c.elastic,
             event: c.event,
         };
@@ -98,6 +100,7 @@ impl RigidWorld {
             key: c.key,
             normal: DVec3::from_array(c.normal),
             spring: DVec3::from_array(c.spring),
+            roll: DVec3::from_array(c.roll),
             elastic: c.elastic,
             event: c.event,
         };

@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::contact::{BodyPair, Placements, Surfaces};
+use super::broad_phase::BodyPair;
+use super::contact::{Placements, Surfaces};
 use super::error::RigidError;
 use super::event::{ContactEvent, EventLog};
 use super::forces::{Contact, Energy, Laws, Step, Velocities};

@@ -51,7 +51,7 @@ fn a_cube_that_cannot_slide_tips_over_when_its_weight_passes_the_edge() {
     let tipping = ((0.5 - 0.05) / 0.5_f64).atan();
     for (share, tips) in [(0.98, false), (1.02, true)] {
         let mut rough = stack(1, 0.0);
-        rough.friction.unit_ground = 5.0;
+        rough.friction.unit_ground = 5.0.into();
         let mut world = on_slope(rough, share * tipping);
         run(&mut world, 1.0, 1e-4);
         let up = world.states()[0].rotation * DVec3::Z;

@@ -59,7 +59,7 @@ fn restitution_out_is_restitution_in() {
 #[test]
 fn frictionless_elastic_bodies_keep_their_energy() {
     let elastic = Material { restitution: 1.0, young_modulus: 1e9, ..MORTAR };
-    let none = Friction { unit_unit: 0.0, unit_ground: 0.0, unit_wall: 0.0 };
+    let none = Friction { unit_unit: 0.0.into(), unit_ground: 0.0.into(), unit_wall: 0.0.into() };
     let setup = RigidSetup { material: elastic, wall_material: elastic, friction: none, ..heap(&tetrapod()) };
     let ground = Some(Ground { profile: level(), material: elastic });
     let mut world = RigidWorld::new(RigidSetup { ground, ..setup }).unwrap();

@@ -8,7 +8,9 @@ mod world;
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::geometry::profile::Profile;
-use breakwater::rigid::{BodyShape, BodyState, Friction, Ground, Load, Material, RigidSetup, RigidWorld, Sides};
+use breakwater::rigid::{
+    BodyShape, BodyState, ContactModel, Friction, Ground, Load, Material, RigidSetup, RigidWorld, Sides,
+};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
@@ -30,7 +32,8 @@ fn setup(shape: BodyShape, bodies: Vec<BodyState>, material: Material, friction:
         sides: Sides::Open,
         end_walls: None,
         wall_material: material,
-        friction: Friction { unit_unit: 0.65, unit_ground: friction, unit_wall: friction },
+        friction: Friction { unit_unit: 0.65.into(), unit_ground: friction.into(), unit_wall: friction.into() },
+        model: ContactModel::HertzMindlin,
         gravity: DVec3::NEG_Z * G,
     }
 }

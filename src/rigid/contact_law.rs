@@ -1,0 +1,302 @@
+//! Contact law of a pair of surfaces: stiffness, Coulomb's limit, rolling resistance.
+//!
+//! | law | normal | tangential |
+//! | --- | --- | --- |
+//! | Hertz-Mindlin (default) | [`super::hertz_mindlin`] | spring that remembers how far the surfaces were shifted |
+//! | linear | [`super::linear`], measured stiffness | the same |
+//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one step only, nothing below 0.1 mm/s |
+//!
+//! |F_t| <= mu F_n; F_n < 0 makes both zero. mu is mu_s at rest and goes over to mu_k as the surfaces slide:
+//! mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2). Rolling resistance is a spring with a limit (Ai et al. 2011):
+//! |M| <= mu_r R F_n.
+//!
+//! `chrono4` is what Mitsui et al. (2023) ran: Chrono 4.0 gives contacts between meshes one radius and does not keep the
+//! tangential spring, so that units creep at any load. It is there to reproduce the paper.
+
+use glam::DVec3;
+
+use super::hertz_mindlin::{self, Material};
+use super::linear;
+use super::setup::{ContactModel, Resistance};
+
+/// Sliding speed v_c at which friction goes over from rest to motion [m/s]: a hundredth of what moves a unit by its own
+/// height in a second, and ten times what a unit at rest in moving water trembles with.
+const CHANGE_OVER: f64 = 1e-3;
+/// Radius of every contact under `chrono4` [m].
+const CHRONO_RADIUS: f64 = 0.1;
+/// Tangential speed below which `chrono4` has no friction [m/s].
+const CHRONO_LEAST_SPEED: f64 = 1e-4;
+
+/// Stiffness of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stiffness {
+    /// Effective moduli E* and G* [Pa], effective radius R [m].
+    Hertz { e_star: f64, g_star: f64, radius: f64 },
+    /// Constants [N/m].
+    Linear { normal: f64, tangential: f64 },
+}
+
+/// Constants of the contact of one pair of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactLaw {
+    stiffness: Stiffness,
+    /// Damping factor |beta| [-].
+    beta: f64,
+    resistance: Resistance,
+    /// Effective mass m* [kg].
+    mass: f64,
+    /// Effective radius R of the surfaces [m].
+    radius: f64,
+    /// Whether the tangential spring outlives a step.
+    remembers: bool,
+}
+
+/// What a contact does in one evaluation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    /// Normal force F_n [N], never negative.
+    pub normal: f64,
+    /// Tangential force on the body whose velocity was given [N].
+    pub tangential: DVec3,
+    /// Tangential spring after the limit was applied [m].
+    pub spring: DVec3,
+    /// Whether the limit was reached.
+    pub sliding: bool,
+}
+
+/// Rolling resistance of a contact in one evaluation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rolling {
+    /// Torque on the body whose angular velocity was given [N m].
+    pub torque: DVec3,
+    /// Rolling spring after the limit was applied [rad].
+    pub spring: DVec3,
+    /// Whether the limit was reached.
+    pub rolling: bool,
+}
+
+impl ContactLaw {
+    /// Law of two materials with the effective mass [kg] and radius [m] of the pair; the smaller restitution of the two
+    /// counts unless the pair has its own.
+    pub fn new(
+        model: ContactModel,
+        a: &Material,
+        b: &Material,
+        resistance: Resistance,
+        mass: f64,
+        radius: f64,
+    ) -> Self {
+        let restitution = resistance.restitution.unwrap_or(a.restitution.min(b.restitution));
+        let hertz = |radius: f64| Stiffness::Hertz {
+            e_star: hertz_mindlin::effective_young_modulus(a, b),
+            g_star: hertz_mindlin::effective_shear_modulus(a, b),
+            radius,
+        };
+        let (stiffness, beta) = match model {
+            ContactModel::HertzMindlin => (hertz(radius), hertz_mindlin::damping_factor(restitution)),
+            ContactModel::Chrono4 => (hertz(CHRONO_RADIUS), hertz_mindlin::damping_factor_with_pull(restitution)),
+            ContactModel::Linear => {
+                let normal = resistance.stiffness.unwrap_or_default();
+                let ratio = linear::stiffness_ratio(0.5 * (a.poisson_ratio + b.poisson_ratio));
+                (Stiffness::Linear { normal, tangential: ratio * normal }, linear::damping_factor(restitution))
+            }
+        };
+        Self { stiffness, beta, resistance, mass, radius, remembers: model != ContactModel::Chrono4 }
+    }
+
+    /// Whether the tangential spring outlives a step.
+    pub fn remembers(&self) -> bool {
+        self.remembers
+    }
+
+    /// dF_n/dd at the given overlap [N/m].
+    pub fn normal_stiffness(&self, overlap: f64) -> f64 {
+        match self.stiffness {
+            Stiffness::Hertz { e_star, radius, .. } => hertz_mindlin::normal_stiffness(e_star, radius, overlap),
+            Stiffness::Linear { normal, .. } => normal,
+        }
+    }
+
+    /// Stiffness of the tangential spring at the given overlap [N/m].
+    pub fn tangential_stiffness(&self, overlap: f64) -> f64 {
+        match self.stiffness {
+            Stiffness::Hertz { g_star, radius, .. } => hertz_mindlin::tangential_stiffness(g_star, radius, overlap),
+            Stiffness::Linear { tangential, .. } => tangential,
+        }
+    }
+
+    fn damping(&self, stiffness: f64) -> f64 {
+        match self.stiffness {
+            Stiffness::Hertz { .. } => hertz_mindlin::damping(self.beta, stiffness, self.mass),
+            Stiffness::Linear { .. } => linear::damping(self.beta, stiffness, self.mass),
+        }
+    }
+
+    /// Elastic part of the normal force [N].
+    pub fn elastic_force(&self, overlap: f64) -> f64 {
+        match self.stiffness {
+            Stiffness::Hertz { .. } => 2.0 / 3.0 * self.normal_stiffness(overlap) * overlap,
+            Stiffness::Linear { normal, .. } => normal * overlap,
+        }
+    }
+
+    /// Energy stored by the overlap [J].
+    pub fn normal_energy(&self, overlap: f64) -> f64 {
+        let share = match self.stiffness {
+            Stiffness::Hertz { .. } => 0.4,
+            Stiffness::Linear { .. } => 0.5,
+        };
+        share * self.elastic_force(overlap) * overlap
+    }
+
+    /// Energy stored by the tangential spring [J].
+    pub fn tangential_energy(&self, overlap: f64, spring: DVec3) -> f64 {
+        if self.remembers { 0.5 * self.tangential_stiffness(overlap) * spring.length_squared() } else { 0.0 }
+    }
+
+    /// Largest overlap of an elastic impact at a speed [m/s].
+    pub fn impact_overlap(&self, speed: f64) -> f64 {
+        match self.stiffness {
+            Stiffness::Hertz { e_star, radius, .. } => hertz_mindlin::impact_overlap(e_star, radius, self.mass, speed),
+            Stiffness::Linear { normal, .. } => speed * (self.mass / normal).sqrt(),
+        }
+    }
+
+    /// mu at a sliding speed [m/s].
+    fn friction(&self, speed: f64) -> f64 {
+        let Resistance { static_friction, kinetic_friction, .. } = self.resistance;
+        kinetic_friction + (static_friction - kinetic_friction) * (-(speed / CHANGE_OVER).powi(2)).exp()
+    }
+
+    /// Forces for an overlap d > 0, normal velocity v_n (positive when parting), tangential velocity and spring.
+    pub fn respond(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> Response {
+        let s_n = self.normal_stiffness(overlap);
+        let s_t = self.tangential_stiffness(overlap);
+        let normal = self.elastic_force(overlap) - self.damping(s_n) * v_n;
+        if normal <= 0.0 {
+            return Response { normal: 0.0, tangential: DVec3::ZERO, spring: DVec3::ZERO, sliding: true };
+        }
+        let speed = v_t.length();
+        if !self.remembers && speed < CHRONO_LEAST_SPEED {
+            return Response { normal, tangential: DVec3::ZERO, spring: DVec3::ZERO, sliding: false };
+        }
+        let trial = spring * s_t + v_t * self.damping(s_t);
+        let limit = self.friction(speed) * normal;
+        let size = trial.length();
+        if size <= limit {
+            return Response { normal, tangential: -trial, spring, sliding: false };
+        }
+        let held = trial * (limit / size);
+        Response { normal, tangential: -held, spring: held / s_t, sliding: true }
+    }
+
+    /// Rolling resistance under the normal force F_n [N] for an angular velocity [rad/s] and rolling spring [rad], both
+    /// across the normal: k_r = R^2 S_t, c_r = R^2 g_t. `None` if there is none.
+    pub fn roll(&self, overlap: f64, normal: f64, omega: DVec3, spring: DVec3) -> Option<Rolling> {
+        if self.resistance.rolling == 0.0 {
+            return None;
+        }
+        let k = self.rolling_stiffness(overlap);
+        let trial = spring * k + omega * (self.radius * self.radius * self.damping(self.tangential_stiffness(overlap)));
+        let limit = self.resistance.rolling * self.radius * normal;
+        let size = trial.length();
+        if size <= limit {
+            return Some(Rolling { torque: -trial, spring, rolling: false });
+        }
+        let held = trial * (limit / size);
+        Some(Rolling { torque: -held, spring: held / k, rolling: true })
+    }
+
+    /// k_r [N m/rad].
+    pub fn rolling_stiffness(&self, overlap: f64) -> f64 {
+        self.radius * self.radius * self.tangential_stiffness(overlap)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    /// Mass on a fixed plane, R 20 mm, E 1 GPa, nu 0.25, rho 2650 kg/m3.
+    fn law(model: ContactModel, e: f64) -> ContactLaw {
+        let material = Material { young_modulus: 1e9, poisson_ratio: 0.25, restitution: e };
+        let resistance = Resistance { rolling: 0.1, stiffness: Some(1e6), ..0.5.into() };
+        ContactLaw::new(model, &material, &material, resistance, 2650.0 * 4.0 / 3.0 * PI * 0.02f64.powi(3), 0.02)
+    }
+
+    #[test]
+    fn force_is_hertz_and_its_energy_is_its_integral() {
+        let law = law(ContactModel::HertzMindlin, 1.0);
+        let Stiffness::Hertz { e_star, g_star, radius } = law.stiffness else { panic!("Hertz") };
+        assert!((e_star - 1e9 / (2.0 * (1.0 - 0.0625))).abs() < 1.0);
+        assert!((g_star - 1e9 / (4.0 * 1.75 * 1.25)).abs() < 1.0);
+        let k = 4.0 / 3.0 * e_star * radius.sqrt();
+        let d = 261.3e-6;
+        assert!((law.elastic_force(d) / (k * d.powf(1.5)) - 1.0).abs() < 1e-12);
+        assert!((law.normal_energy(d) / (0.4 * k * d.powf(2.5)) - 1.0).abs() < 1e-12);
+        // Reference figures are given to four digits.
+        assert!((law.elastic_force(law.impact_overlap(1.0)) / 424.8 - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_linear_impact_stores_its_kinetic_energy() {
+        let law = law(ContactModel::Linear, 1.0);
+        assert!((law.normal_energy(law.impact_overlap(2.0)) / (2.0 * law.mass) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn tangential_force_holds_up_to_the_limit_and_the_spring_follows() {
+        for model in [ContactModel::HertzMindlin, ContactModel::Linear] {
+            let law = law(model, 1.0);
+            let d = 1e-4;
+            let s_t = law.tangential_stiffness(d);
+            let limit = 0.5 * law.elastic_force(d);
+            let below = law.respond(d, 0.0, DVec3::ZERO, DVec3::X * 0.9 * limit / s_t);
+            assert!(!below.sliding && (below.tangential.x + 0.9 * limit).abs() < 1e-9 * limit);
+            let above = law.respond(d, 0.0, DVec3::ZERO, DVec3::X * 5.0 * limit / s_t);
+            assert!(above.sliding && (above.tangential.x + limit).abs() < 1e-9 * limit);
+            assert!((above.spring.x * s_t / limit - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn friction_goes_over_from_rest_to_motion() {
+        let law = ContactLaw {
+            resistance: Resistance { static_friction: 0.6, kinetic_friction: 0.4, ..0.0.into() },
+            ..law(ContactModel::HertzMindlin, 1.0)
+        };
+        assert_eq!(law.friction(0.0), 0.6);
+        assert!((law.friction(0.01) - 0.4).abs() < 1e-12);
+        assert!((law.friction(CHANGE_OVER) - (0.4 + 0.2 / std::f64::consts::E)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_contact_never_pulls() {
+        for model in [ContactModel::HertzMindlin, ContactModel::Linear, ContactModel::Chrono4] {
+            let response = law(model, 0.3).respond(1e-6, 10.0, DVec3::X, DVec3::X * 1e-6);
+            assert_eq!((response.normal, response.tangential, response.spring), (0.0, DVec3::ZERO, DVec3::ZERO));
+        }
+    }
+
+    #[test]
+    fn chrono_has_no_friction_at_rest() {
+        let law = law(ContactModel::Chrono4, 0.5);
+        assert_eq!(law.respond(1e-4, 0.0, DVec3::X * 0.9e-4, DVec3::ZERO).tangential, DVec3::ZERO);
+        assert!(law.respond(1e-4, 0.0, DVec3::X * 0.1, DVec3::X * 1e-6).tangential.x < 0.0);
+        assert_eq!(law.tangential_energy(1e-4, DVec3::X), 0.0);
+    }
+
+    #[test]
+    fn rolling_resistance_holds_up_to_its_limit() {
+        let law = law(ContactModel::HertzMindlin, 0.5);
+        let k = law.rolling_stiffness(1e-4);
+        let limit = 0.1 * 0.02 * 100.0;
+        let held = law.roll(1e-4, 100.0, DVec3::ZERO, DVec3::X * 0.5 * limit / k).unwrap();
+        assert!(!held.rolling && (held.torque.x + 0.5 * limit).abs() < 1e-12);
+        let rolls = law.roll(1e-4, 100.0, DVec3::X, DVec3::X * 5.0 * limit / k).unwrap();
+        assert!(rolls.rolling && (rolls.torque.x + limit).abs() < 1e-12);
+        assert!(ContactLaw { resistance: 0.5.into(), ..law }.roll(1e-4, 1.0, DVec3::X, DVec3::X).is_none());
+    }
+}
