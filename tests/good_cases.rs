@@ -103,11 +103,11 @@ fn derived_numbers_are_those_of_the_published_run() {
     assert!((wave.stroke_m() - (16.0 * 0.064 * 0.864 / 3.0_f64).sqrt()).abs() < 1e-12);
     let units = case.units.unwrap();
     assert_eq!(units.placements.len(), 15);
-    assert_eq!(units.placements[0].azimuth, 0.0);
-    assert_eq!(units.placements[1].azimuth, std::f64::consts::PI);
+    assert_eq!(units.placements[0].rotation, glam::DQuat::IDENTITY);
+    assert_eq!(units.placements[1].rotation, glam::DQuat::from_rotation_z(std::f64::consts::PI));
     // The row is centred.
-    assert!((units.placements[7].y - 0.6).abs() < 1e-12);
-    assert_eq!((units.friction_unit, units.friction_ground), (0.65, 0.32));
+    assert!((units.placements[7].centre.y - 0.6).abs() < 1e-12);
+    assert_eq!((units.on_unit, units.on_ground), (0.65.into(), 0.32.into()));
     assert!(!case.gauges[0].in_domain && case.gauges[1].in_domain);
 }
 

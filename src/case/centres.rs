@@ -1,10 +1,9 @@
 //! Units at places that the case gives one by one, validated.
 
 use super::check::{Checker, show};
-use super::domain::Domain;
 use super::file::{Sides, UnitsFile};
-use super::flume::Flume;
 use super::row::azimuth;
+use super::site::Site;
 use super::unit_shape::UnitShape;
 use super::units::{MOST_UNITS, Placement};
 
@@ -16,8 +15,7 @@ pub(super) fn place(
     centres: &[[f64; 3]],
     file: &UnitsFile,
     shape: &UnitShape,
-    flume: &Flume,
-    domain: &Domain,
+    site: &Site,
     check: &mut Checker,
 ) -> Vec<Placement> {
     for (key, written) in [
@@ -41,38 +39,28 @@ pub(super) fn place(
     }
     let before = check.count();
     for (index, centre) in centres.iter().enumerate() {
-        validate_centre(&format!("units.centres_m[{index}]"), centre, shape, flume, domain, check);
+        validate_centre(&format!("units.centres_m[{index}]"), centre, shape, site, check);
     }
     if check.count() == before {
-        validate_distances(centres, shape, domain, check);
+        validate_distances(centres, shape, site, check);
     }
-    let placement = |(index, [x, y, z]): (usize, &[f64; 3])| Placement {
-        x: *x,
-        y: *y,
-        centre_z: Some(*z),
-        azimuth: azimuth(file.orientation, index as u32),
+    let placement = |(index, [x, y, z]): (usize, &[f64; 3])| {
+        Placement::standing(shape, [*x, *y], Some(*z), azimuth(file.orientation, index as u32), site)
     };
     centres.iter().enumerate().map(placement).collect()
 }
 
-fn validate_centre(
-    path: &str,
-    centre: &[f64; 3],
-    shape: &UnitShape,
-    flume: &Flume,
-    domain: &Domain,
-    check: &mut Checker,
-) {
+fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site, check: &mut Checker) {
     let [x, y, z] = *centre;
     let [reach_x, reach_y] = shape.reach();
-    let across = match domain.sides {
-        Sides::Periodic => [0.0, domain.width],
+    let across = match site.sides {
+        Sides::Periodic => [0.0, site.width],
         // Units are refused in two dimensions.
-        Sides::Walls | Sides::TwoDimensional => [reach_y, domain.width - reach_y],
+        Sides::Walls | Sides::TwoDimensional => [reach_y, site.width - reach_y],
     };
-    let along = [domain.x[0] + reach_x, domain.x[1] - reach_x];
-    let highest = flume.ground_between([x - reach_x, x + reach_x]).1;
-    let up = [highest + shape.centre_height(), domain.top_z + shape.centre_height() - shape.height()];
+    let along = [site.x[0] + reach_x, site.x[1] - reach_x];
+    let highest = site.profile.extremes_between([x - reach_x, x + reach_x]).1;
+    let up = [highest + shape.centre_height(), site.top_z + shape.centre_height() - shape.height()];
     for (axis, (value, [low, high])) in [(x, along), (y, across), (z, up)].into_iter().enumerate() {
         if !(value >= low - SLACK && value <= high + SLACK) {
             check.refuse(
@@ -85,12 +73,12 @@ fn validate_centre(
     }
 }
 
-fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, domain: &Domain, check: &mut Checker) {
+fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, site: &Site, check: &mut Checker) {
     for (index, a) in centres.iter().enumerate() {
         let overlapped = centres[..index].iter().position(|b| {
             let mut apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
-            if domain.sides == Sides::Periodic {
-                apart[1] -= domain.width * (apart[1] / domain.width).round();
+            if site.sides == Sides::Periodic {
+                apart[1] -= site.width * (apart[1] / site.width).round();
             }
             shape.overlaps(apart)
         });

@@ -4,6 +4,7 @@ use super::check::{Checker, above, from, show};
 use super::file::{DomainFile, Sides, WaterFile};
 use super::flume::Flume;
 use super::obstacles;
+use super::site::Site;
 use super::zones::{self, DampingZone, RelaxationZone};
 use crate::geometry::axis_box::AxisBox;
 
@@ -71,6 +72,12 @@ pub enum Water {
 }
 
 impl Domain {
+    /// Ground and limits of the place where units stand.
+    pub fn site(&self, flume: &Flume) -> Site {
+        let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
+        Site { profile: flume.profile.clone(), x, width, sides, top_z }
+    }
+
     /// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
     pub fn wavemaker_rows(&self, flume: &Flume) -> Vec<f64> {
         let bed = flume.profile.z(self.x[0]);
@@ -100,7 +107,7 @@ pub(super) fn validate(
         return None;
     }
     let width = validate_width(file, smoothing_factor, check)?;
-    let (bottom_z, _) = flume.ground_between(file.x_m);
+    let (bottom_z, _) = flume.profile.extremes_between(file.x_m);
     let lengths = [file.x_m[1] - file.x_m[0], width, file.top_z_m - bottom_z];
     for (name, length) in ["along the flume", "across the flume", "upwards"].into_iter().zip(lengths) {
         if length / file.dp_m > MOST_ALONG {
@@ -176,7 +183,7 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
         );
         return;
     }
-    let (_, ground) = flume.ground_between(file.x_m);
+    let (_, ground) = flume.profile.extremes_between(file.x_m);
     let lowest_top = match file.water {
         WaterFile::StillLevel {} => ground.max(flume.still_level),
         WaterFile::Block(_) => ground,
@@ -248,7 +255,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
     let (water, depth, path, level) = match file.water {
         WaterFile::StillLevel {} => (
             Water::StillLevel,
-            flume.still_level - flume.ground_between(file.x_m).0,
+            flume.still_level - flume.profile.extremes_between(file.x_m).0,
             "flume.still_water_level_m",
             flume.still_level,
         ),
@@ -263,7 +270,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
                 );
                 return None;
             }
-            let (ground, _) = flume.ground_between(block.x_m);
+            let (ground, _) = flume.profile.extremes_between(block.x_m);
             let range = above(ground).up_to(file.top_z_m);
             if !check.number(
                 "domain.water.top_z_m",

@@ -10,7 +10,8 @@ mod waves;
 
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
-    ContactFile, ElevationFile, FrictionFile, GaugeFile, MaterialFile, Orientation, PointFile, Shape, UnitsFile,
+    ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile, Orientation, PlacementFile,
+    PointFile, PoseFile, Shape, StlFile, UnitsFile,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

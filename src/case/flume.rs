@@ -56,13 +56,6 @@ impl Flume {
         (self.still_level - self.profile.z(x)).max(0.0)
     }
 
-    /// Lowest and highest ground between two x [m]: the extremes of a polyline are among its corners and ends.
-    pub(super) fn ground_between(&self, [x0, x1]: [f64; 2]) -> (f64, f64) {
-        let corners = self.profile.points().iter().filter(|p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
-        let levels = corners.chain([self.profile.z(x0), self.profile.z(x1)]);
-        levels.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
-    }
-
     /// Depth of the still water at the wavemaker's end [m].
     pub fn offshore_depth(&self) -> f64 {
         self.still_level - self.bed.points()[0][1]

@@ -4,6 +4,8 @@ use super::check::{Checker, above, from, show};
 use super::error::nearest;
 use super::file::{FrictionFile, MaterialFile};
 
+const RESTITUTION_ADVICE: &str = "1 loses nothing in a collision, 0.5 half of the speed";
+
 /// Materials in one case at most.
 const MOST_MATERIALS: usize = 100;
 
@@ -18,6 +20,8 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// Coefficient of restitution [-].
     pub restitution: f64,
+    /// Measured stiffness of a contact between two bodies of the material [N/m].
+    pub contact_stiffness: Option<f64>,
 }
 
 /// Friction of two materials, each an index into `Case::materials`.
@@ -25,8 +29,14 @@ pub struct Material {
 pub struct FrictionPair {
     /// The two materials, the smaller index first.
     pub between: [usize; 2],
-    /// Coulomb's coefficient [-].
+    /// Coulomb's coefficient at rest [-].
     pub coefficient: f64,
+    /// Coulomb's coefficient while sliding [-].
+    pub kinetic: f64,
+    /// Coefficient of rolling resistance [-].
+    pub rolling: f64,
+    /// Coefficient of restitution [-]; without it, the smaller one of the materials.
+    pub restitution: Option<f64>,
 }
 
 /// Validate the materials; the result has one entry for each in the file, also where an error was found.
@@ -51,19 +61,18 @@ pub(super) fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> 
             "concrete has 3e10; about 1e8 is stiff enough in small-scale models and allows a longer step",
         );
         check.number(&path("poisson_ratio"), material.poisson_ratio, above(-1.0).below(0.5), "", "concrete has 0.2");
-        check.number(
-            &path("restitution"),
-            material.restitution,
-            above(0.0).up_to(1.0),
-            "",
-            "1 loses nothing in a collision, 0.5 half of the speed",
-        );
+        check.number(&path("restitution"), material.restitution, above(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
+        if let Some(stiffness) = material.contact_stiffness_n_m {
+            let advice = "force over overlap of two bodies pressed together";
+            check.number(&path("contact_stiffness_n_m"), stiffness, from(1.0).up_to(1e12), "N/m", advice);
+        }
     }
     let validated = |material: &MaterialFile| Material {
         name: material.name.clone(),
         young_modulus: material.young_modulus_pa,
         poisson_ratio: material.poisson_ratio,
         restitution: material.restitution,
+        contact_stiffness: material.contact_stiffness_n_m,
     };
     file.iter().map(validated).collect()
 }
@@ -125,12 +134,30 @@ pub(super) fn validate_friction(
             );
             continue;
         }
-        pairs.push(FrictionPair { between, coefficient });
+        let kinetic = validate_pair(index, friction, check);
+        let (rolling, restitution) = (friction.rolling_coefficient.unwrap_or(0.0), friction.restitution);
+        pairs.push(FrictionPair { between, coefficient, kinetic, rolling, restitution });
     }
     pairs
 }
 
-/// Friction coefficient of two materials, if the table has it.
-pub(super) fn coefficient(pairs: &[FrictionPair], a: usize, b: usize) -> Option<f64> {
-    pairs.iter().find(|pair| pair.between == [a.min(b), a.max(b)]).map(|pair| pair.coefficient)
+/// Validate what a pair has besides its friction at rest; returns its friction while sliding.
+fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 {
+    let path = |key: &str| format!("friction[{index}].{key}");
+    let kinetic = file.kinetic_coefficient.unwrap_or(file.coefficient);
+    let advice = "a body that slides is held no better than one at rest";
+    check.number(&path("kinetic_coefficient"), kinetic, from(0.0).up_to(file.coefficient.max(0.0)), "", advice);
+    if let Some(rolling) = file.rolling_coefficient {
+        let advice = "the tangent of the slope at which a ball begins to roll";
+        check.number(&path("rolling_coefficient"), rolling, from(0.0).up_to(2.0), "", advice);
+    }
+    if let Some(restitution) = file.restitution {
+        check.number(&path("restitution"), restitution, above(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
+    }
+    kinetic
+}
+
+/// Entry of two materials, if the table has it.
+pub(super) fn pair(pairs: &[FrictionPair], a: usize, b: usize) -> Option<&FrictionPair> {
+    pairs.iter().find(|pair| pair.between == [a.min(b), a.max(b)])
 }

@@ -19,9 +19,12 @@ mod obstacles;
 mod output;
 mod output_size;
 mod parse;
+mod poses;
 mod row;
 mod run;
 mod schema;
+mod site;
+mod stl_unit;
 mod template;
 mod unit_shape;
 mod units;
@@ -33,7 +36,10 @@ mod zones;
 pub use domain::{Domain, Start, Water};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
-pub use file::{Boundary, DensityDiffusion, FluidField, Sides, SolitaryTheory, Viscosity, WallSlip};
+pub use file::{
+    Boundary, ContactLawName, DensityDiffusion, FluidField, PlacementFile, PoseFile, Sides, SolitaryTheory, Viscosity,
+    WallSlip,
+};
 pub use flume::{Flume, Mound};
 pub use gauges::{Gauge, Motion, Quantity};
 pub use given_wave::{GivenWave, ROWS_FILE};
@@ -43,8 +49,9 @@ pub use output::Output;
 pub use output_size::OutputSize;
 pub use run::{AtRest, Contact, Stop};
 pub use schema::schema_text;
+pub use site::Site;
 pub use template::template_text;
-pub use unit_shape::UnitShape;
+pub use unit_shape::{UnitKind, UnitShape};
 pub use units::{Placement, Units};
 pub use validate::Case;
 pub use wave::Wave;

@@ -90,7 +90,7 @@ fn validate_one(
             "what touches one side goes on behind the other: write it in the middle of the width",
         );
     }
-    let (lowest, highest) = flume.ground_between([low.x, high.x]);
+    let (lowest, highest) = flume.profile.extremes_between([low.x, high.x]);
     open[2][0] = low.z > lowest + FLUSH * dp;
     if open[2][0] && low.z < highest + NARROWEST * dp {
         check.refuse(

@@ -3,9 +3,7 @@
 use super::estimate::area_under;
 use super::file::FluidField;
 use super::gauges::Quantity;
-use super::unit_shape::UnitShape;
 use super::validate::Case;
-use crate::geometry::{cuboid, tetrapod};
 
 /// A number in a table with its comma [bytes]; measured over the tables of a run, 19.0 to 19.6.
 const BYTES_PER_NUMBER: f64 = 19.0;
@@ -80,11 +78,8 @@ impl Case {
 
     fn surfaces_bytes(&self, snapshots: f64) -> f64 {
         let Some(units) = self.units.as_ref().filter(|_| snapshots > 0.0) else { return 0.0 };
-        let (vertices, triangles) = match units.shape {
-            UnitShape::Tetrapod { height } => tetrapod::surface(height),
-            UnitShape::Cuboid { edges } => cuboid::surface(edges.into()),
-        };
-        let (vertices, triangles) = (vertices.len() as f64, triangles.len() as f64);
+        let solid = units.shape.unit().solid();
+        let (vertices, triangles) = (solid.vertices().len() as f64, solid.triangles().len() as f64);
         let once = BYTES_PER_TRIANGLE * triangles;
         RESERVED + units.placements.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + once)
     }

@@ -3,10 +3,9 @@
 use std::f64::consts::PI;
 
 use super::check::{Checker, above, from, show};
-use super::domain::Domain;
 use super::file::{Orientation, Sides, UnitsFile};
-use super::flume::Flume;
-use super::unit_shape::UnitShape;
+use super::site::Site;
+use super::unit_shape::{UnitKind, UnitShape};
 use super::units::{MOST_UNITS, Placement};
 
 /// A row as written; SI units.
@@ -36,13 +35,14 @@ pub(super) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut 
     }
     let (count, pitch, x) = (file.count?, file.pitch_m?, file.x_m?);
     if let Some(shape) = shape {
-        let range = match shape {
-            UnitShape::Tetrapod { .. } => above(shape.least_pitch()).up_to(1000.0),
-            UnitShape::Cuboid { .. } => from(shape.least_pitch()).up_to(1000.0),
+        let range = match shape.kind {
+            UnitKind::Cuboid { .. } => from(shape.least_pitch()).up_to(1000.0),
+            _ => above(shape.least_pitch()).up_to(1000.0),
         };
-        let advice = match shape {
-            UnitShape::Tetrapod { .. } => "units nearer than 0.75 of their height overlap",
-            UnitShape::Cuboid { .. } => "units nearer than their edge across the flume overlap",
+        let advice = match shape.kind {
+            UnitKind::Tetrapod { .. } => "units nearer than 0.75 of their height overlap",
+            UnitKind::Cuboid { .. } => "units nearer than their edge across the flume overlap",
+            _ => "units nearer than their width across the flume may overlap",
         };
         check.number("units.pitch_m", pitch, range, "m", advice);
     }
@@ -54,46 +54,40 @@ pub(super) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut 
 }
 
 /// Place the units of the row and check that it fits into the domain.
-pub(super) fn place(
-    row: &Row,
-    shape: &UnitShape,
-    flume: &Flume,
-    domain: &Domain,
-    check: &mut Checker,
-) -> Vec<Placement> {
+pub(super) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> Vec<Placement> {
     let [margin, reach] = shape.reach();
     check.number(
         "units.x_m",
         row.x,
-        above(domain.x[0] + margin).below(domain.x[1] - margin),
+        above(site.x[0] + margin).below(site.x[1] - margin),
         "m",
         "the whole unit must stand inside `domain.x_m`",
     );
-    let top = flume.profile.z(row.x) + shape.height();
-    if top > domain.top_z {
+    let top = site.profile.z(row.x) + shape.height();
+    if top > site.top_z {
         check.refuse(
             "domain.top_z_m",
-            show(domain.top_z),
+            show(site.top_z),
             format!("above the top of the units, {} m", show(top)),
             "raise the walls",
         );
     }
     let length = f64::from(row.count - 1) * row.pitch;
-    let first_y = row.first_y.unwrap_or(0.5 * (domain.width - length));
-    match domain.sides {
-        Sides::Periodic => validate_periodic_row(row, domain.width, first_y, check),
+    let first_y = row.first_y.unwrap_or(0.5 * (site.width - length));
+    match site.sides {
+        Sides::Periodic => validate_periodic_row(row, site.width, first_y, check),
         // Units are refused in two dimensions.
         Sides::Walls | Sides::TwoDimensional => {
             let widest = length + 2.0 * reach;
-            if widest > domain.width {
+            if widest > site.width {
                 check.refuse(
                     "units.count",
                     row.count,
                     format!("such that the row, {} m over the outer legs, fits between the walls", show(widest)),
                     format!("write fewer units, a smaller pitch or a width of more than {} m", show(widest)),
                 );
-            } else if first_y < reach || first_y + length > domain.width - reach {
-                let last = domain.width - reach - length;
+            } else if first_y < reach || first_y + length > site.width - reach {
+                let last = site.width - reach - length;
                 check.refuse(
                     "units.first_y_m",
                     show(first_y),
@@ -103,11 +97,9 @@ pub(super) fn place(
             }
         }
     }
-    let place = |index: u32| Placement {
-        x: row.x,
-        y: first_y + f64::from(index) * row.pitch,
-        centre_z: None,
-        azimuth: azimuth(row.orientation, index),
+    let place = |index: u32| {
+        let y = first_y + f64::from(index) * row.pitch;
+        Placement::standing(shape, [row.x, y], None, azimuth(row.orientation, index), site)
     };
     (0..row.count).map(place).collect()
 }

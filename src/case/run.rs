@@ -1,13 +1,15 @@
 //! Contact and the end of the run, validated.
 
 use super::check::{Checker, above, from, show};
-use super::file::{ContactFile, StopFile};
+use super::file::{ContactFile, ContactLawName, StopFile};
 
 /// Contact between units and with the bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Rounding radius of a unit's edges as a share of its height [-].
     pub rounding_share: f64,
+    /// Law of the contacts.
+    pub law: ContactLawName,
 }
 
 /// When the run ends; SI units.
@@ -39,7 +41,7 @@ pub(super) fn validate_contact(file: &ContactFile, check: &mut Checker) -> Conta
         "",
         "0.05 rounds the edges of a unit by a twentieth of its height",
     );
-    Contact { rounding_share: file.rounding_share }
+    Contact { rounding_share: file.rounding_share, law: file.law }
 }
 
 /// Validate the end of the run.

@@ -1,121 +1,220 @@
 //! Shape of the armour units, validated, and the proportions that the placement needs.
 
+use std::sync::Arc;
+
+use glam::DVec3;
+
 use super::check::{Checker, above, from, show};
 use super::file::{Shape, UnitsFile};
+use super::stl_unit::{self, StlUnit};
+use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
 /// Longest edge of a cuboid over its shortest: the contact's rounding, a share of the height, must fit all edges.
 const MOST_SLENDER: f64 = 5.0;
 
-/// Shape of a unit; SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum UnitShape {
-    /// Tetrapod.
-    Tetrapod {
-        /// Height H standing on three legs [m].
-        height: f64,
-    },
-    /// Cuboid.
-    Cuboid {
-        /// Edges along x, y and z [m].
-        edges: [f64; 3],
-    },
+/// Which unit it is; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub enum UnitKind {
+    /// Tetrapod of height H standing on three legs [m].
+    Tetrapod { height: f64 },
+    /// Cuboid with its edges along x, y and z [m].
+    Cuboid { edges: [f64; 3] },
+    /// Dolos of height H [m] with its waist ratio [-].
+    Dolos { height: f64, waist: f64 },
+    /// Core-Loc of size C [m].
+    CoreLoc { size: f64 },
+    /// Grooved cube (Antifer block) of its height [m].
+    GroovedCube { height: f64 },
+    /// A unit from STL files.
+    Stl(StlUnit),
+}
+
+impl UnitKind {
+    /// The unit, its edges rounded by a share of its height [-].
+    ///
+    /// # Errors
+    /// If lengths, waist or rounding do not make a unit.
+    pub fn build(&self, rounding_share: f64) -> Result<ArmourUnit, ArmourUnitError> {
+        match self {
+            Self::Tetrapod { height } => ArmourUnit::tetrapod(*height, rounding_share),
+            Self::Cuboid { edges } => ArmourUnit::cuboid(DVec3::from_array(*edges), rounding_share),
+            Self::Dolos { height, waist } => ArmourUnit::dolos(*height, *waist, rounding_share),
+            Self::CoreLoc { size } => ArmourUnit::core_loc(*size, rounding_share),
+            Self::GroovedCube { height } => ArmourUnit::grooved_cube(*height, rounding_share),
+            Self::Stl(unit) => ArmourUnit::of_parts(unit.solid(), unit.parts(), rounding_share),
+        }
+    }
+
+    /// Name as people say it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Tetrapod { .. } => "Tetrapod",
+            Self::Cuboid { .. } => "cuboid",
+            Self::Dolos { .. } => "Dolos",
+            Self::CoreLoc { .. } => "Core-Loc",
+            Self::GroovedCube { .. } => "grooved cube",
+            Self::Stl(_) => "unit from STL",
+        }
+    }
+
+    /// Stability coefficient K_D of Hudson's formula for two layers placed at random on a trunk in breaking waves [-]:
+    /// Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). None where there is no handbook value.
+    pub fn stability_coefficient(&self) -> Option<f64> {
+        match self {
+            Self::Tetrapod { .. } => Some(7.0),
+            Self::Dolos { .. } => Some(15.8),
+            Self::CoreLoc { .. } => Some(16.0),
+            // "Modified cube".
+            Self::Cuboid { .. } | Self::GroovedCube { .. } => Some(6.5),
+            Self::Stl(_) => None,
+        }
+    }
+}
+
+/// Shape of a unit: what it is, and its surface and parts.
+#[derive(Debug, Clone)]
+pub struct UnitShape {
+    /// Which unit it is.
+    pub kind: UnitKind,
+    unit: Arc<ArmourUnit>,
+}
+
+impl PartialEq for UnitShape {
+    fn eq(&self, other: &Self) -> bool {
+        self.kind == other.kind && self.unit.rounding() == other.unit.rounding()
+    }
 }
 
 impl UnitShape {
+    /// Surface, convex parts, mass properties.
+    pub fn unit(&self) -> &Arc<ArmourUnit> {
+        &self.unit
+    }
+
     /// Height standing [m].
     pub fn height(&self) -> f64 {
-        match self {
-            Self::Tetrapod { height } => *height,
-            Self::Cuboid { edges } => edges[2],
-        }
+        self.unit.height()
     }
 
     /// Volume [m3].
     pub fn volume(&self) -> f64 {
-        match self {
-            Self::Tetrapod { height } => 0.2799 * height.powi(3),
-            Self::Cuboid { edges } => edges.iter().product(),
-        }
+        self.unit.solid().volume_properties().volume
+    }
+
+    /// Nominal diameter D_n = V^(1/3) [m].
+    pub fn nominal_diameter(&self) -> f64 {
+        self.volume().cbrt()
     }
 
     /// Reach from the centre along the flume and across it, standing at azimuth 0 or pi [m].
-    ///
-    /// Tetrapod: legs of 0.644 H from centre to tip, tip radius 0.151 H, on tetrahedral axes. A lying leg (19.5 degrees
-    /// below the horizontal) then reaches 0.644 cos 19.5 + 0.151 sin 19.5 along itself, and 0.613 across the flume.
     pub(super) fn reach(&self) -> [f64; 2] {
-        match self {
-            Self::Tetrapod { height } => [0.658 * height, 0.613 * height],
-            Self::Cuboid { edges } => [0.5 * edges[0], 0.5 * edges[1]],
-        }
+        let q = self.unit.standing_rotation(0.0);
+        let reach = |axis: usize| self.unit.solid().vertices().iter().map(|v| (q * *v)[axis].abs()).fold(0.0, f64::max);
+        [reach(0), reach(1)]
     }
 
     /// Height of the centre over the foot, standing [m].
     pub(super) fn centre_height(&self) -> f64 {
-        match self {
-            // The upper leg ends 0.644 H above the centre.
-            Self::Tetrapod { height } => 0.356 * height,
-            Self::Cuboid { edges } => 0.5 * edges[2],
-        }
+        self.unit.standing_height_sharp()
     }
 
     /// Least distance between the centres of two units side by side [m].
     pub(super) fn least_pitch(&self) -> f64 {
-        match self {
-            Self::Tetrapod { height } => 0.75 * height,
+        match &self.kind {
+            // Turned by half a circle they reach between each other's legs.
+            UnitKind::Tetrapod { height } => 0.75 * height,
             // Rounding of the numbers in the file only.
-            Self::Cuboid { edges } => edges[1] * (1.0 - 1e-9),
+            UnitKind::Cuboid { edges } => edges[1] * (1.0 - 1e-9),
+            _ => 2.0 * self.reach()[1],
         }
     }
 
     /// Whether two standing units at this distance from each other overlap; cuboids may touch.
     pub(super) fn overlaps(&self, apart: [f64; 3]) -> bool {
-        match self {
-            Self::Tetrapod { .. } => apart.iter().map(|d| d * d).sum::<f64>() < self.least_pitch().powi(2),
-            Self::Cuboid { edges } => {
+        match &self.kind {
+            UnitKind::Cuboid { edges } => {
                 apart.iter().zip(edges).all(|(distance, edge)| distance.abs() < edge * (1.0 - 1e-6))
             }
+            _ => apart.iter().map(|d| d * d).sum::<f64>() < self.least_pitch().powi(2),
         }
     }
 }
 
-/// Validate the lengths that belong to the shape.
-pub(super) fn validate(file: &UnitsFile, check: &mut Checker) -> Option<UnitShape> {
-    match (file.shape, file.height_m, file.size_m) {
-        (Shape::Tetrapod, Some(height), None) => {
-            let sound = length("units.height_m", height, "write the unit's height in metres", check);
-            sound.then_some(UnitShape::Tetrapod { height })
+/// Validate the lengths that belong to the shape, and make it; `name` is that of the case file.
+pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut Checker) -> Option<UnitShape> {
+    let before = check.count();
+    only_where_it_belongs(file, check);
+    let kind = match file.shape {
+        Shape::Tetrapod => height(file, check).map(|height| UnitKind::Tetrapod { height }),
+        Shape::Dolos => {
+            let height = height(file, check);
+            let waist = file.waist_ratio.unwrap_or(0.34);
+            height.map(|height| UnitKind::Dolos { height, waist })
         }
-        (Shape::Tetrapod, None, _) => {
-            check.refuse(
-                "units.height_m",
-                "(missing)",
-                "the height of a tetrapod",
-                "write the unit's height in metres",
-            );
+        Shape::CoreLoc => height(file, check).map(|size| UnitKind::CoreLoc { size }),
+        Shape::GroovedCube => height(file, check).map(|height| UnitKind::GroovedCube { height }),
+        Shape::Cuboid => match file.size_m {
+            Some(edges) => validate_cuboid(edges, check),
+            None => {
+                let advice = "write the edges along x, y, z";
+                check.refuse("units.size_m", "(missing)", "the three edges of a cuboid", advice);
+                None
+            }
+        },
+        Shape::Stl => match &file.stl {
+            Some(stl) => stl_unit::validate(stl, name, check).map(UnitKind::Stl),
+            None => {
+                check.refuse("units.stl", "(missing)", "the files of the unit", "write \"stl\": { \"path\": ... }");
+                None
+            }
+        },
+    }?;
+    if check.count() > before {
+        return None;
+    }
+    match kind.build(rounding_share) {
+        Ok(unit) => Some(UnitShape { kind, unit: Arc::new(unit) }),
+        Err(error @ ArmourUnitError::Waist { waist, allowed: [low, high] }) => {
+            let range = format!("between {low} and {high}");
+            check.refuse("units.waist_ratio", show(waist), range, error.to_string());
             None
         }
-        (Shape::Tetrapod, Some(_), Some(_)) => {
-            check.refuse("units.size_m", "[...]", "left out with \"tetrapod\"", "write `height_m` only");
-            None
-        }
-        (Shape::Cuboid, None, Some(edges)) => validate_cuboid(edges, check),
-        (Shape::Cuboid, _, None) => {
-            check.refuse("units.size_m", "(missing)", "the three edges of a cuboid", "write the edges along x, y, z");
-            None
-        }
-        (Shape::Cuboid, Some(height), Some(_)) => {
-            check.refuse(
-                "units.height_m",
-                show(height),
-                "left out with \"cuboid\"",
-                "the third edge of `size_m` is the height",
-            );
+        Err(error) => {
+            let advice = "the rounded parts of the unit must not vanish: write a smaller share";
+            check.refuse("contact.rounding_share", show(rounding_share), error.to_string(), advice);
             None
         }
     }
 }
 
-fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitShape> {
+/// Keys that belong to other shapes.
+fn only_where_it_belongs(file: &UnitsFile, check: &mut Checker) {
+    let shape = file.shape;
+    let mut left_out = |key: &str, written: Option<String>, advice: &str| {
+        if let Some(value) = written {
+            check.refuse(&format!("units.{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
+        }
+    };
+    let by_size = shape == Shape::Cuboid;
+    let by_height = !by_size && shape != Shape::Stl;
+    let advice = if by_size { "the third edge of `size_m` is the height" } else { "the file has the lengths" };
+    left_out("height_m", file.height_m.filter(|_| !by_height).map(show), advice);
+    left_out("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
+    left_out("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(show), "only a Dolos has a waist");
+    let stl = file.stl.as_ref().filter(|_| shape != Shape::Stl).map(|_| "{ ... }".to_owned());
+    left_out("stl", stl, "write \"shape\": \"stl\" to use the files");
+}
+
+fn height(file: &UnitsFile, check: &mut Checker) -> Option<f64> {
+    let advice = "write the unit's height in metres";
+    let Some(height) = file.height_m else {
+        check.refuse("units.height_m", "(missing)", format!("the height of a {}", file.shape.key()), advice);
+        return None;
+    };
+    length("units.height_m", height, advice, check).then_some(height)
+}
+
+fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
     let before = check.count();
     for (axis, edge) in edges.into_iter().enumerate() {
         length(&format!("units.size_m[{axis}]"), edge, "write the edge in metres", check);
@@ -129,20 +228,20 @@ fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitShape> {
             "the rounding of the edges would not fit a slenderer block",
         );
     }
-    (check.count() == before).then_some(UnitShape::Cuboid { edges })
+    (check.count() == before).then_some(UnitKind::Cuboid { edges })
 }
 
 fn length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
     check.number(path, value, from(0.005).up_to(20.0), "m", advice)
 }
 
-/// Validate the mass of a unit against its volume.
-pub(super) fn validate_mass(mass: f64, shape: &UnitShape, rho0: f64, check: &mut Checker) {
+/// Validate the mass of a unit against its volume; without water there is no density to compare with.
+pub(super) fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
     let volume = shape.volume();
     let range = above(100.0 * volume).up_to(20_000.0 * volume);
     let advice = format!("a unit of this size has {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
     let sound = check.number("units.mass_kg", mass, range, "kg", &advice);
-    if sound && mass < rho0 * volume {
+    if sound && rho0.is_some_and(|rho0| mass < rho0 * volume) {
         check.warn(format!("units.mass_kg = {}: lighter than water, the units will float", show(mass)));
     }
 }

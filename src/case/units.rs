@@ -1,12 +1,14 @@
 //! The armour units, validated.
 
+use glam::{DQuat, DVec3};
+
 use super::check::{Checker, above, show};
-use super::domain::Domain;
-use super::file::{Sides, UnitsFile};
-use super::flume::Flume;
+use super::file::{ContactLawName, PoseFile, Sides, UnitsFile};
 use super::materials::{self, FrictionPair, Material};
-use super::unit_shape::{self, UnitShape};
-use super::{centres, row};
+use super::site::Site;
+use super::unit_shape::{self, UnitKind, UnitShape};
+use super::{centres, poses, row};
+use crate::rigid::Resistance;
 
 /// Units in one case at most.
 pub(super) const MOST_UNITS: u32 = 10_000;
@@ -18,7 +20,7 @@ pub struct Units {
     pub shape: UnitShape,
     /// Mass of a unit [kg].
     pub mass: f64,
-    /// Where each unit stands: a row from y = 0 upwards, or as the file lists them.
+    /// Where each unit is at the start: a row from y = 0 upwards, or as the file lists them.
     pub placements: Vec<Placement>,
     /// A unit is damaged when it has moved further than this [m].
     pub damage_distance: f64,
@@ -26,41 +28,79 @@ pub struct Units {
     pub material: usize,
     /// Material of bed and mound, an index into `Case::materials`.
     pub ground_material: usize,
-    /// Friction of unit on unit [-].
-    pub friction_unit: f64,
-    /// Friction of unit on bed or mound [-].
-    pub friction_ground: f64,
+    /// How unit resists unit.
+    pub on_unit: Resistance,
+    /// How bed, mound and walls resist a unit.
+    pub on_ground: Resistance,
 }
 
-/// Where a unit stands, its axis vertical.
+/// Where a unit is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// Place of the axis along the flume [m].
-    pub x: f64,
-    /// Place of the axis across the flume [m].
-    pub y: f64,
-    /// Level of its centre [m]; without it, the unit stands on the ground.
-    pub centre_z: Option<f64>,
-    /// Turn about the vertical [rad]: 0 has a leg seaward, pi a leg shoreward.
-    pub azimuth: f64,
+    /// Its centre of mass [m].
+    pub centre: DVec3,
+    /// Rotation from its own axes.
+    pub rotation: DQuat,
+}
+
+impl Placement {
+    /// A unit that stands with its axis vertical, on the ground unless the level of its centre is given [m]; azimuth 0
+    /// has a Tetrapod's leg seaward, pi shoreward [rad].
+    pub(super) fn standing(shape: &UnitShape, [x, y]: [f64; 2], z: Option<f64>, azimuth: f64, site: &Site) -> Self {
+        let unit = shape.unit();
+        let z = z.unwrap_or_else(|| site.profile.z(x) + unit.standing_height());
+        Self { centre: DVec3::new(x, y, z), rotation: unit.standing_rotation(azimuth) }
+    }
+}
+
+impl Units {
+    /// Files that a run needs beside its case: name and content.
+    pub fn files(&self) -> &[(String, Vec<u8>)] {
+        if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
+    }
+
+    /// Change an entry that rests on other files into one that rests on [`Self::files`]; what was read is added to
+    /// `read`, for the fingerprint of the case.
+    pub(super) fn make_self_contained(&self, file: &mut UnitsFile, read: &mut Vec<u8>) {
+        if let UnitKind::Stl(unit) = &self.shape.kind {
+            file.stl = Some(unit.entry());
+            self.files().iter().for_each(|(_, content)| read.extend(content));
+        }
+        if file.placement_file.take().is_some() {
+            let pose =
+                |p: &Placement| PoseFile { centre_m: p.centre.to_array(), quaternion_xyzw: p.rotation.to_array() };
+            file.poses = Some(self.placements.iter().map(pose).collect());
+        }
+    }
 }
 
 /// What the units need to know of the rest of the case.
 pub(super) struct Surroundings<'a> {
-    pub flume: Option<&'a Flume>,
-    pub domain: Option<&'a Domain>,
+    /// Name of the case file.
+    pub name: &'a str,
+    /// Where they stand.
+    pub site: Option<&'a Site>,
+    /// Distance of the water's particles, if there is water [m].
+    pub dp: Option<f64>,
+    /// Obstacles in the water.
+    pub obstacles: usize,
     pub materials: &'a [Material],
     pub friction: &'a [FrictionPair],
     pub ground_material: Option<usize>,
-    /// `flume.material` is written in the file (perhaps wrongly).
+    /// Key of the ground's material.
+    pub ground_key: &'a str,
+    /// It is written in the file (perhaps wrongly).
     pub ground_named: bool,
-    pub rho0: f64,
+    /// Density of the water, if there is water [kg/m3].
+    pub rho0: Option<f64>,
+    pub rounding_share: f64,
+    pub law: ContactLawName,
 }
 
 /// Validate the units.
 pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let before = check.count();
-    let shape = unit_shape::validate(file, check);
+    let shape = unit_shape::validate(file, around.rounding_share, around.name, check);
     if let Some(shape) = &shape {
         unit_shape::validate_mass(file.mass_kg, shape, around.rho0, check);
     }
@@ -70,7 +110,7 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
     let material = materials::find(around.materials, &file.material, "units.material", check);
     if !around.ground_named {
         check.refuse(
-            "flume.material",
+            around.ground_key,
             "(missing)",
             "one of `materials` when there are units",
             "write the material of bed and mound",
@@ -81,29 +121,32 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
     if check.count() > before {
         return None;
     }
-    let (friction_unit, friction_ground) = friction?;
+    let [on_unit, on_ground] = friction?;
+    let shape = shape?;
     Some(Units {
-        shape: shape?,
         mass: file.mass_kg,
         placements: placements?,
-        damage_distance: file.damage_distance_m.unwrap_or(shape?.height()),
+        damage_distance: file.damage_distance_m.unwrap_or(shape.height()),
+        shape,
         material: material?,
         ground_material: around.ground_material?,
-        friction_unit,
-        friction_ground,
+        on_unit,
+        on_ground,
     })
 }
 
-/// Where the units stand: a row, or the centres of the file. `None` where that cannot be told.
+/// Where the units are: a row, or as the file says one by one. `None` where that cannot be told.
 fn place(
     file: &UnitsFile,
     shape: Option<&UnitShape>,
     around: &Surroundings,
     check: &mut Checker,
 ) -> Option<Vec<Placement>> {
-    let row = if file.centres_m.is_none() { Some(row::validate(file, shape, check)?) } else { None };
-    let (shape, flume, domain) = (shape?, around.flume?, around.domain?);
-    if domain.sides == Sides::TwoDimensional {
+    let posed = file.poses.is_some() || file.placement_file.is_some();
+    let is_row = file.centres_m.is_none() && !posed;
+    let row = if is_row { Some(row::validate(file, shape, check)?) } else { None };
+    let (shape, site) = (shape?, around.site?);
+    if site.sides == Sides::TwoDimensional {
         check.refuse(
             "domain.sides",
             "\"two_dimensional\"",
@@ -112,34 +155,35 @@ fn place(
         );
         return None;
     }
-    if !domain.obstacles.is_empty() {
+    if around.obstacles > 0 {
         check.refuse(
             "domain.obstacles",
-            format!("{} obstacles", domain.obstacles.len()),
+            format!("{} obstacles", around.obstacles),
             "none in a case with units",
             "units would move through an obstacle: contact between them is not computed",
         );
     }
-    if shape.height() < 8.0 * domain.dp {
+    if let Some(dp) = around.dp.filter(|dp| shape.height() < 8.0 * dp) {
         check.warn(format!(
             "domain.dp_m = {}: {:.1} particles in the height of a unit; below 8 the forces on it are rough",
-            show(domain.dp),
-            shape.height() / domain.dp
+            show(dp),
+            shape.height() / dp
         ));
     }
     Some(match (row, &file.centres_m) {
-        (Some(row), _) => row::place(&row, shape, flume, domain, check),
-        (None, Some(centres)) => centres::place(centres, file, shape, flume, domain, check),
-        (None, None) => return None,
+        (Some(row), _) => row::place(&row, shape, site, check),
+        (None, Some(centres)) if !posed => centres::place(centres, file, shape, site, check),
+        _ => poses::place(file, around.name, site, check)?,
     })
 }
 
-fn validate_friction(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<(f64, f64)> {
+fn validate_friction(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<[Resistance; 2]> {
     let (unit, ground) = (material?, around.ground_material?);
     let mut lookup = |a: usize, b: usize| {
-        let found = materials::coefficient(around.friction, a, b);
+        let found = materials::pair(around.friction, a, b);
+        let (a, b) = (&around.materials[a], &around.materials[b]);
         if found.is_none() {
-            let (a, b) = (&around.materials[a].name, &around.materials[b].name);
+            let (a, b) = (&a.name, &b.name);
             check.refuse(
                 "friction",
                 format!("no entry for {a:?} on {b:?}"),
@@ -147,9 +191,27 @@ fn validate_friction(material: Option<usize>, around: &Surroundings, check: &mut
                 format!("add {{ \"between\": [{a:?}, {b:?}], \"coefficient\": ... }}"),
             );
         }
-        found
+        for material in [a, b] {
+            if around.law == ContactLawName::Linear && material.contact_stiffness.is_none() {
+                check.refuse(
+                    "materials",
+                    format!("no `contact_stiffness_n_m` of {:?}", material.name),
+                    "complete under the linear law",
+                    "add the measured stiffness, or use \"hertz_mindlin\"",
+                );
+            }
+        }
+        // Two bodies in series, each of which has twice the stiffness of a contact between two of its kind.
+        let stiffness = a.contact_stiffness.zip(b.contact_stiffness).map(|(a, b)| 2.0 * a * b / (a + b));
+        found.map(|pair| Resistance {
+            static_friction: pair.coefficient,
+            kinetic_friction: pair.kinetic,
+            rolling: pair.rolling,
+            restitution: pair.restitution,
+            stiffness,
+        })
     };
     let on_unit = lookup(unit, unit);
     let on_ground = if ground == unit { on_unit } else { lookup(unit, ground) };
-    Some((on_unit?, on_ground?))
+    Some([on_unit?, on_ground?])
 }

@@ -16,6 +16,7 @@ use super::numerics::{self, Fluid, Numerics};
 use super::output::{self, Output};
 use super::parse::parse;
 use super::run::{self, Contact, Stop};
+use super::site::Site;
 use super::units::{self, Surroundings, Units};
 use super::wave::{self, Wave};
 use super::wavemaker::{self, Wavemaker};
@@ -90,9 +91,9 @@ impl Case {
         }
     }
 
-    /// Friction coefficient of two materials, each an index into `materials`; `None` if the file has no such pair.
-    pub fn friction_between(&self, a: usize, b: usize) -> Option<f64> {
-        materials::coefficient(&self.friction, a, b)
+    /// Ground and limits of the place where the units stand.
+    pub fn site(&self) -> Site {
+        self.domain.site(&self.flume)
     }
 }
 
@@ -132,17 +133,23 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         domain: domain.as_ref(),
     };
     let wave = wave::validate(&file.wave, &around, check);
+    let contact = run::validate_contact(&file.contact, check);
+    let site = flume.as_ref().zip(domain.as_ref()).map(|(flume, domain)| domain.site(flume));
     let around = Surroundings {
-        flume: flume.as_ref(),
-        domain: domain.as_ref(),
+        name,
+        site: site.as_ref(),
+        dp: Some(file.domain.dp_m),
+        obstacles: file.domain.obstacles.len(),
         materials: &materials,
         friction: &friction,
         ground_material,
+        ground_key: "flume.material",
         ground_named: ground.is_some(),
-        rho0: file.fluid.density_kg_m3,
+        rho0: Some(file.fluid.density_kg_m3),
+        rounding_share: contact.rounding_share,
+        law: contact.law,
     };
     let units = file.units.as_ref().map(|row| units::validate(row, &around, check));
-    let contact = run::validate_contact(&file.contact, check);
     let reach = gauges::Reach::of(&file.wave, wavemaker);
     let count = units.as_ref().and_then(Option::as_ref).map_or(0, |units| units.placements.len());
     let gauges = gauges::validate(&file.gauges, flume.as_ref(), domain.as_ref(), count, reach, check);
@@ -154,7 +161,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let wave = wave?;
     let relaxation = domain.as_ref().and_then(|domain| domain.relaxation_zone.as_ref());
     zones::validate_wave(relaxation, &wave, wavemaker, check);
-    let (file, text, read) = self_contained(file, text, &wave);
+    let (file, text, read) = self_contained(file, text, &wave, units.as_ref());
     let case = Case {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -181,15 +188,21 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
 }
 
 /// The case as a run keeps it: file, text, and what it has read besides. A wave from other programs' files becomes one
-/// from the file that the run writes beside its case, so that the folder can be moved and resumed.
-fn self_contained(file: &CaseFile, text: &str, wave: &Wave) -> (CaseFile, String, Vec<u8>) {
-    let Wave::Given(given) = wave else { return (file.clone(), text.to_owned(), Vec::new()) };
-    let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into() });
-    let wave = WaveFile::File(GivenWaveFile { source, celerity_m_s: given.celerity });
-    let file = CaseFile { wave, ..file.clone() };
+/// from the file that the run writes beside its case, STL files those that it copies there, and a placement file becomes
+/// poses in the case, so that the folder can be moved and resumed.
+fn self_contained(file: &CaseFile, text: &str, wave: &Wave, units: Option<&Units>) -> (CaseFile, String, Vec<u8>) {
+    let (mut kept, mut read) = (file.clone(), Vec::new());
+    if let Wave::Given(given) = wave {
+        let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into() });
+        kept.wave = WaveFile::File(GivenWaveFile { source, celerity_m_s: given.celerity });
+        read = given.rows_text();
+    }
+    if let (Some(file), Some(units)) = (&mut kept.units, units) {
+        units.make_self_contained(file, &mut read);
+    }
     // Writing to memory cannot fail: every key is a string.
-    let text = serde_json::to_string_pretty(&file).unwrap_or_default();
-    (file, text, given.rows_text())
+    let text = if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
+    (kept, text, read)
 }
 
 fn validate_size(case: &Case, check: &mut Checker) {

@@ -99,6 +99,12 @@ impl ArmourUnit {
         Self::of_blocks(height_m, &blocks, rounding_share, DQuat::IDENTITY)
     }
 
+    /// A unit with its own surface and convex parts, standing as they are given, rounded as the others.
+    pub fn of_parts(solid: &Solid, parts: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
+        let [low, high] = solid.bounds();
+        Self::of_solid(high.z - low.z, solid.clone(), parts, rounding_share, DQuat::IDENTITY)
+    }
+
     /// A unit of blocks without a foot of its own: it stands on the three of its corners that carry it most safely.
     fn of_members(height: f64, blocks: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let unit = Self::of_blocks(height, blocks, rounding_share, DQuat::IDENTITY)?;
@@ -113,9 +119,18 @@ impl ArmourUnit {
         rounding_share: f64,
         standing: DQuat,
     ) -> Result<Self, ArmourUnitError> {
-        let largest = LARGEST_ROUNDING * blocks.iter().map(inner_radius).fold(f64::MAX, f64::min) / height;
         let (vertices, triangles) = union::surface(blocks);
-        let solid = Solid::new(vertices, triangles)?;
+        Self::of_solid(height, Solid::new(vertices, triangles)?, blocks, rounding_share, standing)
+    }
+
+    fn of_solid(
+        height: f64,
+        solid: Solid,
+        blocks: &[Polyhedron],
+        rounding_share: f64,
+        standing: DQuat,
+    ) -> Result<Self, ArmourUnitError> {
+        let largest = LARGEST_ROUNDING * blocks.iter().map(inner_radius).fold(f64::MAX, f64::min) / height;
         let shift = -solid.volume_properties().centre;
         let rounding = rounding_share * height;
         let part = |block: &Polyhedron| ConvexPart::polyhedron(&block.translated(shift), rounding);

@@ -5,6 +5,7 @@ pub mod axis_box;
 pub mod convex_part;
 pub mod core_loc;
 pub mod cuboid;
+pub mod decomposition;
 pub mod dolos;
 pub mod grooved_cube;
 pub mod member;

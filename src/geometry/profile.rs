@@ -82,6 +82,13 @@ impl Profile {
         hits.sort_by(|a, b| (a[0] - x).abs().total_cmp(&(b[0] - x).abs()));
         hits.first().copied()
     }
+
+    /// Lowest and highest level between two x [m]: the extremes of a polyline are among its corners and ends.
+    pub fn extremes_between(&self, [x0, x1]: [f64; 2]) -> (f64, f64) {
+        let corners = self.points().iter().filter(|p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
+        let levels = corners.chain([self.z(x0), self.z(x1)]);
+        levels.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
+    }
 }
 
 #[cfg(test)]

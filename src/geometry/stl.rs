@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::fs::{self, File};
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{BufWriter, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -25,12 +25,17 @@ pub enum StlError {
 }
 
 /// Body inside the surface in an STL file, ASCII or binary, its lengths multiplied by `scale` (0.001 for a file in mm).
+pub fn read(path: &Path, scale: f64) -> Result<Solid, StlError> {
+    let bytes = fs::read(path).map_err(|source| StlError::Io { path: path.to_owned(), source })?;
+    parse(&bytes, path, scale)
+}
+
+/// The same from the file's content; `path` is its name in messages.
 ///
 /// Corner points with the same coordinates become one vertex; triangles without area are left out.
-pub fn read(path: &Path, scale: f64) -> Result<Solid, StlError> {
-    let io = |source| StlError::Io { path: path.to_owned(), source };
+pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<Solid, StlError> {
     let format = |reason: String| StlError::Format { path: path.to_owned(), reason };
-    let mut file = BufReader::new(File::open(path).map_err(io)?);
+    let mut file = Cursor::new(bytes);
     let facets = stl_io::create_stl_reader(&mut file).map_err(|e| format(e.to_string()))?;
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     let mut known: HashMap<[u32; 3], u32> = HashMap::new();

@@ -2,7 +2,7 @@
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | [`setup`], [`scheme`] | make a simulation of a case |
+//! | [`setup`], [`scheme`], [`bodies`] | make a simulation of a case |
 //! | [`incoming`] | make its wave, in the flume model or by a paddle |
 //! | this one | one step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
@@ -22,6 +22,7 @@
 
 mod absorb;
 pub mod balance;
+pub mod bodies;
 pub mod checkpoint;
 mod diagnostics;
 pub mod energy;

@@ -67,8 +67,11 @@ impl Recorder {
         }
         let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
         profile.append_rows(case.flume.profile.points())?;
-        if let Some(units) = &simulation.units {
+        if let (Some(units), Some(of_case)) = (&simulation.units, &case.units) {
             surface_of(units).write(&dir.join(UnitSurface::FILE))?;
+            for (name, content) in of_case.files() {
+                write_atomically(&dir.join(name), content)?;
+            }
         }
         if let Some(record) = &simulation.flume {
             write_flume_gauges(case, record, &dir.join("flume_gauges.csv"))?;

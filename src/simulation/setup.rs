@@ -7,17 +7,15 @@ use thiserror::Error;
 
 use super::{
     Simulation, Units,
+    bodies::rigid_setup,
     incoming::{particle_start, run_flume, wavemaker},
     mean_loads::MeanLoads,
     scheme::{parameters, tait},
     statistics::Statistics,
 };
 use crate::{
-    case::{self, Case, UnitShape},
-    geometry::{
-        armour_unit::{ArmourUnit, ArmourUnitError},
-        profile::Profile,
-    },
+    case::{self, Case},
+    geometry::{armour_unit::ArmourUnit, profile::Profile},
     particles::{
         bed::{Across, Outline, outline_particles, side_wall_particles},
         boundary::{Boundary, BoundaryParticle},
@@ -26,7 +24,7 @@ use crate::{
         unit::{LEAST_DEPTH, unit_particles},
         water::Water,
     },
-    rigid::{self, BodyShape, BodyState, Friction, Ground, RigidError, RigidSetup, RigidWorld},
+    rigid::{Load, RigidError, RigidWorld},
     sph::step::Solver,
     waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
@@ -63,9 +61,6 @@ pub enum SetupError {
         /// When the files end [s].
         end: f64,
     },
-    /// The unit cannot be built.
-    #[error(transparent)]
-    Unit(#[from] ArmourUnitError),
     /// The units cannot stand where the case puts them.
     #[error(transparent)]
     Rigid(#[from] RigidError),
@@ -263,41 +258,13 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
     basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
 }
 
-/// Bodies of the units, standing on the bed.
+/// Bodies of the units.
 fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
-    let rounding = case.contact.rounding_share;
-    let shape = Arc::new(match units.shape {
-        UnitShape::Tetrapod { height } => ArmourUnit::tetrapod(height, rounding)?,
-        UnitShape::Cuboid { edges } => ArmourUnit::cuboid(DVec3::from_array(edges), rounding)?,
-    });
-    let stand = |placement: &case::Placement| {
-        let on_ground = || case.flume.profile.z(placement.x) + shape.standing_height();
-        let z = placement.centre_z.unwrap_or_else(on_ground);
-        BodyState::at_rest(DVec3::new(placement.x, placement.y, z), shape.standing_rotation(placement.azimuth))
-    };
-    let start: Vec<BodyState> = units.placements.iter().map(stand).collect();
-    let material = |index: usize| {
-        let case::Material { young_modulus, poisson_ratio, restitution, .. } = case.materials[index];
-        rigid::Material { young_modulus, poisson_ratio, restitution }
-    };
-    let (unit_ground, unit_unit) = (units.friction_ground.into(), units.friction_unit.into());
-    let world = RigidWorld::new(RigidSetup {
-        shape: BodyShape::of_unit(&shape, units.mass),
-        bodies: start.clone(),
-        material: material(units.material),
-        ground: Some(Ground { profile: case.flume.profile.clone(), material: material(units.ground_material) }),
-        sides: match case.domain.sides {
-            case::Sides::Periodic => rigid::Sides::Periodic { width: case.domain.width },
-            // Units are refused in two dimensions.
-            case::Sides::Walls | case::Sides::TwoDimensional => rigid::Sides::Walls { width: case.domain.width },
-        },
-        end_walls: Some(case.domain.x),
-        wall_material: material(units.ground_material),
-        friction: Friction { unit_unit, unit_ground, unit_wall: unit_ground },
-        model: rigid::ContactModel::HertzMindlin,
-        gravity: DVec3::NEG_Z * case.fluid.gravity,
-    })?;
-    let (fluid_loads, mean_loads) = (vec![rigid::Load::default(); start.len()], MeanLoads::new(start.len()));
+    let shape = units.shape.unit().clone();
+    let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
+    let start = setup.bodies.clone();
+    let world = RigidWorld::new(setup)?;
+    let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
     Ok(Units { shape, world, start, fluid_loads, mean_loads })
 }
 

@@ -9,12 +9,18 @@ use serde::{Deserialize, Serialize};
 pub struct UnitsFile {
     /// Shape of a unit.
     pub shape: Shape,
-    /// Height H of a tetrapod standing on three legs [m].
+    /// Height H of a Tetrapod standing on three legs, of a Dolos or a grooved cube; size C of a Core-Loc [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
     /// Edges of a cuboid along x, y and z [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_m: Option<[f64; 3]>,
+    /// Width of a Dolos' stem over its height [-]; without it, 0.34.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waist_ratio: Option<f64>,
+    /// Files of a unit that is not in the catalogue.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stl: Option<StlFile>,
     /// Mass of a unit [kg].
     pub mass_kg: f64,
     /// Material, one of `materials`.
@@ -22,6 +28,12 @@ pub struct UnitsFile {
     /// Number of units in the row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
+    /// Where each unit is, one by one, in the place of a row.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poses: Option<Vec<PoseFile>>,
+    /// File with the poses, as `breakwater place` writes it; seen from the folder of the case file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub placement_file: Option<String>,
     /// Distance between the units' axes [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
@@ -43,6 +55,34 @@ pub struct UnitsFile {
     pub damage_distance_m: Option<f64>,
 }
 
+/// Place and rotation of a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PoseFile {
+    /// Centre of mass [x, y, z] [m].
+    pub centre_m: [f64; 3],
+    /// Rotation from the unit's own axes, a unit quaternion [x, y, z, w]; without it, none.
+    #[serde(default = "no_rotation")]
+    pub quaternion_xyzw: [f64; 4],
+}
+
+fn no_rotation() -> [f64; 4] {
+    [0.0, 0.0, 0.0, 1.0]
+}
+
+/// Poses of units, as `breakwater place` writes them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlacementFile {
+    /// The case that they were made for.
+    pub title: String,
+    /// Units to the area of the slope, over D_n^-2 [-], if they were placed on one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub packing_density: Option<f64>,
+    /// The poses.
+    pub poses: Vec<PoseFile>,
+}
+
 /// Shape of an armour unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -51,6 +91,47 @@ pub enum Shape {
     Tetrapod,
     /// Block with three pairs of plane faces.
     Cuboid,
+    /// Dolos (Merrifield 1974).
+    Dolos,
+    /// Core-Loc (Melby & Turk 1997).
+    CoreLoc,
+    /// Cube with a groove down each side, Antifer block.
+    GroovedCube,
+    /// Any unit, from STL files.
+    Stl,
+}
+
+impl Shape {
+    /// Name in case files.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Tetrapod => "tetrapod",
+            Self::Cuboid => "cuboid",
+            Self::Dolos => "dolos",
+            Self::CoreLoc => "core_loc",
+            Self::GroovedCube => "grooved_cube",
+            Self::Stl => "stl",
+        }
+    }
+}
+
+/// STL files of a unit, ASCII or binary; paths are seen from the folder of the case file. The unit stands as in the file,
+/// z upwards.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StlFile {
+    /// Closed surface of the unit.
+    pub path: String,
+    /// Metres in a unit of length of the files: 1, or 0.001 for millimetres.
+    #[serde(default = "default_scale")]
+    pub scale: f64,
+    /// Surfaces of the convex parts that fill the unit; without them it is decomposed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<String>,
+}
+
+fn default_scale() -> f64 {
+    1.0
 }
 
 /// How the units of a row are turned about the vertical.
@@ -76,6 +157,9 @@ pub struct MaterialFile {
     pub name: String,
     /// Young's modulus in contact [Pa]. A softer value than the real one lengthens the contact and the time step.
     pub young_modulus_pa: f64,
+    /// Measured stiffness of a contact between two bodies of the material [N/m], for the linear law.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_stiffness_n_m: Option<f64>,
     /// Poisson's ratio [-].
     pub poisson_ratio: f64,
     /// Coefficient of restitution [-].
@@ -88,8 +172,17 @@ pub struct MaterialFile {
 pub struct FrictionFile {
     /// The two materials; the same one twice for units against units.
     pub between: [String; 2],
-    /// Coulomb's coefficient [-].
+    /// Coulomb's coefficient [-], at rest if that of motion is given as well.
     pub coefficient: f64,
+    /// Coulomb's coefficient while sliding [-]; without it, the same as at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinetic_coefficient: Option<f64>,
+    /// Coefficient of rolling resistance [-]: the moment over force and rounding radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_coefficient: Option<f64>,
+    /// Coefficient of restitution of the pair [-]; without it, the smaller one of the two materials.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
 }
 
 /// Contact between units and with the bed.
@@ -98,11 +191,35 @@ pub struct FrictionFile {
 pub struct ContactFile {
     /// Rounding radius of a unit's edges as a share of its height; also the radius of Hertz's law [-].
     pub rounding_share: f64,
+    /// Law of the contacts.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(skip_serializing_if = "ContactLawName::is_default")]
+    pub law: ContactLawName,
 }
 
 impl Default for ContactFile {
     fn default() -> Self {
-        Self { rounding_share: 0.05 }
+        Self { rounding_share: 0.05, law: ContactLawName::default() }
+    }
+}
+
+/// Law of the contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactLawName {
+    /// Hertz in the normal, Mindlin's spring with its history in the tangential direction.
+    #[default]
+    HertzMindlin,
+    /// Springs of the measured stiffness `contact_stiffness_n_m` of the materials.
+    Linear,
+    /// As the published runs had it: every contact with a radius of 0.1 m and a tangential spring of one step, so that
+    /// units creep.
+    Chrono4,
+}
+
+impl ContactLawName {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
     }
 }
 

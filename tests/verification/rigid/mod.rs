@@ -1,9 +1,15 @@
 //! Rigid bodies and contact against answers known from mechanics.
 
+mod catalogue;
+mod creep;
 mod cubes;
 mod friction;
 mod impact;
+mod linear;
+mod rolling;
 mod rows;
+mod sliding;
+mod spin;
 mod world;
 
 use breakwater::geometry::armour_unit::ArmourUnit;

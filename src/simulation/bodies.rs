@@ -1,0 +1,43 @@
+//! From validated units to rigid bodies.
+
+use glam::DVec3;
+
+use crate::{
+    case::{self, ContactLawName, Sides, Site, Units},
+    rigid::{self, BodyShape, BodyState, ContactModel, Friction, Ground, RigidSetup},
+};
+
+/// What the world of the units is made of.
+pub fn rigid_setup(
+    units: &Units,
+    site: &Site,
+    materials: &[case::Material],
+    law: ContactLawName,
+    gravity: f64,
+) -> RigidSetup {
+    let material = |index: usize| {
+        let case::Material { young_modulus, poisson_ratio, restitution, .. } = materials[index];
+        rigid::Material { young_modulus, poisson_ratio, restitution }
+    };
+    let ground = material(units.ground_material);
+    RigidSetup {
+        shape: BodyShape::of_unit(units.shape.unit(), units.mass),
+        bodies: units.placements.iter().map(|p| BodyState::at_rest(p.centre, p.rotation)).collect(),
+        material: material(units.material),
+        ground: Some(Ground { profile: site.profile.clone(), material: ground }),
+        sides: match site.sides {
+            Sides::Periodic => rigid::Sides::Periodic { width: site.width },
+            // Units are refused in two dimensions.
+            Sides::Walls | Sides::TwoDimensional => rigid::Sides::Walls { width: site.width },
+        },
+        end_walls: Some(site.x),
+        wall_material: ground,
+        friction: Friction { unit_unit: units.on_unit, unit_ground: units.on_ground, unit_wall: units.on_ground },
+        model: match law {
+            ContactLawName::HertzMindlin => ContactModel::HertzMindlin,
+            ContactLawName::Linear => ContactModel::Linear,
+            ContactLawName::Chrono4 => ContactModel::Chrono4,
+        },
+        gravity: DVec3::NEG_Z * gravity,
+    }
+}
