@@ -11,6 +11,8 @@
 //! | [`sph`] | the weakly compressible SPH solver |
 //! | [`rigid`] | rigid armour units and their contact |
 //! | [`simulation`] | the coupled loop: water, units, outputs |
+//! | [`dry`] | units without water: settling, drops, slope tests |
+//! | [`placement`] | armour layers: units placed one by one and settled |
 //! | [`output`] | ParaView files, tables, checkpoints, summary, report, comparison |
 //! | [`bench`] | how fast the solver is on this machine |
 //! | [`cli`] | one file a subcommand |
@@ -23,9 +25,12 @@
 pub mod bench;
 pub mod case;
 pub mod cli;
+pub mod dry;
 pub mod geometry;
 pub mod output;
 pub mod particles;
+pub mod placement;
+mod random;
 pub mod rigid;
 pub mod simulation;
 pub mod sph;

@@ -3,15 +3,17 @@
 //! Keys carry their unit. Unknown keys are refused, so that a misspelt one is never ignored.
 //! `Case` is the validated form that the solvers see.
 
+mod dry;
 mod numerics;
 mod objects;
 mod wave_source;
 mod waves;
 
+pub use dry::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TiltFile};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
-    ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile, Orientation, PlacementFile,
-    PointFile, PoseFile, Shape, StlFile, UnitsFile,
+    ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
+    Orientation, PlacementFile, PointFile, PoseFile, Shape, StlFile, UnitsFile,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -98,6 +100,16 @@ pub struct FlumeFile {
     /// What stands at the shoreward end of the flume model.
     #[serde(default, skip_serializing_if = "RightEndFile::is_wall")]
     pub right_end: RightEndFile,
+}
+
+impl FlumeFile {
+    /// Ground alone, for units without water.
+    pub(super) fn dry(bed_m: Vec<[f64; 2]>, mound: Option<MoundFile>) -> Self {
+        let cell_m = default_cell_m();
+        let (layers, right_end) = (default_layers(), RightEndFile::default());
+        let (material, manning_s_m13) = (None, None);
+        Self { bed_m, still_water_level_m: 0.0, mound, material, layers, cell_m, manning_s_m13, right_end }
+    }
 }
 
 fn default_layers() -> u32 {

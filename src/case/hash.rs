@@ -1,13 +1,12 @@
 //! Fingerprint of a case: the same for the same case, however the file is laid out.
 
-use super::file::CaseFile;
+use serde::Serialize;
 
 /// 32 hexadecimal digits: FNV-1a (128 bits) of the case with every default written out, and of what it reads from other
-/// files. White space, the order of the keys and `$schema` do not matter.
-pub(super) fn fingerprint(file: &CaseFile, read: &[u8]) -> String {
-    let without_schema = CaseFile { schema: None, ..file.clone() };
+/// files. White space and the order of the keys do not matter; `file` comes without its `$schema`.
+pub(super) fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
     // The structs fix the order of the keys; writing them to memory cannot fail: every key is a string.
-    let canonical = serde_json::to_string(&without_schema).unwrap_or_default();
+    let canonical = serde_json::to_string(file).unwrap_or_default();
     format!("{:032x}", fnv1a_128(canonical.as_bytes().iter().chain(read)))
 }
 

@@ -6,6 +6,7 @@
 mod centres;
 mod check;
 mod domain;
+mod dry;
 mod error;
 mod estimate;
 pub mod file;
@@ -19,6 +20,7 @@ mod obstacles;
 mod output;
 mod output_size;
 mod parse;
+mod placing;
 mod poses;
 mod row;
 mod run;
@@ -34,11 +36,12 @@ mod wavemaker;
 mod zones;
 
 pub use domain::{Domain, Start, Water};
+pub use dry::{DryCase, DryOutput, DryTest};
 pub use error::{CaseError, CaseErrors};
 pub use estimate::Estimate;
 pub use file::{
-    Boundary, ContactLawName, DensityDiffusion, FluidField, PlacementFile, PoseFile, Sides, SolitaryTheory, Viscosity,
-    WallSlip,
+    ArmourOrientation, Boundary, ContactLawName, DensityDiffusion, FluidField, PlacementFile, PoseFile, Sides,
+    SolitaryTheory, Viscosity, WallSlip,
 };
 pub use flume::{Flume, Mound};
 pub use gauges::{Gauge, Motion, Quantity};
@@ -47,8 +50,9 @@ pub use materials::{FrictionPair, Material};
 pub use numerics::{Fluid, Numerics};
 pub use output::Output;
 pub use output_size::OutputSize;
+pub use placing::{Armour, PlacementJob};
 pub use run::{AtRest, Contact, Stop};
-pub use schema::schema_text;
+pub use schema::{dry_schema_text, schema_text};
 pub use site::Site;
 pub use template::template_text;
 pub use unit_shape::{UnitKind, UnitShape};

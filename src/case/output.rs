@@ -26,27 +26,11 @@ pub struct Output {
 
 /// Validate the outputs of a run of `duration` [s].
 pub(super) fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check: &mut Checker) -> Output {
-    let shortest = duration / MOST_OUTPUTS;
-    let mut interval = |key: &str, value: f64| {
-        let path = format!("output.{key}");
-        if value == 0.0 {
-            return None;
-        }
-        let advice =
-            format!("write the time between two outputs, or 0 for none; a run can write {MOST_OUTPUTS:e} at most");
-        check.number(&path, value, from(shortest.max(0.0)).up_to(1e6), "s", &advice).then_some(value)
-    };
+    let mut interval = |key: &str, value: f64| validate_interval(key, value, duration, check);
     let fluid_interval = interval("fluid_interval_s", file.fluid_interval_s);
     let units_interval = interval("units_interval_s", file.units_interval_s);
     let checkpoint_interval = interval("checkpoint_interval_s", file.checkpoint_interval_s);
-    let series_range = if shortest > 0.0 { from(shortest) } else { above(0.0) };
-    check.number(
-        "output.series_interval_s",
-        file.series_interval_s,
-        series_range.up_to(1e6),
-        "s",
-        "the tables need an interval, e.g. 0.01",
-    );
+    validate_series_interval(file.series_interval_s, duration, check);
     validate_fields(&file.fluid_fields, check);
     if let (Some(corners), Some(domain)) = (file.fluid_box_m, domain) {
         validate_box(corners, domain, check);
@@ -59,6 +43,24 @@ pub(super) fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>
         series_interval: file.series_interval_s,
         checkpoint_interval,
     }
+}
+
+/// Validate an interval in a run of `duration` [s]; `None` is none.
+pub(super) fn validate_interval(key: &str, value: f64, duration: f64, check: &mut Checker) -> Option<f64> {
+    if value == 0.0 {
+        return None;
+    }
+    let shortest = (duration / MOST_OUTPUTS).max(0.0);
+    let advice = format!("write the time between two outputs, or 0 for none; a run can write {MOST_OUTPUTS:e} at most");
+    check.number(&format!("output.{key}"), value, from(shortest).up_to(1e6), "s", &advice).then_some(value)
+}
+
+/// Validate the interval of the tables, which are always written.
+pub(super) fn validate_series_interval(value: f64, duration: f64, check: &mut Checker) {
+    let shortest = duration / MOST_OUTPUTS;
+    let range = if shortest > 0.0 { from(shortest) } else { above(0.0) };
+    let advice = "the tables need an interval, e.g. 0.01";
+    check.number("output.series_interval_s", value, range.up_to(1e6), "s", advice);
 }
 
 fn validate_fields(fields: &[FluidField], check: &mut Checker) {

@@ -1,16 +1,16 @@
-//! Text to [`CaseFile`]: syntax, keys and types.
+//! Text to the file as written: syntax, keys and types.
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
 
 use super::error::{CaseError, nearest};
-use super::file::{BlockFile, CaseFile, ElevationFile, FlapFile, PointFile, RegularFile, SolitaryFile};
+use super::file::{BlockFile, DropFile, ElevationFile, FlapFile, PointFile, RegularFile, SolitaryFile, TiltFile};
 
-/// Read the case as written; `name` is the file's name in messages.
-pub(super) fn parse(text: &str, name: &str) -> Result<CaseFile, CaseError> {
+/// Read a case as written; `name` is the file's name in messages.
+pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, CaseError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = serde_json::Deserializer::from_str(text);
-    let parsed = serde_path_to_error::deserialize::<_, CaseFile>(&mut reader);
+    let parsed = serde_path_to_error::deserialize::<_, T>(&mut reader);
     match parsed {
         Ok(file) => match reader.end() {
             Ok(()) => Ok(file),
@@ -77,6 +77,8 @@ fn refine(text: &str, path: &str) -> Option<(String, String)> {
     let (inner_path, problem) = match kind.as_str() {
         "solitary" => first_problem::<SolitaryFile>(rest),
         "regular" => first_problem::<RegularFile>(rest),
+        "drop" => first_problem::<DropFile>(rest),
+        "tilt" => first_problem::<TiltFile>(rest),
         "flap" => first_problem::<FlapFile>(rest),
         "block" => first_problem::<BlockFile>(rest),
         "elevation" => first_problem::<ElevationFile>(rest),

@@ -1,10 +1,21 @@
-//! The JSON schema of the case file, for editors and other programs.
+//! The JSON schemas of case files, for editors and other programs.
 
-use super::file::CaseFile;
+use schemars::JsonSchema;
+
+use super::file::{CaseFile, DryFile};
 
 /// JSON schema of [`CaseFile`], indented.
 pub fn schema_text() -> String {
-    let schema = schemars::schema_for!(CaseFile);
+    text_of::<CaseFile>()
+}
+
+/// JSON schema of [`DryFile`], indented.
+pub fn dry_schema_text() -> String {
+    text_of::<DryFile>()
+}
+
+fn text_of<T: JsonSchema>() -> String {
+    let schema = schemars::schema_for!(T);
     // A schema is plain JSON: alternate formatting indents it and cannot fail.
     format!("{:#}", schema.as_value())
 }

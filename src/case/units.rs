@@ -99,6 +99,13 @@ pub(super) struct Surroundings<'a> {
 
 /// Validate the units.
 pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
+    let unplaced = validate_unplaced(file, around, check);
+    let placements = place(file, unplaced.as_ref().map(|units| &units.shape), around, check);
+    Some(Units { placements: placements?, ..unplaced? })
+}
+
+/// Validate everything but where the units are.
+pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let before = check.count();
     let shape = unit_shape::validate(file, around.rounding_share, around.name, check);
     if let Some(shape) = &shape {
@@ -117,7 +124,6 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
         );
     }
     let friction = validate_friction(material, around, check);
-    let placements = place(file, shape.as_ref(), around, check);
     if check.count() > before {
         return None;
     }
@@ -125,7 +131,7 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
     let shape = shape?;
     Some(Units {
         mass: file.mass_kg,
-        placements: placements?,
+        placements: Vec::new(),
         damage_distance: file.damage_distance_m.unwrap_or(shape.height()),
         shape,
         material: material?,
@@ -143,6 +149,15 @@ fn place(
     check: &mut Checker,
 ) -> Option<Vec<Placement>> {
     let posed = file.poses.is_some() || file.placement_file.is_some();
+    if file.armour.is_some() && !posed {
+        check.refuse(
+            "units.armour",
+            "{ ... }",
+            "accompanied by a placement",
+            "run `breakwater place` on the case and add the `placement_file` that it writes",
+        );
+        return None;
+    }
     let is_row = file.centres_m.is_none() && !posed;
     let row = if is_row { Some(row::validate(file, shape, check)?) } else { None };
     let (shape, site) = (shape?, around.site?);

@@ -97,7 +97,7 @@ impl Case {
     }
 }
 
-fn read(path: &Path) -> Result<String, String> {
+pub(super) fn read(path: &Path) -> Result<String, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut text = String::new();
     let size = file.take(LARGEST_FILE + 1).read_to_string(&mut text).map_err(|error| error.to_string())?;
@@ -167,7 +167,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         assumptions: file.assumptions.clone(),
         warnings: Vec::new(),
         name: name.to_owned(),
-        hash: fingerprint(&file, &read),
+        hash: fingerprint(&CaseFile { schema: None, ..file.clone() }, &read),
         text,
         flume: flume?,
         domain: domain?,

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Trouble, load};
+use super::{AnyCase, Trouble, load_any};
 use crate::{
-    case::{Case, Sides, Wave},
+    case::{Case, DryCase, DryTest, Sides, Units, Wave},
+    dry::DryRun,
     simulation::{incoming::particle_start, progress::readable, setup::check_times},
 };
 
@@ -30,8 +31,12 @@ impl CheckArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let mut refusals = Vec::new();
         for path in &self.cases {
-            match load(path) {
-                Ok(case) => {
+            match load_any(path) {
+                Ok(AnyCase::Dry(case)) => match DryRun::new(case.clone()) {
+                    Ok(_) => print_dry(&case),
+                    Err(reason) => refusals.push(format!("{}: units: {reason}", path.display())),
+                },
+                Ok(AnyCase::Wet(case)) => {
                     if let Err(reason) = check_times(&case, particle_start(&case, None)) {
                         refusals.push(format!("{}: {reason}", path.display()));
                     }
@@ -96,7 +101,7 @@ fn print(case: &Case) {
         case.domain.x[0], case.domain.x[1], case.domain.depth
     );
     if let Some(units) = &case.units {
-        println!("  units       {} of {} m and {} kg", units.placements.len(), units.shape.height(), units.mass);
+        print_units(units);
     }
     println!(
         "  particles   about {:.0} thousand: water {:.0}, bed and walls {:.0}, units {:.1}; dp = {} m",
@@ -121,6 +126,38 @@ fn print(case: &Case) {
         estimate.dt, case.fluid.sound_speed, estimate.steps, case.stop.duration
     );
     println!("  run time    about {} on {cores} cores", readable(seconds));
+}
+
+fn print_units(units: &Units) {
+    let shape = &units.shape;
+    println!(
+        "  units       {} ({}) of {} m and {} kg",
+        units.placements.len(),
+        shape.kind.name(),
+        shape.height(),
+        units.mass
+    );
+    let density = units.mass / shape.volume();
+    print!("  a unit      {:.4e} m3, {density:.0} kg/m3, D_n = {:.4} m", shape.volume(), shape.nominal_diameter());
+    match shape.kind.stability_coefficient() {
+        Some(k_d) => println!(", K_D = {k_d}"),
+        None => println!(),
+    }
+}
+
+fn print_dry(case: &DryCase) {
+    println!("{}: {}", case.name, case.title);
+    let test = match case.test {
+        DryTest::Settle => "units settle where they are".to_owned(),
+        DryTest::Drop => "units are dropped".to_owned(),
+        DryTest::Tilt { rate, to, .. } => {
+            format!("the bed is tilted by {:.3} degrees/s up to {:.1}", rate.to_degrees(), to.to_degrees())
+        }
+    };
+    println!("  dry test    {test}");
+    println!("  place       x = {} to {} m, {} m wide", case.site.x[0], case.site.x[1], case.site.width);
+    print_units(&case.units);
+    println!("  duration    at most {} s", case.stop.duration);
 }
 
 /// A number of bytes as people say it.

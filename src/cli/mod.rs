@@ -5,17 +5,24 @@
 mod bench;
 mod check;
 mod compare;
+mod dry_report;
 mod init;
+mod place;
 mod report;
 mod run;
 mod schema;
 mod wave;
 
-use std::{fmt::Display, path::PathBuf, process::ExitCode, sync::Arc};
+use std::{
+    fmt::Display,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    sync::Arc,
+};
 
 use clap::{Parser, Subcommand};
 
-use crate::case::Case;
+use crate::case::{Case, DryCase};
 
 /// Will this wave move the armour units?
 ///
@@ -35,6 +42,7 @@ Examples:
   breakwater resume runs/quick-look                go on after an interruption
   breakwater compare runs/quick-look               beside the Fudo experiment
   breakwater wave cases/fudo/H4.5-slice.json       the wave alone, in seconds
+  breakwater run cases/contact/tilt-tetrapod.json  units without water: a slope test
   breakwater init my-case.json                     a case to start from";
 
 #[derive(Subcommand)]
@@ -42,6 +50,7 @@ enum Command {
     Run(run::RunArguments),
     Resume(run::ResumeArguments),
     Check(check::CheckArguments),
+    Place(place::PlaceArguments),
     Wave(wave::WaveArguments),
     Compare(compare::CompareArguments),
     Report(report::ReportArguments),
@@ -74,6 +83,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => arguments.execute(),
         Command::Resume(arguments) => arguments.execute(),
         Command::Check(arguments) => arguments.execute(),
+        Command::Place(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
         Command::Compare(arguments) => arguments.execute(),
         Command::Report(arguments) => arguments.execute(),
@@ -94,13 +104,34 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Read a case and show its warnings.
-fn load(path: &PathBuf) -> Result<Arc<Case>, Trouble> {
-    let case = Case::load(path).map_err(Trouble::refused)?;
-    for warning in &case.warnings {
-        eprintln!("warning: {warning}");
+/// A case file of either kind.
+enum AnyCase {
+    /// A flume with water.
+    Wet(Arc<Case>),
+    /// Units on a bed without water.
+    Dry(Arc<DryCase>),
+}
+
+/// Read a case of either kind and show its warnings.
+fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
+    let is_dry = std::fs::read_to_string(path).is_ok_and(|text| DryCase::is_one(&text));
+    if !is_dry {
+        return load(path).map(AnyCase::Wet);
     }
+    let case = DryCase::load(path).map_err(Trouble::refused)?;
+    show_warnings(&case.warnings);
+    Ok(AnyCase::Dry(Arc::new(case)))
+}
+
+/// Read a case with water and show its warnings.
+fn load(path: &Path) -> Result<Arc<Case>, Trouble> {
+    let case = Case::load(path).map_err(Trouble::refused)?;
+    show_warnings(&case.warnings);
     Ok(Arc::new(case))
+}
+
+fn show_warnings(warnings: &[String]) {
+    warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
 }
 
 /// Name of the case file without folder and ending.
@@ -109,9 +140,10 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 21] = [
+const RESULT_FILES: [&str; 22] = [
     "case.json",
     "checkpoint.h5",
+    "checkpoint.json",
     "compare.csv",
     "compare.html",
     "contacts.csv",

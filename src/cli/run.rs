@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, fresh_folder, load, stem};
+use super::{AnyCase, Trouble, dry_report, fresh_folder, load_any, stem};
 use crate::{
     case::Case,
+    dry::{self, recorder::DryRecorder},
     output::{Stopped, Summary},
     simulation::{
         checkpoint::Checkpoint,
@@ -51,19 +52,30 @@ struct MachineArguments {
 
 impl RunArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let case = load(&self.case)?;
+        let case = load_any(&self.case)?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let options = self.machine.prepare()?;
         fresh_folder(&dir, self.overwrite)?;
-        introduce(&case, &dir, options.quiet);
-        finish(run(case, &dir, &options), &dir)
+        match case {
+            AnyCase::Wet(case) => {
+                introduce(&case, &dir, options.quiet);
+                finish(run(case, &dir, &options), &dir)
+            }
+            AnyCase::Dry(case) => {
+                dry_report::introduce(&case, &dir, options.quiet);
+                dry_report::finish(dry::run::run(case, &dir, options.quiet), &dir)
+            }
+        }
     }
 }
 
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let case = load(&self.dir.join("case.json"))?;
-        let checkpoint = self.dir.join(Checkpoint::FILE);
+        let case = load_any(&self.dir.join("case.json"))?;
+        let checkpoint = self.dir.join(match &case {
+            AnyCase::Wet(_) => Checkpoint::FILE,
+            AnyCase::Dry(_) => DryRecorder::CHECKPOINT,
+        });
         if !checkpoint.exists() {
             return Err(Trouble::refused(format!(
                 "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater run",
@@ -71,8 +83,16 @@ impl ResumeArguments {
             )));
         }
         let options = self.machine.prepare()?;
-        introduce(&case, &self.dir, options.quiet);
-        finish(resume(case, &self.dir, &options), &self.dir)
+        match case {
+            AnyCase::Wet(case) => {
+                introduce(&case, &self.dir, options.quiet);
+                finish(resume(case, &self.dir, &options), &self.dir)
+            }
+            AnyCase::Dry(case) => {
+                dry_report::introduce(&case, &self.dir, options.quiet);
+                dry_report::finish(dry::run::resume(case, &self.dir, options.quiet), &self.dir)
+            }
+        }
     }
 }
 

@@ -6,11 +6,16 @@ use super::Trouble;
 
 /// Print the JSON schema of case files, for editors that complete and check as you type.
 #[derive(Args)]
-pub struct SchemaArguments {}
+pub struct SchemaArguments {
+    /// The schema of dry cases: units on a bed without water.
+    #[arg(long)]
+    dry: bool,
+}
 
 impl SchemaArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        println!("{}", crate::case::schema_text());
+        let text = if self.dry { crate::case::dry_schema_text() } else { crate::case::schema_text() };
+        println!("{text}");
         Ok(())
     }
 }

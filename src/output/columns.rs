@@ -50,6 +50,11 @@ pub const CONTACTS: [&str; 11] = [
     "impulse_n_s",
 ];
 
+/// `energy.csv` of a dry run: slope of the bed; energy of the units and of their contacts; what friction and dashpots
+/// have turned into heat since the start.
+pub const DRY_ENERGY: [&str; 7] =
+    ["time_s", "slope_deg", "kinetic_j", "potential_j", "elastic_j", "friction_j", "damping_j"];
+
 /// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start
 /// from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from damping and
 /// relaxation zone.

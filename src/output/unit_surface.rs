@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{OutputError, write_atomically};
+use crate::geometry::solid::Solid;
 
 /// A closed surface of triangles in the body axes of the unit, origin at the centre of mass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -18,6 +19,12 @@ pub struct UnitSurface {
 impl UnitSurface {
     /// Name of the file in a run folder.
     pub const FILE: &str = "unit_surface.json";
+
+    /// The surface of a body.
+    pub fn of(solid: &Solid) -> Self {
+        let vertices_m = solid.vertices().iter().map(|v| v.to_array()).collect();
+        Self { vertices_m, triangles: solid.triangles().to_vec() }
+    }
 
     /// Writes the surface to `path`.
     ///

@@ -53,6 +53,23 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
     pairs
 }
 
+/// The pairs of one body, whose centre is nearer than `near` [m] to that of a body with a lower number.
+pub fn pairs_with(body: usize, position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
+    let mut pairs = Vec::new();
+    for (first, x) in position[..body].iter().enumerate() {
+        let width = period.unwrap_or(f64::INFINITY);
+        let nearest = if period.is_some() { ((x.y - position[body].y) / width).round() as i32 } else { 0 };
+        let others = if period.is_some() { -1..=1 } else { 0..=0 };
+        for image in others.map(|other| nearest + other) {
+            let shift = if image == 0 { 0.0 } else { f64::from(image) * width };
+            if (position[body] + DVec3::Y * shift - *x).length_squared() < near * near {
+                pairs.push(BodyPair { first, second: body, image });
+            }
+        }
+    }
+    pairs
+}
+
 /// Images to each side that a body can meet at most.
 const MOST_IMAGES: u32 = 8;
 

@@ -96,6 +96,27 @@ impl Surfaces {
         }
     }
 
+    /// Width of a periodic flume [m].
+    pub fn period(&self) -> Option<f64> {
+        self.period
+    }
+
+    /// Places where one body touches the ground, a wall, or the others of the given pairs.
+    pub fn touches_of(
+        &self,
+        body: usize,
+        pairs: &[BodyPair],
+        placements: Placements<'_>,
+        time: f64,
+    ) -> Result<Vec<Touch>, RigidError> {
+        let mut touches = Vec::new();
+        self.fixed_touches(body, placements, 0.0, time, &mut touches)?;
+        for pair in pairs {
+            self.unit_touches(pair, placements, 0.0, time, &mut touches)?;
+        }
+        Ok(touches)
+    }
+
     /// Radius of the sphere about the centre of mass that holds a body [m].
     pub fn reach(&self) -> f64 {
         self.reach

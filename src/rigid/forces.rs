@@ -39,6 +39,8 @@ pub struct Contact {
     pub spring: DVec3,
     /// Rolling spring [rad].
     pub roll: DVec3,
+    /// Overlap [m].
+    pub overlap: f64,
     /// Energy stored in overlap, tangential and rolling spring [J].
     pub elastic: [f64; 3],
     /// The record so far.
@@ -48,7 +50,15 @@ pub struct Contact {
 impl Contact {
     /// A contact that has just begun.
     fn begun(touch: &Touch, event: ContactEvent) -> Self {
-        Self { key: touch.key, normal: touch.normal, spring: DVec3::ZERO, roll: DVec3::ZERO, elastic: [0.0; 3], event }
+        Self {
+            key: touch.key,
+            normal: touch.normal,
+            spring: DVec3::ZERO,
+            roll: DVec3::ZERO,
+            overlap: touch.overlap,
+            elastic: [0.0; 3],
+            event,
+        }
     }
 }
 
@@ -222,6 +232,7 @@ impl Laws {
             energy.elastic += stored.iter().sum::<f64>();
 
             contact.normal = touch.normal;
+            contact.overlap = touch.overlap;
             contact.spring = response.spring;
             contact.elastic = stored;
             contact.event.add(force, step.dt, step.time);

@@ -17,6 +17,7 @@
 //! | `motion` | motion of a rigid body |
 //! | `setup` | what a world is made of |
 //! | `world` | substeps: the entry to this module |
+//! | `growth` | bodies that join later |
 //! | `snapshot` | state for checkpoints |
 
 mod broad_phase;
@@ -27,6 +28,7 @@ pub mod event;
 pub mod forces;
 mod gap;
 mod ground;
+mod growth;
 pub mod hertz_mindlin;
 pub mod linear;
 pub mod motion;

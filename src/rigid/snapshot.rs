@@ -41,6 +41,7 @@ struct ContactSnapshot {
     normal: [f64; 3],
     spring: [f64; 3],
     roll: [f64; 3],
+    overlap: f64,
     elastic: [f64; 3],
     event: ContactEvent,
 }
@@ -69,6 +70,7 @@ impl RigidWorld {
             normal: c.normal.to_array(),
             spring: c.spring.to_array(),
             roll: c.roll.to_array(),
+            overlap: c.overlap,
             elastic: c.elastic,
             event: c.event,
         };
@@ -101,6 +103,7 @@ impl RigidWorld {
             normal: DVec3::from_array(c.normal),
             spring: DVec3::from_array(c.spring),
             roll: DVec3::from_array(c.roll),
+            overlap: c.overlap,
             elastic: c.elastic,
             event: c.event,
         };

@@ -117,6 +117,11 @@ impl RigidWorld {
         self.contacts.len()
     }
 
+    /// Deepest overlap now [m].
+    pub fn deepest_overlap(&self) -> f64 {
+        self.contacts.iter().map(|contact| contact.overlap).fold(0.0, f64::max)
+    }
+
     /// Substeps made since the start.
     pub fn substeps(&self) -> u64 {
         self.substeps

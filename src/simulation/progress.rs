@@ -7,8 +7,6 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::Simulation;
-
 /// Without a terminal, a line this often.
 const LINE_INTERVAL: Duration = Duration::from_secs(30);
 
@@ -23,44 +21,35 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Progress of a run that lasts `duration` [s] of simulated time at most.
-    pub fn new(simulation: &Simulation, quiet: bool) -> Self {
+    /// Progress of a run from `time` to `duration` [s] of simulated time at most, which has made `steps` before.
+    pub fn new(duration: f64, time: f64, steps: u64, quiet: bool) -> Self {
         let style =
             ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
         let on_terminal = std::io::stderr().is_terminal() && !quiet;
         Self {
             bar: on_terminal.then(|| ProgressBar::new(1000).with_style(style)),
-            duration: simulation.case.stop.duration,
+            duration,
             begun: Instant::now(),
-            begun_at: simulation.time,
-            begun_steps: simulation.steps,
+            begun_at: time,
+            begun_steps: steps,
             // In quiet mode no line ever becomes due.
             last_line: if quiet { Instant::now() + Duration::from_secs(u64::from(u32::MAX)) } else { Instant::now() },
         }
     }
 
-    /// Show where the run is.
-    pub fn update(&mut self, simulation: &Simulation, dt: f64) {
+    /// Show where the run is: time [s], steps, and what else there is to tell.
+    pub fn update(&mut self, time: f64, steps: u64, details: impl FnOnce() -> String) {
         if self.bar.is_none() && self.last_line.elapsed() < LINE_INTERVAL {
             return;
         }
         let wall = self.begun.elapsed().as_secs_f64();
-        let rate = (simulation.steps - self.begun_steps) as f64 / wall.max(1e-9);
-        let done = (simulation.time - self.begun_at) / wall.max(1e-9);
-        let left = (self.duration - simulation.time) / done.max(1e-12);
-        let message = format!(
-            "{:.2} of {:.2} s, {:.1} steps/s, dt {:.2e} s, {} particles, {} left{}",
-            simulation.time,
-            self.duration,
-            rate,
-            dt,
-            simulation.water.len() + simulation.boundary.len(),
-            readable(left),
-            moved(simulation),
-        );
+        let rate = (steps - self.begun_steps) as f64 / wall.max(1e-9);
+        let done = (time - self.begun_at) / wall.max(1e-9);
+        let left = readable((self.duration - time) / done.max(1e-12));
+        let message = format!("{time:.2} of {:.2} s, {rate:.1} steps/s, {left} left, {}", self.duration, details());
         match &self.bar {
             Some(bar) => {
-                bar.set_position((1000.0 * simulation.time / self.duration) as u64);
+                bar.set_position((1000.0 * time / self.duration) as u64);
                 bar.set_message(message);
             }
             None => {
@@ -90,14 +79,6 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
-}
-
-/// How far the units have moved, in a few characters.
-fn moved(simulation: &Simulation) -> String {
-    let Some(units) = &simulation.units else { return String::new() };
-    let displacements = units.displacements();
-    let mean = displacements.iter().sum::<f64>() / displacements.len().max(1) as f64;
-    format!(", units moved {:.1} mm on average", 1e3 * mean)
 }
 
 /// A duration as people say it.

@@ -68,7 +68,7 @@ impl Recorder {
         let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
         profile.append_rows(case.flume.profile.points())?;
         if let (Some(units), Some(of_case)) = (&simulation.units, &case.units) {
-            surface_of(units).write(&dir.join(UnitSurface::FILE))?;
+            UnitSurface::of(units.shape.solid()).write(&dir.join(UnitSurface::FILE))?;
             for (name, content) in of_case.files() {
                 write_atomically(&dir.join(name), content)?;
             }
@@ -215,7 +215,7 @@ impl Recorder {
 
     fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
         let Some(units) = &simulation.units else { return Ok(()) };
-        let frame = Frame::of_surfaces(units, simulation.flume_time());
+        let frame = Frame::of_surfaces(units.shape.solid(), units.states(), simulation.flume_time());
         self.writer.give(move |files| files.append_surfaces(&frame))
     }
 
@@ -234,14 +234,6 @@ impl Recorder {
 pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
     // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
     interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
-}
-
-fn surface_of(units: &Units) -> UnitSurface {
-    let solid = units.shape.solid();
-    UnitSurface {
-        vertices_m: solid.vertices().iter().map(|v| v.to_array()).collect(),
-        triangles: solid.triangles().to_vec(),
-    }
 }
 
 /// Gauges that the particles can read.
@@ -303,7 +295,8 @@ fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
     simulation.flume_time() - units.world.time()
 }
 
-fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 11] {
+/// A row of the contacts; `offset` leads from their clock to that of the table [s].
+pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 11] {
     let [x, y, z] = event.point;
     [
         event.start + offset,

@@ -73,7 +73,7 @@ fn drive(
     dir: &Path,
     options: &RunOptions,
 ) -> Result<Summary, RunError> {
-    let mut progress = Progress::new(&simulation, options.quiet);
+    let mut progress = Progress::new(simulation.case.stop.duration, simulation.time, simulation.steps, options.quiet);
     let wall_before = simulation.statistics.wall_s;
     let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
     simulation.statistics.energy_start = Some(energy_start);
@@ -98,8 +98,18 @@ fn drive(
         }
         simulation.statistics.warnings[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
         warnings_shown = simulation.statistics.warnings.len();
-        progress.update(&simulation, dt);
+        progress.update(simulation.time, simulation.steps, || details(&simulation, dt));
     }
+}
+
+/// What progress tells besides the time.
+fn details(simulation: &Simulation, dt: f64) -> String {
+    let particles = simulation.water.len() + simulation.boundary.len();
+    let water = format!("dt {dt:.2e} s, {particles} particles");
+    let Some(units) = &simulation.units else { return water };
+    let displacements = units.displacements();
+    let mean = displacements.iter().sum::<f64>() / displacements.len().max(1) as f64;
+    format!("{water}, units moved {:.1} mm on average", 1e3 * mean)
 }
 
 /// Keep the state of a failed run beside the last good checkpoint, and the outputs up to it.

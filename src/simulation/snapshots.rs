@@ -6,17 +6,20 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::{Simulation, Units};
+use super::Simulation;
 use crate::{
     case::{FluidField, Output},
+    geometry::solid::Solid,
     output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries},
     particles::water::Water,
+    rigid::BodyState,
 };
 
 const WATER_FILE: &str = "fluid.vtkhdf";
 const SURFACES_FILE: &str = "units.vtkhdf";
 
-const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
+/// Fields of the units' surfaces.
+pub const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
 
 /// The open files of the snapshots; `None` for what the case does not ask for.
 pub struct SnapshotFiles {
@@ -134,12 +137,11 @@ impl Frame {
         }
     }
 
-    /// The surfaces of the units now, with the velocity of each point and the number of its unit.
-    pub fn of_surfaces(units: &Units, flume_time: f64) -> Self {
-        let solid = units.shape.solid();
+    /// The surfaces of the units, all of one shape, with the velocity of each point and the number of its unit.
+    pub fn of_surfaces(solid: &Solid, states: &[BodyState], time: f64) -> Self {
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
         let (mut velocity, mut number) = (Vec::new(), Vec::new());
-        for (unit, state) in units.states().iter().enumerate() {
+        for (unit, state) in states.iter().enumerate() {
             let first = points.len() as u32;
             triangles.extend(solid.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
             for &vertex in solid.vertices() {
@@ -149,10 +151,14 @@ impl Frame {
                 number.push(unit as i32 + 1);
             }
         }
-        Self { time: flume_time, points, triangles, fields: vec![Column::Vector(velocity), Column::Integer(number)] }
+        Self { time, points, triangles, fields: vec![Column::Vector(velocity), Column::Integer(number)] }
     }
 
-    fn append_to(&self, series: &mut PolyDataSeries) -> Result<(), OutputError> {
+    /// Append it to the file with its fields.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn append_to(&self, series: &mut PolyDataSeries) -> Result<(), OutputError> {
         let values: Vec<FieldValues> = self.fields.iter().map(Column::values).collect();
         series.append(self.time, &self.points, &self.triangles, &values)
     }

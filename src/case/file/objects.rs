@@ -34,6 +34,10 @@ pub struct UnitsFile {
     /// File with the poses, as `breakwater place` writes it; seen from the folder of the case file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement_file: Option<String>,
+    /// Armour layers on a slope; `breakwater place` works out where their units come to rest and writes the
+    /// `placement_file`, without which the case cannot be run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub armour: Option<ArmourFile>,
     /// Distance between the units' axes [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
@@ -53,6 +57,41 @@ pub struct UnitsFile {
     /// A unit is damaged when it has moved further than this [m]; without it, its height.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
+}
+
+/// Armour layers on a slope.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArmourFile {
+    /// Seaward and shoreward end of the layers [m].
+    pub x_m: [f64; 2],
+    /// Number of layers.
+    #[serde(default = "default_armour_layers")]
+    pub layers: u32,
+    /// Units of all layers on an area D_n^2 of the slope [-]; Tetrapods in two layers 1.04, Dolosse 0.83, cubes 1.17
+    /// (Shore Protection Manual 1984).
+    pub packing_density: f64,
+    /// How the units are turned.
+    #[serde(default)]
+    pub orientation: ArmourOrientation,
+    /// Seed of what is random.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+fn default_armour_layers() -> u32 {
+    2
+}
+
+/// How the units of an armour layer are turned when they are placed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ArmourOrientation {
+    /// At random, all directions equally likely.
+    #[default]
+    Random,
+    /// Standing, neighbours turned by half a circle.
+    Alternating,
 }
 
 /// Place and rotation of a unit.

@@ -1,0 +1,205 @@
+//! A dry case, validated: units on a bed without water.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::check::{Checker, above, from};
+use super::error::{CaseError, CaseErrors};
+use super::file::{DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
+use super::hash::fingerprint;
+use super::materials::{self, Material};
+use super::parse::parse;
+use super::run::{self, Contact, Stop};
+use super::site::Site;
+use super::units::{self, Surroundings, Units};
+use super::{flume, output};
+
+/// What is done with the units; SI units, angles in radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DryTest {
+    /// They are let go where they are.
+    Settle,
+    /// They are let go after they were lifted.
+    Drop,
+    /// The bed is tilted at a rate [rad/s] up to an angle [rad]; a unit faster than `slide_speed` [m/s] slides.
+    Tilt { rate: f64, to: f64, slide_speed: f64 },
+}
+
+/// Intervals of what a dry run writes [s]; `None` where none is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DryOutput {
+    /// Of the units' surfaces.
+    pub units_interval: Option<f64>,
+    /// Of motion and energy.
+    pub series_interval: f64,
+    /// Of the checkpoints.
+    pub checkpoint_interval: Option<f64>,
+}
+
+/// A dry case whose values make sense; SI units throughout.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DryCase {
+    /// One line that names the case.
+    pub title: String,
+    /// What had to be assumed.
+    pub assumptions: Vec<String>,
+    /// What is allowed and probably not meant.
+    pub warnings: Vec<String>,
+    /// Name of the file as given.
+    pub name: String,
+    /// 32 hexadecimal digits that stay the same for the same case.
+    pub hash: String,
+    /// The case as a run keeps it.
+    pub text: String,
+    /// What is done with the units.
+    pub test: DryTest,
+    /// Ground and walls.
+    pub site: Site,
+    /// Acceleration of gravity [m/s2].
+    pub gravity: f64,
+    /// The units.
+    pub units: Units,
+    /// Elastic constants; other structs hold indices into this list.
+    pub materials: Vec<Material>,
+    /// Contact.
+    pub contact: Contact,
+    /// What is written, and how often.
+    pub output: DryOutput,
+    /// When the run ends.
+    pub stop: Stop,
+}
+
+impl DryCase {
+    /// Whether the text of a case file is that of a dry case.
+    pub fn is_one(text: &str) -> bool {
+        serde_json::from_str::<serde_json::Value>(text).is_ok_and(|value| value.get("dry").is_some())
+    }
+
+    /// Read and validate a case file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
+        let name = path.as_ref().display().to_string();
+        let text = super::validate::read(path.as_ref());
+        let text = text.map_err(|reason| CaseError::Read { file: name.clone(), reason })?;
+        Self::from_str(&text, &name)
+    }
+
+    /// Validate the text of a case file; `name` is its name in messages.
+    pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
+        let file: DryFile = parse(text, name)?;
+        let mut check = Checker::new(name);
+        match validate(&file, text, name, &mut check) {
+            Some(case) if check.count() == 0 => Ok(Self { warnings: check.warnings, ..case }),
+            _ => Err(check.into_errors()),
+        }
+    }
+}
+
+fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Option<DryCase> {
+    if file.title.trim().is_empty() {
+        check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case");
+    }
+    check.number("gravity_m_s2", file.gravity_m_s2, above(0.0).up_to(100.0), "m/s2", "9.81 on earth");
+    let materials = materials::validate_materials(&file.materials, check);
+    let friction = materials::validate_friction(&file.friction, &materials, check);
+    let ground_material = materials::find(&materials, &file.flume.material, "flume.material", check);
+    let site = validate_site(file, ground_material, check);
+    let stop = run::validate_stop(&file.stop, true, check);
+    let contact = run::validate_contact(&file.contact, check);
+    let (test, lift) = validate_test(&file.dry, check);
+    let around = Surroundings {
+        name,
+        site: site.as_ref(),
+        dp: None,
+        obstacles: 0,
+        materials: &materials,
+        friction: &friction,
+        ground_material,
+        ground_key: "flume.material",
+        ground_named: true,
+        rho0: None,
+        rounding_share: contact.rounding_share,
+        law: contact.law,
+    };
+    let mut units = units::validate(&file.units, &around, check)?;
+    let (mut kept, mut read) = (file.clone(), Vec::new());
+    units.make_self_contained(&mut kept.units, &mut read);
+    for placement in &mut units.placements {
+        placement.centre += DVec3::Z * lift;
+    }
+    let canonical = DryFile { schema: None, ..kept.clone() };
+    // Writing to memory cannot fail: every key is a string.
+    let text = if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
+    Some(DryCase {
+        title: file.title.clone(),
+        assumptions: file.assumptions.clone(),
+        warnings: Vec::new(),
+        name: name.to_owned(),
+        hash: fingerprint(&canonical, &read),
+        text,
+        test,
+        site: site?,
+        gravity: file.gravity_m_s2,
+        units,
+        materials,
+        contact,
+        output: validate_output(&file.output, stop.duration, check),
+        stop,
+    })
+}
+
+/// Ground, ends and walls.
+pub(super) fn validate_site(file: &DryFile, material: Option<usize>, check: &mut Checker) -> Option<Site> {
+    let ground = FlumeFile::dry(file.flume.bed_m.clone(), file.flume.mound.clone());
+    let flume = flume::validate(&ground, material, check)?;
+    let before = check.count();
+    let [start, end] = flume.ends();
+    for (index, x) in file.domain.x_m.into_iter().enumerate() {
+        let advice = "move the end of the domain or lengthen `flume.bed_m`";
+        check.number(&format!("domain.x_m[{index}]"), x, from(start).up_to(end), "m", advice);
+    }
+    let [x0, x1] = file.domain.x_m;
+    check.number("domain.x_m[1]", x1, above(x0).up_to(f64::MAX), "m", "write the seaward end first");
+    check.number("domain.width_m", file.domain.width_m, above(0.0).up_to(1e4), "m", "write the width across");
+    if file.domain.sides == Sides::TwoDimensional {
+        let advice = "units move and turn in three dimensions";
+        check.refuse("domain.sides", "\"two_dimensional\"", "\"periodic\" or \"walls\"", advice);
+    }
+    if check.count() > before {
+        return None;
+    }
+    let highest = flume.profile.extremes_between(file.domain.x_m).1;
+    let room = above(highest).up_to(highest + 1000.0);
+    let sound = check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units");
+    let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
+    sound.then_some(Site { profile: flume.profile, x, width, sides, top_z })
+}
+
+/// The test, and by how much the units are lifted for it [m].
+fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTest, f64) {
+    match file {
+        DryTestFile::Settle {} => (DryTest::Settle, 0.0),
+        DryTestFile::Drop(drop) => {
+            check.number("dry.height_m", drop.height_m, above(0.0).up_to(100.0), "m", "write how high they are lifted");
+            (DryTest::Drop, drop.height_m)
+        }
+        DryTestFile::Tilt(tilt) => {
+            let advice = "1 degree a second finds the angle within 0.3 %";
+            check.number("dry.rate_deg_s", tilt.rate_deg_s, above(0.0).up_to(90.0), "degrees/s", advice);
+            check.number("dry.to_deg", tilt.to_deg, above(0.0).below(90.0), "degrees", "write the largest slope");
+            let advice = "below this speed a unit counts as at rest";
+            check.number("dry.slide_speed_m_s", tilt.slide_speed_m_s, above(0.0).up_to(1.0), "m/s", advice);
+            let (rate, to, slide_speed) =
+                (tilt.rate_deg_s.to_radians(), tilt.to_deg.to_radians(), tilt.slide_speed_m_s);
+            (DryTest::Tilt { rate, to, slide_speed }, 0.0)
+        }
+    }
+}
+
+fn validate_output(file: &DryOutputFile, duration: f64, check: &mut Checker) -> DryOutput {
+    let mut interval = |key: &str, value: f64| output::validate_interval(key, value, duration, check);
+    let units_interval = interval("units_interval_s", file.units_interval_s);
+    let checkpoint_interval = interval("checkpoint_interval_s", file.checkpoint_interval_s);
+    output::validate_series_interval(file.series_interval_s, duration, check);
+    DryOutput { units_interval, series_interval: file.series_interval_s, checkpoint_interval }
+}

@@ -1,0 +1,79 @@
+//! `breakwater place`: units placed in armour layers, settled without water.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::Trouble;
+use crate::{
+    case::PlacementJob,
+    output::write_atomically,
+    placement::{PlacementError, place},
+};
+
+/// Deepest overlap over the height of a unit that is called good [-].
+const GOOD_OVERLAP: f64 = 0.01;
+
+/// Place the armour layers of a case: units are lowered one by one, let go and settle without water. Where they come to
+/// rest goes into a file that this case, and others, name as `units.placement_file`.
+#[derive(Args)]
+pub struct PlaceArguments {
+    /// The case file, with `units.armour`.
+    case: PathBuf,
+    /// The placement file; without it, beside the case with the ending `.placement.json`.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Replace an old placement file.
+    #[arg(long)]
+    overwrite: bool,
+    /// No progress.
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl PlaceArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let job = PlacementJob::load(&self.case).map_err(Trouble::refused)?;
+        let out = self.out.unwrap_or_else(|| self.case.with_extension("placement.json"));
+        if out.exists() && !self.overwrite {
+            let what = "exists already; add --overwrite to replace it, or choose another with --out FILE";
+            return Err(Trouble::refused(format!("{}: {what}", out.display())));
+        }
+        let (count, quiet) = (job.count(), self.quiet);
+        if !quiet {
+            let (layers, density) = (job.armour.layers, job.armour.packing_density);
+            eprintln!("{}\n  {count} units in {layers} layers, packing density {density}", job.title);
+        }
+        let tell = |placed: usize| {
+            if !quiet && (placed.is_multiple_of(25) || placed == count) {
+                eprintln!("  {placed} of {count} placed");
+            }
+        };
+        let placement = place(&job, tell).map_err(|error| match error {
+            PlacementError::NoRoom { .. } => Trouble::refused(format!("{}: {error}", self.case.display())),
+            PlacementError::Rigid(_) => Trouble::failed(error),
+        })?;
+        let mut text = serde_json::to_string_pretty(&placement.file(&job.title)).map_err(Trouble::failed)?;
+        text.push('\n');
+        write_atomically(&out, text.as_bytes()).map_err(Trouble::failed)?;
+        println!("{} units settled in {:.2} s of simulated time", placement.units.len(), placement.time);
+        println!("  packing density {:.3}, {} rolled off", placement.packing_density, placement.rolled_off);
+        println!(
+            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} of what \
+             was let go",
+            placement.contacts,
+            100.0 * placement.deepest_overlap,
+            placement.fastest,
+            placement.unrest
+        );
+        if placement.deepest_overlap > GOOD_OVERLAP {
+            eprintln!("warning: units overlap by more than 1 % of their height: a stiffer material is needed");
+        }
+        println!("{}: add \"placement_file\": {:?} to `units` of the case", out.display(), name_of(&out));
+        Ok(())
+    }
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}

@@ -1,0 +1,145 @@
+//! A dry run in a few numbers.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::DryRun;
+use crate::output::{Execution, OutputError, write_atomically};
+
+/// `summary.json` of a dry run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DrySummary {
+    /// Title of the case.
+    pub title: String,
+    /// Version that made the run.
+    pub breakwater_version: String,
+    /// Fingerprint of the case.
+    pub case_hash: String,
+    /// Simulated time [s].
+    pub simulated_s: f64,
+    /// Why it ended.
+    pub stopped: Ended,
+    /// Substeps of the contact.
+    pub substeps: u64,
+    /// Contacts that exist at the end.
+    pub contacts_now: usize,
+    /// Contacts with bed and walls, and between units, since the start.
+    pub contacts: [u64; 2],
+    /// Largest force of a contact [N].
+    pub peak_force_n: f64,
+    /// Deepest overlap at the end over the height of a unit [-].
+    pub deepest_overlap: f64,
+    /// Kinetic energy at the end [J].
+    pub kinetic_j: f64,
+    /// Kinetic, potential and elastic energy at the start [J].
+    pub energy_start_j: f64,
+    /// The same at the end [J].
+    pub energy_end_j: f64,
+    /// Largest rise of it within a millisecond [J]; none in a slope test, in which the bed does work.
+    pub largest_rise_j: Option<f64>,
+    /// Since when the units have been at rest [s], if they are.
+    pub at_rest_since_s: Option<f64>,
+    /// The units.
+    pub units: Vec<DryUnit>,
+    /// What had to be assumed.
+    pub assumptions: Vec<String>,
+    /// Warnings.
+    pub warnings: Vec<String>,
+    /// Time and machine.
+    pub execution: Execution,
+}
+
+/// Why a dry run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ended {
+    /// The simulated time of the case file is over.
+    Duration,
+    /// The units had come to rest.
+    AtRest,
+    /// A slope test: all units slide, or the slope is the largest.
+    TestOver,
+}
+
+/// A unit of a dry run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DryUnit {
+    /// Number from 1.
+    pub unit: usize,
+    /// Centre at the start [m].
+    pub start_m: [f64; 3],
+    /// Centre at the end [m].
+    pub end_m: [f64; 3],
+    /// Distance between the two [m].
+    pub moved_m: f64,
+    /// Turned by [degrees].
+    pub turned_deg: f64,
+    /// Slope at which it began to slide [degrees], in a slope test.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slides_at_deg: Option<f64>,
+    /// Tangent of that angle, the coefficient of friction [-].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+}
+
+impl DrySummary {
+    /// Name of the file in a run folder.
+    pub const FILE: &str = "summary.json";
+
+    /// Summary of a run that has ended after `wall_s` seconds of computing.
+    pub fn of(run: &DryRun, stopped: Ended, wall_s: f64) -> Self {
+        let (measured, energy) = (&run.measured, run.world.energy());
+        let unit = |number: usize| {
+            let (start, end) = (&run.start[number], &run.world.states()[number]);
+            let slides_at = measured.slides_at[number];
+            DryUnit {
+                unit: number + 1,
+                start_m: start.position.to_array(),
+                end_m: end.position.to_array(),
+                moved_m: (end.position - start.position).length(),
+                turned_deg: start.rotation.angle_between(end.rotation).to_degrees(),
+                slides_at_deg: slides_at.map(f64::to_degrees),
+                friction: slides_at.map(f64::tan),
+            }
+        };
+        let tilts = matches!(run.case.test, crate::case::DryTest::Tilt { .. });
+        Self {
+            title: run.case.title.clone(),
+            breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
+            case_hash: run.case.hash.clone(),
+            simulated_s: run.time(),
+            stopped,
+            substeps: run.world.substeps(),
+            contacts_now: run.world.contact_count(),
+            contacts: measured.contacts,
+            peak_force_n: measured.peak_force,
+            deepest_overlap: run.world.deepest_overlap() / run.case.units.shape.height(),
+            kinetic_j: energy.kinetic,
+            energy_start_j: measured.energy_start,
+            energy_end_j: measured.energy,
+            largest_rise_j: (!tilts).then_some(measured.largest_rise),
+            at_rest_since_s: measured.at_rest_since,
+            units: (0..run.start.len()).map(unit).collect(),
+            assumptions: run.case.assumptions.clone(),
+            warnings: run.case.warnings.clone(),
+            execution: Execution {
+                wall_s,
+                steps_per_s: run.world.substeps() as f64 / wall_s.max(1e-9),
+                threads: rayon::current_num_threads(),
+                created: None,
+            },
+        }
+    }
+
+    /// Write `summary.json` into the run folder.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, dir: &Path) -> Result<(), OutputError> {
+        let path = dir.join(Self::FILE);
+        let mut text = serde_json::to_string_pretty(self).map_err(OutputError::json(&path))?;
+        text.push('\n');
+        write_atomically(&path, text.as_bytes())
+    }
+}

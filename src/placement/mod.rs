@@ -1,0 +1,155 @@
+//! Armour layers: units are lowered onto a slope one by one until they touch, let go, and settle.
+//!
+//! A crane does it in the same order: row by row from the toe upwards, layer by layer. The number of units follows from
+//! the packing density phi: N = phi A / D_n^2 on the area A of the slope. They are lowered at the nodes of a staggered
+//! grid; where they come to rest is mechanics.
+
+mod lower;
+mod slots;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::{
+    case::{PlacementFile, PlacementJob, PoseFile},
+    geometry::profile::Profile,
+    rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
+    simulation::bodies::rigid_setup,
+};
+use lower::lowered;
+use slots::{Slot, rows};
+
+/// Time between two looks at the units [s].
+const LOOK: f64 = 1e-3;
+/// After a row was let go, it settles for so long [s] at least and at most.
+const ROW_TIME: [f64; 2] = [0.05, 1.0];
+/// Speed over sqrt(g H) below which the next row may come [-].
+const ROW_SPEED: f64 = 0.05;
+/// At the end the layers settle for so long at most [s].
+const LAST_TIME: f64 = 10.0;
+/// Speed over sqrt(g H) below which they are at rest [-].
+const REST_SPEED: f64 = 1e-4;
+
+/// Why a layer cannot be placed.
+#[derive(Debug, Error)]
+pub enum PlacementError {
+    /// There is no room for a unit.
+    #[error(
+        "unit {unit} finds no free place over x = {x:.3}, y = {y:.3} m: the packing density is too high, or the walls \
+         are too near"
+    )]
+    NoRoom {
+        /// Number from 1.
+        unit: usize,
+        /// Where it was lowered [m].
+        x: f64,
+        /// Where it was lowered [m].
+        y: f64,
+    },
+    /// The contact went astray.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+}
+
+/// A layer that has settled.
+#[derive(Debug, Clone)]
+pub struct Placement {
+    /// The units at rest.
+    pub units: Vec<BodyState>,
+    /// Units of which the centre has come to lie outside the ends of the layers.
+    pub rolled_off: usize,
+    /// Units on the slope over A / D_n^2 [-].
+    pub packing_density: f64,
+    /// Deepest overlap over the height of a unit [-].
+    pub deepest_overlap: f64,
+    /// Kinetic energy over the potential energy that was lost since the units were let go [-].
+    pub unrest: f64,
+    /// Speed of the fastest unit at the end [m/s].
+    pub fastest: f64,
+    /// Simulated time [s].
+    pub time: f64,
+    /// Substeps of the contact.
+    pub substeps: u64,
+    /// Contacts at the end.
+    pub contacts: usize,
+}
+
+impl Placement {
+    /// The poses as a file.
+    pub fn file(&self, title: &str) -> PlacementFile {
+        let pose = |state: &BodyState| PoseFile {
+            centre_m: state.position.to_array(),
+            quaternion_xyzw: state.rotation.to_array(),
+        };
+        PlacementFile {
+            title: title.to_owned(),
+            packing_density: Some(self.packing_density),
+            poses: self.units.iter().map(pose).collect(),
+        }
+    }
+}
+
+/// Place the layers of a job; `tell` hears how many units are placed.
+///
+/// # Errors
+/// If there is no room for a unit, or the contact goes astray.
+pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize)) -> Result<Placement, PlacementError> {
+    let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
+    let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
+    let height = job.units.shape.height();
+    let scale = (job.gravity * height).sqrt();
+    let mut let_go = 0.0;
+    for row in rows(job) {
+        for slot in &row {
+            let unit = world.states().len() + 1;
+            let Slot { x, y, rotation } = *slot;
+            let from = DVec3::new(x, y, highest(&world, &job.site.profile, x) + 2.0 * height);
+            let state = lowered(&world, from, rotation, job.site.profile.z(x), height)
+                .ok_or(PlacementError::NoRoom { unit, x, y })?;
+            let_go += job.units.mass * job.gravity * state.position.z;
+            world.add(state);
+            tell(unit);
+        }
+        let begun = world.time();
+        while world.time() - begun < ROW_TIME[0]
+            || (fastest(&world, height) > ROW_SPEED * scale && world.time() - begun < ROW_TIME[1])
+        {
+            go_on(&mut world)?;
+        }
+    }
+    let begun = world.time();
+    while fastest(&world, height) > REST_SPEED * scale && world.time() - begun < LAST_TIME {
+        go_on(&mut world)?;
+    }
+    let units = world.states().to_vec();
+    let [x0, x1] = job.armour.x;
+    let rolled_off = units.iter().filter(|unit| !(x0..=x1).contains(&unit.position.x)).count();
+    let energy = world.energy();
+    Ok(Placement {
+        rolled_off,
+        packing_density: (units.len() - rolled_off) as f64 / job.area(),
+        deepest_overlap: world.deepest_overlap() / height,
+        unrest: energy.kinetic / (let_go - energy.potential).max(f64::MIN_POSITIVE),
+        fastest: fastest(&world, height),
+        time: world.time(),
+        substeps: world.substeps(),
+        contacts: world.contact_count(),
+        units,
+    })
+}
+
+fn go_on(world: &mut RigidWorld) -> Result<(), RigidError> {
+    let loads = vec![Load::default(); world.states().len()];
+    world.advance(LOOK, &loads)
+}
+
+/// Speed of the fastest unit, that of its tips if it turns [m/s].
+fn fastest(world: &RigidWorld, height: f64) -> f64 {
+    let speed = |state: &BodyState| state.velocity.length() + 0.5 * height * state.angular_velocity.length();
+    world.states().iter().map(speed).fold(0.0, f64::max)
+}
+
+/// Highest centre of a unit, or the ground at x [m].
+fn highest(world: &RigidWorld, ground: &Profile, x: f64) -> f64 {
+    world.states().iter().map(|state| state.position.z).fold(ground.z(x), f64::max)
+}

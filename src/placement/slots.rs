@@ -1,0 +1,94 @@
+//! Where the units of an armour layer are lowered: the nodes of a staggered grid on the slope.
+
+use std::f64::consts::PI;
+
+use glam::DQuat;
+
+use crate::{
+    case::{ArmourOrientation, PlacementJob, Sides},
+    random::SplitMix64,
+};
+
+/// Place [m] and rotation in which a unit is lowered.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slot {
+    pub x: f64,
+    pub y: f64,
+    pub rotation: DQuat,
+}
+
+/// Distance from a wall in which no unit starts, over its height [-]: the reach of a leg from the centre.
+const FROM_WALL: f64 = 0.68;
+
+/// The rows of all layers in the order in which they are placed: layer by layer, each from its lower end upwards.
+pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
+    let (armour, unit) = (&job.armour, job.units.shape.unit());
+    let mut random = SplitMix64::new(armour.seed);
+    let slope = job.slope();
+    let width = job.site.width;
+    let margin = if job.site.sides == Sides::Periodic { 0.0 } else { FROM_WALL * unit.height() };
+    let free = (width - 2.0 * margin).max(0.0);
+    let (all, layers) = (job.count(), armour.layers as usize);
+    let length = length_of(&slope);
+    let mut rows = Vec::new();
+    for layer in 0..layers {
+        // What the division leaves over goes into the first layers.
+        let count = all / layers + usize::from(layer < all % layers);
+        let pitch = (length * width / count.max(1) as f64).sqrt();
+        let across = ((width / pitch).round() as usize).max(1);
+        let along = count.div_ceil(across);
+        let mut of_layer: Vec<Vec<Slot>> = Vec::new();
+        for row in 0..along {
+            let in_row = across.min(count - row * across);
+            // Rows and layers lie over the gaps of those below.
+            let shift = if (row + layer) % 2 == 0 { 0.25 } else { 0.75 };
+            let x = along_slope(&slope, (row as f64 + 0.5) / along as f64 * length);
+            let slot = |column: usize| {
+                let rotation = match armour.orientation {
+                    ArmourOrientation::Random => random.next_rotation(),
+                    ArmourOrientation::Alternating => unit.standing_rotation(if column % 2 == 0 { 0.0 } else { PI }),
+                };
+                Slot { x, y: margin + (column as f64 + shift) / in_row as f64 * free, rotation }
+            };
+            of_layer.push((0..in_row).map(slot).collect());
+        }
+        // From the toe upwards.
+        if slope[0][1] > slope[slope.len() - 1][1] {
+            of_layer.reverse();
+        }
+        rows.extend(of_layer);
+    }
+    rows
+}
+
+fn length_of(slope: &[[f64; 2]]) -> f64 {
+    slope.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum()
+}
+
+/// x at a distance [m] along the slope from its seaward end.
+fn along_slope(slope: &[[f64; 2]], distance: f64) -> f64 {
+    let mut left = distance;
+    for piece in slope.windows(2) {
+        let length = length_of(piece);
+        if left <= length {
+            return piece[0][0] + (piece[1][0] - piece[0][0]) * left / length;
+        }
+        left -= length;
+    }
+    slope[slope.len() - 1][0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_run_along_the_slope() {
+        // A flat piece of 2 m, then 3-4-5.
+        let slope = [[1.0, 0.0], [3.0, 0.0], [7.0, 3.0]];
+        assert!((length_of(&slope) - 7.0).abs() < 1e-12);
+        assert!((along_slope(&slope, 1.0) - 2.0).abs() < 1e-12);
+        assert!((along_slope(&slope, 4.5) - 5.0).abs() < 1e-12);
+        assert_eq!(along_slope(&slope, 8.0), 7.0);
+    }
+}

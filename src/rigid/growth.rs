@@ -1,0 +1,87 @@
+//! Bodies that join a world later: what a place holds, and adding one there.
+
+use glam::{DQuat, DVec3};
+
+use super::broad_phase;
+use super::contact::Placements;
+use super::motion::{BodyState, Load};
+use super::world::RigidWorld;
+
+impl RigidWorld {
+    /// Deepest overlap [m] that a further body at this place would have with bodies, ground and walls; 0 if it is free,
+    /// infinite if it would be too deep for the contact to tell.
+    pub fn overlap_at(&self, position: DVec3, rotation: DQuat) -> f64 {
+        let number = self.position.len();
+        let mut positions = self.position.clone();
+        let mut rotations = self.rotation.clone();
+        positions.push(position);
+        rotations.push(rotation);
+        let pairs = broad_phase::pairs_with(number, &positions, 2.0 * self.surfaces.reach(), self.surfaces.period());
+        let placements = Placements { rotation: &rotations, position: &positions };
+        match self.surfaces.touches_of(number, &pairs, placements, self.time) {
+            Ok(touches) => touches.iter().map(|touch| touch.overlap).fold(0.0, f64::max),
+            Err(_) => f64::INFINITY,
+        }
+    }
+
+    /// Adds a body; it takes part from the next [`advance`](Self::advance) on.
+    pub fn add(&mut self, body: BodyState) {
+        let rotation = body.rotation.normalize();
+        let inertia = self.inverse_inertia.inverse();
+        self.angular_momentum.push(super::motion::angular_momentum(rotation, &inertia, body.angular_velocity));
+        self.rotation.push(rotation);
+        self.position.push(body.position);
+        self.velocity.push(body.velocity);
+        self.contact_now.push(Load::default());
+        self.contact_mean.push(Load::default());
+        self.states.push(body);
+        self.publish();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::profile::Profile;
+    use crate::rigid::{BodyShape, ContactModel, Friction, Ground, Material, RigidSetup, Sides};
+
+    fn world(sides: Sides) -> RigidWorld {
+        let material = Material { young_modulus: 1e8, poisson_ratio: 0.2, restitution: 0.5 };
+        RigidWorld::new(RigidSetup {
+            shape: BodyShape::ball(0.1, 1.0),
+            bodies: vec![BodyState::at_rest(DVec3::new(0.0, 0.5, 0.1), DQuat::IDENTITY)],
+            material,
+            ground: Some(Ground { profile: Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]]), material }),
+            sides,
+            end_walls: None,
+            wall_material: material,
+            friction: Friction { unit_unit: 0.5.into(), unit_ground: 0.5.into(), unit_wall: 0.5.into() },
+            model: ContactModel::HertzMindlin,
+            gravity: DVec3::NEG_Z * 9.81,
+        })
+        .unwrap()
+    }
+
+    #[test]
+    fn a_place_tells_how_deep_a_body_would_be() {
+        for (sides, beside) in [(Sides::Open, 0.5), (Sides::Periodic { width: 0.6 }, 0.5 - 3.0 * 0.6)] {
+            let world = world(sides);
+            let at = |x: f64, y: f64, z: f64| world.overlap_at(DVec3::new(x, y, z), DQuat::IDENTITY);
+            assert_eq!(at(0.21, beside, 0.1), 0.0);
+            assert!((at(0.19, beside, 0.1) - 0.01).abs() < 1e-12);
+            assert!((at(1.0, beside, 0.09) - 0.01).abs() < 1e-12);
+            assert_eq!(at(0.0, beside, 0.1), f64::INFINITY);
+        }
+    }
+
+    #[test]
+    fn an_added_body_falls_and_comes_to_rest_on_the_other() {
+        let mut world = world(Sides::Open);
+        world.add(BodyState::at_rest(DVec3::new(0.0, 0.5, 0.32), DQuat::IDENTITY));
+        for _ in 0..2000 {
+            world.advance(1e-3, &[Load::default(); 2]).unwrap();
+        }
+        let z = world.states()[1].position.z;
+        assert!((z - 0.3).abs() < 1e-3 && world.energy().kinetic < 1e-9, "{z}");
+    }
+}
