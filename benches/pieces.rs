@@ -16,6 +16,7 @@ const DP: f64 = 0.01;
 const EDGE: f64 = 24.0;
 
 fn main() {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("one thread can be started");
     divan::main();
 }
 
@@ -37,13 +38,11 @@ fn tank(instructions: InstructionSet) -> Tank {
     tank
 }
 
-/// Time a piece on one thread; what it is counted by are the particles.
-fn piece(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank) + Send) {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
+/// Time a piece; what it is counted by are the particles.
+fn piece(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank)) {
     let mut tank = tank(instructions);
     let particles = tank.water.len() + tank.boundary.len();
-    let bencher = bencher.counter(ItemsCount::new(particles));
-    pool.install(|| bencher.bench_local(|| run(&mut tank)));
+    bencher.counter(ItemsCount::new(particles)).bench_local(|| run(&mut tank));
 }
 
 #[divan::bench(args = instruction_sets())]

@@ -82,7 +82,7 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Pl
         }
     }
     let length = rotation.length();
-    if !((length - 1.0).abs() <= ROUNDING) {
+    if (length - 1.0).abs() > ROUNDING || length.is_nan() {
         let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] is none";
         check.refuse(&format!("{path}.quaternion_xyzw"), format!("of length {}", show(length)), "of length 1", advice);
     }

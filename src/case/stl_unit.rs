@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::check::{Checker, above, show};
 use super::file::StlFile;
+use crate::geometry::armour_unit::LARGEST_ROUNDING;
 use crate::geometry::decomposition::{self, Decomposition};
 use crate::geometry::polyhedron::Polyhedron;
 use crate::geometry::solid::Solid;
@@ -58,7 +59,7 @@ impl StlUnit {
 }
 
 /// Read the files, seen from the folder of the case file `case_name`, and make sure that the parts fill the surface.
-pub(super) fn validate(file: &StlFile, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
+pub(super) fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
     let advice = "1 for a file in metres, 0.001 for one in millimetres";
     if !check.number("units.stl.scale", file.scale, above(0.0).up_to(1000.0), "", advice) {
         return None;
@@ -80,6 +81,10 @@ pub(super) fn validate(file: &StlFile, case_name: &str, check: &mut Checker) -> 
         match std::fs::read(&path) {
             Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
                 Ok(solid) => {
+                    if let Some(place) = solid.self_intersection() {
+                        refuse(format!("a surface that does not cut itself: it does near {place} m"));
+                        return None;
+                    }
                     files.push((name, bytes));
                     Some(solid)
                 }
@@ -107,7 +112,16 @@ pub(super) fn validate(file: &StlFile, case_name: &str, check: &mut Checker) -> 
             }
         }
     }
-    let found = if parts.is_empty() { decomposition::decompose(&solid) } else { decomposition::measure(&solid, parts) };
+    let found = if parts.is_empty() {
+        // Slivers that the rounding would eat are left out; what is missing then counts as error.
+        let [low, high] = solid.bounds();
+        let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
+        let mut found = decomposition::decompose(&solid);
+        found.parts.retain(|part| part.inner_radius() >= thinnest);
+        decomposition::measure(&solid, found.parts)
+    } else {
+        decomposition::measure(&solid, parts)
+    };
     let Decomposition { parts, volume_error } = found;
     if volume_error > LARGEST_ERROR || parts.is_empty() {
         let key = if file.parts.is_empty() { "units.stl.path" } else { "units.stl.parts" };

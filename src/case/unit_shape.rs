@@ -162,7 +162,7 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
             }
         },
         Shape::Stl => match &file.stl {
-            Some(stl) => stl_unit::validate(stl, name, check).map(UnitKind::Stl),
+            Some(stl) => stl_unit::validate(stl, rounding_share, name, check).map(UnitKind::Stl),
             None => {
                 check.refuse("units.stl", "(missing)", "the files of the unit", "write \"stl\": { \"path\": ... }");
                 None
@@ -179,9 +179,14 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
             check.refuse("units.waist_ratio", show(waist), range, error.to_string());
             None
         }
+        Err(ArmourUnitError::Rounding { share, largest }) => {
+            let advice = "the rounded parts of the unit must not vanish";
+            let allowed = format!("at most {largest:.4} for this unit");
+            check.refuse("contact.rounding_share", show(share), allowed, advice);
+            None
+        }
         Err(error) => {
-            let advice = "the rounded parts of the unit must not vanish: write a smaller share";
-            check.refuse("contact.rounding_share", show(rounding_share), error.to_string(), advice);
+            check.refuse("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change its lengths");
             None
         }
     }

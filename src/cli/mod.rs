@@ -11,6 +11,7 @@ mod place;
 mod report;
 mod run;
 mod schema;
+mod unit;
 mod wave;
 
 use std::{
@@ -51,6 +52,7 @@ enum Command {
     Resume(run::ResumeArguments),
     Check(check::CheckArguments),
     Place(place::PlaceArguments),
+    Unit(unit::UnitArguments),
     Wave(wave::WaveArguments),
     Compare(compare::CompareArguments),
     Report(report::ReportArguments),
@@ -84,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Resume(arguments) => arguments.execute(),
         Command::Check(arguments) => arguments.execute(),
         Command::Place(arguments) => arguments.execute(),
+        Command::Unit(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
         Command::Compare(arguments) => arguments.execute(),
         Command::Report(arguments) => arguments.execute(),

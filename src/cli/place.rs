@@ -44,9 +44,9 @@ impl PlaceArguments {
             let (layers, density) = (job.armour.layers, job.armour.packing_density);
             eprintln!("{}\n  {count} units in {layers} layers, packing density {density}", job.title);
         }
-        let tell = |placed: usize| {
+        let tell = |placed: usize, time: f64| {
             if !quiet && (placed.is_multiple_of(25) || placed == count) {
-                eprintln!("  {placed} of {count} placed");
+                eprintln!("  {placed} of {count} placed after {time:.2} s");
             }
         };
         let placement = place(&job, tell).map_err(|error| match error {

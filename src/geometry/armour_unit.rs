@@ -33,7 +33,7 @@ pub enum ArmourUnitError {
 }
 
 /// Share of the largest ball in the thinnest block that the rounding may take: beyond it little is left of the core.
-const LARGEST_ROUNDING: f64 = 0.9;
+pub const LARGEST_ROUNDING: f64 = 0.9;
 
 /// Shape of an armour unit.
 #[derive(Debug, Clone)]
@@ -42,6 +42,10 @@ pub struct ArmourUnit {
     rounding: f64,
     solid: Solid,
     parts: Vec<ConvexPart>,
+    /// The polyhedra with sharp edges that it is the union of; none for a Tetrapod.
+    blocks: Vec<Polyhedron>,
+    /// Whether the surface is that of the blocks.
+    exact: bool,
     /// Rotation in which it stands on level ground.
     standing: DQuat,
     /// Edges, if it is a cuboid [m].
@@ -63,6 +67,8 @@ impl ArmourUnit {
             rounding,
             solid: Solid::new(vertices, triangles)?,
             parts: tetrapod::parts(height_m, rounding),
+            blocks: Vec::new(),
+            exact: true,
             standing: DQuat::IDENTITY,
             edges: None,
         })
@@ -102,7 +108,8 @@ impl ArmourUnit {
     /// A unit with its own surface and convex parts, standing as they are given, rounded as the others.
     pub fn of_parts(solid: &Solid, parts: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let [low, high] = solid.bounds();
-        Self::of_solid(high.z - low.z, solid.clone(), parts, rounding_share, DQuat::IDENTITY)
+        let unit = Self::of_solid(high.z - low.z, solid.clone(), parts, rounding_share, DQuat::IDENTITY)?;
+        Ok(Self { exact: false, ..unit })
     }
 
     /// A unit of blocks without a foot of its own: it stands on the three of its corners that carry it most safely.
@@ -130,17 +137,29 @@ impl ArmourUnit {
         rounding_share: f64,
         standing: DQuat,
     ) -> Result<Self, ArmourUnitError> {
-        let largest = LARGEST_ROUNDING * blocks.iter().map(inner_radius).fold(f64::MAX, f64::min) / height;
+        let largest = LARGEST_ROUNDING * blocks.iter().map(Polyhedron::inner_radius).fold(f64::MAX, f64::min) / height;
         let shift = -solid.volume_properties().centre;
         let rounding = rounding_share * height;
-        let part = |block: &Polyhedron| ConvexPart::polyhedron(&block.translated(shift), rounding);
-        let parts: Option<Vec<ConvexPart>> = blocks.iter().map(part).collect();
+        let blocks: Vec<Polyhedron> = blocks.iter().map(|block| block.translated(shift)).collect();
+        let parts: Option<Vec<ConvexPart>> =
+            blocks.iter().map(|block| ConvexPart::polyhedron(block, rounding)).collect();
         match parts {
             Some(parts) if rounding_share > 0.0 && rounding_share <= largest => {
-                Ok(Self { height, rounding, solid: solid.translated(shift)?, parts, standing, edges: None })
+                let solid = solid.translated(shift)?;
+                Ok(Self { height, rounding, solid, parts, blocks, exact: true, standing, edges: None })
             }
             _ => Err(ArmourUnitError::Rounding { share: rounding_share, largest }),
         }
+    }
+
+    /// Whether it is a Tetrapod.
+    pub fn is_tetrapod(&self) -> bool {
+        self.blocks.is_empty()
+    }
+
+    /// Whether its surface is exactly that of its cones or blocks; not so if it comes from STL.
+    pub fn is_exact(&self) -> bool {
+        self.exact
     }
 
     /// The unit as a box about its centre of mass, if it is one.
@@ -166,6 +185,11 @@ impl ArmourUnit {
     /// Convex parts in body axes.
     pub fn parts(&self) -> &[ConvexPart] {
         &self.parts
+    }
+
+    /// The polyhedra with sharp edges that it is the union of, in body axes; none for a Tetrapod.
+    pub fn blocks(&self) -> &[Polyhedron] {
+        &self.blocks
     }
 
     /// Inertia tensor in body axes for the mass `mass_kg` spread evenly over the volume [kg m2].
@@ -198,17 +222,6 @@ impl ArmourUnit {
 /// A length that a unit can have [m].
 fn sound_length(length_m: f64) -> Result<f64, ArmourUnitError> {
     if length_m > 0.0 && length_m.is_finite() { Ok(length_m) } else { Err(ArmourUnitError::Length(length_m)) }
-}
-
-/// Radius of the largest ball in a block [m].
-fn inner_radius(block: &Polyhedron) -> f64 {
-    let (mut low, mut high) = (0.0, block.bounding_sphere().1);
-    // 20 halvings: 1e-6 of the block's radius.
-    for _ in 0..20 {
-        let middle = 0.5 * (low + high);
-        if block.shrunk(middle).is_some() { low = middle } else { high = middle }
-    }
-    low
 }
 
 /// Rotation that brings a body down on the face of its hull from which it is hardest to tip: the one with the largest

@@ -7,6 +7,7 @@ pub mod core_loc;
 pub mod cuboid;
 pub mod decomposition;
 pub mod dolos;
+pub mod gmsh;
 pub mod grooved_cube;
 pub mod member;
 pub mod polyhedron;

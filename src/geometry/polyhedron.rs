@@ -258,6 +258,21 @@ impl Polyhedron {
         Some(Self::from_planes(&planes, 2.0 * self.radius)?.translated(self.centre))
     }
 
+    /// Radius of the largest ball inside [m].
+    pub fn inner_radius(&self) -> f64 {
+        let (mut low, mut high) = (0.0, self.radius);
+        // 20 halvings: 1e-6 of the radius about it.
+        for _ in 0..20 {
+            let middle = 0.5 * (low + high);
+            if self.shrunk(middle).is_some() {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
     /// Moved by `shift` [m].
     pub fn translated(&self, shift: DVec3) -> Self {
         let corners = self.corners.iter().map(|c| *c + shift).collect();

@@ -7,7 +7,10 @@
 use std::collections::HashMap;
 
 use glam::{DMat3, DVec3};
-use parry3d_f64::query::PointQuery;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Pose;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry3d_f64::query::{PointQuery, intersection_test};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use thiserror::Error;
 
@@ -94,6 +97,26 @@ impl Solid {
     /// Triangles of the surface, counter-clockwise seen from outside.
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.mesh.indices()
+    }
+
+    /// A place [m] where two triangles without a common corner meet, if the surface cuts or touches itself.
+    pub fn self_intersection(&self) -> Option<DVec3> {
+        let triangle = |index: usize| self.mesh.triangle(index as u32);
+        let boxes: Vec<Aabb> = (0..self.triangles().len()).map(|index| triangle(index).local_aabb()).collect();
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let cuts = |a: usize, b: usize| {
+            let [one, other] = [a, b].map(|index| self.triangles()[index]);
+            if one.iter().any(|corner| other.contains(corner)) {
+                return false;
+            }
+            // Shapes of one frame; triangles are supported, so that the test cannot fail.
+            let here = Pose::IDENTITY;
+            intersection_test(&here, &triangle(a), &here, &triangle(b)).is_ok_and(|found| found.intersecting)
+        };
+        (0..boxes.len()).find_map(|a| {
+            let near = tree.intersect_aabb(&boxes[a]).map(|b| b as usize);
+            near.filter(|b| *b > a).find(|b| cuts(a, *b)).map(|_| triangle(a).center())
+        })
     }
 
     /// Volume, centre and inertia for unit density.

@@ -32,6 +32,11 @@ pub fn leg_axes() -> [DVec3; 4] {
     [DVec3::Z, around(0.0), around(TAU / 3.0), around(2.0 * TAU / 3.0)]
 }
 
+/// Radii [m] of a leg's cone at the centre and at the tip, and its length from one to the other [m].
+pub fn cone(height_m: f64) -> ([f64; 2], f64) {
+    ([centre_radius() * height_m, TIP_RADIUS * height_m], CENTRE_TO_TIP * height_m)
+}
+
 /// Decrease of the leg's radius per unit of length, tan of the half-angle [-].
 fn taper() -> f64 {
     (BASE_RADIUS - TIP_RADIUS) / LEG_LENGTH

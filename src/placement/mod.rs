@@ -24,7 +24,7 @@ const LOOK: f64 = 1e-3;
 /// After a row was let go, it settles for so long [s] at least and at most.
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
 /// Speed over sqrt(g H) below which the next row may come [-].
-const ROW_SPEED: f64 = 0.05;
+const ROW_SPEED: f64 = 0.15;
 /// At the end the layers settle for so long at most [s].
 const LAST_TIME: f64 = 10.0;
 /// Speed over sqrt(g H) below which they are at rest [-].
@@ -89,11 +89,12 @@ impl Placement {
     }
 }
 
-/// Place the layers of a job; `tell` hears how many units are placed.
+/// Place the layers of a job; `tell` hears how many units are placed, and the
+/// simulated time [s].
 ///
 /// # Errors
 /// If there is no room for a unit, or the contact goes astray.
-pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize)) -> Result<Placement, PlacementError> {
+pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize, f64)) -> Result<Placement, PlacementError> {
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
     let height = job.units.shape.height();
@@ -108,7 +109,7 @@ pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize)) -> Result<Placemen
                 .ok_or(PlacementError::NoRoom { unit, x, y })?;
             let_go += job.units.mass * job.gravity * state.position.z;
             world.add(state);
-            tell(unit);
+            tell(unit, world.time());
         }
         let begun = world.time();
         while world.time() - begun < ROW_TIME[0]

@@ -41,12 +41,14 @@ pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
         for row in 0..along {
             let in_row = across.min(count - row * across);
             // Rows and layers lie over the gaps of those below.
-            let shift = if (row + layer) % 2 == 0 { 0.25 } else { 0.75 };
+            let shift = if (row + layer).is_multiple_of(2) { 0.25 } else { 0.75 };
             let x = along_slope(&slope, (row as f64 + 0.5) / along as f64 * length);
             let slot = |column: usize| {
                 let rotation = match armour.orientation {
                     ArmourOrientation::Random => random.next_rotation(),
-                    ArmourOrientation::Alternating => unit.standing_rotation(if column % 2 == 0 { 0.0 } else { PI }),
+                    ArmourOrientation::Alternating => {
+                        unit.standing_rotation(if column.is_multiple_of(2) { 0.0 } else { PI })
+                    }
                 };
                 Slot { x, y: margin + (column as f64 + shift) / in_row as f64 * free, rotation }
             };

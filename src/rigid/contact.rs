@@ -1,7 +1,8 @@
 //! Where bodies touch: each other, their images across periodic sides, the ground and walls.
 //!
-//! Pairs of bodies come from their bounding spheres, pairs of parts from the parts' spheres, gaps from the cores. All
-//! places are sorted by a key, so that sums over them have one order whatever the search did.
+//! Pairs of bodies come from their bounding spheres, pairs of parts from the distances of their cores. The list of near
+//! parts is kept until bodies have moved by its margin; in between, only those are looked at. All places are sorted by
+//! a key, so that sums over them have one order whatever the search did.
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -9,14 +10,16 @@ use serde::{Deserialize, Serialize};
 
 use super::broad_phase::{self, BodyPair};
 use super::error::RigidError;
+use super::forces::Contact;
 use super::gap::{self, Nearest};
 use super::ground::{Approach, GroundSurface, PlaneWall};
 use super::polyhedron_contact::{self, Near, WHOLE};
 use super::setup::{RigidSetup, Sides};
 use crate::geometry::convex_part::ConvexPart;
 
-/// Bodies or pairs of one task of the thread pool: some ten microseconds of work.
-const PIECE: usize = 16;
+/// Bodies, and pairs of parts, of one task of the thread pool: some tens of microseconds of work.
+const BODIES: usize = 64;
+const PAIRS: usize = 24;
 
 /// What a part of a body touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -55,6 +58,31 @@ pub struct Touch {
     pub overlap: f64,
     /// Shift of the partner's image [m].
     pub shift: DVec3,
+    /// Point of the partner's core, in its own axes [m], if it is a unit.
+    pub core: DVec3,
+}
+
+/// Parts of two bodies near each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartPair {
+    bodies: BodyPair,
+    parts: [usize; 2],
+    /// Gap when the list was made [m], negative for an overlap.
+    gap: f64,
+}
+
+impl PartPair {
+    /// Name of the contact of two features of the parts.
+    fn key(&self, features: [u16; 2]) -> ContactKey {
+        let [part, partner] = [0, 1].map(|k| self.parts[k] as u16 * (WHOLE + 1) + features[k]);
+        let BodyPair { first, second, image } = self.bodies;
+        ContactKey { body: first as u32, part, feature: Feature::Unit { body: second as u32, image, part: partner } }
+    }
+
+    /// Whether the parts can be near each other if the surface of each body may have travelled so far [m].
+    pub fn can_be_near(&self, travelled: &[f64]) -> bool {
+        self.gap <= travelled[self.bodies.first] + travelled[self.bodies.second]
+    }
 }
 
 /// Rotation and position of every body.
@@ -111,8 +139,10 @@ impl Surfaces {
     ) -> Result<Vec<Touch>, RigidError> {
         let mut touches = Vec::new();
         self.fixed_touches(body, placements, 0.0, time, &mut touches)?;
-        for pair in pairs {
-            self.unit_touches(pair, placements, 0.0, time, &mut touches)?;
+        let mut near = Vec::new();
+        pairs.iter().for_each(|pair| self.near_parts_of(pair, placements, 0.0, &mut near));
+        for pair in &near {
+            self.part_touches(pair, placements, &[], 0.0, time, &mut touches)?;
         }
         Ok(touches)
     }
@@ -122,22 +152,68 @@ impl Surfaces {
         self.reach
     }
 
-    /// Pairs of bodies whose spheres are nearer than `margin` [m], in the order of their numbers.
-    pub fn pairs(&self, position: &[DVec3], margin: f64) -> Vec<BodyPair> {
-        broad_phase::pairs(position, 2.0 * self.reach + margin, self.period)
+    /// Pairs of parts of different bodies that are nearer than `margin` [m], in the order of their numbers.
+    pub fn near_parts(&self, placements: Placements<'_>, margin: f64) -> Vec<PartPair> {
+        let bodies = broad_phase::pairs(placements.position, 2.0 * self.reach + margin, self.period);
+        let near = in_pieces(&bodies, PAIRS, |pair, out| {
+            self.near_parts_of(pair, placements, margin, out);
+            Ok(())
+        });
+        // Nothing can fail here.
+        near.unwrap_or_default()
     }
 
-    /// All places nearer than `margin` [m], sorted by key.
+    /// Parts of two bodies that are nearer than `margin` [m].
+    fn near_parts_of(&self, pair: &BodyPair, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
+        let [(q_a, x_a), (q_b, x_b)] = self.placed(pair, placements);
+        for (i, part_a) in self.parts.iter().enumerate() {
+            let (centre_a, reach_a) = part_a.bounding_sphere();
+            let centre_a = q_a * centre_a + x_a;
+            for (j, part_b) in self.parts.iter().enumerate() {
+                let (centre_b, reach_b) = part_b.bounding_sphere();
+                let near = reach_a + reach_b + margin;
+                if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
+                    continue;
+                }
+                let roundings = part_a.rounding() + part_b.rounding();
+                let gap = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), roundings + margin) {
+                    Nearest::Apart => continue,
+                    Nearest::Overlap => -roundings,
+                    Nearest::Points(p_a, p_b) => p_a.distance(p_b) - roundings,
+                };
+                out.push(PartPair { bodies: *pair, parts: [i, j], gap });
+            }
+        }
+    }
+
+    /// Rotation and place of both bodies of a pair, the second in the image that is near the first.
+    fn placed(&self, pair: &BodyPair, placements: Placements<'_>) -> [(DQuat, DVec3); 2] {
+        let Placements { rotation, position } = placements;
+        let shift = self.shift(pair);
+        [(rotation[pair.first], position[pair.first]), (rotation[pair.second], position[pair.second] + shift)]
+    }
+
+    /// Way to the image of the second body that is near the first [m].
+    fn shift(&self, pair: &BodyPair) -> DVec3 {
+        DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0))
+    }
+
+    /// All places of the given parts, the ground and walls that are nearer than the bodies' margins [m], sorted by key.
     pub fn touches(
         &self,
-        pairs: &[BodyPair],
+        pairs: &[PartPair],
         placements: Placements<'_>,
-        margin: f64,
+        before: &[Contact],
+        margins: &[f64],
         time: f64,
     ) -> Result<Vec<Touch>, RigidError> {
         let bodies: Vec<usize> = (0..placements.position.len()).collect();
-        let fixed = in_pieces(&bodies, |body, out| self.fixed_touches(*body, placements, margin, time, out));
-        let mutual = in_pieces(pairs, |pair, out| self.unit_touches(pair, placements, margin, time, out));
+        let fixed =
+            in_pieces(&bodies, BODIES, |body, out| self.fixed_touches(*body, placements, margins[*body], time, out));
+        let mutual = in_pieces(pairs, PAIRS, |pair, out| {
+            let margin = margins[pair.bodies.first] + margins[pair.bodies.second];
+            self.part_touches(pair, placements, before, margin, time, out)
+        });
         let mut touches = fixed?;
         touches.extend(mutual?);
         touches.sort_unstable_by_key(|t| t.key);
@@ -171,66 +247,62 @@ impl Surfaces {
         Ok(())
     }
 
-    fn unit_touches(
+    /// Places where two parts are near each other.
+    fn part_touches(
         &self,
-        pair: &BodyPair,
+        pair: &PartPair,
         placements: Placements<'_>,
+        before: &[Contact],
         margin: f64,
         time: f64,
         touches: &mut Vec<Touch>,
     ) -> Result<(), RigidError> {
-        let shift = DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0));
-        let (q_a, x_a) = (placements.rotation[pair.first], placements.position[pair.first]);
-        let (q_b, x_b) = (placements.rotation[pair.second], placements.position[pair.second] + shift);
-        let near = 2.0 * self.reach + margin;
-        if (x_b - x_a).length_squared() > near * near {
-            return Ok(());
+        let PartPair { bodies, parts, .. } = pair;
+        let [place_a, place_b] = self.placed(bodies, placements);
+        let [part_a, part_b] = parts.map(|part| &self.parts[part]);
+        let roundings = [part_a.rounding(), part_b.rounding()];
+        let reach = roundings[0] + roundings[1] + margin;
+        let shift = self.shift(bodies);
+        let mut add = |near: Near| {
+            let touch = unit_touch(pair, near, roundings, shift, time)?;
+            let core = place_b.0.inverse() * (near.points[1] - place_b.1);
+            touches.push(Touch { core, ..touch });
+            Ok(())
+        };
+        if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
+            let rounding = 0.5 * (roundings[0] + roundings[1]);
+            let places = polyhedron_contact::near_places((core_a, place_a), (core_b, place_b), rounding, reach);
+            return places.into_iter().try_for_each(add);
         }
-        for (i, part_a) in self.parts.iter().enumerate() {
-            let (centre_a, reach_a) = part_a.bounding_sphere();
-            let centre_a = q_a * centre_a + x_a;
-            for (j, part_b) in self.parts.iter().enumerate() {
-                let (centre_b, reach_b) = part_b.bounding_sphere();
-                let near = reach_a + reach_b + margin;
-                if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
-                    continue;
-                }
-                let roundings = [part_a.rounding(), part_b.rounding()];
-                let reach = roundings[0] + roundings[1] + margin;
-                if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
-                    let (a, b) = ((core_a, (q_a, x_a)), (core_b, (q_b, x_b)));
-                    for near in polyhedron_contact::near_places(a, b, 0.5 * (roundings[0] + roundings[1]), reach) {
-                        touches.push(unit_touch(pair, [i, j], near, roundings, shift, time)?);
-                    }
-                    continue;
-                }
-                let points = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), reach) {
-                    Nearest::Apart => continue,
-                    // No distance is left then.
-                    Nearest::Overlap => [x_a; 2],
-                    Nearest::Points(p_a, p_b) => [p_a, p_b],
-                };
-                let near = Near { features: [WHOLE; 2], points, bent: 0.0 };
-                touches.push(unit_touch(pair, [i, j], near, roundings, shift, time)?);
-            }
+        let key = pair.key([WHOLE; 2]);
+        let memory = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
+        let found = match memory {
+            Some(core) => gap::nearest_from(part_a, place_a, part_b, place_b, core, reach),
+            None => gap::nearest(part_a, place_a, part_b, place_b, reach),
+        };
+        match found {
+            Nearest::Apart => Ok(()),
+            // No distance is left then.
+            Nearest::Overlap => add(Near { features: [WHOLE; 2], points: [place_a.1; 2], bent: 0.0 }),
+            Nearest::Points(p_a, p_b) => add(Near { features: [WHOLE; 2], points: [p_a, p_b], bent: 0.0 }),
         }
-        Ok(())
     }
 }
 
-/// What `find` adds for each item, in the order of the items; pieces of the list are tasks of the thread pool.
-fn in_pieces<T: Sync>(
+/// What `find` adds for each item, in the order of the items; pieces of `length` items are tasks of the thread pool.
+fn in_pieces<T: Sync, U: Send>(
     items: &[T],
-    find: impl Fn(&T, &mut Vec<Touch>) -> Result<(), RigidError> + Sync,
-) -> Result<Vec<Touch>, RigidError> {
+    length: usize,
+    find: impl Fn(&T, &mut Vec<U>) -> Result<(), RigidError> + Sync,
+) -> Result<Vec<U>, RigidError> {
     let piece = |items: &[T]| {
-        let mut touches = Vec::new();
-        items.iter().try_for_each(|item| find(item, &mut touches)).map(|()| touches)
+        let mut found = Vec::new();
+        items.iter().try_for_each(|item| find(item, &mut found)).map(|()| found)
     };
-    if items.len() <= PIECE {
+    if items.len() <= length {
         return piece(items);
     }
-    let pieces: Vec<_> = items.par_chunks(PIECE).map(piece).collect();
+    let pieces: Vec<_> = items.par_chunks(length).map(piece).collect();
     let mut all = Vec::new();
     for piece in pieces {
         all.extend(piece?);
@@ -239,36 +311,26 @@ fn in_pieces<T: Sync>(
 }
 
 /// Touch of parts of two units with their rounding radii [m].
-fn unit_touch(
-    pair: &BodyPair,
-    parts: [usize; 2],
-    near: Near,
-    roundings: [f64; 2],
-    shift: DVec3,
-    time: f64,
-) -> Result<Touch, RigidError> {
+fn unit_touch(pair: &PartPair, near: Near, roundings: [f64; 2], shift: DVec3, time: f64) -> Result<Touch, RigidError> {
     let Near { features, points: [p_a, p_b], bent } = near;
-    let [part, partner] = [0, 1].map(|k| parts[k] as u16 * (WHOLE + 1) + features[k]);
     let distance = (p_a - p_b).length();
     let sum = roundings[0] + roundings[1];
     let overlap = sum - distance;
     // The cores meet at the full sum; short of it gap and normal are still known.
     let allowed = 0.75 * sum;
     if overlap > allowed {
-        let partner = format!("unit {}", pair.second + 1);
-        return Err(RigidError::TooDeep { time, body: pair.first, partner, depth: overlap, allowed });
+        let BodyPair { first, second, .. } = pair.bodies;
+        let partner = format!("unit {}", second + 1);
+        return Err(RigidError::TooDeep { time, body: first, partner, depth: overlap, allowed });
     }
     let normal = (p_a - p_b) / distance;
     Ok(Touch {
-        key: ContactKey {
-            body: pair.first as u32,
-            part,
-            feature: Feature::Unit { body: pair.second as u32, image: pair.image, part: partner },
-        },
+        key: pair.key(features),
         point: p_a - normal * (roundings[0] - 0.5 * overlap),
         normal,
         overlap: overlap - bent,
         shift,
+        core: DVec3::ZERO,
     })
 }
 
@@ -297,5 +359,6 @@ fn fixed_touch(
         normal: approach.normal,
         overlap,
         shift: DVec3::ZERO,
+        core: DVec3::ZERO,
     })
 }

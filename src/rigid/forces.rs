@@ -41,6 +41,8 @@ pub struct Contact {
     pub roll: DVec3,
     /// Overlap [m].
     pub overlap: f64,
+    /// Point of the partner's core that was nearest, in its own axes [m]: where the next search begins.
+    pub core: DVec3,
     /// Energy stored in overlap, tangential and rolling spring [J].
     pub elastic: [f64; 3],
     /// The record so far.
@@ -56,6 +58,7 @@ impl Contact {
             spring: DVec3::ZERO,
             roll: DVec3::ZERO,
             overlap: touch.overlap,
+            core: touch.core,
             elastic: [0.0; 3],
             event,
         }
@@ -233,6 +236,7 @@ impl Laws {
 
             contact.normal = touch.normal;
             contact.overlap = touch.overlap;
+            contact.core = touch.core;
             contact.spring = response.spring;
             contact.elastic = stored;
             contact.event.add(force, step.dt, step.time);

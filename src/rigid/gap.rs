@@ -44,22 +44,56 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
     let (map_a, map_b) = (CoreMap(a), CoreMap(b));
     let towards = relative.transform_point(b.bounding_sphere().0) - a.bounding_sphere().0;
     simplex.reset(CsoPoint::from_shapes(&relative, &map_a, &map_b, towards.try_normalize().unwrap_or(DVec3::X)));
-    let mut p_b = match gjk::closest_points(&relative, &map_a, &map_b, reach, true, &mut simplex) {
+    let p_b = match gjk::closest_points(&relative, &map_a, &map_b, reach, true, &mut simplex) {
         GJKResult::ClosestPoints(_, p_b, _) => p_b,
         GJKResult::Intersection => return Nearest::Overlap,
         // Either far apart, or out of iterations, which is reported with the direction X: start from the middle then.
         GJKResult::NoIntersection(direction) if direction == DVec3::X => on_b(a.bounding_sphere().0),
         GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => return Nearest::Apart,
     };
+    polished((a, q_a, x_a), on_b, p_b, reach)
+}
+
+/// The same from a point [m] of the second core, in its own axes, that was nearest a moment ago: projections alone find
+/// the nearest points of two convex bodies, and need few steps from there.
+pub fn nearest_from(
+    a: &ConvexPart,
+    (q_a, x_a): Placement,
+    b: &ConvexPart,
+    (q_b, x_b): Placement,
+    start: DVec3,
+    reach: f64,
+) -> Nearest {
+    let back = q_a.inverse();
+    let relative = Pose::from_parts(back * (x_b - x_a), back * q_b);
+    let on_b = |p: DVec3| relative.transform_point(b.nearest(relative.inverse_transform_point(p)));
+    polished((a, q_a, x_a), on_b, relative.transform_point(start), reach)
+}
+
+/// Alternating projections between two cores, in the axes of the first, from a point of the second.
+fn polished(
+    (a, q_a, x_a): (&ConvexPart, DQuat, DVec3),
+    on_b: impl Fn(DVec3) -> DVec3,
+    mut p_b: DVec3,
+    reach: f64,
+) -> Nearest {
     let mut p_a = a.nearest(p_b);
-    for _ in 0..POLISH {
+    let mut step = DVec3::ZERO;
+    for k in 0..POLISH {
         let before = p_b;
         p_b = on_b(p_a);
-        p_a = a.nearest(p_b);
-        // Nanometres over the size of a unit: below the rounding of its position.
-        if (p_b - before).length_squared() < 1e-28 {
+        let last = step;
+        step = p_b - before;
+        // 1e-14 m: below the rounding of a unit's position.
+        if step.length_squared() < 1e-28 {
+            p_a = a.nearest(p_b);
             break;
         }
+        // The steps shrink by one ratio once the fast directions have settled: every third one goes to their limit.
+        let ratio = step.dot(last) / last.length_squared().max(f64::MIN_POSITIVE);
+        let ahead =
+            if k % 3 == 2 && ratio > 0.0 && ratio < STEADY { step * (ratio / (1.0 - ratio)) } else { DVec3::ZERO };
+        p_a = a.nearest(p_b + ahead);
     }
     let distance = (p_b - p_a).length();
     if distance > reach {
@@ -74,6 +108,8 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
 /// Alternating projections at most: each one shrinks the error by the ratio of the rounding to the radii, a few tens
 /// per cent; 60 are reached only where two sides lie flush and any of the points will do.
 const POLISH: usize = 60;
+/// Ratio of two steps from which on they have no limit to go to [-].
+const STEADY: f64 = 0.95;
 
 #[cfg(test)]
 mod tests {

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::broad_phase;
 use super::contact::Placements;
 use super::motion::{BodyState, Load};
-use super::world::RigidWorld;
+use super::world::{RigidWorld, UNSEEN};
 
 impl RigidWorld {
     /// Deepest overlap [m] that a further body at this place would have with bodies, ground and walls; 0 if it is free,
@@ -35,6 +35,9 @@ impl RigidWorld {
         self.contact_now.push(Load::default());
         self.contact_mean.push(Load::default());
         self.states.push(body);
+        self.path.push(0.0);
+        self.margin.push(0.0);
+        self.seen = UNSEEN;
         self.publish();
     }
 }

@@ -8,7 +8,7 @@ use super::error::RigidError;
 use super::event::{ContactEvent, EventLog};
 use super::forces::{Contact, Energy};
 use super::motion::Load;
-use super::world::RigidWorld;
+use super::world::{RigidWorld, UNSEEN};
 
 /// State of all bodies and contacts. Angular momentum and the contact forces of the last instant are kept as they are:
 /// recomputing them would give other last bits.
@@ -42,6 +42,7 @@ struct ContactSnapshot {
     spring: [f64; 3],
     roll: [f64; 3],
     overlap: f64,
+    core: [f64; 3],
     elastic: [f64; 3],
     event: ContactEvent,
 }
@@ -70,6 +71,7 @@ impl RigidWorld {
             normal: c.normal.to_array(),
             spring: c.spring.to_array(),
             roll: c.roll.to_array(),
+            core: c.core.to_array(),
             overlap: c.overlap,
             elastic: c.elastic,
             event: c.event,
@@ -103,6 +105,7 @@ impl RigidWorld {
             normal: DVec3::from_array(c.normal),
             spring: DVec3::from_array(c.spring),
             roll: DVec3::from_array(c.roll),
+            core: DVec3::from_array(c.core),
             overlap: c.overlap,
             elastic: c.elastic,
             event: c.event,
@@ -113,6 +116,7 @@ impl RigidWorld {
         self.frequency_squared = snapshot.frequency_squared;
         self.energy = snapshot.energy;
         self.log = snapshot.log.clone();
+        self.seen = UNSEEN;
         self.publish();
         Ok(())
     }

@@ -7,8 +7,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::broad_phase::BodyPair;
-use super::contact::{Placements, Surfaces};
+use super::contact::{PartPair, Placements, Surfaces};
 use super::error::RigidError;
 use super::event::{ContactEvent, EventLog};
 use super::forces::{Contact, Energy, Laws, Step, Velocities};
@@ -22,6 +21,12 @@ const STEPS_PER_PERIOD: f64 = 80.0;
 /// Longest substep [s]: what comes nearer than this time at twice the speed is looked for, so that nothing is jumped
 /// into.
 const LONGEST_SUBSTEP: f64 = 1e-3;
+
+/// A path is taken for so much longer than it is, because a body turns a little faster at one end of a step [-].
+const ROUNDING: f64 = 1.01;
+
+/// No pairs of parts are known yet.
+pub(super) const UNSEEN: f64 = f64::NEG_INFINITY;
 
 /// Rigid bodies with their contacts.
 #[derive(Debug, Clone)]
@@ -50,9 +55,15 @@ pub struct RigidWorld {
     pub(super) substeps: u64,
     // Workspace.
     angular_velocity: Vec<DVec3>,
-    pairs: Vec<BodyPair>,
-    /// Distance that a body may still travel before the pairs must be searched again [m].
-    slack: f64,
+    pairs: Vec<PartPair>,
+    /// Those of them that may be near now.
+    near: Vec<PartPair>,
+    /// Distance up to which all pairs of parts came into the list [m].
+    pub(super) seen: f64,
+    /// What the surface of each body can have travelled since then [m].
+    pub(super) path: Vec<f64>,
+    /// What it can travel within the horizon, at twice its speed [m].
+    pub(super) margin: Vec<f64>,
 }
 
 impl RigidWorld {
@@ -85,7 +96,10 @@ impl RigidWorld {
             substeps: 0,
             angular_velocity: vec![DVec3::ZERO; count],
             pairs: Vec::new(),
-            slack: 0.0,
+            near: Vec::new(),
+            seen: UNSEEN,
+            path: vec![0.0; count],
+            margin: vec![0.0; count],
         };
         world.touch(0.0, 0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
         world.publish();
@@ -158,7 +172,6 @@ impl RigidWorld {
         let mut impulse = vec![Load::default(); loads.len()];
         let start = self.time;
         let mut left = dt;
-        self.slack = 0.0;
         while left > 0.0 {
             let h = self.substep_length(left);
             self.substep(h, left, loads)?;
@@ -252,18 +265,9 @@ impl RigidWorld {
     /// Finds the contacts at the present places and their forces.
     fn touch(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
         self.angular_velocity = self.angular_velocities();
-        let reach = self.surfaces.reach();
-        let surface_speed = |(v, w): (&DVec3, &DVec3)| v.length() + w.length() * reach;
-        let fastest = self.velocity.iter().zip(&self.angular_velocity).map(surface_speed).fold(0.0, f64::max);
-        // What may touch within the horizon, at twice the present speeds, has to be seen for the step length.
-        let margin = 4.0 * fastest * horizon;
-        self.slack -= 2.0 * fastest * h;
-        if self.slack <= margin || h == 0.0 {
-            self.slack = margin + self.rounding;
-            self.pairs = self.surfaces.pairs(&self.position, 2.0 * self.slack);
-        }
+        self.search(h, horizon, linear, angular);
         let placements = Placements { rotation: &self.rotation, position: &self.position };
-        let touches = self.surfaces.touches(&self.pairs, placements, margin, self.time)?;
+        let touches = self.surfaces.touches(&self.near, placements, &self.contacts, &self.margin, self.time)?;
         let evaluation = self.laws.evaluate(
             &touches,
             &self.contacts,
@@ -278,6 +282,28 @@ impl RigidWorld {
         self.contacts = evaluation.contacts;
         self.frequency_squared = evaluation.frequency_squared;
         Ok(())
+    }
+
+    /// Finds the pairs of parts that can be near each other now, after a step `h` [s] at the velocities given.
+    fn search(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) {
+        let reach = self.surfaces.reach();
+        for body in 0..self.position.len() {
+            self.path[body] += ROUNDING * h * (linear[body].length() + angular[body].length() * reach);
+            // What may touch within the horizon, at twice the present speeds, has to be seen for the step length.
+            let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
+            self.margin[body] = 2.0 * speed * horizon;
+        }
+        let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let margin = 2.0 * most(&self.margin);
+        if self.seen < 2.0 * most(&self.path) + margin {
+            self.seen = margin + self.rounding;
+            self.path.fill(0.0);
+            let placements = Placements { rotation: &self.rotation, position: &self.position };
+            self.pairs = self.surfaces.near_parts(placements, self.seen);
+        }
+        let within: Vec<f64> = self.path.iter().zip(&self.margin).map(|(path, margin)| path + margin).collect();
+        self.near.clear();
+        self.near.extend(self.pairs.iter().filter(|pair| pair.can_be_near(&within)));
     }
 
     /// Brings what callers see up to date.

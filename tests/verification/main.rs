@@ -6,6 +6,7 @@ mod buoyancy;
 mod conservation;
 mod convergence;
 mod diffusion;
+mod dry;
 mod flume_ends;
 mod flume_order;
 mod flume_shore;
