@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use breakwater::case::file::CaseFile;
-use breakwater::case::{Case, Wave, schema_text, template_text};
+use breakwater::case::file::{CaseFile, DryFile};
+use breakwater::case::{Case, DryCase, Wave, schema_text, template_text};
 
 fn json_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -19,8 +19,23 @@ fn json_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-fn cases() -> Vec<PathBuf> {
+fn all_files() -> Vec<PathBuf> {
     json_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"))
+}
+
+/// Cases with water.
+fn cases() -> Vec<PathBuf> {
+    let dry = dry_cases();
+    all_files().into_iter().filter(|path| !dry.contains(path) && !is_placement(path)).collect()
+}
+
+fn dry_cases() -> Vec<PathBuf> {
+    let is_dry = |path: &PathBuf| DryCase::is_one(&std::fs::read_to_string(path).unwrap());
+    all_files().into_iter().filter(is_dry).collect()
+}
+
+fn is_placement(path: &Path) -> bool {
+    path.to_string_lossy().ends_with(".placement.json")
 }
 
 fn case(name: &str) -> Case {
@@ -47,6 +62,23 @@ fn every_case_file_loads() {
         for warning in &case.warnings {
             println!("    {warning}");
         }
+    }
+}
+
+#[test]
+fn every_dry_case_loads_and_survives_being_written_and_read() {
+    let files = dry_cases();
+    assert!(files.len() >= 5, "only {} dry cases found", files.len());
+    for path in files {
+        let case = DryCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
+        assert!(!case.assumptions.is_empty(), "{}: no assumption listed", path.display());
+        let file: DryFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        let written = serde_json::to_string_pretty(&file).unwrap();
+        assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
+        // What a run keeps needs no file but those that the run writes, and is the same case.
+        let kept = DryCase::from_str(&case.text, "elsewhere/case.json").unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(kept.hash, case.hash, "{}", path.display());
+        assert_eq!(kept.units.placements, case.units.placements, "{}", path.display());
     }
 }
 

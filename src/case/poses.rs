@@ -86,5 +86,7 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Pl
         let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] is none";
         check.refuse(&format!("{path}.quaternion_xyzw"), format!("of length {}", show(length)), "of length 1", advice);
     }
-    Placement { centre, rotation: rotation.normalize() }
+    // What is a rotation to the last digit stays as it is, so that a kept case has the same bits.
+    let is_exact = (length - 1.0).abs() < 1e-15;
+    Placement { centre, rotation: if is_exact { rotation } else { rotation.normalize() } }
 }

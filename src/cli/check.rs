@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, load_any};
+use super::{AnyCase, Trouble, load_any, placement};
 use crate::{
     case::{Case, DryCase, DryTest, Sides, Units, Wave},
     dry::DryRun,
@@ -31,6 +31,10 @@ impl CheckArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let mut refusals = Vec::new();
         for path in &self.cases {
+            if let Some(file) = placement(path) {
+                println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+                continue;
+            }
             match load_any(path) {
                 Ok(AnyCase::Dry(case)) => match DryRun::new(case.clone()) {
                     Ok(_) => print_dry(&case),

@@ -23,7 +23,7 @@ use std::{
 
 use clap::{Parser, Subcommand};
 
-use crate::case::{Case, DryCase};
+use crate::case::{Case, DryCase, PlacementFile};
 
 /// Will this wave move the armour units?
 ///
@@ -117,6 +117,10 @@ enum AnyCase {
 
 /// Read a case of either kind and show its warnings.
 fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
+    if placement(path).is_some() {
+        let what = "is a placement and no case; run the case that names it as `units.placement_file`";
+        return Err(Trouble::refused(format!("{}: {what}", path.display())));
+    }
     let is_dry = std::fs::read_to_string(path).is_ok_and(|text| DryCase::is_one(&text));
     if !is_dry {
         return load(path).map(AnyCase::Wet);
@@ -124,6 +128,11 @@ fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
     let case = DryCase::load(path).map_err(Trouble::refused)?;
     show_warnings(&case.warnings);
     Ok(AnyCase::Dry(Arc::new(case)))
+}
+
+/// The poses in a file, if it is a placement file.
+fn placement(path: &Path) -> Option<PlacementFile> {
+    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 
 /// Read a case with water and show its warnings.

@@ -276,11 +276,8 @@ impl Surfaces {
         }
         let key = pair.key([WHOLE; 2]);
         let memory = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
-        let found = match memory {
-            Some(core) => gap::nearest_from(part_a, place_a, part_b, place_b, core, reach),
-            None => gap::nearest(part_a, place_a, part_b, place_b, reach),
-        };
-        match found {
+        let near_before = memory.and_then(|core| gap::nearest_from(part_a, place_a, part_b, place_b, core, reach));
+        match near_before.unwrap_or_else(|| gap::nearest(part_a, place_a, part_b, place_b, reach)) {
             Nearest::Apart => Ok(()),
             // No distance is left then.
             Nearest::Overlap => add(Near { features: [WHOLE; 2], points: [place_a.1; 2], bent: 0.0 }),

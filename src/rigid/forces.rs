@@ -43,6 +43,10 @@ pub struct Contact {
     pub overlap: f64,
     /// Point of the partner's core that was nearest, in its own axes [m]: where the next search begins.
     pub core: DVec3,
+    /// Force on the first body [N].
+    pub force: DVec3,
+    /// What the dashpot gives to its normal part [N].
+    pub dashpot: f64,
     /// Energy stored in overlap, tangential and rolling spring [J].
     pub elastic: [f64; 3],
     /// The record so far.
@@ -59,6 +63,8 @@ impl Contact {
             roll: DVec3::ZERO,
             overlap: touch.overlap,
             core: touch.core,
+            force: DVec3::ZERO,
+            dashpot: 0.0,
             elastic: [0.0; 3],
             event,
         }
@@ -229,15 +235,21 @@ impl Laws {
                 law.tangential_energy(touch.overlap, response.spring),
                 rolling_energy,
             ];
-            energy.damping += (law.elastic_force(touch.overlap) - response.normal) * v_n_over * step.dt;
-            let lost = -response.tangential.dot(v_t_over) * step.dt - (stored[1] - contact.elastic[1]);
-            *(if response.sliding { &mut energy.friction } else { &mut energy.damping }) += lost;
+            // The bodies felt the mean of the forces at both ends of the step.
+            let dashpot = response.normal - law.elastic_force(touch.overlap);
+            let damped = -0.5 * (contact.dashpot + dashpot) * v_n_over * step.dt;
+            let gained = stored[0] + stored[1] - contact.elastic[0] - contact.elastic[1];
+            let lost = -0.5 * (contact.force + force).dot(v_over) * step.dt - gained;
+            energy.damping += damped;
+            *(if response.sliding { &mut energy.friction } else { &mut energy.damping }) += lost - damped;
             energy.elastic += stored.iter().sum::<f64>();
 
             contact.normal = touch.normal;
             contact.overlap = touch.overlap;
             contact.core = touch.core;
             contact.spring = response.spring;
+            contact.force = force;
+            contact.dashpot = dashpot;
             contact.elastic = stored;
             contact.event.add(force, step.dt, step.time);
             out.contacts.push(contact);

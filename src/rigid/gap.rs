@@ -51,11 +51,13 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
         GJKResult::NoIntersection(direction) if direction == DVec3::X => on_b(a.bounding_sphere().0),
         GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => return Nearest::Apart,
     };
-    polished((a, q_a, x_a), on_b, p_b, reach)
+    let (_, points) = polished(a, on_b, p_b);
+    placed(points, (q_a, x_a), reach)
 }
 
 /// The same from a point [m] of the second core, in its own axes, that was nearest a moment ago: projections alone find
-/// the nearest points of two convex bodies, and need few steps from there.
+/// the nearest points of two convex bodies, and mostly need few steps from there. `None` if they need too many, which
+/// happens where two legs lie along each other.
 pub fn nearest_from(
     a: &ConvexPart,
     (q_a, x_a): Placement,
@@ -63,20 +65,17 @@ pub fn nearest_from(
     (q_b, x_b): Placement,
     start: DVec3,
     reach: f64,
-) -> Nearest {
+) -> Option<Nearest> {
     let back = q_a.inverse();
     let relative = Pose::from_parts(back * (x_b - x_a), back * q_b);
     let on_b = |p: DVec3| relative.transform_point(b.nearest(relative.inverse_transform_point(p)));
-    polished((a, q_a, x_a), on_b, relative.transform_point(start), reach)
+    let (converged, points) = polished(a, on_b, relative.transform_point(start));
+    converged.then(|| placed(points, (q_a, x_a), reach))
 }
 
-/// Alternating projections between two cores, in the axes of the first, from a point of the second.
-fn polished(
-    (a, q_a, x_a): (&ConvexPart, DQuat, DVec3),
-    on_b: impl Fn(DVec3) -> DVec3,
-    mut p_b: DVec3,
-    reach: f64,
-) -> Nearest {
+/// Alternating projections between two cores, in the axes of the first, from a point of the second: whether they have
+/// converged, and the points.
+fn polished(a: &ConvexPart, on_b: impl Fn(DVec3) -> DVec3, mut p_b: DVec3) -> (bool, [DVec3; 2]) {
     let mut p_a = a.nearest(p_b);
     let mut step = DVec3::ZERO;
     for k in 0..POLISH {
@@ -86,15 +85,18 @@ fn polished(
         step = p_b - before;
         // 1e-14 m: below the rounding of a unit's position.
         if step.length_squared() < 1e-28 {
-            p_a = a.nearest(p_b);
-            break;
+            return (true, [a.nearest(p_b), p_b]);
         }
         // The steps shrink by one ratio once the fast directions have settled: every third one goes to their limit.
         let ratio = step.dot(last) / last.length_squared().max(f64::MIN_POSITIVE);
-        let ahead =
-            if k % 3 == 2 && ratio > 0.0 && ratio < STEADY { step * (ratio / (1.0 - ratio)) } else { DVec3::ZERO };
-        p_a = a.nearest(p_b + ahead);
+        let goes_on = k % 3 == 2 && ratio > 0.0 && ratio < STEADY;
+        p_a = a.nearest(if goes_on { p_b + step * (ratio / (1.0 - ratio)) } else { p_b });
     }
+    (false, [p_a, p_b])
+}
+
+/// Nearest points in the axes of the first body as places in the world.
+fn placed([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Nearest {
     let distance = (p_b - p_a).length();
     if distance > reach {
         return Nearest::Apart;
