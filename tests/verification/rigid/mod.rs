@@ -6,6 +6,7 @@ mod cubes;
 mod friction;
 mod impact;
 mod linear;
+mod pile;
 mod rolling;
 mod rows;
 mod sliding;

@@ -1,0 +1,113 @@
+//! Tetrapods dropped into a pile on a slope of 1:1.5.
+
+use std::time::Instant;
+
+use breakwater::geometry::profile::Profile;
+use breakwater::rigid::{BodyShape, BodyState, Ground, Load, RigidSetup, RigidWorld, Sides};
+use glam::{DQuat, DVec3};
+
+use super::{HEIGHT, MASS, MORTAR, setup, tetrapod};
+
+/// Spacing of the lattice that they fall from [m]: free of each other however they are turned.
+const SPACING: f64 = 1.36 * HEIGHT;
+
+/// `count` Tetrapods turned at will over a slope between walls, `across` and `along` in a layer.
+fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
+    let (length, width) = (SPACING * along as f64, SPACING * across as f64);
+    let slope = |x: f64| x.clamp(0.0, length) / 1.5;
+    let body = |k: usize| {
+        let (column, row, layer) = (k % along, k / along % across, k / (along * across));
+        let (x, y) = ((column as f64 + 0.5) * SPACING, (row as f64 + 0.5) * SPACING);
+        let z = slope(x) + (layer as f64 + 0.9) * SPACING;
+        let t = k as f64;
+        BodyState::at_rest(DVec3::new(x, y, z), DQuat::from_euler(glam::EulerRot::XYZ, t, 2.3 * t, 0.7 * t))
+    };
+    let bodies = (0..count).map(body).collect();
+    let profile = Profile::new(vec![[-1.0, 0.0], [0.0, 0.0], [length, length / 1.5], [length + 1.0, length / 1.5]]);
+    RigidSetup {
+        ground: Some(Ground { profile, material: MORTAR }),
+        sides: Sides::Walls { width },
+        end_walls: Some([0.0, length]),
+        ..setup(BodyShape::of_unit(&tetrapod(), MASS), bodies, MORTAR, 0.65)
+    }
+}
+
+/// What a pile is after it has come to rest.
+struct Pile {
+    contacts: usize,
+    /// Wall clock of a substep [s].
+    substep: f64,
+}
+
+/// Let a pile come to rest; it must within `longest` [s].
+fn settled(count: usize, along: usize, across: usize, longest: f64) -> Pile {
+    let mut world = RigidWorld::new(lattice(count, along, across)).unwrap();
+    let loads = vec![Load::default(); count];
+    let start = world.energy();
+    let mechanical = |world: &RigidWorld| {
+        let e = world.energy();
+        e.kinetic + e.potential + e.elastic
+    };
+    let (mut before, mut rise) = (mechanical(&world), 0.0f64);
+    let clock = Instant::now();
+    let mut quiet = 0;
+    while quiet < 20 {
+        world.advance(5e-3, &loads).unwrap();
+        let now = mechanical(&world);
+        rise = rise.max(now - before);
+        before = now;
+        let e = world.energy();
+        let at_rest = e.kinetic < 1e-6 * (start.potential - e.potential);
+        quiet = if at_rest { quiet + 1 } else { 0 };
+        assert!(world.time() < longest, "still {:.1e} J after {longest} s", e.kinetic);
+    }
+    let (all, wall) = (world.substeps(), clock.elapsed().as_secs_f64());
+    let clock = Instant::now();
+    world.advance(0.02, &loads).unwrap();
+    let substep = clock.elapsed().as_secs_f64() / (world.substeps() - all) as f64;
+    let e = world.energy();
+    println!(
+        "{count} units: at rest after {:.2} s, {all} substeps, {wall:.0} s; kinetic {:.1e} of the drop, deepest overlap \
+         {:.3} % of H, largest rise {:.1e} of the drop, {} contacts, {:.0} us a substep, {:.2} us a contact",
+        world.time(),
+        e.kinetic / (start.potential - e.potential),
+        100.0 * world.deepest_overlap() / HEIGHT,
+        rise / (start.potential - e.potential),
+        world.contact_count(),
+        substep * 1e6,
+        substep * 1e6 / world.contact_count() as f64
+    );
+    // 1 % of the height and 1e-6 of the energy: asked for.
+    assert!(world.deepest_overlap() < 0.01 * HEIGHT);
+    assert!(rise < 1e-6 * start.potential);
+    Pile { contacts: world.contact_count(), substep }
+}
+
+#[test]
+fn forty_tetrapods_come_to_rest_in_a_pile() {
+    settled(40, 4, 3, 10.0);
+}
+
+/// cargo test --release --test verification -- --ignored --nocapture five_hundred
+#[test]
+#[ignore = "a quarter of an hour on 2 cores"]
+fn five_hundred_tetrapods_come_to_rest_and_cost_as_much_a_contact_as_fifteen() {
+    let piles =
+        [(15, 3, 2), (100, 6, 4), (500, 10, 8)].map(|(count, along, across)| settled(count, along, across, 20.0));
+    let each = |pile: &Pile| pile.substep / pile.contacts as f64;
+    // Near-linear: asked for. Twice, because a substep has a part that every unit pays, in contact or not.
+    assert!(each(&piles[2]) < 2.0 * each(&piles[0]));
+}
+
+#[test]
+fn a_pile_has_the_same_bits_for_any_number_of_threads() {
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut world = RigidWorld::new(lattice(120, 6, 5)).unwrap();
+            world.advance(0.25, &vec![Load::default(); 120]).unwrap();
+            world.states().to_vec()
+        })
+    };
+    assert_eq!(with(1), with(2));
+}
