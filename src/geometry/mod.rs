@@ -9,6 +9,7 @@ pub mod decomposition;
 pub mod dolos;
 pub mod gmsh;
 pub mod grooved_cube;
+pub mod half_space;
 pub mod member;
 pub mod polyhedron;
 pub mod profile;

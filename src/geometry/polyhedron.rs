@@ -8,6 +8,8 @@ use glam::DVec3;
 use parry3d_f64::transformation::try_convex_hull;
 use thiserror::Error;
 
+use super::half_space::{HalfSpace, cube, cut};
+
 /// Why points do not span a body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PolyhedronError {
@@ -18,28 +20,6 @@ pub enum PolyhedronError {
 
 /// Corners nearer to each other than this share of the size of a polyhedron are one.
 const SAME: f64 = 1e-9;
-
-/// A half-space: normal . x <= offset.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HalfSpace {
-    /// Outward unit normal.
-    pub normal: DVec3,
-    /// Distance of the plane from the origin along the normal [m].
-    pub offset: f64,
-}
-
-impl HalfSpace {
-    /// Through a point [m], with an outward normal of any length.
-    pub fn through(point: DVec3, normal: DVec3) -> Self {
-        let normal = normal.normalize();
-        Self { normal, offset: normal.dot(point) }
-    }
-
-    /// Signed distance of a point [m], positive outside.
-    pub fn distance(&self, point: DVec3) -> f64 {
-        self.normal.dot(point) - self.offset
-    }
-}
 
 /// A plane face.
 #[derive(Debug, Clone, PartialEq)]
@@ -293,75 +273,6 @@ fn around(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
 fn same_plane(a: &HalfSpace, b: &HalfSpace) -> bool {
     // 1e-6: single-precision coordinates of an STL file.
     a.normal.distance_squared(b.normal) < 1e-12 && (a.offset - b.offset).abs() < 1e-6
-}
-
-/// Faces of the cube of half-edge `half` about the origin.
-fn cube(half: f64) -> Vec<(HalfSpace, Vec<DVec3>)> {
-    let mut faces = Vec::new();
-    for axis in 0..3 {
-        for side in [-1.0, 1.0] {
-            let (mut normal, mut u, mut v) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
-            normal[axis] = side;
-            u[(axis + 1) % 3] = half;
-            v[(axis + 2) % 3] = half * side;
-            let middle = normal * half;
-            faces.push((
-                HalfSpace { normal, offset: half },
-                vec![middle - u - v, middle + u - v, middle + u + v, middle - u + v],
-            ));
-        }
-    }
-    faces
-}
-
-/// Keep what lies behind a plane, and close the cut with a face.
-fn cut(faces: &mut Vec<(HalfSpace, Vec<DVec3>)>, plane: &HalfSpace, tolerance: f64) {
-    let mut rim: Vec<DVec3> = Vec::new();
-    for (_, ring) in faces.iter_mut() {
-        let [behind, _] = split(ring, plane, tolerance);
-        rim.extend(behind.iter().filter(|p| plane.distance(**p).abs() <= tolerance));
-        *ring = behind;
-    }
-    faces.retain(|(_, ring)| ring.len() >= 3);
-    // A face that already lies in the plane closes the body.
-    let closed = |(_, ring): &(HalfSpace, Vec<DVec3>)| ring.iter().all(|p| plane.distance(*p).abs() <= tolerance);
-    if faces.iter().any(closed) {
-        return;
-    }
-    let middle = rim.iter().sum::<DVec3>() / rim.len().max(1) as f64;
-    let u = plane.normal.any_orthonormal_vector();
-    let v = plane.normal.cross(u);
-    let angle = |p: &DVec3| (*p - middle).dot(v).atan2((*p - middle).dot(u));
-    rim.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-    rim.dedup_by(|a, b| a.distance(*b) <= 2.0 * tolerance);
-    if rim.len() >= 3 {
-        faces.push((*plane, rim));
-    }
-}
-
-/// The parts of a convex polygon behind and before a plane; points within the tolerance [m] belong to both.
-pub(super) fn split(ring: &[DVec3], plane: &HalfSpace, tolerance: f64) -> [Vec<DVec3>; 2] {
-    let (mut behind, mut before) = (Vec::new(), Vec::new());
-    for (index, &a) in ring.iter().enumerate() {
-        let b = ring[(index + 1) % ring.len()];
-        let (d_a, d_b) = (plane.distance(a), plane.distance(b));
-        if d_a <= tolerance {
-            behind.push(a);
-        }
-        if d_a >= -tolerance {
-            before.push(a);
-        }
-        if (d_a > tolerance && d_b < -tolerance) || (d_a < -tolerance && d_b > tolerance) {
-            let crossing = a.lerp(b, d_a / (d_a - d_b));
-            behind.push(crossing);
-            before.push(crossing);
-        }
-    }
-    let solid = |part: Vec<DVec3>, side: f64| {
-        let counts = part.iter().any(|p| plane.distance(*p) * side > tolerance);
-        if counts || side < 0.0 && part.len() == ring.len() { part } else { Vec::new() }
-    };
-    [solid(behind, -1.0), solid(before, 1.0)]
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 
 use glam::DVec3;
 
-use super::polyhedron::{Polyhedron, split};
+use super::half_space::split;
+use super::polyhedron::Polyhedron;
 
 /// Points nearer to each other, or to a plane, than this share of the size are there.
 const TOLERANCE: f64 = 1e-9;
