@@ -99,6 +99,8 @@ fn convex_parts_come_from_files_or_from_decomposition() {
     assert!(error.as_ref().unwrap_err().contains("of its volume"), "{error:?}");
     let found = outcome(&case_of(json!({ "path": "dolos.stl" }), pose), folder.path());
     println!("decomposed: {found:?}");
+    // Parts that fill the unit, or a refusal that tells by how much they do not.
+    assert!(found.is_ok() || found.unwrap_err().contains("of its volume"));
 }
 
 #[test]

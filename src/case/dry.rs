@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::check::{Checker, above, from};
-use super::error::{CaseError, CaseErrors};
+use super::error::CaseErrors;
 use super::file::{DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
 use super::hash::fingerprint;
 use super::materials::{self, Material};
@@ -13,6 +13,7 @@ use super::parse::parse;
 use super::run::{self, Contact, Stop};
 use super::site::Site;
 use super::units::{self, Surroundings, Units};
+use super::validate::read;
 use super::{flume, output};
 
 /// What is done with the units; SI units, angles in radians.
@@ -78,9 +79,7 @@ impl DryCase {
 
     /// Read and validate a case file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
-        let name = path.as_ref().display().to_string();
-        let text = super::validate::read(path.as_ref());
-        let text = text.map_err(|reason| CaseError::Read { file: name.clone(), reason })?;
+        let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use super::check::{Checker, above, from};
 use super::dry::{self, DryCase};
-use super::error::{CaseError, CaseErrors};
+use super::error::CaseErrors;
 use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitsFile};
 use super::materials::{self, Material};
 use super::parse::parse;
 use super::run::{self, Contact};
 use super::site::Site;
 use super::units::{self, MOST_UNITS, Surroundings, Units};
+use super::validate::read;
 use super::{domain, flume};
 
 /// Armour layers on a slope; SI units.
@@ -50,9 +51,7 @@ pub struct PlacementJob {
 impl PlacementJob {
     /// Read a case file, wet or dry, and validate what the placement needs of it.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
-        let name = path.as_ref().display().to_string();
-        let text = super::validate::read(path.as_ref());
-        let text = text.map_err(|reason| CaseError::Read { file: name.clone(), reason })?;
+        let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 

@@ -75,9 +75,7 @@ pub struct Case {
 impl Case {
     /// Read and validate a case file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
-        let path = path.as_ref();
-        let name = path.display().to_string();
-        let text = read(path).map_err(|reason| CaseError::Read { file: name.clone(), reason })?;
+        let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 
@@ -97,7 +95,16 @@ impl Case {
     }
 }
 
-pub(super) fn read(path: &Path) -> Result<String, String> {
+/// Text and name of a case file.
+pub(super) fn read(path: &Path) -> Result<(String, String), CaseError> {
+    let file = path.display().to_string();
+    match read_text(path) {
+        Ok(text) => Ok((text, file)),
+        Err(reason) => Err(CaseError::Read { file, reason }),
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut text = String::new();
     let size = file.take(LARGEST_FILE + 1).read_to_string(&mut text).map_err(|error| error.to_string())?;

@@ -27,7 +27,7 @@ use crate::case::{Case, DryCase, PlacementFile};
 
 /// Will this wave move the armour units?
 ///
-/// A case file (JSON) describes a flume, a wave and a row of armour units. `check` tells what it will cost, `run` sends
+/// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` tells what it will cost, `run` sends
 /// the wave over the units, `compare` sets the result beside published measurements.
 #[derive(Parser)]
 #[command(name = "breakwater", version, after_help = EXAMPLES)]
@@ -152,7 +152,7 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 22] = [
+const RESULT_FILES: [&str; 23] = [
     "case.json",
     "checkpoint.h5",
     "checkpoint.json",
@@ -162,6 +162,7 @@ const RESULT_FILES: [&str; 22] = [
     "diagnostics.csv",
     "energy.csv",
     "failed.h5",
+    "failed.json",
     "fluid.vtkhdf",
     "flume_gauges.csv",
     "flume_piston.csv",

@@ -56,6 +56,9 @@ impl DryRecorder {
     /// Name of the checkpoint in a run folder.
     pub const CHECKPOINT: &str = "checkpoint.json";
 
+    /// Name of the state at which a run failed.
+    pub const FAILED: &str = "failed.json";
+
     /// New files in the run folder, and those that do not change.
     ///
     /// # Errors
@@ -131,7 +134,7 @@ impl DryRecorder {
         self.note_lengths();
         if is_due(self.counts.checkpoints + 1, output.checkpoint_interval, time) {
             self.counts.checkpoints += 1;
-            self.record_checkpoint(run)?;
+            self.record_state(run, Self::CHECKPOINT)?;
         }
         Ok(())
     }
@@ -149,12 +152,12 @@ impl DryRecorder {
         self.record_contacts(run, &running)
     }
 
-    /// Keep the state of the run.
+    /// Keep the state of the run in `file` of its folder.
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn record_checkpoint(&self, run: &DryRun) -> Result<(), OutputError> {
-        let path = self.dir.join(Self::CHECKPOINT);
+    pub fn record_state(&self, run: &DryRun, file: &str) -> Result<(), OutputError> {
+        let path = self.dir.join(file);
         let state = Checkpoint {
             version: VERSION,
             case_hash: run.case.hash.clone(),

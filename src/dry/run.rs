@@ -23,7 +23,7 @@ pub enum DryError {
     #[error(transparent)]
     Setup(RigidError),
     /// The computation went astray.
-    #[error("{reason}\nThe state before is kept in {kept}.")]
+    #[error("{reason}\nThe state is kept in {kept}; the last regular checkpoint is not touched.")]
     Failed {
         /// What happened.
         reason: RigidError,
@@ -68,8 +68,8 @@ fn drive(mut run: DryRun, mut recorder: DryRecorder, dir: &Path, quiet: bool) ->
         }
         recorder.record_due(&mut run)?;
         if let Err(reason) = run.advance(run.case.stop.duration) {
-            let kept = match recorder.record_checkpoint(&run) {
-                Ok(()) => dir.join(DryRecorder::CHECKPOINT).display().to_string(),
+            let kept = match recorder.record_state(&run, DryRecorder::FAILED) {
+                Ok(()) => dir.join(DryRecorder::FAILED).display().to_string(),
                 Err(error) => format!("no file ({error})"),
             };
             return Err(DryError::Failed { reason, kept });

@@ -16,7 +16,13 @@ pub enum PolyhedronError {
     /// Points in one plane, on one line or in one place, or not numbers.
     #[error("{0} points do not span a convex body: they lie in one plane, or are no numbers")]
     Flat(usize),
+    /// A body so round that its faces would take long to find.
+    #[error("the convex hull has more than {MOST_FACES} faces: a coarser surface is needed")]
+    TooRound,
 }
+
+/// Faces of a hull at most: contact takes as many corners and edges together, and finding them takes the square of it.
+const MOST_FACES: usize = 1000;
 
 /// Corners nearer to each other than this share of the size of a polyhedron are one.
 const SAME: f64 = 1e-9;
@@ -63,7 +69,7 @@ impl Polyhedron {
     /// Convex hull of points [m].
     ///
     /// # Errors
-    /// If they do not span a body.
+    /// If they do not span a body, or one with too many faces.
     pub fn hull(points: &[DVec3]) -> Result<Self, PolyhedronError> {
         let flat = || PolyhedronError::Flat(points.len());
         if points.len() < 4 || points.iter().any(|p| !p.is_finite()) {
@@ -87,6 +93,9 @@ impl Polyhedron {
                 let plane = HalfSpace { normal, offset };
                 if !planes.iter().any(|p| same_plane(p, &plane)) {
                     planes.push(plane);
+                }
+                if planes.len() > MOST_FACES {
+                    return Err(PolyhedronError::TooRound);
                 }
             }
         }
@@ -306,6 +315,16 @@ mod tests {
         assert!(Polyhedron::hull(&[DVec3::ZERO; 9]).is_err());
         assert!(Polyhedron::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y]).is_err());
         assert!(Polyhedron::hull(&[DVec3::NAN; 4]).is_err());
+    }
+
+    #[test]
+    fn what_is_too_round_is_refused_at_once() {
+        let point = |k: u32| {
+            let (a, b) = (2.4 * f64::from(k), (1.0 - 2.0 * (f64::from(k) + 0.5) / 20_000.0).acos());
+            DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos())
+        };
+        let ball: Vec<DVec3> = (0..20_000).map(point).collect();
+        assert_eq!(Polyhedron::hull(&ball), Err(PolyhedronError::TooRound));
     }
 
     #[test]

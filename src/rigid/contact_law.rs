@@ -19,8 +19,8 @@ use super::hertz_mindlin::{self, Material};
 use super::linear;
 use super::setup::{ContactModel, Resistance};
 
-/// Sliding speed v_c at which friction goes over from rest to motion [m/s]: a hundredth of what moves a unit by its own
-/// height in a second, and ten times what a unit at rest in moving water trembles with.
+/// Sliding speed v_c at which friction goes over from rest to motion [m/s]: five times what a unit at rest in water
+/// trembles with (0.2 mm/s), and far below the speeds at which units move.
 const CHANGE_OVER: f64 = 1e-3;
 /// Radius of every contact under `chrono4` [m].
 const CHRONO_RADIUS: f64 = 0.1;

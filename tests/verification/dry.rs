@@ -105,3 +105,22 @@ fn the_number_of_threads_does_not_change_a_layer() {
     };
     assert_eq!(with(1), with(2));
 }
+
+#[test]
+fn a_run_that_fails_keeps_its_last_checkpoint_and_the_state_it_failed_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut case = case_file("drop-dolos.json");
+    // Concrete as soft as rubber, from five metres: the floor cannot stop it within the rounding.
+    case["dry"]["height_m"] = json!(5.0);
+    case["materials"][0]["young_modulus_pa"] = json!(1e6);
+    case["output"] = json!({ "checkpoint_interval_s": 0.4 });
+    let error = run(dry_case(&case), folder.path(), true).unwrap_err().to_string();
+    assert!(error.contains("unit 1") && error.contains("failed.json"), "{error}");
+    let time = |file: &str| {
+        let text = std::fs::read_to_string(folder.path().join(file)).unwrap();
+        serde_json::from_str::<Value>(&text).unwrap()["world"]["time_s"].as_f64().unwrap()
+    };
+    let (kept, failed) = (time("checkpoint.json"), time("failed.json"));
+    // It falls for a second; the checkpoints are at 0.4 and 0.8 s.
+    assert!((kept - 0.8).abs() < 2e-3 && failed > kept, "{kept} {failed}");
+}
