@@ -360,7 +360,7 @@ mod tests {
         assert!((core_loc / 8.0 - 1.0).abs() < 0.005, "{core_loc}");
         let grooved = volume(&ArmourUnit::grooved_cube(1.0, 0.03).unwrap());
         println!("grooved cube {grooved} H^3");
-        // 0.5 %: the published lengths have three digits.
+        // 0.5 %: the quoted lengths have three digits.
         assert!((grooved - 1.0).abs() < 0.005, "{grooved}");
     }
 

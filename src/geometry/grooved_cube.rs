@@ -1,8 +1,9 @@
 //! Grooved cube (Antifer block): a slightly tapered cube with a groove down the middle of each side.
 //!
-//! Over its height: 1.086 wide at the foot, 1.005 at the top, grooves of radius 0.12 (Frens 2007, whose lengths are over
-//! the cube root of the volume; that is the height within 0.2 %). A half-round groove is not the hollow of convex
-//! blocks; here it is a rectangular one of the same width and section.
+//! Assumed, over its height: 1.086 wide at the foot, 1.005 at the top, grooves of radius 0.12, the proportions usually
+//! quoted for Antifer blocks (after Frens 2007, over the cube root of the volume there). They fit each other: the volume
+//! is 1.003 H^3. A half-round groove is not the hollow of convex blocks; here it is a rectangular one of the same width
+//! and section.
 
 use std::f64::consts::PI;
 
