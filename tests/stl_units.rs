@@ -118,6 +118,50 @@ fn a_surface_that_cuts_itself_is_refused_with_the_place() {
     assert!(error.contains("does not cut itself") && error.contains("units.stl.path"), "{error}");
 }
 
+/// A binary STL file with one to three faults.
+fn damaged(good: &[u8], shares: &mut Shares) -> Vec<u8> {
+    let mut bytes = good.to_vec();
+    for _ in 0..=shares.below(3) {
+        match shares.below(7) {
+            // A byte anywhere.
+            0 => {
+                let at = shares.below(bytes.len());
+                bytes[at] = shares.below(256) as u8;
+            }
+            1 => bytes.truncate(shares.below(bytes.len()) + 1),
+            // A coordinate that is no place.
+            2 if bytes.len() >= 134 => {
+                let odd = [f32::NAN, f32::INFINITY, 1e30, -1e-30, 0.0, f32::MAX][shares.below(6)];
+                let at = 84 + 50 * shares.below((bytes.len() - 84) / 50) + 12 + 4 * shares.below(9);
+                bytes[at..at + 4].copy_from_slice(&odd.to_le_bytes());
+            }
+            // A triangle turned round, doubled or left out.
+            3 if bytes.len() >= 134 => {
+                let at = 84 + 50 * shares.below((bytes.len() - 84) / 50);
+                let corner: Vec<u8> = bytes[at + 12..at + 24].to_vec();
+                bytes.copy_within(at + 24..at + 36, at + 12);
+                bytes[at + 24..at + 36].copy_from_slice(&corner);
+            }
+            4 if bytes.len() >= 134 => {
+                let at = 84 + 50 * shares.below((bytes.len() - 84) / 50);
+                bytes.drain(at..at + 50);
+            }
+            // Another number of triangles than there are.
+            5 if bytes.len() >= 84 => {
+                let count = [0, 1, 11, 13, u32::MAX][shares.below(5)];
+                bytes[80..84].copy_from_slice(&u32::to_le_bytes(count));
+            }
+            // A text that begins like an ASCII file.
+            _ => {
+                let text = b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n";
+                let length = text.len().min(bytes.len());
+                bytes[..length].copy_from_slice(&text[..length]);
+            }
+        }
+    }
+    bytes
+}
+
 #[test]
 fn two_hundred_broken_files_are_refused_or_run() {
     let folder = tempfile::tempdir().unwrap();
@@ -129,45 +173,7 @@ fn two_hundred_broken_files_are_refused_or_run() {
     let mut shares = Shares(5);
     let mut refused = 0;
     for _ in 0..200 {
-        let mut bytes = good.clone();
-        for _ in 0..=shares.below(3) {
-            match shares.below(7) {
-                // A byte anywhere.
-                0 => {
-                    let at = shares.below(bytes.len());
-                    bytes[at] = shares.below(256) as u8;
-                }
-                1 => bytes.truncate(shares.below(bytes.len()) + 1),
-                // A coordinate that is no place.
-                2 if bytes.len() >= 134 => {
-                    let odd = [f32::NAN, f32::INFINITY, 1e30, -1e-30, 0.0, f32::MAX][shares.below(6)];
-                    let at = 84 + 50 * shares.below((bytes.len() - 84) / 50) + 12 + 4 * shares.below(9);
-                    bytes[at..at + 4].copy_from_slice(&odd.to_le_bytes());
-                }
-                // A triangle turned round, doubled or left out.
-                3 if bytes.len() >= 134 => {
-                    let at = 84 + 50 * shares.below((bytes.len() - 84) / 50);
-                    let corner: Vec<u8> = bytes[at + 12..at + 24].to_vec();
-                    bytes.copy_within(at + 24..at + 36, at + 12);
-                    bytes[at + 24..at + 36].copy_from_slice(&corner);
-                }
-                4 if bytes.len() >= 134 => {
-                    let at = 84 + 50 * shares.below((bytes.len() - 84) / 50);
-                    bytes.drain(at..at + 50);
-                }
-                // Another number of triangles than there are.
-                5 if bytes.len() >= 84 => {
-                    let count = [0, 1, 11, 13, u32::MAX][shares.below(5)];
-                    bytes[80..84].copy_from_slice(&u32::to_le_bytes(count));
-                }
-                // A text that begins like an ASCII file.
-                _ => {
-                    let text = b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n";
-                    let length = text.len().min(bytes.len());
-                    bytes[..length].copy_from_slice(&text[..length]);
-                }
-            }
-        }
+        let bytes = damaged(&good, &mut shares);
         std::fs::write(&path, &bytes).unwrap();
         if let Err(message) = outcome(&case, folder.path()) {
             refused += 1;
@@ -213,4 +219,62 @@ fn two_hundred_random_poses_are_refused_or_run() {
     }
     println!("{refused} refused, {ran} ran");
     assert!(ran > 10 && refused > 10);
+}
+
+/// The same case on a triangle surface.
+fn on_terrain(case: &Value) -> Value {
+    let mut case = case.clone();
+    case["flume"]["terrain"] = json!({ "path": "terrain.stl" });
+    let units = case["units"].as_object_mut().unwrap();
+    units.remove("stl");
+    units.insert("shape".into(), json!("tetrapod"));
+    units.insert("height_m".into(), json!(0.2));
+    case
+}
+
+#[test]
+fn a_run_on_terrain_keeps_the_surface_beside_its_case() {
+    let folder = tempfile::tempdir().unwrap();
+    // A block of 0.2 m in the middle, on which the unit falls.
+    write_unit(&folder.path().join("terrain.stl"), &ArmourUnit::cuboid(DVec3::splat(0.2), 0.05).unwrap());
+    let case = on_terrain(&case_of(json!(null), json!([{ "centre_m": [0.0, 0.0, 0.3] }])));
+    let mut case = case;
+    case["domain"]["sides"] = json!("periodic");
+    let name = folder.path().join("case.json").display().to_string();
+    let parsed = DryCase::from_str(&case.to_string(), &name).unwrap();
+    let run = folder.path().join("run");
+    std::fs::create_dir(&run).unwrap();
+    breakwater::dry::run::run(Arc::new(parsed.clone()), &run, true).unwrap();
+    let kept = DryCase::load(run.join("case.json")).unwrap();
+    assert_eq!(kept.site.terrain, parsed.site.terrain);
+    assert_eq!(
+        std::fs::read(run.join("terrain.stl")).unwrap(),
+        std::fs::read(folder.path().join("terrain.stl")).unwrap()
+    );
+}
+
+#[test]
+fn two_hundred_broken_terrains_are_refused_or_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("terrain.stl");
+    let case = on_terrain(&case_of(json!(null), json!([{ "centre_m": [0.0, 0.5, 0.3] }])));
+    let missing = outcome(&case, folder.path()).unwrap_err();
+    assert!(
+        missing.contains("flume.terrain.path") && missing.contains("cannot be read") | missing.contains("can be read")
+    );
+    write_unit(&path, &ArmourUnit::cuboid(DVec3::new(0.5, 0.4, 0.2), 0.05).unwrap());
+    let good = std::fs::read(&path).unwrap();
+    outcome(&case, folder.path()).unwrap();
+    let mut shares = Shares(17);
+    let mut refused = 0;
+    for _ in 0..200 {
+        std::fs::write(&path, damaged(&good, &mut shares)).unwrap();
+        if let Err(message) = outcome(&case, folder.path()) {
+            refused += 1;
+            assert!(!message.is_empty());
+        }
+    }
+    println!("{refused} of 200 terrains refused");
+    // A surface with a hole can be stood upon; less is refused than of units.
+    assert!(refused > 50 && refused < 200);
 }

@@ -75,7 +75,7 @@ impl Domain {
     /// Ground and limits of the place where units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
-        Site { profile: flume.profile.clone(), x, width, sides, top_z }
+        Site { profile: flume.profile.clone(), terrain: None, x, width, sides, top_z }
     }
 
     /// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.

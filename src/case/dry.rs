@@ -14,7 +14,7 @@ use super::run::{self, Contact, Stop};
 use super::site::Site;
 use super::units::{self, Surroundings, Units};
 use super::validate::read;
-use super::{flume, output};
+use super::{flume, output, terrain};
 
 /// What is done with the units; SI units, angles in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +102,7 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
     let materials = materials::validate_materials(&file.materials, check);
     let friction = materials::validate_friction(&file.friction, &materials, check);
     let ground_material = materials::find(&materials, &file.flume.material, "flume.material", check);
-    let site = validate_site(file, ground_material, check);
+    let site = validate_site(file, name, ground_material, check);
     let stop = run::validate_stop(&file.stop, true, check);
     let contact = run::validate_contact(&file.contact, check);
     let (test, lift) = validate_test(&file.dry, check);
@@ -123,6 +123,10 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
     let mut units = units::validate(&file.units, &around, check)?;
     let (mut kept, mut read) = (file.clone(), Vec::new());
     units.make_self_contained(&mut kept.units, &mut read);
+    if let Some(terrain) = site.as_ref().and_then(|site| site.terrain.as_ref()) {
+        kept.flume.terrain = Some(terrain.entry());
+        read.extend(terrain.content.iter());
+    }
     for placement in &mut units.placements {
         placement.centre += DVec3::Z * lift;
     }
@@ -148,10 +152,11 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
 }
 
 /// Ground, ends and walls.
-pub(super) fn validate_site(file: &DryFile, material: Option<usize>, check: &mut Checker) -> Option<Site> {
+pub(super) fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mut Checker) -> Option<Site> {
     let ground = FlumeFile::dry(file.flume.bed_m.clone(), file.flume.mound.clone());
     let flume = flume::validate(&ground, material, check)?;
     let before = check.count();
+    let terrain = file.flume.terrain.as_ref().and_then(|file| terrain::validate(file, name, check));
     let [start, end] = flume.ends();
     for (index, x) in file.domain.x_m.into_iter().enumerate() {
         let advice = "move the end of the domain or lengthen `flume.bed_m`";
@@ -171,7 +176,7 @@ pub(super) fn validate_site(file: &DryFile, material: Option<usize>, check: &mut
     let room = above(highest).up_to(highest + 1000.0);
     let sound = check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units");
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
-    sound.then_some(Site { profile: flume.profile, x, width, sides, top_z })
+    sound.then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
 }
 
 /// The test, and by how much the units are lifted for it [m].

@@ -9,7 +9,7 @@ mod objects;
 mod wave_source;
 mod waves;
 
-pub use dry::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TiltFile};
+pub use dry::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TerrainFile, TiltFile};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,

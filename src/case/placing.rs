@@ -92,7 +92,7 @@ impl PlacementJob {
 fn of_dry(file: &DryFile, name: &str, check: &mut Checker) -> Option<PlacementJob> {
     let materials = materials::validate_materials(&file.materials, check);
     let ground = materials::find(&materials, &file.flume.material, "flume.material", check);
-    let site = dry::validate_site(file, ground, check);
+    let site = dry::validate_site(file, name, ground, check);
     let contact = run::validate_contact(&file.contact, check);
     let friction = materials::validate_friction(&file.friction, &materials, check);
     let around = Surroundings {

@@ -48,7 +48,7 @@ impl Placement {
     /// has a Tetrapod's leg seaward, pi shoreward [rad].
     pub(super) fn standing(shape: &UnitShape, [x, y]: [f64; 2], z: Option<f64>, azimuth: f64, site: &Site) -> Self {
         let unit = shape.unit();
-        let z = z.unwrap_or_else(|| site.profile.z(x) + unit.standing_height());
+        let z = z.unwrap_or_else(|| site.level(x, y) + unit.standing_height());
         Self { centre: DVec3::new(x, y, z), rotation: unit.standing_rotation(azimuth) }
     }
 }

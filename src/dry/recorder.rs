@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{DryRun, Measured};
 use crate::{
+    case::SiteTerrain,
     output::{Cells, CsvSeries, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically},
     rigid::{ContactEvent, RigidSnapshot},
     simulation::{
@@ -35,7 +36,7 @@ struct Checkpoint {
 }
 
 /// Layout of the checkpoint; raised when it changes.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
@@ -68,6 +69,9 @@ impl DryRecorder {
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
         for (name, content) in case.units.files() {
             write_atomically(&dir.join(name), content)?;
+        }
+        if let Some(terrain) = &case.site.terrain {
+            write_atomically(&dir.join(SiteTerrain::FILE), &terrain.content)?;
         }
         CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?.append_rows(case.site.profile.points())?;
         UnitSurface::of(case.units.shape.unit().solid()).write(&dir.join(UnitSurface::FILE))?;

@@ -1,4 +1,4 @@
-//! Geometry: bed profile, closed surfaces, convex parts, armour units, STL.
+//! Geometry: bed profile, closed surfaces, convex parts, triangle surfaces to stand on, armour units, STL.
 
 pub mod armour_unit;
 pub mod axis_box;
@@ -15,5 +15,6 @@ pub mod polyhedron;
 pub mod profile;
 pub mod solid;
 pub mod stl;
+pub mod terrain;
 pub mod tetrapod;
 pub mod union;

@@ -9,6 +9,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::solid::{Solid, SolidError};
+use super::terrain::{Terrain, TerrainError};
 
 /// Why an STL file could not be read or written.
 #[derive(Debug, Error)]
@@ -22,6 +23,9 @@ pub enum StlError {
     /// The surface in the file does not bound a body.
     #[error("{path}: {source}")]
     Surface { path: PathBuf, source: SolidError },
+    /// Units cannot stand on the surface in the file.
+    #[error("{path}: {source}")]
+    Terrain { path: PathBuf, source: TerrainError },
 }
 
 /// Body inside the surface in an STL file, ASCII or binary, its lengths multiplied by `scale` (0.001 for a file in mm).
@@ -32,8 +36,22 @@ pub fn read(path: &Path, scale: f64) -> Result<Solid, StlError> {
 
 /// The same from the file's content; `path` is its name in messages.
 ///
-/// Corner points with the same coordinates become one vertex; triangles without area are left out.
+/// Corner points with the same coordinates become one vertex; triangles that use one twice are left out.
 pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<Solid, StlError> {
+    let (vertices, triangles) = facets(bytes, path, scale)?;
+    Solid::new(vertices, triangles).map_err(|source| StlError::Surface { path: path.to_owned(), source })
+}
+
+/// The surface in a file's content as one to stand on, open or closed.
+pub fn parse_terrain(bytes: &[u8], path: &Path, scale: f64) -> Result<Terrain, StlError> {
+    let (vertices, triangles) = facets(bytes, path, scale)?;
+    Terrain::new(vertices, triangles).map_err(|source| StlError::Terrain { path: path.to_owned(), source })
+}
+
+/// Corner points and triangles.
+type Facets = (Vec<DVec3>, Vec<[u32; 3]>);
+
+fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
     let format = |reason: String| StlError::Format { path: path.to_owned(), reason };
     let mut file = Cursor::new(bytes);
     let facets = stl_io::create_stl_reader(&mut file).map_err(|e| format(e.to_string()))?;
@@ -54,7 +72,7 @@ pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<Solid, StlError> {
             triangles.push(corners);
         }
     }
-    Solid::new(vertices, triangles).map_err(|source| StlError::Surface { path: path.to_owned(), source })
+    Ok((vertices, triangles))
 }
 
 /// Writes a surface as binary STL: to a temporary name beside it first, then renamed, so that a file under the final

@@ -11,8 +11,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::{
-    case::{PlacementFile, PlacementJob, PoseFile},
-    geometry::profile::Profile,
+    case::{PlacementFile, PlacementJob, PoseFile, Site},
     rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
     simulation::bodies::rigid_setup,
 };
@@ -104,7 +103,7 @@ pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize, f64)) -> Result<Pla
         for slot in &row {
             let unit = world.states().len() + 1;
             let Slot { x, y, rotation } = *slot;
-            let from = DVec3::new(x, y, highest(&world, &job.site.profile, x) + 2.0 * height);
+            let from = DVec3::new(x, y, highest(&world, &job.site, x) + 2.0 * height);
             let state = lowered(&world, from, rotation, job.site.profile.z(x), height)
                 .ok_or(PlacementError::NoRoom { unit, x, y })?;
             let_go += job.units.mass * job.gravity * state.position.z;
@@ -151,6 +150,6 @@ fn fastest(world: &RigidWorld, height: f64) -> f64 {
 }
 
 /// Highest centre of a unit, or the ground at x [m].
-fn highest(world: &RigidWorld, ground: &Profile, x: f64) -> f64 {
-    world.states().iter().map(|state| state.position.z).fold(ground.z(x), f64::max)
+fn highest(world: &RigidWorld, site: &Site, x: f64) -> f64 {
+    world.states().iter().map(|state| state.position.z).fold(site.highest_at(x), f64::max)
 }

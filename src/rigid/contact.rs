@@ -4,6 +4,8 @@
 //! parts is kept until bodies have moved by its margin; in between, only those are looked at. All places are sorted by
 //! a key, so that sums over them have one order whatever the search did.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -15,7 +17,9 @@ use super::gap::{self, Nearest};
 use super::ground::{Approach, GroundSurface, PlaneWall};
 use super::polyhedron_contact::{self, Near, WHOLE};
 use super::setup::{RigidSetup, Sides};
+use super::terrain_contact;
 use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::terrain::Terrain;
 
 /// Bodies, and pairs of parts, of one task of the thread pool: some tens of microseconds of work.
 const BODIES: usize = 64;
@@ -30,6 +34,8 @@ pub enum Feature {
     Unit { body: u32, image: i32, part: u16 },
     /// The ground: strip k is place 2 k, the convex corner after it 2 k + 1.
     Ground { place: u32, end: u16 },
+    /// A triangle surface: place is the number of the triangle, ridge or corner.
+    Terrain { place: u32, end: u16 },
     /// A wall: 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward.
     Wall { wall: u8, end: u16 },
 }
@@ -58,7 +64,7 @@ pub struct Touch {
     pub overlap: f64,
     /// Shift of the partner's image [m].
     pub shift: DVec3,
-    /// Point of the partner's core, in its own axes [m], if it is a unit.
+    /// Point of the partner's core, in its own axes [m]; of what is fixed, the foot on its surface.
     pub core: DVec3,
 }
 
@@ -101,6 +107,7 @@ pub struct Surfaces {
     reach: f64,
     period: Option<f64>,
     ground: Option<GroundSurface>,
+    terrain: Option<Arc<Terrain>>,
     walls: Vec<PlaneWall>,
 }
 
@@ -120,6 +127,7 @@ impl Surfaces {
             reach: setup.shape.reach(),
             period: if let Sides::Periodic { width } = setup.sides { Some(width) } else { None },
             ground: setup.ground.as_ref().map(|g| GroundSurface::new(&g.profile)),
+            terrain: setup.ground.as_ref().and_then(|g| g.terrain.clone()),
             walls,
         }
     }
@@ -237,6 +245,9 @@ impl Surfaces {
             if let Some(ground) = &self.ground {
                 ground.approaches(part, q, x, near, &mut approaches);
             }
+            if let Some(terrain) = &self.terrain {
+                terrain_contact::approaches(terrain, part, q, x, near, &mut approaches);
+            }
             for wall in &self.walls {
                 wall.approaches(part, q, x, near, &mut approaches);
             }
@@ -341,7 +352,11 @@ fn fixed_touch(
 ) -> Result<Touch, RigidError> {
     let overlap = part.rounding() - approach.distance;
     if overlap > part.rounding() || overlap.is_nan() {
-        let partner = if matches!(approach.feature, Feature::Wall { .. }) { "a wall" } else { "the ground" };
+        let partner = match approach.feature {
+            Feature::Wall { .. } => "a wall",
+            Feature::Terrain { .. } => "the triangle surface",
+            Feature::Ground { .. } | Feature::Unit { .. } => "the ground",
+        };
         return Err(RigidError::TooDeep {
             time,
             body,
@@ -356,6 +371,6 @@ fn fixed_touch(
         normal: approach.normal,
         overlap,
         shift: DVec3::ZERO,
-        core: DVec3::ZERO,
+        core: approach.core - approach.normal * approach.distance,
     })
 }

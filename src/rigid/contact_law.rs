@@ -186,8 +186,9 @@ impl ContactLaw {
         if size <= limit {
             return Response { normal, tangential: -trial, spring, sliding: false };
         }
-        let held = trial * (limit / size);
-        Response { normal, tangential: -held, spring: held / s_t, sliding: true }
+        // Spring and dashpot slip alike: a spring that took over the dashpot's part would store what nobody gave.
+        let held = limit / size;
+        Response { normal, tangential: -trial * held, spring: spring * held, sliding: true }
     }
 
     /// Rolling resistance under the normal force F_n [N] for an angular velocity [rad/s] and rolling spring [rad], both
@@ -203,8 +204,8 @@ impl ContactLaw {
         if size <= limit {
             return Some(Rolling { torque: -trial, spring, rolling: false });
         }
-        let held = trial * (limit / size);
-        Some(Rolling { torque: -held, spring: held / k, rolling: true })
+        let held = limit / size;
+        Some(Rolling { torque: -trial * held, spring: spring * held, rolling: true })
     }
 
     /// k_r [N m/rad].

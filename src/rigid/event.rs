@@ -48,7 +48,7 @@ impl ContactEvent {
     pub fn partner_unit(&self) -> Option<u32> {
         match self.partner {
             Feature::Unit { body, .. } => Some(body),
-            Feature::Ground { .. } | Feature::Wall { .. } => None,
+            Feature::Ground { .. } | Feature::Terrain { .. } | Feature::Wall { .. } => None,
         }
     }
 

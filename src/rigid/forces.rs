@@ -41,6 +41,8 @@ pub struct Contact {
     pub roll: DVec3,
     /// Overlap [m].
     pub overlap: f64,
+    /// Overlap at which it counts as begun [m]; see [`Contact::begun`].
+    pub sunk: f64,
     /// Point of the partner's core that was nearest, in its own axes [m]: where the next search begins.
     pub core: DVec3,
     /// Force on the first body [N].
@@ -54,9 +56,29 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// The same contact with its springs gone: it is not pressed in deeper than it began.
+    fn idle(self, touch: &Touch, step: Step) -> Self {
+        let Self { key, sunk, event, .. } = self;
+        Self { key, sunk, ..Self::begun(touch, event, step) }
+    }
+
+    /// The same contact now; at another place, it is pressed in no deeper than it was.
+    fn moved_on_to(self, touch: &Touch) -> Self {
+        let stays = self.key == touch.key || !matches!(touch.key.feature, Feature::Terrain { .. });
+        let sunk = if stays { self.sunk } else { (touch.overlap - (self.overlap - self.sunk)).max(0.0) };
+        Self { key: touch.key, sunk, ..self }
+    }
+
     /// A contact that has just begun.
-    fn begun(touch: &Touch, event: ContactEvent) -> Self {
+    ///
+    /// On a triangle surface a part can come to lie over another ridge while it is pressed into its neighbours, and then
+    /// starts there with an overlap. That does not count, lest energy come from nothing; an overlap that the bodies
+    /// were given at the start of the world does.
+    fn begun(touch: &Touch, event: ContactEvent, step: Step) -> Self {
+        let on_terrain = matches!(touch.key.feature, Feature::Terrain { .. });
+        let sunk = if on_terrain && step.dt > 0.0 { touch.overlap } else { 0.0 };
         Self {
+            sunk,
             key: touch.key,
             normal: touch.normal,
             spring: DVec3::ZERO,
@@ -95,6 +117,7 @@ pub struct Laws {
     wall: ContactLaw,
     mass: f64,
     least_inertia: f64,
+    least_radius: f64,
 }
 
 /// One evaluation of all contacts.
@@ -132,6 +155,7 @@ impl Laws {
             ground: fixed(&ground, friction.unit_ground),
             wall: fixed(wall_material, friction.unit_wall),
             mass,
+            least_radius: radius,
             // Of a symmetric positive tensor: the smallest eigenvalue is at least det / (trace / 2)^2.
             least_inertia: setup.shape.inertia.determinant()
                 / (0.5 * (0..3).map(|i| setup.shape.inertia.col(i)[i]).sum::<f64>()).powi(2),
@@ -141,7 +165,7 @@ impl Laws {
     fn of(&self, feature: Feature) -> &ContactLaw {
         match feature {
             Feature::Unit { .. } => &self.unit,
-            Feature::Ground { .. } => &self.ground,
+            Feature::Ground { .. } | Feature::Terrain { .. } => &self.ground,
             Feature::Wall { .. } => &self.wall,
         }
     }
@@ -190,17 +214,24 @@ impl Laws {
                 continue;
             }
 
-            let memory = find(before, &mut used, touches, touch.key);
+            let memory = find(before, &mut used, touches, touch, self.least_radius);
             let (mut contact, known) = match memory {
-                Some(old) => (Contact { key: touch.key, ..old }, true),
+                Some(old) => (old.moved_on_to(touch), true),
                 None => {
                     let event = event::begin(touch.key, step.time, touch.point, v_n, v_t);
-                    (Contact::begun(touch, event), false)
+                    (Contact::begun(touch, event, step), false)
                 }
             };
             let moved = if known { v_t_over * step.dt } else { DVec3::ZERO };
             let kept = if law.remembers() { turned(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
-            let response = law.respond(touch.overlap, v_n, v_t, kept + moved);
+            contact.sunk = contact.sunk.min(touch.overlap);
+            let overlap = touch.overlap - contact.sunk;
+            if overlap <= 0.0 {
+                energy.friction += contact.elastic[1] + contact.elastic[2];
+                out.contacts.push(contact.idle(touch, step));
+                continue;
+            }
+            let response = law.respond(overlap, v_n, v_t, kept + moved);
             let force = touch.normal * response.normal + response.tangential;
 
             out.loads[a].force += force;
@@ -217,26 +248,22 @@ impl Laws {
             let (omega, omega_over) = (across(now), across(over));
             let rolled = if known { omega_over * step.dt } else { DVec3::ZERO };
             let roll = turned(contact.roll, contact.normal, touch.normal) + rolled;
-            let rolling = law.roll(touch.overlap, response.normal, omega, roll);
+            let rolling = law.roll(overlap, response.normal, omega, roll);
             let mut rolling_energy = 0.0;
             if let Some(rolling) = rolling {
                 out.loads[a].torque += rolling.torque;
                 if let Some(b) = b {
                     out.loads[b].torque -= rolling.torque;
                 }
-                rolling_energy = 0.5 * law.rolling_stiffness(touch.overlap) * rolling.spring.length_squared();
+                rolling_energy = 0.5 * law.rolling_stiffness(overlap) * rolling.spring.length_squared();
                 let lost = -rolling.torque.dot(omega_over) * step.dt - (rolling_energy - contact.elastic[2]);
                 *(if rolling.rolling { &mut energy.friction } else { &mut energy.damping }) += lost;
                 contact.roll = rolling.spring;
             }
 
-            let stored = [
-                law.normal_energy(touch.overlap),
-                law.tangential_energy(touch.overlap, response.spring),
-                rolling_energy,
-            ];
+            let stored = [law.normal_energy(overlap), law.tangential_energy(overlap, response.spring), rolling_energy];
             // The bodies felt the mean of the forces at both ends of the step.
-            let dashpot = response.normal - law.elastic_force(touch.overlap);
+            let dashpot = response.normal - law.elastic_force(overlap);
             let damped = -0.5 * (contact.dashpot + dashpot) * v_n_over * step.dt;
             let gained = stored[0] + stored[1] - contact.elastic[0] - contact.elastic[1];
             let lost = -0.5 * (contact.force + force).dot(v_over) * step.dt - gained;
@@ -256,6 +283,10 @@ impl Laws {
         }
         for (old, _) in before.iter().zip(&used).filter(|(_, used)| !**used) {
             energy.friction += old.elastic[1] + old.elastic[2];
+            if let Feature::Terrain { .. } = old.key.feature {
+                // A part can leave a ridge while it is pressed into it.
+                energy.damping += old.elastic[0];
+            }
             log.push(old.event);
         }
         out.frequency_squared = stiffness.iter().fold(0.0, |most: f64, k| most.max(k / self.mass));
@@ -264,18 +295,31 @@ impl Laws {
 }
 
 /// Memory of a contact: its own, or that of the same part at the neighbouring place of the ground, which it has left.
-fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], key: ContactKey) -> Option<Contact> {
+fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch, least_radius: f64) -> Option<Contact> {
+    let key = touch.key;
     let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
-        let Feature::Ground { place, .. } = key.feature else { return None };
         let touching =
             |k: &ContactKey| touches.binary_search_by_key(k, |t| t.key).is_ok_and(|i| touches[i].overlap > 0.0);
-        before.iter().zip(used.iter()).position(|(c, used)| {
-            let neighbour = matches!(c.key.feature, Feature::Ground { place: old, .. } if old.abs_diff(place) <= 1);
-            !used && neighbour && (c.key.body, c.key.part) == (key.body, key.part) && !touching(&c.key)
-        })
+        let left = |(c, used): (&Contact, &bool)| {
+            let same_part = (c.key.body, c.key.part) == (key.body, key.part);
+            let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
+            // Places meet without a step: a foot that has moved on is near where it was.
+            next.then(|| c.core.distance(touch.core)).filter(|way| *way < least_radius)
+        };
+        let ways = before.iter().zip(used.iter()).map(left).enumerate();
+        ways.filter_map(|(index, way)| Some((index, way?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     })?;
     used[index] = true;
     Some(before[index])
+}
+
+/// Whether a part can go from one place of the ground to the other in a step.
+fn are_neighbours(old: Feature, new: Feature) -> bool {
+    match (old, new) {
+        (Feature::Ground { place: old, .. }, Feature::Ground { place: new, .. }) => old.abs_diff(new) <= 1,
+        (Feature::Terrain { .. }, Feature::Terrain { .. }) => true,
+        _ => false,
+    }
 }
 
 /// The tangential spring turned with the contact's normal; its length stays.

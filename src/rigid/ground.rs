@@ -112,7 +112,7 @@ const STRAIGHT: f64 = 1e-6;
 
 /// Appends an approach unless one of this part (those after `from`) is at the same place with the same normal: on the
 /// seam of two strips, the nearer one counts.
-fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
+pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
     let foot = |a: &Approach| a.core - a.normal * a.distance;
     let same = |old: &&mut Approach| {
         // 1e-6 m: where the two planes of an angle below STRAIGHT part by less than a picometre.
@@ -143,21 +143,9 @@ fn corner_approach(
     if to_centre.length() > radius + reach {
         return None;
     }
-    let back = rotation.inverse();
-    let core_near = |y: f64| {
-        let on_line = DVec3::new(corner, y, line.z);
-        (on_line, rotation * part.nearest(back * (on_line - position)) + position)
-    };
-    // The distance to the part is convex along the line; its slope has the sign of y - y of the nearest point.
-    let [mut low, mut high] = [centre.y - radius, centre.y + radius];
-    // 50 halvings of less than a metre: 1e-15 m.
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        let (on_line, core) = core_near(middle);
-        if on_line.y > core.y { high = middle } else { low = middle }
-    }
-    let (on_line, core) = core_near(0.5 * (low + high));
-    let across = DVec3::new(core.x - on_line.x, 0.0, core.z - on_line.z);
+    let ends = [centre.y - radius, centre.y + radius].map(|y| DVec3::new(corner, y, line.z));
+    let (_, core) = nearest_to_segment(part, rotation, position, ends, reach)?;
+    let across = DVec3::new(core.x - corner, 0.0, core.z - line.z);
     let distance = across.length();
     // Tangents of the strips towards +x.
     let [t_left, t_right] = [left.normal, right.normal].map(|n| DVec3::new(n.z, 0.0, -n.x));
@@ -168,6 +156,34 @@ fn corner_approach(
         normal: across / distance,
         distance,
     })
+}
+
+/// Where a part of a body at (rotation, position) is nearest to the segment from a to b: share of the way from a to b
+/// [-], and point of the core [m]. `None` if that is further than `reach` [m].
+pub(super) fn nearest_to_segment(
+    part: &ConvexPart,
+    rotation: DQuat,
+    position: DVec3,
+    [a, b]: [DVec3; 2],
+    reach: f64,
+) -> Option<(f64, DVec3)> {
+    let back = rotation.inverse();
+    let length = a.distance(b);
+    let [mut low, mut high] = [0.0, 1.0];
+    // 50 halvings of less than a metre: 1e-15 m.
+    for _ in 0..50 {
+        let middle: f64 = 0.5 * (low + high);
+        let on_segment = a.lerp(b, middle);
+        let core = rotation * part.nearest(back * (on_segment - position)) + position;
+        // The distance to the part falls by no more than the way along the segment.
+        if on_segment.distance(core) - 0.5 * (high - low) * length > reach {
+            return None;
+        }
+        // It is convex; its slope has the sign of what lies past the nearest point.
+        if (core - on_segment).dot(b - a) > 0.0 { low = middle } else { high = middle }
+    }
+    let share = 0.5 * (low + high);
+    Some((share, rotation * part.nearest(back * (a.lerp(b, share) - position)) + position))
 }
 
 /// A plane wall.

@@ -1,7 +1,7 @@
 //! Rigid armour units and their contact.
 //!
 //! Contact with Coulomb friction, Hertz-Mindlin by default (Sunday et al. 2020), between rounded convex parts, the
-//! ground (the bed profile, the same across the flume) and walls.
+//! ground (the bed profile, the same across the flume, and a triangle surface) and walls.
 //!
 //! | file | what it holds |
 //! | --- | --- |
@@ -11,6 +11,7 @@
 //! | `gap` | distance of two rounded parts |
 //! | `polyhedron_contact` | where two rounded polyhedra are near each other |
 //! | `ground` | distance to the bed profile and to walls |
+//! | `terrain_contact` | distance to a triangle surface |
 //! | `contact` | touching places of all bodies |
 //! | `forces` | forces of all contacts, their history and energy |
 //! | `event` | start, peak and end of each contact |
@@ -35,6 +36,7 @@ pub mod motion;
 mod polyhedron_contact;
 mod setup;
 mod snapshot;
+mod terrain_contact;
 mod world;
 
 pub use contact::Feature;

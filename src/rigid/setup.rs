@@ -1,5 +1,7 @@
 //! What a rigid world is made of.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
 use super::error::RigidError;
@@ -9,6 +11,7 @@ use super::polyhedron_contact::MOST_FEATURES;
 use crate::geometry::armour_unit::ArmourUnit;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
+use crate::geometry::terrain::Terrain;
 
 /// Convex parts of a body at most: their numbers share 16 bits with those of corners and edges.
 pub const MOST_PARTS: usize = 63;
@@ -46,11 +49,13 @@ impl BodyShape {
     }
 }
 
-/// Bed and mound, the same across the flume.
+/// What the bodies stand on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    /// Level z(x).
+    /// Level z(x) of bed and mound, the same across the flume.
     pub profile: Profile,
+    /// A triangle surface on or over it.
+    pub terrain: Option<Arc<Terrain>>,
     /// Its material.
     pub material: Material,
 }
@@ -120,7 +125,7 @@ pub struct RigidSetup {
     pub bodies: Vec<BodyState>,
     /// Material of the bodies.
     pub material: Material,
-    /// Bed and mound.
+    /// Bed, mound and what lies on them.
     pub ground: Option<Ground>,
     /// What closes the domain across the flume.
     pub sides: Sides,

@@ -42,6 +42,7 @@ struct ContactSnapshot {
     spring: [f64; 3],
     roll: [f64; 3],
     overlap: f64,
+    sunk: f64,
     core: [f64; 3],
     force: [f64; 3],
     dashpot: f64,
@@ -77,6 +78,7 @@ impl RigidWorld {
             force: c.force.to_array(),
             dashpot: c.dashpot,
             overlap: c.overlap,
+            sunk: c.sunk,
             elastic: c.elastic,
             event: c.event,
         };
@@ -113,6 +115,7 @@ impl RigidWorld {
             force: DVec3::from_array(c.force),
             dashpot: c.dashpot,
             overlap: c.overlap,
+            sunk: c.sunk,
             elastic: c.elastic,
             event: c.event,
         };

@@ -24,7 +24,11 @@ pub fn rigid_setup(
         shape: BodyShape::of_unit(units.shape.unit(), units.mass),
         bodies: units.placements.iter().map(|p| BodyState::at_rest(p.centre, p.rotation)).collect(),
         material: material(units.material),
-        ground: Some(Ground { profile: site.profile.clone(), material: ground }),
+        ground: Some(Ground {
+            profile: site.profile.clone(),
+            terrain: site.terrain.as_ref().map(|terrain| terrain.surface.clone()),
+            material: ground,
+        }),
         sides: match site.sides {
             Sides::Periodic => rigid::Sides::Periodic { width: site.width },
             // Units are refused in two dimensions.

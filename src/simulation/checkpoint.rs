@@ -13,7 +13,7 @@ use super::{Simulation, mean_loads::MeanLoads, recorder::RecorderState, statisti
 use crate::{output::OutputError, particles::water::Water, rigid::RigidSnapshot, waves::absorption::AbsorptionState};
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 type Hdf5Result<T> = hdf5_metno::Result<T>;
 

@@ -102,8 +102,27 @@ pub struct DryFlumeFile {
     /// A trapezoidal mound on the bed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mound: Option<MoundFile>,
-    /// Material of bed, mound and walls, one of `materials`.
+    /// A triangle surface on or over the bed: rock, a survey, a model of a mound.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<TerrainFile>,
+    /// Material of bed, mound, terrain and walls, one of `materials`.
     pub material: String,
+}
+
+/// An STL file of a surface to stand on, ASCII or binary, open or closed; its path is seen from the folder of the case
+/// file, its triangles are counter-clockwise seen from where the units are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TerrainFile {
+    /// The file.
+    pub path: String,
+    /// Metres in a unit of length of the file: 1, or 0.001 for millimetres.
+    #[serde(default = "default_scale")]
+    pub scale: f64,
+}
+
+fn default_scale() -> f64 {
+    1.0
 }
 
 /// What closes the place of a dry case; walls stand at both ends.

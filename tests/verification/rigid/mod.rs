@@ -11,6 +11,7 @@ mod rolling;
 mod rows;
 mod sliding;
 mod spin;
+mod terrain;
 mod world;
 
 use breakwater::geometry::armour_unit::ArmourUnit;
@@ -35,7 +36,7 @@ fn setup(shape: BodyShape, bodies: Vec<BodyState>, material: Material, friction:
         shape,
         bodies,
         material,
-        ground: Some(Ground { profile: level(), material }),
+        ground: Some(Ground { profile: level(), terrain: None, material }),
         sides: Sides::Open,
         end_walls: None,
         wall_material: material,

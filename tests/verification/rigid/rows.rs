@@ -96,7 +96,7 @@ fn a_unit_slides_over_the_lee_edge_and_comes_to_rest_below() {
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
     let mut s = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.32);
-    s.ground = Some(Ground { profile: profile.clone(), material: MORTAR });
+    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
     let mut world = RigidWorld::new(s).unwrap();
     let before = total_energy(&world);
     run(&mut world, 3.0, 1e-4);
@@ -125,7 +125,7 @@ fn a_row_is_washed_over_the_mound() {
         })
         .collect();
     let mut s = setup(BodyShape::of_unit(&unit, MASS), row, MORTAR, 0.32);
-    s.ground = Some(Ground { profile: profile.clone(), material: MORTAR });
+    s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
     s.sides = Sides::Walls { width: 1.2 };
     let mut world = RigidWorld::new(s).unwrap();
     let start = total_energy(&world);

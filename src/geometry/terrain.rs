@@ -1,0 +1,326 @@
+//! A fixed triangle surface that units can touch: rock, a survey, a model of a mound; open or closed.
+//!
+//! What a convex body can be nearest to, one by one: the inside of a triangle, an edge over which the surface bends away
+//! from its normals, a corner. Edges of flat and hollow places are never nearest, and are left out; so are the borders'
+//! neighbours on the side that has no triangle.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use thiserror::Error;
+
+/// Why triangles do not make a surface that can be stood upon.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TerrainError {
+    /// There is no triangle.
+    #[error("the surface has no triangles")]
+    Empty,
+    /// A coordinate is not a finite number.
+    #[error("corner {0} has a coordinate that is not a finite number")]
+    NotFinite(usize),
+    /// A triangle without area.
+    #[error("triangle {triangle} near ({:.6}, {:.6}, {:.6}) has no area", at.x, at.y, at.z)]
+    Sliver { triangle: usize, at: DVec3 },
+    /// An edge that two triangles run through in the same sense, or more than two share.
+    #[error(
+        "the triangles at the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) are turned against each other, or \
+         more than two meet there", a.x, a.y, a.z, b.x, b.y, b.z
+    )]
+    NotOriented { a: DVec3, b: DVec3 },
+}
+
+/// A triangle, counter-clockwise seen from where the units are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// Its corners [m].
+    pub corners: [DVec3; 3],
+    /// Towards the units.
+    pub normal: DVec3,
+}
+
+impl Face {
+    /// Whether the foot of `point` on the plane lies in the triangle, or not further than `slack` [m] outside.
+    pub fn has_foot_of(&self, point: DVec3, slack: f64) -> bool {
+        (0..3).all(|k| {
+            let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
+            self.normal.cross(b - a).dot(point - a) >= -slack * (b - a).length()
+        })
+    }
+}
+
+/// An edge over which the surface bends away, or its border.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ridge {
+    /// Its ends [m].
+    pub ends: [DVec3; 2],
+    /// Unit vectors from it into its one or two triangles, square to it.
+    pub into: Vec<DVec3>,
+}
+
+/// A corner of which at least one edge bends away.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corner {
+    /// Its place [m].
+    pub at: DVec3,
+    /// Unit vectors along the edges that leave it.
+    pub along: Vec<DVec3>,
+}
+
+/// What a body can be nearest to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Place {
+    /// The inside of a triangle.
+    Face(Face),
+    /// The inside of an edge.
+    Ridge(Ridge),
+    /// A corner.
+    Corner(Corner),
+}
+
+impl Place {
+    fn bounds(&self) -> Aabb {
+        match self {
+            Self::Face(face) => Aabb::from_points(face.corners.iter().copied()),
+            Self::Ridge(ridge) => Aabb::from_points(ridge.ends.iter().copied()),
+            Self::Corner(corner) => Aabb::new(corner.at, corner.at),
+        }
+    }
+}
+
+/// Sine of the angle below which two triangles are one plane [-].
+const STRAIGHT: f64 = 1e-6;
+
+/// Square of the area over the fourth power of the longest edge below which a triangle is a line [-]: the 24 bits of a
+/// binary file place a corner to 6e-8 of its distance.
+const LINE: f64 = 1e-14;
+
+/// A fixed triangle surface.
+#[derive(Clone)]
+pub struct Terrain {
+    vertices: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    places: Vec<Place>,
+    tree: Bvh,
+}
+
+impl std::fmt::Debug for Terrain {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Terrain").field("triangles", &self.triangles.len()).finish()
+    }
+}
+
+impl PartialEq for Terrain {
+    fn eq(&self, other: &Self) -> bool {
+        self.vertices == other.vertices && self.triangles == other.triangles
+    }
+}
+
+impl Terrain {
+    /// Surface of the given triangles [m], counter-clockwise seen from where the units are.
+    ///
+    /// # Errors
+    /// If there are none, a coordinate is not finite, a triangle has no area, or neighbours are turned against each
+    /// other.
+    pub fn new(vertices: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, TerrainError> {
+        if triangles.is_empty() {
+            return Err(TerrainError::Empty);
+        }
+        if let Some(bad) = vertices.iter().position(|v| !v.is_finite()) {
+            return Err(TerrainError::NotFinite(bad));
+        }
+        let at = |triangle: &[u32; 3]| triangle.map(|v| vertices[v as usize]);
+        let mut faces = Vec::with_capacity(triangles.len());
+        for (index, triangle) in triangles.iter().enumerate() {
+            let corners @ [a, b, c] = at(triangle);
+            let across = (b - a).cross(c - a);
+            let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+            if across.length_squared() <= LINE * longest * longest {
+                return Err(TerrainError::Sliver { triangle: index, at: a });
+            }
+            faces.push(Face { corners, normal: across.normalize() });
+        }
+        let edges = edges(&vertices, &triangles)?;
+        let ridges = ridges(&vertices, &triangles, &faces, &edges);
+        let corners = corners(&vertices, &edges, &ridges);
+        let places: Vec<Place> = faces
+            .into_iter()
+            .map(Place::Face)
+            .chain(ridges.into_iter().map(|(_, ridge)| Place::Ridge(ridge)))
+            .chain(corners.into_iter().map(Place::Corner))
+            .collect();
+        let boxes: Vec<Aabb> = places.iter().map(Place::bounds).collect();
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        Ok(Self { vertices, triangles, places, tree })
+    }
+
+    /// Corner points [m].
+    pub fn vertices(&self) -> &[DVec3] {
+        &self.vertices
+    }
+
+    /// Triangles, counter-clockwise seen from where the units are.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Smallest and largest corner of the box along the axes [m].
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let root = self.tree.root_aabb();
+        [root.mins, root.maxs]
+    }
+
+    /// Places whose boxes come nearer than `radius` [m] to `centre`, with their numbers, in no order.
+    pub fn near(&self, centre: DVec3, radius: f64) -> impl Iterator<Item = (u32, &Place)> {
+        let about = Aabb::new(centre - DVec3::splat(radius), centre + DVec3::splat(radius));
+        // The box lives as long as the iterator: what is found is gathered.
+        let found: Vec<u32> = self.tree.intersect_aabb(&about).collect();
+        found.into_iter().map(|number| (number, &self.places[number as usize]))
+    }
+
+    /// Height of the highest triangle above or below (x, y) [m]; `None` beside the surface.
+    pub fn level(&self, x: f64, y: f64) -> Option<f64> {
+        let [low, high] = self.bounds();
+        let column = Aabb::new(DVec3::new(x, y, low.z), DVec3::new(x, y, high.z));
+        let height = |number: u32| match &self.places[number as usize] {
+            Place::Face(Face { corners: [a, b, c], normal }) if normal.z.abs() > STRAIGHT => {
+                let z = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
+                let side = |p: &DVec3, q: &DVec3| (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
+                let sides = [side(a, b), side(b, c), side(c, a)].map(|s| s * normal.z.signum());
+                sides.iter().all(|s| *s >= 0.0).then_some(z)
+            }
+            _ => None,
+        };
+        self.tree.intersect_aabb(&column).filter_map(height).reduce(f64::max)
+    }
+}
+
+/// The one or two triangles of every edge, by its lower and its higher corner, in the order of the corners.
+type Edges = Vec<([u32; 2], Vec<usize>)>;
+
+fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainError> {
+    let mut sides: HashMap<[u32; 2], [Option<usize>; 2]> = HashMap::with_capacity(2 * triangles.len());
+    let mut wrong: Option<[u32; 2]> = None;
+    for (index, [a, b, c]) in triangles.iter().copied().enumerate() {
+        for [p, q] in [[a, b], [b, c], [c, a]] {
+            let (edge, sense) = if p < q { ([p, q], 0) } else { ([q, p], 1) };
+            let side = &mut sides.entry(edge).or_default()[sense];
+            if side.replace(index).is_some() {
+                // The first one, so that the message is the same on every run.
+                wrong = Some(wrong.map_or(edge, |known| known.min(edge)));
+            }
+        }
+    }
+    if let Some([a, b]) = wrong {
+        return Err(TerrainError::NotOriented { a: vertices[a as usize], b: vertices[b as usize] });
+    }
+    let mut edges: Edges =
+        sides.into_iter().map(|(edge, sides)| (edge, sides.into_iter().flatten().collect())).collect();
+    edges.sort_unstable();
+    Ok(edges)
+}
+
+/// Edges over which the surface bends away, and borders, with their corners.
+fn ridges(vertices: &[DVec3], triangles: &[[u32; 3]], faces: &[Face], edges: &Edges) -> Vec<([u32; 2], Ridge)> {
+    let ridge = |(edge, sides): &([u32; 2], Vec<usize>)| {
+        let ends = edge.map(|v| vertices[v as usize]);
+        let along = (ends[1] - ends[0]).normalize();
+        let into = |side: &usize| {
+            // The third corner is the one that is not of the edge.
+            let third = triangles[*side].into_iter().find(|v| !edge.contains(v)).unwrap_or(edge[0]);
+            let way = vertices[third as usize] - ends[0];
+            (way - along * way.dot(along)).normalize()
+        };
+        let into: Vec<DVec3> = sides.iter().map(into).collect();
+        // Seen from one triangle the other one falls away behind its plane.
+        let bends_away = sides.len() == 1 || faces[sides[0]].normal.dot(into[1]) < -STRAIGHT;
+        bends_away.then_some((*edge, Ridge { ends, into }))
+    };
+    edges.iter().filter_map(ridge).collect()
+}
+
+/// Corners at the ends of ridges, with all edges that leave them.
+fn corners(vertices: &[DVec3], edges: &Edges, ridges: &[([u32; 2], Ridge)]) -> Vec<Corner> {
+    let mut sharp = vec![false; vertices.len()];
+    ridges.iter().flat_map(|(edge, _)| edge).for_each(|v| sharp[*v as usize] = true);
+    let mut along: Vec<Vec<DVec3>> = vec![Vec::new(); vertices.len()];
+    for ([a, b], _) in edges {
+        let [a, b] = [*a as usize, *b as usize];
+        let way = (vertices[b] - vertices[a]).normalize();
+        along[a].push(way);
+        along[b].push(-way);
+    }
+    let corner = |(v, along): (usize, Vec<DVec3>)| sharp[v].then(|| Corner { at: vertices[v], along });
+    along.into_iter().enumerate().filter_map(corner).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::geometry::solid::tests::cuboid;
+
+    /// A profile in x drawn out from y = -1 to 1, two triangles a strip.
+    pub(crate) fn drawn_out(points: &[[f64; 2]]) -> Terrain {
+        let at = |i: usize, y: f64| DVec3::new(points[i][0], y, points[i][1]);
+        let vertices = (0..points.len()).flat_map(|i| [at(i, -1.0), at(i, 1.0)]).collect();
+        let strip = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
+        let triangles = (0..points.len() as u32 - 1).flat_map(strip).collect();
+        Terrain::new(vertices, triangles).unwrap()
+    }
+
+    fn count(terrain: &Terrain) -> [usize; 3] {
+        let kinds = |kind: fn(&Place) -> bool| terrain.places.iter().filter(|p| kind(p)).count();
+        [
+            kinds(|p| matches!(p, Place::Face(_))),
+            kinds(|p| matches!(p, Place::Ridge(_))),
+            kinds(|p| matches!(p, Place::Corner(_))),
+        ]
+    }
+
+    #[test]
+    fn a_box_has_twelve_edges_that_bend_away_and_eight_corners() {
+        let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
+        // The six diagonals lie in planes.
+        assert_eq!(count(&Terrain::new(vertices.clone(), triangles.clone()).unwrap()), [12, 12, 8]);
+        let inside_out = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+        // A room: no edge is nearer than the walls.
+        assert_eq!(count(&Terrain::new(vertices, inside_out).unwrap()), [12, 0, 0]);
+    }
+
+    #[test]
+    fn an_open_surface_ends_in_ridges_and_its_valleys_have_none() {
+        // A roof has its ridge and six border edges, a trough the border only.
+        assert_eq!(count(&drawn_out(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])), [4, 7, 6]);
+        assert_eq!(count(&drawn_out(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]])), [4, 6, 6]);
+    }
+
+    #[test]
+    fn the_level_is_that_of_the_highest_triangle() {
+        let roof = drawn_out(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]);
+        // Rounding.
+        assert!((roof.level(0.25, 0.3).unwrap() - 0.75).abs() < 1e-15);
+        assert_eq!(roof.level(0.25, 1.3), None);
+        let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
+        assert_eq!(Terrain::new(vertices, triangles).unwrap().level(0.3, 0.4), Some(1.0));
+    }
+
+    #[test]
+    fn what_cannot_be_stood_upon_is_refused_with_its_place() {
+        let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
+        assert_eq!(Terrain::new(vertices.clone(), Vec::new()), Err(TerrainError::Empty));
+        let mut turned = triangles.clone();
+        turned[3].swap(0, 1);
+        let error = Terrain::new(vertices.clone(), turned).unwrap_err();
+        assert!(matches!(error, TerrainError::NotOriented { .. }), "{error}");
+        let mut twice = triangles.clone();
+        twice.push(triangles[0]);
+        assert!(matches!(Terrain::new(vertices.clone(), twice), Err(TerrainError::NotOriented { .. })));
+        let mut flat = vertices.clone();
+        flat[1] = flat[0] + 1e-9 * DVec3::Y;
+        assert!(matches!(Terrain::new(flat, triangles.clone()), Err(TerrainError::Sliver { .. })));
+        let mut far = vertices;
+        far[2].x = f64::INFINITY;
+        assert_eq!(Terrain::new(far, triangles), Err(TerrainError::NotFinite(2)));
+    }
+}
