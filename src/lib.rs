@@ -10,6 +10,7 @@
 //! | [`waves`] | solitary-wave theory, the layered flume model, the multi-layer piston |
 //! | [`sph`] | the weakly compressible SPH solver |
 //! | [`rigid`] | rigid armour units and their contact |
+//! | [`femdem`] | deformable units that crack |
 //! | [`simulation`] | the coupled loop: water, units, outputs |
 //! | [`dry`] | units without water: settling, drops, slope tests |
 //! | [`placement`] | armour layers: units placed one by one and settled |
@@ -26,6 +27,7 @@ pub mod bench;
 pub mod case;
 pub mod cli;
 pub mod dry;
+pub mod femdem;
 pub mod geometry;
 pub mod output;
 pub mod particles;

@@ -41,7 +41,7 @@ pub struct Contact {
     pub roll: DVec3,
     /// Overlap [m].
     pub overlap: f64,
-    /// Overlap at which it counts as begun [m]; see [`Contact::begun`].
+    /// Overlap at which it counts as begun [m]; what a triangle surface has at the start does not count.
     pub sunk: f64,
     /// Point of the partner's core that was nearest, in its own axes [m]: where the next search begins.
     pub core: DVec3,

@@ -7,6 +7,7 @@ mod conservation;
 mod convergence;
 mod diffusion;
 mod dry;
+mod femdem;
 mod flume_ends;
 mod flume_order;
 mod flume_shore;

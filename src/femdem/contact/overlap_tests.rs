@@ -1,0 +1,258 @@
+//! Tests of the overlap energy and its gradient.
+
+use glam::{DVec3, DVec4};
+
+use super::overlap::{Overlap, overlap};
+use super::samples::{random_point, random_tetrahedron, regular_tetrahedron};
+use super::tetrahedron::Tetrahedron;
+use crate::random::SplitMix64;
+
+type Pair = [[DVec3; 4]; 2];
+
+/// Pairs that overlap: from barely to one inside the other, sizes of 0.1 to 2.1 m against 1 m.
+fn random_pairs(seed: u64, count: usize) -> Vec<(Pair, Overlap)> {
+    let mut random = SplitMix64::new(seed);
+    let mut pairs = Vec::new();
+    while pairs.len() < count {
+        let size = 0.1 + 2.0 * random.next_share();
+        let about = random_point(&mut random);
+        let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
+        let c = random_tetrahedron(&mut random, about, size);
+        if let Some(found) = overlap(&t, &c) {
+            pairs.push(([t, c], found));
+        }
+    }
+    pairs
+}
+
+fn energy([t, c]: Pair) -> f64 {
+    overlap(&t, &c).map_or(0.0, |found| found.energy)
+}
+
+fn largest_force(found: &Overlap) -> f64 {
+    found.forces.iter().flatten().map(|force| force.length()).fold(0.0, f64::max)
+}
+
+/// Places and forces of all vertices.
+fn loads(pair: &Pair, found: &Overlap) -> Vec<(DVec3, DVec3)> {
+    pair.iter().flatten().copied().zip(found.forces.iter().flatten().copied()).collect()
+}
+
+#[test]
+fn forces_are_minus_the_gradient_of_the_energy() {
+    for (pair, found) in random_pairs(11, 4000) {
+        for (body, vertex, axis) in (0..24).map(|n| (n / 12, n / 3 % 4, n % 3)) {
+            let error = |step: f64| {
+                let at = |shift: f64| {
+                    let mut moved = pair;
+                    moved[body][vertex][axis] += shift;
+                    energy(moved)
+                };
+                ((at(step) - at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
+            };
+            // 5e-17: the rounding of energies, 1e-24 for an overlap 1e-4 m deep, divided by the step. The best step depends
+            // on the depth, and is small where the second derivative has a kink nearby. The gradient itself has none: no
+            // pair is skipped.
+            let allowed = 1e-6 * largest_force(&found) + 5e-17;
+            assert!([1e-4, 1e-5, 1e-6, 1e-7, 1e-3, 1e-8].into_iter().any(|step| error(step) < allowed), "{pair:?}");
+        }
+    }
+}
+
+#[test]
+fn forces_have_no_resultant_and_no_moment() {
+    for (pair, found) in random_pairs(12, 4000) {
+        let loads = loads(&pair, &found);
+        // Rounding, of forces and of areas that add up to the forces; places are up to 3 m away.
+        let allowed = 1e-13 * largest_force(&found) + 1e-17;
+        assert!(loads.iter().map(|(_, f)| f).sum::<DVec3>().length() < allowed);
+        assert!(loads.iter().map(|(x, f)| x.cross(*f)).sum::<DVec3>().length() < 20.0 * allowed);
+    }
+}
+
+#[test]
+fn the_centre_is_inside_both() {
+    for ([t, c], found) in random_pairs(13, 4000) {
+        for tetrahedron in [t, c] {
+            let shares = Tetrahedron::new(&tetrahedron).unwrap().shape_functions(found.centre);
+            assert!(shares.min_element() > -1e-12, "{shares}");
+        }
+    }
+}
+
+#[test]
+fn energy_is_the_same_after_a_motion_an_exchange_and_a_renumbering() {
+    let mut random = SplitMix64::new(14);
+    for (pair, found) in random_pairs(14, 2000) {
+        let (turn, shift) = (random.next_rotation(), random_point(&mut random));
+        let [t, c] = pair.map(|vertices| vertices.map(|vertex| turn * vertex + shift));
+        // 1e-15: the rounding of volumes of order 0.1.
+        let same = |other: f64| (other - found.energy).abs() < 1e-12 * found.energy + 1e-15;
+        assert!(same(energy([t, c])) && same(energy([c, t])));
+        let turned = overlap(&t, &c).unwrap();
+        for ((_, now), (_, before)) in loads(&pair, &turned).iter().zip(loads(&pair, &found)) {
+            assert!((*now - turn * before).length() < 1e-11 * largest_force(&found) + 1e-15);
+        }
+        for order in [[1, 0, 2, 3], [2, 3, 0, 1], [3, 0, 1, 2]] {
+            assert!(same(energy([order.map(|i| t[i]), c])) && same(energy([t, order.map(|i| c[i])])));
+        }
+    }
+}
+
+#[test]
+fn a_tetrahedron_on_itself_has_half_its_volume() {
+    let mut random = SplitMix64::new(15);
+    for _ in 0..100 {
+        let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
+        let volume = Tetrahedron::new(&t).unwrap().volume;
+        let found = overlap(&t, &t).unwrap();
+        // Mean of each potential: 1/4. Rounding only.
+        assert!((found.energy - 0.5 * volume).abs() < 1e-15);
+        assert!((found.centre - t.iter().sum::<DVec3>() / 4.0).length() < 1e-15);
+    }
+}
+
+#[test]
+fn a_tetrahedron_inside_a_part_of_another_meets_the_potential_of_its_centroid() {
+    let mut random = SplitMix64::new(16);
+    for _ in 0..1000 {
+        let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
+        let outer = Tetrahedron::new(&t).unwrap();
+        // In the part where the coordinate j is 0.1 and the others are 0.3, 0.2 m across at most for this size.
+        let j = (4.0 * random.next_share()) as usize;
+        let about = outer.weighted(DVec4::splat(0.3) - 0.2 * DVec4::AXES[j]);
+        let c = random_tetrahedron(&mut random, about, 0.01);
+        let inner = Tetrahedron::new(&c).unwrap();
+        let potential = 4.0 * outer.shape_functions(inner.centroid).min_element();
+        assert!((energy([t, c]) / (inner.volume * (potential + 0.25)) - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn what_is_apart_or_only_touches_has_no_overlap() {
+    let t = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let below = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::Z];
+    assert_eq!(overlap(&t, &below), None);
+    // Corner on face, edge on edge, corner on corner; boxes that meet apart from each other.
+    let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+    assert_eq!(overlap(&t, &[corner(0.2, 0.2, 0.0), corner(0.0, 0.2, -1.0), corner(0.5, 0.2, -1.0), -DVec3::Z]), None);
+    assert_eq!(overlap(&t, &[DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z]), None);
+    assert_eq!(overlap(&t, &t.map(|vertex| -vertex)), None);
+    assert_eq!(overlap(&t, &t.map(|vertex| 1.1 - vertex)), None);
+    assert_eq!(overlap(&t, &t.map(|vertex| 9.0 + vertex)), None);
+    assert_eq!(overlap(&t, &[DVec3::ZERO; 4]), None);
+}
+
+#[test]
+fn faces_that_coincide_but_for_rounding_do_no_harm() {
+    let mut random = SplitMix64::new(17);
+    for _ in 0..2000 {
+        let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
+        let [a, b, c, d] = t;
+        // The neighbour through the face a, b, c, and one in the same half-space that has it as its face, too.
+        let mirrored = d - 2.0 * (d - a).project_onto((b - a).cross(c - a));
+        let noise = |v: DVec3, random: &mut SplitMix64| v + 2e-16 * random_point(random);
+        let neighbour = [a, b, c, mirrored].map(|v| noise(v, &mut random));
+        if let Some(found) = overlap(&t, &neighbour) {
+            assert!(found.energy < 1e-30 && largest_force(&found) < 1e-14);
+        }
+        let upper = [a, b, c, d.lerp(mirrored, -0.3)];
+        let (exact, noisy) = (energy([t, upper]), energy([t, upper.map(|v| noise(v, &mut random))]));
+        assert!((exact - noisy).abs() < 1e-14, "{exact} {noisy}");
+    }
+}
+
+#[test]
+fn a_tip_that_dips_into_a_face_has_an_energy_of_the_fourth_power_of_the_depth() {
+    let base = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, -9.0]].map(DVec3::from_array);
+    let tip = |depth: f64| {
+        let c = [[0.0, 0.0, 0.0], [0.5, 0.1, 0.8], [-0.3, 0.4, 0.9], [-0.1, -0.5, 0.7]].map(DVec3::from_array);
+        overlap(&base, &c.map(|vertex| vertex + DVec3::new(0.2, -1.0, -depth))).unwrap()
+    };
+    let (energy, force) = (tip(1e-2).energy / 1e-8, tip(1e-2).resultant() / 1e-6);
+    for depth in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let found = tip(depth);
+        // Places of up to 18 m are rounded to 1e-15, of which the depth is a difference; the energy is one of terms that
+        // are larger by another 1 / depth.
+        let allowed = 1e-14 / depth;
+        assert!((found.energy / depth.powi(4) / energy - 1.0).abs() < allowed / depth, "{depth} {}", found.energy);
+        assert!((found.resultant() / depth.powi(3) - force).length() < allowed * force.length());
+    }
+}
+
+#[test]
+fn a_box_of_tetrahedra_on_another_is_pressed_the_same_in_any_order() {
+    // Six tetrahedra along the diagonal (Kuhn), one for each order of the axes.
+    let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let cube = |shift: DVec3| {
+        orders.map(|order| {
+            let mut at = shift;
+            let path = order.map(|axis| {
+                at[axis] += 1.0;
+                at
+            });
+            [shift, path[0], path[1], path[2]]
+        })
+    };
+    let total = |lower: &[[DVec3; 4]], upper: &[[DVec3; 4]]| {
+        let all = lower.iter().flat_map(|t| upper.iter().filter_map(|c| overlap(t, c)));
+        all.fold((0.0, DVec3::ZERO), |(energy, force), o| (energy + o.energy, force + o.resultant()))
+    };
+    let depth = 1e-3;
+    let (lower, upper) = (cube(DVec3::ZERO), cube((1.0 - depth) * DVec3::Z));
+    let (energy, force) = total(&lower, &upper);
+    let mut renumbered = upper.map(|[a, b, c, d]| [d, b, a, c]);
+    renumbered.reverse();
+    let (energy_again, force_again) = total(&lower, &renumbered);
+    let (energy_back, force_back) = total(&renumbered, &lower);
+    // Rounding: 1e-15 / depth^2 for energies.
+    assert!((energy_again / energy - 1.0).abs() < 1e-9 && (energy_back / energy - 1.0).abs() < 1e-9);
+    assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
+    // Two of the six have a face in each side of the cube; the potential rises from it to 1 in a quarter of the height of
+    // 1 m. Mean over the slab: 4 depth / 2, for each of the two boxes. Somewhat less, in proportion to the depth, where
+    // another face is nearer.
+    assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
+    // Upwards: the boxes are flush at the sides, and no force acts across.
+    assert!(force.z > 0.0 && force.truncate().length() < 5.0 * depth * force.z, "{force}");
+}
+
+#[test]
+fn a_tetrahedron_that_bounces_keeps_its_energy_whatever_the_penalty() {
+    // A fixed tetrahedron with edges of 10 m; one of 1 m and four masses of 1 kg, with springs for edges, at 1 m/s.
+    let base = [[-5.0, -3.0, 0.0], [5.0, -3.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, -8.0]].map(DVec3::from_array);
+    let edges = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    let (stiffness, step) = (5e3, 5e-6);
+    let turn = SplitMix64::new(18).next_rotation();
+    for penalty in [1e3, 1e4, 1e5] {
+        let mut x = regular_tetrahedron(DVec3::ZERO, 1.0).map(|vertex| turn * vertex + 0.65 * DVec3::Z);
+        let mut v = [-DVec3::Z; 4];
+        let (mut touched, mut worst, mut contact_most) = (false, 0.0f64, 0.0f64);
+        loop {
+            let found = overlap(&base, &x);
+            let mut force = found.map_or([DVec3::ZERO; 4], |found| found.forces[1].map(|f| penalty * f));
+            let mut stored = found.map_or(0.0, |found| penalty * found.energy);
+            contact_most = contact_most.max(stored);
+            for [i, j] in edges {
+                let along = x[j] - x[i];
+                let extension = along.length() - 1.0;
+                let pull = stiffness * extension * along.normalize();
+                force[i] += pull;
+                force[j] -= pull;
+                stored += 0.5 * stiffness * extension * extension;
+            }
+            // Velocity in the middle between two half steps.
+            let kinetic: f64 = (0..4).map(|i| 0.5 * (v[i] + 0.5 * step * force[i]).length_squared()).sum();
+            worst = worst.max((kinetic + stored - 2.0).abs() / 2.0);
+            if touched && found.is_none() && x.iter().all(|vertex| vertex.z > 0.05) {
+                break;
+            }
+            touched |= found.is_some();
+            for i in 0..4 {
+                v[i] += step * force[i];
+                x[i] += step * v[i];
+            }
+        }
+        println!("penalty {penalty}: {worst:e}, contact energy up to {contact_most} J");
+        assert!(contact_most > 0.1 && worst < 1e-6, "{penalty}: {worst:e}");
+    }
+}

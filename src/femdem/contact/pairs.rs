@@ -1,0 +1,214 @@
+//! Tetrahedra in contact: who can touch whom, their forces, and how a contact is born.
+//!
+//! Only tetrahedra with a free face can touch: those at the outside, and those at a crack. Two that share a node around
+//! which unbroken faces hold them together do not, unless the face between them has broken.
+//!
+//! What overlaps when a pair is first looked at does not count, but for the energy that a joint leaves to it: a joint
+//! that fails under pressure hands its compression over, and no energy comes from nothing.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::super::assembly::{Copy4, Tets};
+use super::super::setup::Setup;
+use super::detection::{Bounds, Detection};
+use super::friction::{FrictionLaw, TangentialSpring};
+use super::overlap::overlap;
+
+/// Candidates of one task of the thread pool.
+const PIECE: usize = 64;
+
+/// Distance up to which pairs are looked for, over the mean size of the tetrahedra that can touch [-]: a search then
+/// lasts for thousands of steps, and few pairs are looked at in vain.
+const SKIN: f64 = 0.1;
+
+/// Stiffness along over that across a contact (Xiang, Latham and Farsi 2017) [-].
+const TANGENTIAL: f64 = 2.0 / 7.0;
+
+/// Two tetrahedra near each other, with what their contact remembers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pair {
+    tets: [u32; 2],
+    penalty: f64,
+    law: FrictionLaw,
+    /// Overlap, as energy over penalty, that does not count [m3]; `None` before the pair was first looked at.
+    born: Option<f64>,
+    /// Energy that a joint has left to the pair [J]; what of it the pair does not take is lost.
+    left: f64,
+    spring: Option<TangentialSpring>,
+    forces: Option<[[DVec3; 4]; 2]>,
+    /// Energy that would come back [J].
+    stored: f64,
+    /// Energy that friction took in the last step [J].
+    dissipated: f64,
+}
+
+/// The contacts of a world.
+#[derive(Debug, Clone, Default)]
+pub struct Contacts {
+    /// Tetrahedra with a free face, in rising order.
+    outer: Vec<u32>,
+    /// For every copy of a node, the first of those around the node that unbroken faces hold together with it.
+    group: Vec<Copy4>,
+    pairs: Vec<Pair>,
+    /// Tetrahedra whose joint has broken since the last search, and the energy that it leaves to them [J].
+    opened: Vec<([u32; 2], f64)>,
+    /// Way that a node can have gone since the last search [m].
+    travelled: f64,
+    skin: f64,
+    outdated: bool,
+    /// Energy that contacts would give back [J].
+    pub stored: f64,
+    /// Energy lost by friction so far [J].
+    pub friction: f64,
+    /// Energy that contacts have taken over from broken joints so far [J].
+    pub taken_over: f64,
+    /// Pairs that press each other.
+    pub touching: usize,
+}
+
+impl Contacts {
+    /// Contacts between the outsides of the bodies of a setup; `groups` are the copies that hold together around each
+    /// node.
+    pub fn new<'a>(setup: &Setup, groups: impl Iterator<Item = &'a [Copy4]>) -> Self {
+        let group = vec![0; 4 * setup.tets.len()];
+        let mut contacts = Self { outer: setup.outer.clone(), group, ..Self::default() };
+        groups.for_each(|group| contacts.regroup(group));
+        contacts
+    }
+
+    /// Copies around a node that hold together now.
+    pub fn regroup(&mut self, group: &[Copy4]) {
+        group.iter().for_each(|copy| self.group[*copy as usize] = group[0]);
+        self.outdated = true;
+    }
+
+    /// The tetrahedra at a broken face can touch from now on; its joint leaves them its elastic energy [J].
+    pub fn open(&mut self, mut tets: [u32; 2], left: f64) {
+        for tet in tets {
+            if let Err(place) = self.outer.binary_search(&tet) {
+                self.outer.insert(place, tet);
+            }
+        }
+        tets.sort_unstable();
+        self.opened.push((tets, left));
+        self.outdated = true;
+    }
+
+    /// Adds the forces of all contacts to those of the tetrahedra [N]. Nodes are at `place` [m], where `velocity` [m/s]
+    /// has brought them over `dt` [s].
+    pub fn press(
+        &mut self,
+        setup: &Setup,
+        tets: &Tets,
+        [place, velocity]: [&[DVec3]; 2],
+        dt: f64,
+        is_broken: impl Fn(usize) -> bool + Sync,
+        forces: &mut [[DVec3; 4]],
+    ) {
+        let fastest = velocity.par_iter().map(|v| v.length_squared()).reduce(|| 0.0, f64::max).sqrt();
+        self.travelled += fastest * dt;
+        if self.outdated || self.travelled > self.skin {
+            self.search(setup, tets, place, is_broken);
+        }
+        let corners = |tet: u32| tets.nodes[tet as usize].map(|node| place[node as usize]);
+        let moves = |tet: u32| tets.nodes[tet as usize].map(|node| velocity[node as usize] * dt);
+        self.pairs.par_chunks_mut(PIECE).for_each(|pairs| {
+            for pair in pairs {
+                let of = pair.tets;
+                pair.evaluate(of.map(corners), || of.map(moves));
+            }
+        });
+        (self.stored, self.touching) = (0.0, 0);
+        for pair in &mut self.pairs {
+            self.friction += std::mem::take(&mut pair.dissipated);
+            self.taken_over += std::mem::take(&mut pair.left);
+            let Some(of_pair) = pair.forces else { continue };
+            self.stored += pair.stored;
+            self.touching += 1;
+            for (tet, of_tet) in pair.tets.into_iter().zip(of_pair) {
+                forces[tet as usize].iter_mut().zip(of_tet).for_each(|(total, force)| *total += force);
+            }
+        }
+    }
+
+    /// Pairs whose boxes are nearer than two skins; those known already keep what they remember.
+    fn search(&mut self, setup: &Setup, tets: &Tets, place: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
+        let size: f64 = self.outer.iter().map(|tet| tets.shape[*tet as usize].volume.cbrt()).sum();
+        self.skin = SKIN * size / self.outer.len().max(1) as f64;
+        let corners = |tet: &u32| tets.nodes[*tet as usize].map(|node| place[node as usize]);
+        let boxes: Vec<Bounds> = self.outer.par_iter().map(|tet| Bounds::about(&corners(tet), self.skin)).collect();
+        let tets_of = |pair: [u32; 2]| pair.map(|index| self.outer[index as usize]);
+        let keep = |i: u32, j: u32| self.can_touch(tets_of([i, j]), setup, tets, &is_broken);
+        let mut detection = Detection::default();
+        let known = |of: [u32; 2]| match self.pairs.binary_search_by_key(&of, |pair| pair.tets) {
+            Ok(index) => self.pairs[index],
+            Err(_) => Pair::new(of, setup, tets),
+        };
+        let mut pairs: Vec<Pair> = detection.pairs(&boxes, keep).iter().map(|pair| known(tets_of(*pair))).collect();
+        for (of, left) in self.opened.drain(..) {
+            if let Ok(index) = pairs.binary_search_by_key(&of, |pair| pair.tets) {
+                pairs[index].left = left;
+            }
+        }
+        self.pairs = pairs;
+        (self.travelled, self.outdated) = (0.0, false);
+    }
+
+    /// Whether nothing holds two tetrahedra together around a node that they share, or the face between them has broken.
+    fn can_touch(&self, [a, b]: [u32; 2], setup: &Setup, tets: &Tets, is_broken: impl Fn(usize) -> bool) -> bool {
+        let nodes = [a, b].map(|tet| setup.tets[tet as usize]);
+        let held = |k: usize| {
+            let at = nodes[1].iter().position(|node| *node == nodes[0][k]);
+            at.is_some_and(|l| self.group[4 * a as usize + k] == self.group[4 * b as usize + l])
+        };
+        let broken_between = || {
+            let links = tets.faces[a as usize].iter().filter_map(|link| link.interface());
+            links.into_iter().any(|(face, side)| setup.interfaces[face].tets[1 - side] == b && is_broken(face))
+        };
+        !(0..4).any(held) || broken_between()
+    }
+}
+
+impl Pair {
+    fn new(tets: [u32; 2], setup: &Setup, all: &Tets) -> Self {
+        let bodies = tets.map(|tet| usize::from(all.body[tet as usize]));
+        let penalty = bodies.map(|body| setup.bodies[body].contact_penalty).into_iter().fold(f64::MAX, f64::min);
+        let size = tets.map(|tet| (6.0 * all.shape[tet as usize].volume).cbrt()).into_iter().fold(f64::MAX, f64::min);
+        let law = FrictionLaw { stiffness: TANGENTIAL * penalty * size, coefficient: setup.friction(bodies) };
+        let (born, left, stored, dissipated) = (None, 0.0, 0.0, 0.0);
+        Self { tets, penalty, law, born, left, spring: None, forces: None, stored, dissipated }
+    }
+
+    fn evaluate(&mut self, corners: [[DVec3; 4]; 2], moves: impl FnOnce() -> [[DVec3; 4]; 2]) {
+        let found = overlap(&corners[0], &corners[1]);
+        let energy = found.as_ref().map_or(0.0, |found| found.energy);
+        let born = match self.born {
+            Some(born) => born.min(energy),
+            None => {
+                let counts = energy.min(self.left / self.penalty);
+                self.left = counts * self.penalty;
+                energy - counts
+            }
+        };
+        self.born = Some(born);
+        let Some(found) = found.filter(|_| energy > born) else {
+            let held = self.spring.take().map_or(0.0, |spring| spring.stored(&self.law));
+            (self.forces, self.stored) = (None, 0.0);
+            self.dissipated += held;
+            return;
+        };
+        let mut forces = found.forces.map(|of_tet| of_tet.map(|force| force * self.penalty));
+        self.stored = (energy - born) * self.penalty;
+        if self.law.coefficient > 0.0 {
+            let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant() * self.penalty));
+            let moves = moves();
+            let friction =
+                spring.advance(&self.law, &found, self.penalty, [&corners[0], &corners[1]], [&moves[0], &moves[1]]);
+            forces.iter_mut().flatten().zip(friction.forces.into_iter().flatten()).for_each(|(f, t)| *f += t);
+            self.dissipated += friction.dissipated;
+            self.stored += spring.stored(&self.law);
+        }
+        self.forces = Some(forces);
+    }
+}

@@ -1,0 +1,267 @@
+//! Convex parts of a triangle: cut by planes, and integrals over them.
+//!
+//! Points are given in the triangle's own coordinates (s, t): its corners are (0, 0), (1, 0) and (0, 1). Cutting:
+//! Sutherland & Hodgman (1974), "Reentrant polygon clipping", CACM 17, 32-42; here the two parts share the new corners
+//! and every other corner goes to one of them, so that no area is lost or counted twice even where rounding decides.
+
+use std::ops::Sub;
+
+use glam::DVec2;
+
+/// A triangle cut by four faces and by three planes between sub-tetrahedra has ten corners at most.
+const CAPACITY: usize = 10;
+
+/// A linear function on a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linear {
+    /// Value at the first corner.
+    origin: f64,
+    /// Differences to the other two corners.
+    slope: DVec2,
+}
+
+impl Linear {
+    /// The linear function with the given values at the corners.
+    pub fn with_values([a, b, c]: [f64; 3]) -> Self {
+        Self { origin: a, slope: DVec2::new(b - a, c - a) }
+    }
+
+    /// Value at a point.
+    pub fn at(&self, point: DVec2) -> f64 {
+        self.origin + self.slope.dot(point)
+    }
+}
+
+impl Sub for Linear {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { origin: self.origin - other.origin, slope: self.slope - other.slope }
+    }
+}
+
+/// A convex polygon, corners in order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Polygon {
+    corners: [DVec2; CAPACITY],
+    count: usize,
+}
+
+/// Where a polygon lies to a plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Side {
+    /// All of it on the positive side, or in the plane.
+    Positive,
+    /// All of it on the negative side.
+    Negative,
+    /// On both sides.
+    Both(Cut),
+}
+
+/// How a plane cuts a polygon in two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cut {
+    /// First and last corner of the positive part.
+    run: [usize; 2],
+    /// Where the edges before the first and after the last corner meet the plane.
+    ends: [DVec2; 2],
+}
+
+impl Polygon {
+    /// The whole triangle.
+    pub fn triangle() -> Self {
+        let mut polygon = Self::EMPTY;
+        for corner in [DVec2::ZERO, DVec2::X, DVec2::Y] {
+            polygon.push(corner);
+        }
+        polygon
+    }
+
+    const EMPTY: Self = Self { corners: [DVec2::ZERO; CAPACITY], count: 0 };
+
+    /// Corners in order, in the coordinates of the triangle [-].
+    pub fn corners(&self) -> &[DVec2] {
+        &self.corners[..self.count]
+    }
+
+    fn push(&mut self, corner: DVec2) {
+        self.corners[self.count] = corner;
+        self.count += 1;
+    }
+
+    /// Which side of the plane where `side` is zero the polygon is on.
+    pub fn side(&self, side: Linear) -> Side {
+        let mut sides = [0.0; CAPACITY];
+        let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut farthest = 0;
+        for (i, corner) in self.corners().iter().enumerate() {
+            sides[i] = side.at(*corner);
+            lowest = if sides[i] < lowest { sides[i] } else { lowest };
+            if sides[i] > highest {
+                (highest, farthest) = (sides[i], i);
+            }
+        }
+        if lowest >= 0.0 {
+            return Side::Positive;
+        }
+        if highest <= 0.0 {
+            return Side::Negative;
+        }
+        // The positive part is the run of corners about the one farthest out. A corner elsewhere that rounding makes
+        // positive goes with its neighbours: each part gains at most one corner.
+        let (mut first, mut last) = (farthest, farthest);
+        while sides[self.before(first)] >= 0.0 {
+            first = self.before(first);
+        }
+        while sides[self.after(last)] >= 0.0 {
+            last = self.after(last);
+        }
+        let crossing = |inside: usize, outside: usize| {
+            let share = sides[inside] / (sides[inside] - sides[outside]);
+            self.corners[inside].lerp(self.corners[outside], share)
+        };
+        let ends = [crossing(first, self.before(first)), crossing(last, self.after(last))];
+        Side::Both(Cut { run: [first, last], ends })
+    }
+
+    /// The part on the positive side of a cut.
+    pub fn positive_part(&self, cut: &Cut) -> Self {
+        let [first, last] = cut.run;
+        self.part([first, last], [cut.ends[1], cut.ends[0]])
+    }
+
+    /// The part on the negative side of a cut.
+    pub fn negative_part(&self, cut: &Cut) -> Self {
+        let [first, last] = cut.run;
+        self.part([self.after(last), self.before(first)], cut.ends)
+    }
+
+    /// The corners from the first to the last of a run, closed by two new ones.
+    #[inline]
+    fn part(&self, [first, last]: [usize; 2], closing: [DVec2; 2]) -> Self {
+        let mut part = Self::EMPTY;
+        let mut i = first;
+        while i != last {
+            part.push(self.corners[i]);
+            i = self.after(i);
+        }
+        for corner in [self.corners[last], closing[0], closing[1]] {
+            part.push(corner);
+        }
+        part
+    }
+
+    fn after(&self, i: usize) -> usize {
+        if i + 1 == self.count { 0 } else { i + 1 }
+    }
+
+    fn before(&self, i: usize) -> usize {
+        if i == 0 { self.count - 1 } else { i - 1 }
+    }
+
+    /// The part where all of the functions are positive, if there is one.
+    pub fn clip(self, functions: &[Linear; 4]) -> Option<Self> {
+        let mut inside = self;
+        for side in functions {
+            match inside.side(*side) {
+                Side::Positive => {}
+                Side::Negative => return None,
+                Side::Both(cut) => inside = inside.positive_part(&cut),
+            }
+        }
+        Some(inside)
+    }
+
+    /// Integrals of `weight` over the polygon.
+    pub fn integrate(&self, weight: Linear) -> Moments {
+        let corners = self.corners();
+        let (a, mut b) = (corners[0], corners[1]);
+        let (w_a, mut w_b) = (weight.at(a), weight.at(b));
+        let mut moments = Moments::default();
+        for &c in &corners[2..] {
+            let w_c = weight.at(c);
+            let share = (b - a).perp_dot(c - a);
+            let sum = w_a + w_b + w_c;
+            moments.zeroth += share * sum;
+            moments.first += share * (sum * (a + b + c) + w_a * a + w_b * b + w_c * c);
+            (b, w_b) = (c, w_c);
+        }
+        // On a triangle, exact for a linear function and for the product of two.
+        Moments { zeroth: moments.zeroth / 3.0, first: moments.first / 12.0 }
+    }
+}
+
+/// Integrals of a weight over a polygon, divided by the area of the whole triangle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moments {
+    /// Of the weight [-].
+    pub zeroth: f64,
+    /// Of the weight times the coordinates (s, t) [-].
+    pub first: DVec2,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+
+    fn random_linear(random: &mut SplitMix64) -> Linear {
+        Linear::with_values([0; 3].map(|_| 2.0 * random.next_share() - 1.0))
+    }
+
+    #[test]
+    fn integrals_over_a_triangle_are_those_of_the_tables() {
+        // Mean of lambda_i lambda_j over a triangle: 1/6 for i = j, 1/12 otherwise.
+        let moments = Polygon::triangle().integrate(Linear::with_values([0.0, 1.0, 0.0]));
+        assert!((moments.zeroth - 1.0 / 3.0).abs() < 1e-16);
+        assert!((moments.first - DVec2::new(1.0 / 6.0, 1.0 / 12.0)).length() < 1e-16);
+    }
+
+    #[test]
+    fn the_parts_of_a_cut_polygon_have_its_integrals() {
+        let mut random = SplitMix64::new(1);
+        let (mut cuts, mut most) = (0, 0);
+        for _ in 0..20_000 {
+            let weight = random_linear(&mut random);
+            let whole = Polygon::triangle().integrate(weight);
+            let mut parts = vec![Polygon::triangle()];
+            for _ in 0..7 {
+                let side = random_linear(&mut random);
+                let cut = |part: &Polygon| match part.side(side) {
+                    Side::Both(cut) => vec![part.positive_part(&cut), part.negative_part(&cut)],
+                    Side::Positive | Side::Negative => vec![*part],
+                };
+                parts = parts.iter().flat_map(cut).collect();
+            }
+            cuts += parts.len() - 1;
+            most = most.max(parts.iter().map(|part| part.corners().len()).max().unwrap());
+            let mut sum = Moments::default();
+            for part in parts.iter().map(|part| part.integrate(weight)) {
+                sum.zeroth += part.zeroth;
+                sum.first += part.first;
+            }
+            // 1e-14: rounding of some ten parts.
+            assert!((sum.zeroth - whole.zeroth).abs() < 1e-14);
+            assert!((sum.first - whole.first).length() < 1e-14);
+        }
+        assert!(cuts > 100_000 && most >= 6, "{cuts} {most}");
+    }
+
+    #[test]
+    fn a_polygon_in_the_plane_goes_to_one_side_only() {
+        let triangle = Polygon::triangle();
+        assert_eq!(triangle.side(Linear::with_values([0.0; 3])), Side::Positive);
+        assert_eq!(triangle.side(Linear::with_values([0.0, -1.0, 0.0])), Side::Negative);
+    }
+
+    #[test]
+    fn clipping_keeps_the_part_where_all_functions_are_positive() {
+        let side = |a, b, c| Linear::with_values([a, b, c]);
+        // The square 1/4 < s, t < 1/2 of the triangle s + t < 1: 1/16 of twice its area.
+        let square = [side(-0.25, 0.75, -0.25), side(0.5, -0.5, 0.5), side(-0.25, -0.25, 0.75), side(0.5, 0.5, -0.5)];
+        let inside = Polygon::triangle().clip(&square).unwrap();
+        let one = Linear::with_values([1.0; 3]);
+        assert!((inside.integrate(one).zeroth - 0.125).abs() < 1e-15);
+        assert!(Polygon::triangle().clip(&[side(-1.0, -0.5, 0.0); 4]).is_none());
+    }
+}

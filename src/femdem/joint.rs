@@ -1,0 +1,167 @@
+//! The joint between two tetrahedra: six nodes, three integration points (Guo, Latham and Xiang, fig. 3).
+//!
+//! The mid-surface is the mean of the two faces, its normal n points from side 0 to side 1. At the middle of an edge the
+//! jump of the places is split into the opening along n and the slip across; the stresses there go to the nodes with the
+//! shape functions of the undeformed area, A/3 to a point. For jumps that are linear over the face this is exact.
+
+use glam::DVec3;
+
+use super::cohesive_law::{CohesiveLaw, Point};
+
+/// Corners of the face at the ends of the edge on whose middle a point lies.
+const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+/// Memory of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Memory {
+    /// Of the three points.
+    pub points: [Point; 3],
+    /// Opening that a joint had, in terms of its law, when it came free [m].
+    pub offset: f64,
+    /// A point has damage or slip behind it, or came free under load.
+    is_worn: bool,
+}
+
+/// Forces of a joint and its energy.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Answer {
+    /// On the corners of side 0 [N]; side 1 has the negative.
+    pub forces: [DVec3; 3],
+    /// Energy lost since the last call [J].
+    pub dissipated: f64,
+    /// Points that carry nothing any more.
+    pub failed: u8,
+}
+
+/// Axes of the mid-surface: two along it and its normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axes {
+    along: [DVec3; 2],
+    normal: DVec3,
+}
+
+impl Axes {
+    /// Axes of the mean of two faces with matching corners [m].
+    #[inline]
+    pub fn of_faces(sides: &[[DVec3; 3]; 2]) -> Self {
+        let middle = [0, 1, 2].map(|k| sides[0][k] + sides[1][k]);
+        let (a, b) = (middle[1] - middle[0], middle[2] - middle[0]);
+        let normal = a.cross(b).normalize();
+        let first = a.normalize();
+        Self { along: [first, normal.cross(first)], normal }
+    }
+
+    /// Towards side 1.
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
+    /// Part along the normal, and the two across.
+    #[inline]
+    pub fn split(&self, v: DVec3) -> (f64, [f64; 2]) {
+        (v.dot(self.normal), self.along.map(|axis| v.dot(axis)))
+    }
+
+    #[inline]
+    fn join(&self, normal: f64, shear: [f64; 2]) -> DVec3 {
+        self.normal * normal + self.along[0] * shear[0] + self.along[1] * shear[1]
+    }
+}
+
+/// Forces of a joint whose faces have their corners at `sides` [m], on the undeformed area [m2].
+#[inline]
+pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3; 3]; 2]) -> Answer {
+    let jump = jumps(sides);
+    whole_forces(law, area, memory, sides, &jump).unwrap_or_else(|| worn_forces(law, area, memory, sides, &jump))
+}
+
+/// Jump of the places at the corners [m].
+#[inline]
+fn jumps(sides: &[[DVec3; 3]; 2]) -> [DVec3; 3] {
+    let [a, b] = sides;
+    [b[0] - a[0], b[1] - a[1], b[2] - a[2]]
+}
+
+/// Forces of a joint that has nothing behind it and gets nothing now: nearly all of them nearly always.
+#[inline]
+fn whole_forces(
+    law: &CohesiveLaw,
+    area: f64,
+    memory: &mut Memory,
+    [a, b]: &[[DVec3; 3]; 2],
+    jump: &[DVec3; 3],
+) -> Option<Answer> {
+    if memory.is_worn {
+        return None;
+    }
+    let corner = a[0] + b[0];
+    let normal = (a[1] + b[1] - corner).cross(a[2] + b[2] - corner).normalize();
+    let mut forces = [DVec3::ZERO; 3];
+    for [i, j] in ENDS {
+        let force = law.respond_whole((jump[i] + jump[j]) * 0.5, normal)? * (area / 6.0);
+        forces[i] += force;
+        forces[j] += force;
+    }
+    Some(Answer { forces, ..Answer::default() })
+}
+
+/// Forces of any joint.
+#[cold]
+fn worn_forces(
+    law: &CohesiveLaw,
+    area: f64,
+    memory: &mut Memory,
+    sides: &[[DVec3; 3]; 2],
+    jump: &[DVec3; 3],
+) -> Answer {
+    let axes = Axes::of_faces(sides);
+    let mut out = Answer::default();
+    for (point, [i, j]) in memory.points.iter_mut().zip(ENDS) {
+        let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
+        let traction = law.respond(point, opening + memory.offset, slip);
+        // A third of the area; half of it to each end of the edge.
+        let force = axes.join(traction.normal, traction.shear) * (area / 6.0);
+        out.forces[i] += force;
+        out.forces[j] += force;
+        out.dissipated += traction.dissipated * (area / 3.0);
+        out.failed += u8::from(point.damage >= 1.0);
+        memory.is_worn |= !point.is_whole();
+    }
+    out
+}
+
+/// Energy that a joint would give back [J].
+pub fn stored(law: &CohesiveLaw, area: f64, memory: &Memory, sides: &[[DVec3; 3]; 2]) -> f64 {
+    let (axes, jump) = (Axes::of_faces(sides), jumps(sides));
+    let of = |(point, [i, j]): (&Point, [usize; 2])| {
+        let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
+        law.stored(&point.opened_to(opening + memory.offset), slip)
+    };
+    memory.points.iter().zip(ENDS).map(of).sum::<f64>() * (area / 3.0)
+}
+
+impl Memory {
+    /// Memory of a tied joint that comes free under the given stress vector [Pa] on side 0.
+    pub fn loaded(law: &CohesiveLaw, traction: DVec3, axes: &Axes) -> Self {
+        let (normal, shear) = axes.split(traction);
+        let (point, offset) = law.loaded(normal, shear);
+        Self { points: [point; 3], offset, is_worn: true }
+    }
+
+    /// Whether most of the damage came from sliding (mode II) and not from opening (mode I).
+    pub fn is_mostly_slid(&self, law: &CohesiveLaw) -> bool {
+        let [opened, slid] = self
+            .points
+            .iter()
+            .map(|point| law.shares(point))
+            .fold([0.0; 2], |sum: [f64; 2], share| [sum[0] + share[0], sum[1] + share[1]]);
+        slid > opened
+    }
+}
+
+/// Mean edge length and area of a triangle [m, m2].
+pub fn size(corners: &[DVec3; 3]) -> (f64, f64) {
+    let [a, b, c] = *corners;
+    let mean = (a.distance(b) + b.distance(c) + c.distance(a)) / 3.0;
+    (mean, 0.5 * (b - a).cross(c - a).length())
+}

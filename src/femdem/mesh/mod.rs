@@ -1,0 +1,151 @@
+//! Tetrahedral meshes: reading, checking, ordering, faces.
+//!
+//! [`read`] is the entry: bytes of an MSH 4.1 file in, a [`PreparedMesh`] out that the solver can rely on.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `msh` | reading MSH 4.1: named volumes become bodies, named surfaces become sets of triangles |
+//! | `quality` | volume, edges, heights and angles of each body; inverted and flat tetrahedra |
+//! | `order` | tetrahedra along a space-filling curve, nodes by first use |
+//! | `faces` | interior faces with their two tetrahedra, exterior faces, cracks and boundaries |
+//! | `conformity` | bodies that are not what they seem: shared nodes, loose pieces, hanging nodes, overlaps |
+//! | `defect` | what can be wrong with a mesh, in words |
+//! | `block` | structured meshes of a box, for verification |
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use thiserror::Error;
+
+pub mod block;
+mod conformity;
+pub mod defect;
+pub mod faces;
+pub mod msh;
+pub mod order;
+pub mod quality;
+
+use defect::MeshDefect;
+use faces::Faces;
+use msh::MshError;
+use quality::BodyQuality;
+
+/// Why a mesh file cannot be used.
+#[derive(Debug, Error)]
+pub enum MeshError {
+    /// The file cannot be opened or read.
+    #[error("{path}: {source}")]
+    Io { path: PathBuf, source: std::io::Error },
+    /// The file is not an MSH 4.1 file with named volumes of tetrahedra.
+    #[error("{path}: {source}")]
+    Msh { path: PathBuf, source: MshError },
+    /// The mesh in the file cannot be computed with.
+    #[error("{path}: {source}")]
+    Defect { path: PathBuf, source: MeshDefect },
+}
+
+/// Linear tetrahedra grouped in bodies, and named sets of triangles.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// Positions of the nodes [m].
+    pub nodes: Vec<DVec3>,
+    /// Number of each node in the file.
+    pub node_tags: Vec<u64>,
+    /// Nodes of each tetrahedron; seen from the fourth, the first three run anticlockwise: the volume is positive.
+    pub tets: Vec<[u32; 4]>,
+    /// Number of each tetrahedron in the file.
+    pub tet_tags: Vec<u64>,
+    /// The bodies; their tetrahedra follow each other without gaps.
+    pub bodies: Vec<Body>,
+    /// Boundaries and cracks.
+    pub sets: Vec<TriangleSet>,
+}
+
+/// A named part of the tetrahedra: one solid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Name of the physical volume.
+    pub name: String,
+    /// Its tetrahedra.
+    pub tets: Range<usize>,
+}
+
+/// A named set of triangles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TriangleSet {
+    /// Name of the physical surface.
+    pub name: String,
+    /// Nodes of each triangle, in any sense of rotation.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl TriangleSet {
+    /// Whether the set is a pre-crack, an interior surface that is broken from the start: its name begins with `crack`.
+    pub fn is_crack(&self) -> bool {
+        self.name.starts_with("crack")
+    }
+}
+
+impl Mesh {
+    /// Corners of a tetrahedron [m].
+    pub fn corners(&self, tet: usize) -> [DVec3; 4] {
+        self.tets[tet].map(|node| self.nodes[node as usize])
+    }
+
+    /// Centroid of a tetrahedron [m].
+    pub fn centroid(&self, tet: usize) -> DVec3 {
+        self.corners(tet).iter().sum::<DVec3>() / 4.0
+    }
+
+    /// The body that a tetrahedron belongs to.
+    pub fn body_of(&self, tet: usize) -> &Body {
+        &self.bodies[self.bodies.partition_point(|body| body.tets.end <= tet)]
+    }
+
+    /// All faces of tetrahedra whose three nodes lie in the region, once each: to make sets by position [m].
+    pub fn faces_within(&self, region: impl Fn(DVec3) -> bool) -> Vec<[u32; 3]> {
+        let within: Vec<bool> = self.nodes.iter().map(|node| region(*node)).collect();
+        let all = self.tets.iter().flat_map(|tet| faces::LOCAL_FACES.map(|face| face.map(|v| tet[v as usize])));
+        let mut found: Vec<[u32; 3]> = all.filter(|face| face.iter().all(|node| within[*node as usize])).collect();
+        found.iter_mut().for_each(|face| face.sort_unstable());
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+/// A mesh in good order: checked, sorted, with its faces.
+#[derive(Debug, Clone)]
+pub struct PreparedMesh {
+    /// The mesh, sorted; the tags lead back to the file.
+    pub mesh: Mesh,
+    /// Interior and exterior faces, cracks and boundaries.
+    pub faces: Faces,
+    /// Sizes and shapes, one entry a body.
+    pub quality: Vec<BodyQuality>,
+}
+
+/// Mesh in an MSH 4.1 file, its lengths multiplied by `scale` (0.001 for a file in mm).
+pub fn read(path: &Path, scale: f64) -> Result<PreparedMesh, MeshError> {
+    let bytes = fs::read(path).map_err(|source| MeshError::Io { path: path.to_owned(), source })?;
+    parse(&bytes, path, scale)
+}
+
+/// The same from the file's content; `path` is its name in messages.
+pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<PreparedMesh, MeshError> {
+    let mesh = msh::parse(bytes, scale).map_err(|source| MeshError::Msh { path: path.to_owned(), source })?;
+    prepare(mesh).map_err(|source| MeshError::Defect { path: path.to_owned(), source })
+}
+
+/// Checks a mesh, sorts it and finds its faces.
+pub fn prepare(mesh: Mesh) -> Result<PreparedMesh, MeshDefect> {
+    let quality = quality::measure(&mesh)?;
+    conformity::check_bodies_apart(&mesh)?;
+    let mesh = order::along_curve(&mesh);
+    let faces = Faces::new(&mesh)?;
+    conformity::check_one_piece(&mesh, &faces)?;
+    conformity::check_surface(&mesh, &faces)?;
+    Ok(PreparedMesh { mesh, faces, quality })
+}

@@ -1,0 +1,172 @@
+//! From the sections of a file to bodies and sets.
+
+use std::collections::{BTreeMap, HashMap};
+
+use glam::DVec3;
+
+use super::super::{Body, Mesh, TriangleSet, faces};
+use super::error::MshError;
+use super::sections::{ElementBlock, Key, Sections, TRIANGLE, element_type};
+
+/// Mark of a node that no element uses.
+const UNUSED: u32 = u32::MAX;
+
+/// Mesh with lengths multiplied by `scale`.
+pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
+    let volumes = volume_blocks(file)?;
+    let surfaces = surface_blocks(file)?;
+    let count = volumes.values().flatten().map(|block| block.tags.len()).sum();
+    if count > faces::MOST_TETS {
+        return Err(MshError::TooLarge { what: "tetrahedra", count, limit: faces::MOST_TETS });
+    }
+    let mut nodes = NodeTable::new(file, scale)?;
+    let mut mesh = Mesh::default();
+    for (name, blocks) in named(file, 3, volumes)? {
+        let first = mesh.tets.len();
+        for block in &blocks {
+            mesh.tets.extend(elements::<4>(block, &mut nodes)?);
+            mesh.tet_tags.extend(&block.tags);
+        }
+        mesh.bodies.push(Body { name, tets: first..mesh.tets.len() });
+    }
+    for (name, blocks) in named(file, 2, surfaces)? {
+        let mut triangles = Vec::new();
+        for block in &blocks {
+            triangles.extend(elements::<3>(block, &mut nodes)?);
+        }
+        mesh.sets.push(TriangleSet { name, triangles });
+    }
+    nodes.drop_unused(&mut mesh);
+    Ok(mesh)
+}
+
+/// Blocks of elements by physical group.
+type Groups<'a> = BTreeMap<i32, Vec<&'a ElementBlock>>;
+
+/// Every volume must be in exactly one body.
+fn volume_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
+    let mut groups = declared(file, 3);
+    if groups.is_empty() {
+        return Err(MshError::NoVolume);
+    }
+    for block in file.blocks.iter().filter(|block| block.dimension == 3) {
+        match file.groups.get(&(3, block.entity)).map_or(&[][..], Vec::as_slice) {
+            [group] => groups.entry(*group).or_default().push(block),
+            [] => return Err(MshError::LooseVolume { entity: block.entity, count: block.tags.len() }),
+            several => {
+                let name = |group: &i32| file.names.get(&(3, *group)).cloned().unwrap_or_else(|| group.to_string());
+                let names = several.iter().map(name).collect::<Vec<_>>().join(", ");
+                return Err(MshError::TwoVolumes { entity: block.entity, count: several.len(), names });
+            }
+        }
+    }
+    Ok(groups)
+}
+
+/// A surface may be in several sets, or in none.
+fn surface_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
+    let mut groups = declared(file, 2);
+    for block in file.blocks.iter().filter(|block| block.dimension == 2) {
+        for group in file.groups.get(&(2, block.entity)).into_iter().flatten() {
+            if block.kind != TRIANGLE {
+                let ElementBlock { dimension, entity, kind, .. } = *block;
+                let expected = "triangles (type 2), as it is in a physical surface: do not recombine";
+                return Err(MshError::WrongShape { dimension, entity, kind, name: element_type(kind).0, expected });
+            }
+            groups.entry(*group).or_default().push(block);
+        }
+    }
+    Ok(groups)
+}
+
+/// All groups of a dimension that the file speaks of, so that none is lost because it is empty.
+fn declared(file: &Sections, dimension: i32) -> Groups<'_> {
+    let named = file.names.keys().filter(|key| key.0 == dimension).map(|key| key.1);
+    let used = file.groups.iter().filter(|(key, _)| key.0 == dimension).flat_map(|(_, groups)| groups.iter().copied());
+    named.chain(used).map(|group| (group, Vec::new())).collect()
+}
+
+/// The groups with their names, all different, none empty.
+fn named<'a>(
+    file: &Sections,
+    dimension: i32,
+    groups: Groups<'a>,
+) -> Result<Vec<(String, Vec<&'a ElementBlock>)>, MshError> {
+    let kind = if dimension == 3 { "Volume" } else { "Surface" };
+    let mut result: Vec<(String, Vec<&ElementBlock>)> = Vec::with_capacity(groups.len());
+    for (tag, blocks) in groups {
+        let key: Key = (dimension, tag);
+        let name = file.names.get(&key).ok_or(MshError::Unnamed { kind, tag })?.clone();
+        if blocks.is_empty() {
+            return Err(if dimension == 3 { MshError::EmptyVolume(name) } else { MshError::EmptySurface(name) });
+        }
+        if result.iter().any(|(other, _)| *other == name) {
+            return Err(MshError::SameName { kind, name });
+        }
+        result.push((name, blocks));
+    }
+    Ok(result)
+}
+
+/// Elements of `N` nodes as indices.
+fn elements<const N: usize>(block: &ElementBlock, nodes: &mut NodeTable) -> Result<Vec<[u32; N]>, MshError> {
+    let mut result = Vec::with_capacity(block.tags.len());
+    for (element, tags) in block.tags.iter().zip(block.nodes.as_chunks::<N>().0) {
+        let mut corners = [0; N];
+        for (corner, tag) in corners.iter_mut().zip(tags) {
+            *corner = nodes.index(*tag).ok_or(MshError::NoSuchNode { element: *element, node: *tag })?;
+        }
+        result.push(corners);
+    }
+    Ok(result)
+}
+
+/// Nodes of a file by their tags.
+struct NodeTable {
+    positions: Vec<(u64, DVec3)>,
+    index: HashMap<u64, u32>,
+    used: Vec<bool>,
+}
+
+impl NodeTable {
+    fn new(file: &Sections, scale: f64) -> Result<Self, MshError> {
+        let limit = UNUSED as usize;
+        if file.nodes.len() > limit {
+            return Err(MshError::TooLarge { what: "nodes", count: file.nodes.len(), limit });
+        }
+        let mut index = HashMap::with_capacity(file.nodes.len());
+        let mut positions = Vec::with_capacity(file.nodes.len());
+        for (number, (tag, position)) in file.nodes.iter().enumerate() {
+            if index.insert(*tag, number as u32).is_some() {
+                return Err(MshError::DuplicateNode(*tag));
+            }
+            let position = *position * scale;
+            if !position.is_finite() {
+                let DVec3 { x, y, z } = position;
+                return Err(MshError::NotFinite { tag: *tag, x, y, z });
+            }
+            positions.push((*tag, position));
+        }
+        Ok(Self { used: vec![false; positions.len()], positions, index })
+    }
+
+    fn index(&mut self, tag: u64) -> Option<u32> {
+        let index = *self.index.get(&tag)?;
+        self.used[index as usize] = true;
+        Some(index)
+    }
+
+    /// Hands the used nodes to the mesh and renumbers its elements.
+    fn drop_unused(self, mesh: &mut Mesh) {
+        let mut new_index = vec![UNUSED; self.positions.len()];
+        for (old, (tag, position)) in self.positions.iter().enumerate().filter(|(old, _)| self.used[*old]) {
+            new_index[old] = mesh.nodes.len() as u32;
+            mesh.node_tags.push(*tag);
+            mesh.nodes.push(*position);
+        }
+        let triangles = mesh.sets.iter_mut().flat_map(|set| set.triangles.iter_mut().flatten());
+        for node in mesh.tets.iter_mut().flatten().chain(triangles) {
+            *node = new_index[*node as usize];
+        }
+    }
+}

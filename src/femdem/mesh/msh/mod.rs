@@ -1,0 +1,26 @@
+//! MSH 4.1, the mesh format of Gmsh, text or binary.
+//!
+//! Each named physical volume is a body, each named physical surface a set of triangles. Format: Gmsh reference
+//! manual, section "MSH file format".
+
+mod assemble;
+mod error;
+mod sections;
+mod source;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+pub(super) mod write;
+
+pub use error::{MshError, Place};
+
+use super::Mesh;
+use sections::Sections;
+
+/// Mesh in a file's content, its lengths multiplied by `scale` to metres (0.001 for a file in mm).
+///
+/// Bodies and sets come in the order of their physical tags, elements and nodes in the order of the file; nodes that
+/// nothing uses are left out. Indices are valid and coordinates finite; the shape of the mesh is not checked yet.
+pub fn parse(bytes: &[u8], scale: f64) -> Result<Mesh, MshError> {
+    assemble::mesh(&Sections::read(bytes)?, scale)
+}

@@ -1,0 +1,166 @@
+//! The numbers of an MSH file one after another, written as text or as bytes.
+
+use super::error::{MshError, Place};
+
+/// Longest piece of a file [characters] that a message repeats.
+const LONGEST_QUOTE: usize = 40;
+
+/// A file's content and how far it has been read.
+pub(super) struct Source<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    binary: bool,
+    section: &'a str,
+}
+
+impl<'a> Source<'a> {
+    /// Reads the header; what follows is a list of sections.
+    pub(super) fn new(bytes: &'a [u8]) -> Result<Self, MshError> {
+        let mut source = Self { bytes, at: 0, binary: false, section: "MeshFormat" };
+        let first = source.line().unwrap_or_default();
+        if first.trim_ascii() != b"$MeshFormat" {
+            return Err(MshError::NotMsh);
+        }
+        let header = quote(source.line().ok_or_else(|| source.truncated())?);
+        let (version, layout) = header.trim().split_once(' ').unwrap_or((header.trim(), ""));
+        if version != "4.1" {
+            return Err(MshError::Version(version.to_owned()));
+        }
+        source.binary = match layout.trim() {
+            "0 8" => false,
+            "1 8" => true,
+            other => return Err(MshError::Header(other.to_owned())),
+        };
+        // A one, written so that the order of the bytes shows.
+        if source.binary && source.take()? != 1i32.to_le_bytes() {
+            return Err(MshError::Header(format!("{layout} (binary, big-endian)")));
+        }
+        source.end()?;
+        Ok(source)
+    }
+
+    /// Name of the section that starts here, `None` at the end of the file.
+    pub(super) fn next_section(&mut self) -> Result<Option<&'a str>, MshError> {
+        self.skip_space();
+        if self.at == self.bytes.len() {
+            return Ok(None);
+        }
+        let start = self.at;
+        let line = self.line().unwrap_or_default().trim_ascii();
+        let name = line.strip_prefix(b"$").and_then(|name| std::str::from_utf8(name).ok());
+        self.section = name.ok_or_else(|| self.unexpected(start, "the start of the next section", line))?;
+        Ok(Some(self.section))
+    }
+
+    /// The line that ends the present section.
+    pub(super) fn end(&mut self) -> Result<(), MshError> {
+        self.skip_space();
+        let start = self.at;
+        let line = self.line().ok_or_else(|| self.truncated())?.trim_ascii();
+        if line.strip_prefix(b"$End") == Some(self.section.as_bytes()) {
+            return Ok(());
+        }
+        Err(self.unexpected(start, "the end of the section", line))
+    }
+
+    /// Goes past the present section without reading it.
+    pub(super) fn skip_section(&mut self) -> Result<(), MshError> {
+        let end = format!("$End{}", self.section).into_bytes();
+        let rest = &self.bytes[self.at..];
+        let found = rest.windows(end.len()).position(|window| window == end).ok_or_else(|| self.truncated())?;
+        self.at += found + end.len();
+        Ok(())
+    }
+
+    /// The rest of the present line, without its end; `None` at the end of the file.
+    pub(super) fn line(&mut self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.at..];
+        if rest.is_empty() {
+            return None;
+        }
+        let length = rest.iter().position(|byte| *byte == b'\n');
+        self.at += length.map_or(rest.len(), |length| length + 1);
+        Some(&rest[..length.unwrap_or(rest.len())])
+    }
+
+    /// The next line that is not blank, as text.
+    pub(super) fn text_line(&mut self) -> Result<&'a str, MshError> {
+        self.skip_space();
+        let start = self.at;
+        let line = self.line().ok_or_else(|| self.truncated())?.trim_ascii();
+        std::str::from_utf8(line).map_err(|_| self.unexpected(start, "text in UTF-8", line))
+    }
+
+    /// An integer with a sign: a dimension, an entity, a type.
+    pub(super) fn int(&mut self) -> Result<i32, MshError> {
+        if self.binary { Ok(i32::from_le_bytes(self.take()?)) } else { self.word("an integer") }
+    }
+
+    /// An integer without a sign: a count, a node, an element.
+    pub(super) fn size(&mut self) -> Result<u64, MshError> {
+        if self.binary { Ok(u64::from_le_bytes(self.take()?)) } else { self.word("a count or a tag") }
+    }
+
+    /// A coordinate.
+    pub(super) fn real(&mut self) -> Result<f64, MshError> {
+        if self.binary { Ok(f64::from_le_bytes(self.take()?)) } else { self.word("a number") }
+    }
+
+    /// Number of bytes read so far.
+    pub(super) fn position(&self) -> usize {
+        self.at
+    }
+
+    /// Name of a position for messages; counts the lines before it.
+    pub(super) fn place(&self, position: usize) -> Place {
+        if self.binary {
+            Place::Byte(position + 1)
+        } else {
+            let read = &self.bytes[..position];
+            let line = 1 + read.iter().filter(|byte| **byte == b'\n').count();
+            // The space between two numbers belongs to the line of the second.
+            let space = self.bytes[position..].iter().take_while(|byte| byte.is_ascii_whitespace());
+            Place::Line(line + space.filter(|byte| **byte == b'\n').count())
+        }
+    }
+
+    /// The error of something else at `position` than what must be there.
+    pub(super) fn unexpected(&self, position: usize, expected: &'static str, found: &[u8]) -> MshError {
+        let section = quote(self.section.as_bytes());
+        MshError::Unexpected { place: self.place(position), section, expected, found: quote(found) }
+    }
+
+    fn truncated(&self) -> MshError {
+        MshError::Truncated { place: self.place(self.bytes.len()), section: quote(self.section.as_bytes()) }
+    }
+
+    fn skip_space(&mut self) {
+        self.at += self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+    }
+
+    /// The next bytes of a binary file.
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], MshError> {
+        let bytes = self.bytes[self.at..].first_chunk().ok_or_else(|| self.truncated())?;
+        self.at += N;
+        Ok(*bytes)
+    }
+
+    /// The next word of a text file, as a number.
+    fn word<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, MshError> {
+        self.skip_space();
+        let rest = &self.bytes[self.at..];
+        if rest.is_empty() {
+            return Err(self.truncated());
+        }
+        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let number = std::str::from_utf8(&rest[..length]).ok().and_then(|word| word.parse().ok());
+        let number = number.ok_or_else(|| self.unexpected(self.at, expected, &rest[..length]))?;
+        self.at += length;
+        Ok(number)
+    }
+}
+
+/// The start of a piece of a file, for a message.
+fn quote(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(&bytes[..bytes.len().min(4 * LONGEST_QUOTE)]).chars().take(LONGEST_QUOTE).collect()
+}

@@ -1,0 +1,127 @@
+//! Order of tetrahedra and nodes in memory: neighbours in space become neighbours in memory.
+//!
+//! Tetrahedra follow the Z-shaped curve of Morton (1966) through their centroids; nodes follow in the order in which the
+//! tetrahedra first use them. The solver's gathers then mostly find their data in the cache.
+
+use glam::DVec3;
+
+use super::{Mesh, TriangleSet};
+
+/// Bits of a Morton code for each axis; three times as many fit into 64.
+const BITS: u32 = 21;
+
+/// Mark of a node without a new number.
+const UNUSED: u32 = u32::MAX;
+
+/// The same mesh in another order, body by body; tags move with what they belong to. Tetrahedra with the same code stay
+/// in their order, so that the result depends on the mesh only. Nodes that only triangles use come last.
+pub fn along_curve(mesh: &Mesh) -> Mesh {
+    let mut order = Vec::with_capacity(mesh.tets.len());
+    for body in &mesh.bodies {
+        let centroids: Vec<DVec3> = body.tets.clone().map(|tet| mesh.centroid(tet)).collect();
+        let min = centroids.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let max = centroids.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let size = (max - min).max_element();
+        let codes = centroids.iter().map(|centroid| morton((*centroid - min) / size));
+        let mut coded: Vec<(u64, usize)> = codes.zip(body.tets.clone()).collect();
+        coded.sort_unstable();
+        order.extend(coded.into_iter().map(|(_, tet)| tet));
+    }
+    let mut sorted = Mesh {
+        tets: order.iter().map(|tet| mesh.tets[*tet]).collect(),
+        tet_tags: order.iter().map(|tet| mesh.tet_tags[*tet]).collect(),
+        bodies: mesh.bodies.clone(),
+        sets: mesh.sets.clone(),
+        nodes: Vec::with_capacity(mesh.nodes.len()),
+        node_tags: Vec::with_capacity(mesh.nodes.len()),
+    };
+    let mut new_index = vec![UNUSED; mesh.nodes.len()];
+    let triangles = |set: &TriangleSet| set.triangles.clone().into_iter().flatten();
+    for old in sorted.tets.clone().into_iter().flatten().chain(mesh.sets.iter().flat_map(triangles)) {
+        let old = old as usize;
+        if new_index[old] == UNUSED {
+            new_index[old] = sorted.nodes.len() as u32;
+            sorted.nodes.push(mesh.nodes[old]);
+            sorted.node_tags.push(mesh.node_tags[old]);
+        }
+    }
+    let triangles = sorted.sets.iter_mut().flat_map(|set| set.triangles.iter_mut().flatten());
+    for node in sorted.tets.iter_mut().flatten().chain(triangles) {
+        *node = new_index[*node as usize];
+    }
+    sorted
+}
+
+/// Number along the curve of a point in the unit cube: the bits of its coordinates in turn.
+fn morton(point: DVec3) -> u64 {
+    let cells = f64::from((1u32 << BITS) - 1);
+    // A body of one tetrahedron has no size; the cast turns its 0/0 into 0.
+    let [x, y, z] = point.to_array().map(|coordinate| spread((coordinate * cells) as u64));
+    x | (y << 1) | (z << 2)
+}
+
+/// Puts two zeros between the bits of a number of [`BITS`] bits.
+fn spread(number: u64) -> u64 {
+    let mut bits = number;
+    for (shift, mask) in [
+        (32, 0x001f_0000_0000_ffff),
+        (16, 0x001f_0000_ff00_00ff),
+        (8, 0x100f_00f0_0f00_f00f),
+        (4, 0x10c3_0c30_c30c_30c3),
+        (2, 0x1249_2492_4924_9249),
+    ] {
+        bits = (bits | (bits << shift)) & mask;
+    }
+    bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::block::{Pattern, block};
+    use super::super::prepare;
+    use super::*;
+
+    #[test]
+    fn codes_interleave_the_bits() {
+        assert_eq!(morton(DVec3::ZERO), 0);
+        assert_eq!(morton(DVec3::ONE), (1 << (3 * BITS)) - 1);
+        for bit in 0..BITS {
+            assert_eq!(spread(1 << bit), 1 << (3 * bit));
+        }
+        assert_eq!(morton(DVec3::NAN), 0);
+    }
+
+    #[test]
+    fn the_same_mesh_in_another_order_comes_out_the_same() {
+        let mesh = block(DVec3::new(1.0, 2.0, 3.0), [4, 5, 6], Pattern::Centred);
+        let sorted = along_curve(&mesh);
+        assert_eq!(along_curve(&sorted), sorted);
+        let mut turned = mesh.clone();
+        turned.tets.reverse();
+        turned.tet_tags.reverse();
+        // No two centroids of this mesh have the same code, so that nothing is left to the order of the file.
+        assert_eq!(along_curve(&turned), sorted);
+    }
+
+    #[test]
+    fn tags_lead_back_and_neighbours_come_close() {
+        let mesh = block(DVec3::ONE, [16; 3], Pattern::Diagonal);
+        let sorted = prepare(mesh.clone()).unwrap().mesh;
+        for (tet, tag) in sorted.tets.iter().zip(&sorted.tet_tags) {
+            let old = mesh.tets[*tag as usize - 1].map(|node| mesh.node_tags[node as usize]);
+            assert_eq!(tet.map(|node| sorted.node_tags[node as usize]), old);
+        }
+        for (node, tag) in sorted.nodes.iter().zip(&sorted.node_tags) {
+            assert_eq!(*node, mesh.nodes[*tag as usize - 1]);
+        }
+        // The nodes of a tetrahedron; layer by layer, as the generator makes them, they are 17 x 17 = 289 apart and more.
+        let span = |tet: &[u32; 4]| tet.iter().max().unwrap() - tet.iter().min().unwrap();
+        let median = |mesh: &Mesh| {
+            let mut spans: Vec<u32> = mesh.tets.iter().map(span).collect();
+            spans.sort_unstable();
+            spans[spans.len() / 2]
+        };
+        assert!(median(&mesh) > 289 && median(&sorted) < 289, "{} -> {}", median(&mesh), median(&sorted));
+        assert_eq!(sorted.tets[0], [0, 1, 2, 3], "nodes are numbered by first use");
+    }
+}

@@ -1,0 +1,34 @@
+//! Deformable bodies that crack: the combined finite-discrete element method (FEMDEM).
+//!
+//! Guo, Latham and Xiang, *Numerical simulation of breakages of concrete armour units using a three-dimensional fracture
+//! model*: tetrahedra deform, joints between them soften and break, crack faces and bodies touch. Equations are theirs
+//! unless another source is named.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `mesh` | tetrahedral meshes: reading, checking, ordering, faces |
+//! | `material` | elasticity and strength |
+//! | `element` | the linear tetrahedron |
+//! | `softening`, `cohesive_law` | the law of a joint at a point |
+//! | `joint` | the joint between two tetrahedra |
+//! | `setup` | what a world is made of |
+//! | `assembly` | nodes, tetrahedra and joints as arrays; how nodes come apart |
+//! | `contact` | tetrahedra that touch: overlap, friction, who can |
+//! | `time_step` | the longest stable step |
+//! | `world` | the step: the entry to this module |
+//! | `release` | faces that give way |
+//! | `energy` | the energy book |
+
+pub mod assembly;
+pub mod cohesive_law;
+pub mod contact;
+pub mod element;
+pub mod energy;
+pub mod joint;
+pub mod material;
+pub mod mesh;
+mod release;
+pub mod setup;
+pub mod softening;
+pub mod time_step;
+pub mod world;

@@ -1,0 +1,133 @@
+//! The continuum against elasticity.
+
+use super::*;
+use glam::DMat3;
+use std::f64::consts::PI;
+
+#[test]
+fn a_linear_field_leaves_the_inside_in_balance() {
+    let mesh = mesh(DVec3::new(1.0, 0.7, 0.5), [4, 3, 3]);
+    let mut world = World::new(setup(&mesh, None), 0.9);
+    let strain = DMat3::from_cols_array(&[2e-3, 1e-3, -4e-4, 7e-4, -1e-3, 3e-4, 5e-4, -2e-4, 1.5e-3]);
+    displace(&mut world, |x| strain * x);
+    world.step().unwrap();
+    let inside = |x: DVec3| {
+        let inner = |v: f64, end: f64| v > 1e-6 && v < end - 1e-6;
+        inner(x.x, 1.0) && inner(x.y, 0.7) && inner(x.z, 0.5)
+    };
+    let origin: Vec<DVec3> = mesh.mesh.nodes.clone();
+    let force = |n: usize| world.nodes.velocity[n].length() * world.nodes.mass[n] / world.dt;
+    let largest = (0..origin.len()).map(force).fold(0.0, f64::max);
+    let mut count = 0;
+    for n in (0..world.nodes.count()).filter(|n| inside(world.place_at_start(*n))) {
+        // 1e-10: asked for; against the forces at the outside.
+        assert!(force(n) < 1e-10 * largest, "{:.1e}", force(n) / largest);
+        count += 1;
+    }
+    assert!(count > 20);
+}
+
+/// Frequency of the first free swing of a bar along itself [Hz].
+fn bar_frequency(cohesion: Option<Cohesion>) -> f64 {
+    let length = 0.5;
+    let mesh = mesh(DVec3::new(length, 0.05, 0.05), [30, 3, 3]);
+    let mut world = World::new(setup(&mesh, cohesion), 0.9);
+    let amplitude = 1e-7;
+    displace(&mut world, |x| {
+        let k = PI / length;
+        let strain = -amplitude * k * (k * x.x).sin();
+        DVec3::new(amplitude * (k * x.x).cos(), -0.2 * strain * (x.y - 0.025), -0.2 * strain * (x.z - 0.025))
+    });
+    let end = (0..world.nodes.count()).find(|n| world.place_at_start(*n).length() < 1e-9).unwrap();
+    let mut signal = Vec::new();
+    while world.time < 3.2 * 2.0 * length / 3300.0 {
+        world.step().unwrap();
+        signal.push((world.time, world.nodes.place[end].x));
+    }
+    let times = crossings(&signal);
+    (times.len() - 1) as f64 / (2.0 * (times[times.len() - 1] - times[0]))
+}
+
+#[test]
+fn a_bar_swings_with_the_celerity_of_thin_bars() {
+    let expected = CONCRETE.bar_celerity() / (2.0 * 0.5);
+    let found = bar_frequency(None);
+    println!("{found:.1} Hz, {expected:.1} expected ({:+.2} %)", 100.0 * (found / expected - 1.0));
+    // 1 %: asked for. The inertia of the sides takes (nu pi r / L)^2 / 2 = 0.003 %.
+    assert!((found / expected - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn joints_make_a_bar_softer_by_their_compliance() {
+    let plain = bar_frequency(None);
+    for (penalty, tolerance) in [(10.0, 0.03), (50.0, 0.01)] {
+        let found = bar_frequency(cohesion(penalty, false));
+        let softer = (found / plain).powi(2);
+        let expected = 1.0 / (1.0 + 2.7 / penalty);
+        println!("p0 = {penalty} E: E_eff / E = {softer:.4}, {expected:.4} by the rule for unstructured meshes");
+        // The rule is for other meshes: 2.7 is their area of joints in a volume times h / 3.
+        assert!((softer / expected - 1.0).abs() < tolerance);
+    }
+    let tied = bar_frequency(cohesion(2.0, true));
+    // The same mesh with another step, which shifts frequencies by (omega dt)^2 / 24.
+    assert!((tied / plain - 1.0).abs() < 1e-4);
+}
+
+/// Frequency of a cantilever of 1 x 0.1 x 0.1 m [Hz] with `cells` over its height.
+fn cantilever(cells: usize) -> f64 {
+    let mesh = mesh(DVec3::new(1.0, 0.1, 0.1), [10 * cells, cells, cells]);
+    let mut setup = setup(&mesh, None);
+    let clamped = (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == 0.0).collect();
+    setup.constraints = vec![breakwater::femdem::setup::Constraint { nodes: clamped, velocity: [Some(0.0); 3] }];
+    let mut world = World::new(setup, 0.9);
+    // First mode of Euler and Bernoulli.
+    let (k, r) = (1.875_104_07, 0.734_095_5);
+    for n in 0..world.nodes.count() {
+        let x = k * world.place_at_start(n).x;
+        let shape = x.cosh() - x.cos() - r * (x.sinh() - x.sin());
+        world.nodes.velocity[n] = DVec3::Z * 1e-3 * shape;
+    }
+    let tip = (0..world.nodes.count()).find(|n| world.place_at_start(*n).distance(DVec3::new(1.0, 0.0, 0.0)) < 1e-9);
+    let tip = tip.unwrap();
+    let mut signal = Vec::new();
+    while world.time < 1.2 / 53.0 {
+        world.step().unwrap();
+        signal.push((world.time, world.nodes.place[tip].z));
+    }
+    let times = crossings(&signal);
+    0.5 / (times[1] - times[0])
+}
+
+#[test]
+fn a_cantilever_swings_with_its_first_frequency() {
+    let [coarse, fine] = [2, 4].map(cantilever);
+    println!("first frequency {coarse:.2} Hz, {fine:.2} Hz with elements half as long; 53.85 Hz expected");
+    // Constant strains are too stiff in bending, by the square of the size: 3 %, asked for, on the finer one.
+    assert!((fine / 53.85 - 1.0).abs() < 0.03 && (coarse - 53.85).abs() > (fine - 53.85).abs());
+}
+
+#[test]
+fn a_spinning_block_keeps_its_energy_and_momentum() {
+    let mesh = mesh(DVec3::new(0.3, 0.2, 0.1), [3, 2, 1]);
+    for cohesion in [None, cohesion(50.0, false), cohesion(2.0, true)] {
+        let mut setup = setup(&mesh, cohesion);
+        setup.bodies[0].angular_velocity = DVec3::new(3.0, 20.0, 5.0);
+        setup.bodies[0].velocity = DVec3::new(1.0, -2.0, 0.5);
+        setup.gravity = DVec3::NEG_Z * 9.8;
+        let mut world = World::new(setup, 0.9);
+        let momentum = |world: &World| -> DVec3 {
+            (0..world.nodes.count()).map(|n| world.nodes.velocity[n] * world.nodes.mass[n]).sum()
+        };
+        let (first, start) = (world.step_with_ledger().unwrap(), momentum(&world));
+        let steps = 4000;
+        for _ in 0..steps {
+            world.step().unwrap();
+        }
+        let mass: f64 = world.nodes.mass.iter().sum();
+        let fall = DVec3::NEG_Z * (9.8 * mass * world.dt * f64::from(steps));
+        let last = world.step_with_ledger().unwrap();
+        println!("residual {:.1e} of {:.3e} J", last.total() - first.total(), first.kinetic);
+        assert!((momentum(&world) - start - fall * (1.0 + 1.0 / f64::from(steps))).length() < 1e-9 * start.length());
+        assert!((last.total() - first.total()).abs() < 1e-6 * first.kinetic);
+    }
+}

@@ -1,0 +1,42 @@
+//! The step against the largest eigenvalue.
+
+use super::*;
+
+/// Square of the largest angular frequency of a world at rest [1/s2], by power iteration on the forces themselves.
+fn largest_frequency_squared(setup: &Setup) -> f64 {
+    let mut world = World::new(setup.clone(), 1e-6);
+    let start = world.nodes.place.clone();
+    let scale = 1e-9;
+    let mut u: Vec<DVec3> = (0..start.len())
+        .map(|n| DVec3::new((n as f64).sin(), (1.7 * n as f64).cos(), (2.9 * n as f64).sin()))
+        .collect();
+    let mut largest = 0.0;
+    for _ in 0..400 {
+        let length = u.iter().map(|v| v.length_squared()).sum::<f64>().sqrt();
+        for (n, u) in u.iter().enumerate() {
+            world.nodes.place[n] = start[n] + *u * (scale / length);
+            world.nodes.velocity[n] = DVec3::ZERO;
+        }
+        world.step().unwrap();
+        u = world.nodes.velocity.iter().map(|v| *v * (-1.0 / (world.dt * scale))).collect();
+        largest = u.iter().map(|v| v.length_squared()).sum::<f64>().sqrt();
+    }
+    largest
+}
+
+#[test]
+fn the_step_is_below_that_of_the_largest_eigenvalue_and_not_far() {
+    let mesh = mesh(DVec3::new(0.3, 0.2, 0.2), [3, 2, 2]);
+    for (name, cohesion) in
+        [("plain", None), ("p0 = 10 E", cohesion(10.0, false)), ("p0 = 50 E", cohesion(50.0, false))]
+    {
+        let mut setup = setup(&mesh, cohesion);
+        // Nothing touches.
+        setup.bodies[0].contact_penalty = 0.0;
+        let exact = 2.0 / largest_frequency_squared(&setup).sqrt();
+        let used = World::new(setup, 1.0).dt;
+        println!("{name}: {used:.3e} s, {exact:.3e} s by the eigenvalue: {:.2}", used / exact);
+        // A bound: never above; how far below it was found.
+        assert!(used <= exact * 1.001 && used > 0.6 * exact);
+    }
+}
