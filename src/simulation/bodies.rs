@@ -27,8 +27,8 @@ pub fn rigid_setup(
         ground: Some(Ground { profile: site.profile.clone(), material: ground }),
         sides: match site.sides {
             Sides::Periodic => rigid::Sides::Periodic { width: site.width },
-            // Units are refused in two dimensions.
-            Sides::Walls | Sides::TwoDimensional => rigid::Sides::Walls { width: site.width },
+            Sides::Walls => rigid::Sides::Walls { width: site.width },
+            Sides::TwoDimensional => rigid::Sides::Layer,
         },
         end_walls: Some(site.x),
         wall_material: ground,
