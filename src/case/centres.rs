@@ -45,7 +45,10 @@ pub(super) fn place(
         validate_distances(centres, shape, site, check);
     }
     let placement = |(index, [x, y, z]): (usize, &[f64; 3])| {
-        Placement::standing(shape, [*x, *y], Some(*z), azimuth(file.orientation, index as u32), site)
+        // Half a turn about the vertical leaves a cuboid as it is, and a layer without.
+        let turns = site.sides != Sides::TwoDimensional;
+        let azimuth = if turns { azimuth(file.orientation, index as u32) } else { 0.0 };
+        Placement::standing(shape, [*x, *y], Some(*z), azimuth, site)
     };
     centres.iter().enumerate().map(placement).collect()
 }
@@ -55,8 +58,9 @@ fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site
     let [reach_x, reach_y] = shape.reach();
     let across = match site.sides {
         Sides::Periodic => [0.0, site.width],
-        // Units are refused in two dimensions.
-        Sides::Walls | Sides::TwoDimensional => [reach_y, site.width - reach_y],
+        Sides::Walls => [reach_y, site.width - reach_y],
+        // A unit lies in the layer, wherever it is written.
+        Sides::TwoDimensional => [f64::MIN, f64::MAX],
     };
     let along = [site.x[0] + reach_x, site.x[1] - reach_x];
     let highest = site.profile.extremes_between([x - reach_x, x + reach_x]).1;
@@ -77,8 +81,10 @@ fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, site: &Site, chec
     for (index, a) in centres.iter().enumerate() {
         let overlapped = centres[..index].iter().position(|b| {
             let mut apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
-            if site.sides == Sides::Periodic {
-                apart[1] -= site.width * (apart[1] / site.width).round();
+            match site.sides {
+                Sides::Periodic => apart[1] -= site.width * (apart[1] / site.width).round(),
+                Sides::TwoDimensional => apart[1] = 0.0,
+                Sides::Walls => {}
             }
             shape.overlaps(apart)
         });

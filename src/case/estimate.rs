@@ -64,7 +64,8 @@ impl Case {
             obstacle.volume() - core.element_product()
         };
         solid += domain.obstacles.iter().map(shell).sum::<f64>();
-        let unit_volume = self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * row.shape.volume());
+        let unit_volume =
+            self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * row.shape.volume() / row.slices);
         let (fluid, boundary, units) =
             (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
         let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;

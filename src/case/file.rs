@@ -260,7 +260,8 @@ pub enum Sides {
     Periodic,
     /// Solid walls at y = 0 and y = width.
     Walls,
-    /// Nothing changes across the flume: a layer one particle thick, computed in two dimensions.
+    /// Nothing changes across the flume: a layer one particle thick, computed in two dimensions. Units are cuboids then,
+    /// which move along x and z and turn about y.
     TwoDimensional,
 }
 

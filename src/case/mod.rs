@@ -21,6 +21,7 @@ mod output;
 mod output_size;
 mod parse;
 mod placing;
+mod planar;
 mod poses;
 mod row;
 mod run;

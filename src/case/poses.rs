@@ -68,7 +68,9 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Pl
     let y = match site.sides {
         // The images of a periodic flume are all one.
         Sides::Periodic => [f64::MIN, f64::MAX],
-        Sides::Walls | Sides::TwoDimensional => [0.0, site.width],
+        Sides::Walls => [0.0, site.width],
+        // A unit lies in the layer, wherever it is written.
+        Sides::TwoDimensional => [f64::MIN, f64::MAX],
     };
     let ground = site.profile.z(centre.x);
     for (axis, [low, high]) in [site.x, y, [ground, site.top_z]].into_iter().enumerate() {

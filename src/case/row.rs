@@ -76,7 +76,7 @@ pub(super) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Check
     let first_y = row.first_y.unwrap_or(0.5 * (site.width - length));
     match site.sides {
         Sides::Periodic => validate_periodic_row(row, site.width, first_y, check),
-        // Units are refused in two dimensions.
+        // Rows are refused in two dimensions.
         Sides::Walls | Sides::TwoDimensional => {
             let widest = length + 2.0 * reach;
             if widest > site.width {

@@ -7,7 +7,7 @@ use super::file::{ContactLawName, PoseFile, Sides, UnitsFile};
 use super::materials::{self, FrictionPair, Material};
 use super::site::Site;
 use super::unit_shape::{self, UnitKind, UnitShape};
-use super::{centres, poses, row};
+use super::{centres, planar, poses, row};
 use crate::rigid::Resistance;
 
 /// Units in one case at most.
@@ -22,6 +22,8 @@ pub struct Units {
     pub mass: f64,
     /// Where each unit is at the start: a row from y = 0 upwards, or as the file lists them.
     pub placements: Vec<Placement>,
+    /// How many slices as thick as the layer of a two-dimensional domain a unit is wide [-]; 1 in three dimensions.
+    pub slices: f64,
     /// A unit is damaged when it has moved further than this [m].
     pub damage_distance: f64,
     /// Material of the units, an index into `Case::materials`.
@@ -101,7 +103,9 @@ pub(super) struct Surroundings<'a> {
 pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let unplaced = validate_unplaced(file, around, check);
     let placements = place(file, unplaced.as_ref().map(|units| &units.shape), around, check);
-    Some(Units { placements: placements?, ..unplaced? })
+    let unplaced = unplaced?;
+    let slices = around.site.map_or(1.0, |site| planar::slices(&unplaced.shape, site));
+    Some(Units { placements: placements?, slices, ..unplaced })
 }
 
 /// Validate everything but where the units are.
@@ -132,6 +136,7 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
     Some(Units {
         mass: file.mass_kg,
         placements: Vec::new(),
+        slices: 1.0,
         damage_distance: file.damage_distance_m.unwrap_or(shape.height()),
         shape,
         material: material?,
@@ -161,14 +166,13 @@ fn place(
     let is_row = file.centres_m.is_none() && !posed;
     let row = if is_row { Some(row::validate(file, shape, check)?) } else { None };
     let (shape, site) = (shape?, around.site?);
-    if site.sides == Sides::TwoDimensional {
-        check.refuse(
-            "domain.sides",
-            "\"two_dimensional\"",
-            "\"periodic\" or \"walls\" in a case with units",
-            "units move and turn in three dimensions: write `domain.width_m` and one of the two",
-        );
-        return None;
+    let in_layer = site.sides == Sides::TwoDimensional;
+    if in_layer {
+        let before = check.count();
+        planar::validate(file, shape, is_row, check);
+        if check.count() > before {
+            return None;
+        }
     }
     if around.obstacles > 0 {
         check.refuse(
@@ -185,11 +189,12 @@ fn place(
             shape.height() / dp
         ));
     }
-    Some(match (row, &file.centres_m) {
+    let placements = match (row, &file.centres_m) {
         (Some(row), _) => row::place(&row, shape, site, check),
         (None, Some(centres)) if !posed => centres::place(centres, file, shape, site, check),
         _ => poses::place(file, around.name, site, check)?,
-    })
+    };
+    Some(if in_layer { planar::lay(placements, site, check) } else { placements })
 }
 
 fn validate_friction(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<[Resistance; 2]> {

@@ -23,6 +23,21 @@ impl AxisBox {
         Self { low, high, open: [[true; 2]; 3] }
     }
 
+    /// The middle of the box in y, `thickness` [m] of it, with no water before the cuts.
+    pub fn slice(&self, thickness: f64) -> Self {
+        let middle = 0.5 * (self.low.y + self.high.y);
+        let mut slice = self.closed_across();
+        (slice.low.y, slice.high.y) = (middle - 0.5 * thickness, middle + 0.5 * thickness);
+        slice
+    }
+
+    /// The box with no water before its two faces across y.
+    pub fn closed_across(&self) -> Self {
+        let mut closed = *self;
+        closed.open[1] = [false; 2];
+        closed
+    }
+
     /// Lengths of its edges [m].
     pub fn edges(&self) -> DVec3 {
         self.high - self.low

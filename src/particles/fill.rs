@@ -82,14 +82,18 @@ impl Basin<'_> {
     }
 }
 
-/// Take out the water inside a solid and move what is nearer to it than `least` [m] away to that distance.
+/// A particle nearer to a surface than this share of the distance that it is moved to lies on it: rounding leaves it no
+/// side and no direction in which to move it.
+const ON_SURFACE: f64 = 1e-6;
+
+/// Take out the water inside a solid or on its surface and move what is nearer to it than `least` [m] away to that distance.
 ///
 /// `locate` gives the nearest point of the solid's surface [m] and the distance to it [m], negative inside.
 pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
     let mut keep = vec![true; water.len()];
     for (position, keep) in water.position.iter_mut().zip(&mut keep) {
         let (nearest, distance) = locate(*position);
-        *keep = distance > 0.0;
+        *keep = distance > ON_SURFACE * least;
         if *keep && distance < least {
             *position = nearest + (*position - nearest) * (least / distance);
         }
@@ -146,5 +150,19 @@ mod tests {
         clear_solid(&mut water, 0.02, |p| (DVec3::X * 0.495, p.x - 0.495));
         assert_eq!((water.len(), water.velocity.len(), water.density.len(), water.id.len()), (50, 50, 50, 50));
         assert!(water.position.iter().all(|p| p.x >= 0.515 - 1e-12));
+    }
+
+    #[test]
+    fn water_on_the_surface_of_a_solid_is_taken_out() {
+        let mut water = Water {
+            position: vec![DVec3::ZERO, DVec3::X],
+            velocity: vec![DVec3::ZERO; 2],
+            density: vec![1000.0; 2],
+            mass: vec![1.0; 2],
+            ..Water::default()
+        };
+        // What rounding makes of a face at x = 0: a distance too small to have a direction.
+        clear_solid(&mut water, 0.02, |p| (p + DVec3::Y * 1e-17, if p.x > 0.0 { p.x } else { 1e-17 }));
+        assert_eq!(water.position, [DVec3::X]);
     }
 }

@@ -69,6 +69,8 @@ pub enum Sides {
     Periodic { width: f64 },
     /// Walls at y = 0 and y = width [m].
     Walls { width: f64 },
+    /// Nothing, in two dimensions: bodies move along x and z and turn about y, whatever acts on them.
+    Layer,
 }
 
 /// The law of all contacts; see [`super::contact_law`].

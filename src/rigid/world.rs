@@ -12,7 +12,7 @@ use super::error::RigidError;
 use super::event::{ContactEvent, EventLog};
 use super::forces::{Contact, Energy, Laws, Step, Velocities};
 use super::motion::{self, BodyState, Load};
-use super::setup::RigidSetup;
+use super::setup::{RigidSetup, Sides};
 
 /// Steps in the shortest period of a body on its contacts. At 80 the restitution of an impact is right to 1e-3 (see
 /// the tests); an impact lasts about two thirds of this period.
@@ -38,6 +38,8 @@ pub struct RigidWorld {
     pub(super) inverse_inertia: DMat3,
     pub(super) rounding: f64,
     pub(super) gravity: DVec3,
+    /// Bodies move along x and z and turn about y only.
+    in_layer: bool,
     // State.
     pub(super) time: f64,
     pub(super) rotation: Vec<DQuat>,
@@ -81,6 +83,7 @@ impl RigidWorld {
             inverse_inertia: inertia.inverse(),
             rounding: setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min),
             gravity: setup.gravity,
+            in_layer: setup.sides == Sides::Layer,
             time: 0.0,
             angular_momentum: setup.bodies.iter().zip(&rotation).map(momentum).collect(),
             rotation,
@@ -230,7 +233,9 @@ impl RigidWorld {
     /// Acceleration [m/s2] and torque [N m] of each body.
     fn accelerations(&self, loads: &[Load]) -> Vec<(DVec3, DVec3)> {
         let of = |(given, contact): (&Load, &Load)| {
-            (self.gravity + (given.force + contact.force) / self.mass, given.torque + contact.torque)
+            let acceleration = self.gravity + (given.force + contact.force) / self.mass;
+            let torque = given.torque + contact.torque;
+            if self.in_layer { (acceleration.with_y(0.0), DVec3::Y * torque.y) } else { (acceleration, torque) }
         };
         loads.iter().zip(&self.contact_now).map(of).collect()
     }

@@ -31,8 +31,8 @@ pub fn rigid_setup(
         }),
         sides: match site.sides {
             Sides::Periodic => rigid::Sides::Periodic { width: site.width },
-            // Units are refused in two dimensions.
-            Sides::Walls | Sides::TwoDimensional => rigid::Sides::Walls { width: site.width },
+            Sides::Walls => rigid::Sides::Walls { width: site.width },
+            Sides::TwoDimensional => rigid::Sides::Layer,
         },
         end_walls: Some(site.x),
         wall_material: ground,

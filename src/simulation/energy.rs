@@ -36,12 +36,13 @@ impl Simulation {
             energy.internal += water.mass[i] * parameters.tait.internal_energy(water.density[i]);
         }
         if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
-            let inertia = units.shape.inertia(of_case.mass);
+            // In two dimensions the water is as thick as a slice of a unit.
+            let mass = of_case.mass / of_case.slices;
+            let inertia = units.shape.inertia(mass);
             for state in units.states() {
                 let spin = state.rotation.inverse() * state.angular_velocity;
-                energy.units_kinetic +=
-                    0.5 * of_case.mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
-                energy.units_potential += of_case.mass * parameters.gravity * state.position.z;
+                energy.units_kinetic += 0.5 * mass * state.velocity.length_squared() + 0.5 * spin.dot(inertia * spin);
+                energy.units_potential += mass * parameters.gravity * state.position.z;
             }
         }
         energy

@@ -44,9 +44,10 @@ impl Simulation {
         let Some(units) = &mut self.units else { return };
         let (grid, bins) = (&self.solver.grid, self.solver.water_bins());
         let impulses = keep_out_of_units(&mut self.water, units, grid, bins, nearest);
+        let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
         for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
-            load.force += impulse.force / dt;
-            load.torque += impulse.torque / dt;
+            load.force += slices * impulse.force / dt;
+            load.torque += slices * impulse.torque / dt;
         }
     }
 }

@@ -159,7 +159,10 @@ impl Simulation {
         let Some(units) = &mut self.units else { return };
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
         let loads = self.solver.unit_loads(&self.boundary, &centres);
-        units.fluid_loads = loads.into_iter().map(|(force, torque)| Load { force, torque }).collect();
+        // In two dimensions the particles are a slice of each unit.
+        let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
+        let load = |(force, torque)| Load { force: slices * force, torque: slices * torque };
+        units.fluid_loads = loads.into_iter().map(load).collect();
     }
 
     /// The units' bodies over a step under the loads of the water; at first they are held.

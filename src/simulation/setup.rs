@@ -29,6 +29,10 @@ use crate::{
     waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
 
+/// Between a unit and its own image no water goes through a gap narrower than this, in particle distances: that in which
+/// water particles at rest would touch both.
+const NARROWEST_GAP: f64 = 0.5;
+
 /// Why a case cannot be set up.
 #[derive(Debug, Error)]
 pub enum SetupError {
@@ -83,7 +87,7 @@ impl Simulation {
         let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, seaward_reach));
-        let shape_particles = units.as_ref().map_or_else(Vec::new, |units| particles_of(&units.shape, case.domain.dp));
+        let shape_particles = units.as_ref().map_or_else(Vec::new, |units| unit_in_place(&units.shape, &case));
         let count = units.as_ref().map_or(0, |units| units.states().len());
         let boundary = Boundary::new(
             &fixed_particles(&case, &outline, &across, seaward_reach),
@@ -266,6 +270,19 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     let world = RigidWorld::new(setup)?;
     let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
     Ok(Units { shape, world, start, fluid_loads, mean_loads })
+}
+
+/// Particles of one unit of the case in its own axes: in two dimensions those of its slice in the layer; and where a
+/// cuboid fills the width of a periodic flume, none of them looks across, at its own image.
+fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
+    let case::Domain { dp, width, sides, .. } = case.domain;
+    match (shape.as_box(), sides) {
+        (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
+        (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
+            box_particles(&bounds.closed_across(), dp, f64::INFINITY)
+        }
+        _ => particles_of(shape, dp),
+    }
 }
 
 /// Particles of one unit in its own axes.

@@ -30,12 +30,25 @@ fn measured() -> Option<Vec<Row>> {
     data::rows_of(MEASURED)
 }
 
-/// The case with another particle distance [m], ten particles wide. The box leaves a gap of a fiftieth of a particle
-/// distance to its own image: enough for the contact search to see two faces apart, and too little for water.
-fn tank(dp: f64) -> Simulation {
+/// What is computed of the flume.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Part {
+    /// Ten particles of its width, periodic. The box leaves a gap of a fiftieth of a particle distance to its own image:
+    /// enough for the contact search to see two faces apart, and too little for water.
+    Slice,
+    /// A layer in two dimensions.
+    Layer,
+}
+
+/// The case with another particle distance [m].
+fn tank(dp: f64, part: Part) -> Simulation {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(CASE);
     let mut case: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
-    if case["domain"]["dp_m"] != dp {
+    if part == Part::Layer {
+        case["domain"]["dp_m"] = dp.into();
+        case["domain"]["sides"] = "two_dimensional".into();
+        case["domain"].as_object_mut().unwrap().remove("width_m");
+    } else if case["domain"]["dp_m"] != dp {
         let width = 10.0 * dp - 0.02 * dp;
         case["domain"]["dp_m"] = dp.into();
         case["domain"]["width_m"] = (10.0 * dp).into();
@@ -48,8 +61,8 @@ fn tank(dp: f64) -> Simulation {
 }
 
 /// Motion of the box until five periods after its first full crest. Roll is positive with the seaward side up.
-fn computed(dp: f64) -> Vec<Row> {
-    let mut tank = tank(dp);
+fn computed(dp: f64, part: Part) -> Vec<Row> {
+    let mut tank = tank(dp, part);
     let (mut rows, end) = (Vec::new(), tank.case.stop.duration);
     while tank.time < end {
         let dt = tank.begin_step().unwrap();
@@ -122,8 +135,8 @@ fn wrapped(degrees: f64) -> f64 {
 
 /// Run, print and compare; returns amplitude ratios and phase differences [degrees] of heave and roll and the ratio of
 /// the drifts, or nothing without measurements.
-fn compare(dp: f64) -> Option<[f64; 5]> {
-    let rows = computed(dp);
+fn compare(dp: f64, part: Part) -> Option<[f64; 5]> {
+    let rows = computed(dp, part);
     let ([surge, heave, roll], period) = fits(&rows);
     println!("dp = {dp} m: period {period:.3} s, surge {surge:.4?}\n    heave {heave:.4?}\n    roll {roll:.3?}");
     let ([surge_m, heave_m, roll_m], period_m) = fits(&measured()?);
@@ -160,19 +173,33 @@ fn a_fit_finds_amplitude_phase_and_drift() {
 #[test]
 #[ignore = "a few minutes on 2 cores"]
 fn floating_box_coarse() {
-    compare(0.04);
+    compare(0.04, Part::Slice);
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture floating_box_medium`
 #[test]
 #[ignore = "10 minutes on 2 cores"]
 fn floating_box_medium() {
-    compare(0.025);
+    compare(0.025, Part::Slice);
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture floating_box_fine`
 #[test]
 #[ignore = "half an hour on 2 cores"]
 fn floating_box_fine() {
-    compare(0.02);
+    compare(0.02, Part::Slice);
+}
+
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_layer`
+#[test]
+#[ignore = "a minute on one core"]
+fn floating_box_in_a_layer() {
+    compare(0.025, Part::Layer);
+}
+
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_fine_layer`
+#[test]
+#[ignore = "8 minutes on one core"]
+fn floating_box_in_a_fine_layer() {
+    compare(0.0125, Part::Layer);
 }

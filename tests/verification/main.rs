@@ -25,6 +25,7 @@ mod standing_wave;
 mod still_water;
 mod tanks;
 mod two_dimensional;
+mod two_dimensional_units;
 mod viscous_flow;
 mod wavemaker;
 mod waves;

@@ -1,0 +1,77 @@
+//! Units in two dimensions: slices of cuboids that lie across the flume.
+
+use breakwater::simulation::Simulation;
+use serde_json::{Value, json};
+
+use super::{
+    tanks::{GRAVITY, RHO0, run_until, simulation, still_tank},
+    two_dimensional::in_two_dimensions,
+};
+
+/// Length and height of the box of Ren et al. (2015) [m]; it is half as heavy as water.
+const BOX: [f64; 2] = [0.3, 0.2];
+const DEPTH: f64 = 0.4;
+const DP: f64 = 0.025;
+
+/// The box afloat in the middle of a tank, `width` wide [m] and turned about y [rad].
+fn afloat(length: f64, width: f64, turned: f64, duration: f64) -> Value {
+    let mut case = in_two_dimensions(still_tank(length, 1.0, DEPTH, DP, duration));
+    let half = 0.5 * turned;
+    case["units"] = json!({
+        "shape": "cuboid", "size_m": [BOX[0], width, BOX[1]], "mass_kg": 0.5 * RHO0 * BOX[0] * width * BOX[1],
+        "material": "mortar",
+        // Where across the flume does not matter.
+        "poses": [{ "centre_m": [0.5 * length, 7.0, DEPTH], "quaternion_xyzw": [0.0, half.sin(), 0.0, half.cos()] }]
+    });
+    case["fluid"] = json!({ "sound_speed_factor": 10.0 });
+    case
+}
+
+/// Height of the centre over still water [m] and turn about y [rad].
+fn heave_and_roll(tank: &Simulation) -> [f64; 2] {
+    let state = tank.units.as_ref().unwrap().states()[0];
+    [state.position.z - DEPTH, 2.0 * state.rotation.y.atan2(state.rotation.w)]
+}
+
+#[test]
+fn a_box_floats_in_a_layer_and_stays_in_it() {
+    let width = 0.25;
+    let mut tank = simulation(&afloat(1.2, width, 0.0, 2.0));
+    let (mut force, mut count) = (0.0, 0.0);
+    run_until(&mut tank, 2.0, |now| {
+        if now.time > 1.0 {
+            force += now.units.as_ref().unwrap().fluid_loads[0].force.z;
+            count += 1.0;
+        }
+    });
+    let state = tank.units.as_ref().unwrap().states()[0];
+    assert_eq!((state.position.y, state.velocity.y), (0.5 * DP, 0.0));
+    assert_eq!(
+        (state.rotation.x, state.rotation.z, state.angular_velocity.x, state.angular_velocity.z),
+        (0.0, 0.0, 0.0, 0.0)
+    );
+    let weight = 0.5 * RHO0 * BOX[0] * width * BOX[1] * GRAVITY;
+    let [heave, roll] = heave_and_roll(&tank);
+    println!(
+        "force {:+.2} % of the weight, heave {:+.2} mm, roll {roll:+.5}",
+        100.0 * (force / count / weight - 1.0),
+        1e3 * heave
+    );
+    // It still swings a little: a mean over one second.
+    assert!((force / count / weight - 1.0).abs() < 0.01);
+    // A quarter of a particle distance, 6 % of the draught.
+    assert!(heave.abs() < 0.25 * DP && roll.abs() < 2e-3);
+}
+
+/// A unit's width across the flume is of no account: mass and force grow with it.
+#[test]
+fn a_wider_box_moves_alike() {
+    let [narrow, wide] = [0.2, 0.4].map(|width| {
+        let mut tank = simulation(&afloat(1.2, width, 0.1, 0.8));
+        run_until(&mut tank, 0.6, |_| ());
+        heave_and_roll(&tank)
+    });
+    // Rounding.
+    assert!((narrow[0] - wide[0]).abs() < 1e-9 && (narrow[1] - wide[1]).abs() < 1e-9, "{narrow:?} {wide:?}");
+    assert!(narrow[1].abs() < 0.099, "the box does not roll");
+}
