@@ -1,0 +1,53 @@
+"""All meshes by name: what builds them, how long their elements are, which of them is in the repository."""
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import bars
+import core_locs
+import dolos_tests
+import tetrapods
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A mesh."""
+
+    # Scene from lengths of elements [m].
+    build: Callable
+    # Length of the elements [m], in the mesh that results are for and in the coarse one for a first run and for tests.
+    size: float
+    coarse: float
+    # Length of the elements of the base over that of the unit, in both; None: the scene has no base.
+    base: tuple = None
+
+    def scene(self, coarse, size=None, height=None):
+        """The scene with elements of `size` [m] and a unit of `height` [m] or, without them, of the entry's."""
+        size = size or (self.coarse if coarse else self.size)
+        sizes = [size] if self.base is None else [size, size * self.base[coarse]]
+        return self.build(*sizes, height) if height else self.build(*sizes)
+
+    def has_height(self):
+        """Whether the height of the unit can be chosen."""
+        return "height" in inspect.signature(self.build).parameters
+
+
+MESHES = {
+    "bar": Entry(bars.bar, 0.0125, 0.035),
+    "bar_single": Entry(bars.bar_single, 0.0125, 0.035),
+    "cantilever": Entry(bars.cantilever, 0.0125, 0.05),
+    "beam": Entry(bars.beam, 0.0025, 0.01),
+    "disc": Entry(bars.disc, 0.0012, 0.004),
+    "compression": Entry(bars.compression, 0.005, 0.0125),
+    "block_on_slab": Entry(bars.block_on_slab, 0.0125, 0.03),
+    # 2.9 cm on average in unit and base (sections 3.1.1, 3.2.1).
+    "dolos_drop": Entry(dolos_tests.dolos_drop, 0.029, 0.1, (1, 1.4)),
+    "dolos_drop_cracked": Entry(dolos_tests.dolos_drop_cracked, 0.029, 0.1, (1, 1.4)),
+    "dolos_pendulum": Entry(dolos_tests.dolos_pendulum, 0.029, 0.1, (1, 1.4)),
+    "dolos_pendulum_cracked": Entry(dolos_tests.dolos_pendulum_cracked, 0.029, 0.1, (1, 1.4)),
+    # 0.15 m in the units, 1.5 m in the base (section 4.1).
+    "core_loc_five": Entry(core_locs.core_loc_five, 0.165, 0.6, (10, 5)),
+    "tetrapod": Entry(tetrapods.tetrapod, 0.03, 0.1),
+    "tetrapod_on_base": Entry(tetrapods.tetrapod_on_base, 0.03, 0.1, (1, 2.4)),
+}

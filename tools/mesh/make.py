@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Makes the tetrahedral meshes of the fracture cases with Gmsh.
+
+    tools/mesh/make.py --list
+    tools/mesh/make.py dolos_drop
+    tools/mesh/make.py beam --size 0.005 --out beam-5mm.msh
+    tools/mesh/make.py --all --coarse
+
+Needs the packages gmsh (made with 4.15.2) and numpy of PyPI: `pip install gmsh numpy`. On a machine without a desktop
+Gmsh may ask for libraries of it; Debian: `apt install libglu1-mesa libxcursor1 libxinerama1 libxft2`.
+README.md beside this file says what the meshes hold.
+"""
+
+import argparse
+from pathlib import Path
+
+import gmsh
+import numpy as np
+
+import quality
+from catalogue import MESHES
+from narrow_faces import join_narrow_faces
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+COARSE_FOLDER = REPOSITORY / "cases" / "fracture" / "meshes"
+FOLDER = REPOSITORY / "runs" / "meshes"
+# Meshes with more tetrahedra than this are written in binary: read faster; as text the others are shorter.
+MOST_IN_ASCII = 50_000
+# Length that Gmsh is asked for over the length of edges that then comes out on average, if bodies are far longer.
+ASKED = 0.8
+# Least number of sides of a circle: a Tetrapod's mesh then has 99 % of its volume.
+SIDES_OF_CIRCLE = 20
+# Gmsh's own optimiser works on tetrahedra whose inscribed over circumscribed radius, times 3, is less than this.
+OPTIMIZE_BELOW = 0.5
+# Rounds of improvement: by Gmsh's own optimiser, then by Netgen's.
+ROUNDS = 3
+
+
+def main():
+    """Command line."""
+    parser = argparse.ArgumentParser(description="Makes the tetrahedral meshes of the fracture cases with Gmsh.")
+    parser.add_argument("name", nargs="?", choices=MESHES, metavar="NAME", help="which mesh; see --list")
+    parser.add_argument("--size", type=float, metavar="METRES", help="length of the elements [m]")
+    parser.add_argument("--height", type=float, metavar="METRES", help="height of a Tetrapod [m]; 1 if not given")
+    parser.add_argument("--coarse", action="store_true", help="the coarse mesh, as it is in cases/fracture/meshes")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="file to write instead of runs/meshes/NAME.msh")
+    parser.add_argument("--all", action="store_true", help="make every mesh")
+    parser.add_argument("--list", action="store_true", help="list the meshes")
+    options = parser.parse_args()
+    if options.list:
+        for name, entry in MESHES.items():
+            print(f"{name:24}{1e3 * entry.size:7.1f} mm, coarse {1e3 * entry.coarse:5.1f} mm  {summary(entry)}")
+    elif options.all:
+        if options.size or options.height or options.out:
+            parser.error("--size, --height and --out are for one mesh")
+        for name in MESHES:
+            make(name, options.coarse)
+    elif options.name:
+        if options.height and not MESHES[options.name].has_height():
+            parser.error(f"{options.name} has one height only")
+        make(options.name, options.coarse, options.size, options.height, options.out)
+    else:
+        parser.error("give the NAME of a mesh, --all or --list")
+
+
+def summary(entry):
+    """First line of what the entry's function says about itself."""
+    return entry.build.__doc__.splitlines()[0]
+
+
+def make(name, coarse=False, size=None, height=None, out=None):
+    """Builds, meshes and writes one mesh, and prints what is in it."""
+    out = out or (COARSE_FOLDER / f"{name}-coarse.msh" if coarse else FOLDER / f"{name}.msh")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    gmsh.initialize(interruptible=False)
+    try:
+        set_options()
+        gmsh.model.add(name)
+        scene = MESHES[name].scene(coarse, size, height)
+        name_groups(scene)
+        set_sizes(scene)
+        for body in scene.bodies:
+            join_narrow_faces(body.faces())
+        mesh()
+        tets = {body.name: corners_of(body) for body in scene.bodies}
+        gmsh.option.setNumber("Mesh.Binary", sum(map(len, tets.values())) > MOST_IN_ASCII)
+        gmsh.write(str(out))
+    finally:
+        gmsh.finalize()
+    print(f"{out}: {out.stat().st_size / 1000:.0f} kB")
+    for body in scene.bodies:
+        print(f"  {body.name:12}{describe(body, tets[body.name])}")
+
+
+def set_options():
+    """The same mesh at every call: one thread, fixed seed."""
+    options = {
+        "General.Terminal": 0,
+        "General.NumThreads": 1,
+        "Mesh.RandomSeed": 1,
+        "Mesh.MshFileVersion": 4.1,
+        "Mesh.SaveAll": 0,
+        # A short edge stays one edge.
+        "Mesh.MinimumCurveNodes": 2,
+        # Frontal Delaunay on surfaces, Delaunay in volumes.
+        "Mesh.Algorithm": 6,
+        "Mesh.Algorithm3D": 1,
+        "Mesh.Optimize": 1,
+        "Mesh.OptimizeThreshold": OPTIMIZE_BELOW,
+        "Mesh.MeshSizeFromPoints": 1,
+        "Mesh.MeshSizeExtendFromBoundary": 1,
+        "Mesh.MeshSizeFromCurvature": SIDES_OF_CIRCLE,
+    }
+    for name, value in options.items():
+        gmsh.option.setNumber(name, value)
+
+
+def name_groups(scene):
+    """Physical groups: only what has a name is written."""
+    for body in scene.bodies:
+        gmsh.model.addPhysicalGroup(3, body.solids, name=body.name)
+        for name, faces in body.cracks.items():
+            gmsh.model.addPhysicalGroup(2, faces, name=name)
+    for name, faces in scene.surfaces.items():
+        gmsh.model.addPhysicalGroup(2, faces, name=name)
+    for name, curves in scene.curves.items():
+        gmsh.model.addPhysicalGroup(1, curves, name=name)
+
+
+def set_sizes(scene):
+    """Elements of the size of their body."""
+    for body in scene.bodies:
+        points = gmsh.model.getBoundary([(3, solid) for solid in body.solids], False, False, recursive=True)
+        gmsh.model.mesh.setSize(points, ASKED * body.size)
+
+
+def mesh():
+    """Tetrahedra, improved in rounds."""
+    gmsh.model.mesh.generate(3)
+    for _ in range(ROUNDS):
+        gmsh.model.mesh.optimize("")
+        gmsh.model.mesh.optimize("Netgen")
+
+
+def corners_of(body):
+    """Corners of the body's tetrahedra: array (n, 4, 3) [m]."""
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    where = np.empty(int(tags.max()) + 1, int)
+    where[tags] = np.arange(len(tags))
+    nodes = np.concatenate([gmsh.model.mesh.getElementsByType(4, solid)[1] for solid in body.solids])
+    return coordinates.reshape(-1, 3)[where[nodes]].reshape(-1, 4, 3)
+
+
+def describe(body, tets):
+    """Number of tetrahedra, volume and how far it is from the exact one, edges and least angle in one line."""
+    edges, volume = quality.edge_lengths(tets), quality.volumes(tets).sum()
+    return (
+        f"{len(tets):7} tetrahedra, {volume:.6g} m3 ({100 * (volume / body.volume - 1):+.2f} %), "
+        f"edges {1e3 * edges.mean():.4g} mm on average and {1e3 * edges.min():.4g} mm at least, "
+        f"angles {quality.dihedral_angles(tets).min():.1f} degrees at least"
+    )
+
+
+if __name__ == "__main__":
+    main()
