@@ -11,6 +11,7 @@
 //! | [`sph`] | the weakly compressible SPH solver |
 //! | [`rigid`] | rigid armour units and their contact |
 //! | [`femdem`] | deformable units that crack |
+//! | [`fracture`] | fracture runs: cases, outputs, summary |
 //! | [`simulation`] | the coupled loop: water, units, outputs |
 //! | [`dry`] | units without water: settling, drops, slope tests |
 //! | [`placement`] | armour layers: units placed one by one and settled |
@@ -28,6 +29,7 @@ pub mod case;
 pub mod cli;
 pub mod dry;
 pub mod femdem;
+pub mod fracture;
 pub mod geometry;
 pub mod output;
 pub mod particles;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use breakwater::case::file::{CaseFile, DryFile};
-use breakwater::case::{Case, DryCase, Wave, schema_text, template_text};
+use breakwater::case::file::{CaseFile, DryFile, FractureFile};
+use breakwater::case::{Case, DryCase, FractureCase, Wave, schema_text, template_text};
 
 fn json_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -25,8 +25,13 @@ fn all_files() -> Vec<PathBuf> {
 
 /// Cases with water.
 fn cases() -> Vec<PathBuf> {
-    let dry = dry_cases();
-    all_files().into_iter().filter(|path| !dry.contains(path) && !is_placement(path)).collect()
+    let others = [dry_cases(), fracture_cases()].concat();
+    all_files().into_iter().filter(|path| !others.contains(path) && !is_placement(path)).collect()
+}
+
+fn fracture_cases() -> Vec<PathBuf> {
+    let is_one = |path: &PathBuf| FractureCase::is_one(&std::fs::read_to_string(path).unwrap());
+    all_files().into_iter().filter(is_one).collect()
 }
 
 fn dry_cases() -> Vec<PathBuf> {
@@ -76,9 +81,33 @@ fn every_dry_case_loads_and_survives_being_written_and_read() {
         let written = serde_json::to_string_pretty(&file).unwrap();
         assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
         // What a run keeps needs no file but those that the run writes, and is the same case.
-        let kept = DryCase::from_str(&case.text, "elsewhere/case.json").unwrap_or_else(|errors| panic!("{errors}"));
+        let folder = tempfile::tempdir().unwrap();
+        if let Some(terrain) = &case.site.terrain {
+            std::fs::write(folder.path().join("terrain.stl"), terrain.content.as_slice()).unwrap();
+        }
+        let name = folder.path().join("case.json").display().to_string();
+        let kept = DryCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(kept.hash, case.hash, "{}", path.display());
         assert_eq!(kept.units.placements, case.units.placements, "{}", path.display());
+    }
+}
+
+#[test]
+fn every_fracture_case_loads_and_survives_being_written_and_read() {
+    let files = fracture_cases();
+    assert!(!files.is_empty());
+    for path in files {
+        let case = FractureCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
+        assert!(!case.assumptions.is_empty(), "{}: no assumption listed", path.display());
+        let file: FractureFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        let written = serde_json::to_string_pretty(&file).unwrap();
+        assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
+        // What a run keeps is the same case.
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(FractureCase::MESH), &case.mesh_file).unwrap();
+        let name = folder.path().join("case.json").display().to_string();
+        let kept = FractureCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!((kept.hash, kept.setup), (case.hash, case.setup), "{}", path.display());
     }
 }
 

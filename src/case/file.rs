@@ -4,12 +4,17 @@
 //! `Case` is the validated form that the solvers see.
 
 mod dry;
+mod fracture;
 mod numerics;
 mod objects;
 mod wave_source;
 mod waves;
 
 pub use dry::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TerrainFile, TiltFile};
+pub use fracture::{
+    BodyFrictionFile, ConstraintFile, FractureBodyFile, FractureFile, FractureMaterialFile, FractureOutputFile,
+    FractureStopFile, Joints, MethodFile, StrengthFile,
+};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,

@@ -11,6 +11,7 @@ mod error;
 mod estimate;
 pub mod file;
 mod flume;
+mod fracture;
 mod gauges;
 mod given_wave;
 mod hash;
@@ -46,6 +47,7 @@ pub use file::{
     SolitaryTheory, Viscosity, WallSlip,
 };
 pub use flume::{Flume, Mound};
+pub use fracture::FractureCase;
 pub use gauges::{Gauge, Motion, Quantity};
 pub use given_wave::{GivenWave, ROWS_FILE};
 pub use materials::{FrictionPair, Material};
@@ -54,7 +56,7 @@ pub use output::Output;
 pub use output_size::OutputSize;
 pub use placing::{Armour, PlacementJob};
 pub use run::{AtRest, Contact, Stop};
-pub use schema::{dry_schema_text, schema_text};
+pub use schema::{dry_schema_text, fracture_schema_text, schema_text};
 pub use site::Site;
 pub use template::template_text;
 pub use terrain::SiteTerrain;

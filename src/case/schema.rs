@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 
-use super::file::{CaseFile, DryFile};
+use super::file::{CaseFile, DryFile, FractureFile};
 
 /// JSON schema of [`CaseFile`], indented.
 pub fn schema_text() -> String {
@@ -12,6 +12,11 @@ pub fn schema_text() -> String {
 /// JSON schema of [`DryFile`], indented.
 pub fn dry_schema_text() -> String {
     text_of::<DryFile>()
+}
+
+/// JSON schema of [`FractureFile`], indented.
+pub fn fracture_schema_text() -> String {
+    text_of::<FractureFile>()
 }
 
 fn text_of<T: JsonSchema>() -> String {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, load_any, placement};
+use super::{AnyCase, Trouble, is_fracture, load_any, placement};
 use crate::{
     case::{Case, DryCase, DryTest, Sides, Units, Wave},
     dry::DryRun,
@@ -34,6 +34,12 @@ impl CheckArguments {
         for path in &self.cases {
             if let Some(file) = placement(path) {
                 println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+                continue;
+            }
+            if is_fracture(path) {
+                if let Err(Trouble::Refused(reason) | Trouble::Failed(reason)) = super::fracture::check(path) {
+                    refusals.push(reason);
+                }
                 continue;
             }
             match load_any(path) {

@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod compare;
 mod dry_report;
+mod fracture;
 mod init;
 mod place;
 mod report;
@@ -23,9 +24,9 @@ use std::{
 
 use clap::{Parser, Subcommand};
 
-use crate::case::{Case, DryCase, PlacementFile};
+use crate::case::{Case, DryCase, FractureCase, PlacementFile};
 
-/// Will this wave move the armour units?
+/// Will this wave move the armour units, and will the units break?
 ///
 /// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` tells what it will cost, `run` sends
 /// the wave over the units, `compare` sets the result beside published measurements.
@@ -44,6 +45,7 @@ Examples:
   breakwater compare runs/quick-look               beside the Fudo experiment
   breakwater wave cases/fudo/H4.5-slice.json       the wave alone, in seconds
   breakwater run cases/contact/tilt-tetrapod.json  units without water: a slope test
+  breakwater fracture cases/fracture/dolos-drop.json  a Dolos dropped on concrete: where does it crack?
   breakwater init my-case.json                     a case to start from";
 
 #[derive(Subcommand)]
@@ -51,6 +53,7 @@ enum Command {
     Run(run::RunArguments),
     Resume(run::ResumeArguments),
     Check(check::CheckArguments),
+    Fracture(fracture::FractureArguments),
     Place(place::PlaceArguments),
     Unit(unit::UnitArguments),
     Wave(wave::WaveArguments),
@@ -85,6 +88,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => arguments.execute(),
         Command::Resume(arguments) => arguments.execute(),
         Command::Check(arguments) => arguments.execute(),
+        Command::Fracture(arguments) => arguments.execute(),
         Command::Place(arguments) => arguments.execute(),
         Command::Unit(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
@@ -121,6 +125,10 @@ fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
         let what = "is a placement and no case; run the case that names it as `units.placement_file`";
         return Err(Trouble::refused(format!("{}: {what}", path.display())));
     }
+    if is_fracture(path) {
+        let what = "is a fracture case; run it with breakwater fracture";
+        return Err(Trouble::refused(format!("{}: {what}", path.display())));
+    }
     let is_dry = std::fs::read_to_string(path).is_ok_and(|text| DryCase::is_one(&text));
     if !is_dry {
         return load(path).map(AnyCase::Wet);
@@ -128,6 +136,11 @@ fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
     let case = DryCase::load(path).map_err(Trouble::refused)?;
     show_warnings(&case.warnings);
     Ok(AnyCase::Dry(Arc::new(case)))
+}
+
+/// Whether a file is a fracture case.
+fn is_fracture(path: &Path) -> bool {
+    std::fs::read_to_string(path).is_ok_and(|text| FractureCase::is_one(&text))
 }
 
 /// The poses in a file, if it is a placement file.
@@ -152,13 +165,14 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 23] = [
+const RESULT_FILES: [&str; 26] = [
     "case.json",
     "checkpoint.h5",
     "checkpoint.json",
     "compare.csv",
     "compare.html",
     "contacts.csv",
+    "cracks.vtkhdf",
     "diagnostics.csv",
     "energy.csv",
     "failed.h5",
@@ -167,11 +181,13 @@ const RESULT_FILES: [&str; 23] = [
     "flume_gauges.csv",
     "flume_piston.csv",
     "gauges.csv",
+    "mesh.msh",
     "ml_piston_velx.csv",
     "picture.svg",
     "profile.csv",
     "report.html",
     "summary.json",
+    "surfaces.vtkhdf",
     "unit_surface.json",
     "units.csv",
     "units.vtkhdf",

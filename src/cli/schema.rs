@@ -10,11 +10,18 @@ pub struct SchemaArguments {
     /// The schema of dry cases: units on a bed without water.
     #[arg(long)]
     dry: bool,
+    /// The schema of fracture cases: deformable bodies that crack.
+    #[arg(long, conflicts_with = "dry")]
+    fracture: bool,
 }
 
 impl SchemaArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let text = if self.dry { crate::case::dry_schema_text() } else { crate::case::schema_text() };
+        let text = match self {
+            Self { dry: true, .. } => crate::case::dry_schema_text(),
+            Self { fracture: true, .. } => crate::case::fracture_schema_text(),
+            _ => crate::case::schema_text(),
+        };
         println!("{text}");
         Ok(())
     }

@@ -67,6 +67,8 @@ pub struct Point {
     plastic: [f64; 2],
     /// Length of the path of the plastic slip [m].
     slipped: f64,
+    /// Energy lost by opening and by sliding so far [J/m2].
+    pub lost: [f64; 2],
 }
 
 impl Point {
@@ -85,7 +87,7 @@ impl Point {
 
 impl Default for Point {
     fn default() -> Self {
-        Self { damage: 0.0, secant: f64::INFINITY, opening: 0.0, plastic: [0.0; 2], slipped: 0.0 }
+        Self { damage: 0.0, secant: f64::INFINITY, opening: 0.0, plastic: [0.0; 2], slipped: 0.0, lost: [0.0; 2] }
     }
 }
 
@@ -161,7 +163,9 @@ impl CohesiveLaw {
         let slid = point.slipped - old.slipped;
         let strength = self.strength.shear(normal);
         let lost_shear = 0.5 * (z(old.damage) + z(point.damage)) * strength * slid;
-        Traction { normal, shear, dissipated: self.lost_normal(&old, point) + lost_shear }
+        let lost_normal = self.lost_normal(&old, point);
+        point.lost = [point.lost[0] + lost_normal, point.lost[1] + lost_shear];
+        Traction { normal, shear, dissipated: lost_normal + lost_shear }
     }
 
     /// Stress vector of a point that has neither damage nor slip behind it, at a jump of the places [m] between faces
@@ -229,12 +233,6 @@ impl CohesiveLaw {
         let way = elastic.map(|e| e * self.stiffness / trial);
         point.plastic = [point.plastic[0] + way[0] * slid, point.plastic[1] + way[1] * slid];
         way.map(|w| w * yielded)
-    }
-
-    /// Energy that opening and sliding have taken of a point, by its last opening and its slip [J/m2]: tells how it failed.
-    pub fn shares(&self, point: &Point) -> [f64; 2] {
-        let opened = ((point.opening - self.peak_opening) / self.opening_range).clamp(0.0, 1.0);
-        [opened * self.strength.opening_energy, point.slipped * self.strength.shear(0.0) * AREA]
     }
 
     /// Plastic slip at which a joint of the shear strength f_s [Pa] has failed [m].

@@ -148,14 +148,9 @@ impl Memory {
         Self { points: [point; 3], offset, is_worn: true }
     }
 
-    /// Whether most of the damage came from sliding (mode II) and not from opening (mode I).
-    pub fn is_mostly_slid(&self, law: &CohesiveLaw) -> bool {
-        let [opened, slid] = self
-            .points
-            .iter()
-            .map(|point| law.shares(point))
-            .fold([0.0; 2], |sum: [f64; 2], share| [sum[0] + share[0], sum[1] + share[1]]);
-        slid > opened
+    /// Whether sliding (mode II) has taken more energy than opening (mode I).
+    pub fn is_mostly_slid(&self) -> bool {
+        self.points.iter().map(|point| point.lost[1] - point.lost[0]).sum::<f64>() > 0.0
     }
 }
 

@@ -38,13 +38,12 @@ impl World {
         // What it would have given back is lost with it.
         let lost = self.stored_in(number);
         let corners = self.corners(number);
-        let cohesion = body_of(&self.setup, self.setup.interfaces[number].tets[0]).cohesion;
         let joint = &mut self.joints[number];
         joint.bond = Bond::Broken;
         joint.dissipated += lost;
         let opened = self.setup.interfaces[number];
         self.joint_forces[number] = [DVec3::ZERO; 3];
-        let by_sliding = cohesion.is_some_and(|cohesion| joint.memory.is_mostly_slid(&cohesion.law(joint.edge)));
+        let by_sliding = joint.memory.is_mostly_slid();
         let place = (corners[0] + corners[1] + corners[2]) / 3.0;
         let (time, area) = (self.time, joint.area);
         self.failures.push(Failure { interface: number as u32, time, place, area, by_sliding });

@@ -71,6 +71,24 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
+/// `energy.csv` of a fracture run: what there is, what was lost and given since the start, what is left unexplained; area
+/// of the faces that have failed, and pairs of tetrahedra that press each other.
+pub const FRACTURE_ENERGY: [&str; 13] = [
+    "time_s",
+    "kinetic_j",
+    "strain_j",
+    "joints_j",
+    "contact_j",
+    "gravity_j",
+    "viscous_j",
+    "fracture_j",
+    "friction_j",
+    "work_j",
+    "residual_j",
+    "crack_area_m2",
+    "pairs_touching",
+];
+
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3`
 /// its change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all
 /// steps since the row before, `steps` counts from the start, `dt_s` is the length of the step that comes.

@@ -46,10 +46,9 @@ fn a_box_floats_in_a_layer_and_stays_in_it() {
     });
     let state = tank.units.as_ref().unwrap().states()[0];
     assert_eq!((state.position.y, state.velocity.y), (0.5 * DP, 0.0));
-    assert_eq!(
-        (state.rotation.x, state.rotation.z, state.angular_velocity.x, state.angular_velocity.z),
-        (0.0, 0.0, 0.0, 0.0)
-    );
+    let out_of_plane = [state.rotation.x, state.rotation.z, state.angular_velocity.x, state.angular_velocity.z];
+    // The inertia tensor of the surface has products of rounding.
+    assert!(out_of_plane.iter().all(|turn| turn.abs() < 1e-15), "{out_of_plane:?}");
     let weight = 0.5 * RHO0 * BOX[0] * width * BOX[1] * GRAVITY;
     let [heave, roll] = heave_and_roll(&tank);
     println!(

@@ -223,7 +223,7 @@ impl Grids {
 /// Key of a cell: 5 bits of the level, 19 of each coordinate. No box is so large that two of its cells had one key.
 fn key(level: usize, cell: I64Vec3) -> u64 {
     let [x, y, z] = (cell & I64Vec3::splat((1 << 19) - 1)).to_array().map(|c| c as u64);
-    (level as u64) << 57 | x << 38 | y << 19 | z
+    ((level as u64) << 57) | (x << 38) | (y << 19) | z
 }
 
 #[cfg(test)]
@@ -259,7 +259,7 @@ mod tests {
         };
         let clouds = [
             cloud(1, 2500, |_| 0.2),
-            cloud(2, 2500, |number| if number % 100 == 0 { 2.0 } else { 0.1 }),
+            cloud(2, 2500, |number| if number.is_multiple_of(100) { 2.0 } else { 0.1 }),
             cloud(3, 2000, |number| 1e-4 * 1.005f64.powi(number as i32)),
             cloud(4, 500, |_| 0.0),
             vec![Bounds { low: DVec3::ZERO, high: DVec3::ONE }; 100],
@@ -270,14 +270,14 @@ mod tests {
         for boxes in clouds {
             let expected = brute_force(&boxes);
             assert_eq!(detection.pairs(&boxes, |_, _| true), expected);
-            let even: Vec<_> = expected.into_iter().filter(|[i, j]| (i + j) % 2 == 0).collect();
-            assert_eq!(detection.pairs(&boxes, |i, j| (i + j) % 2 == 0), even);
+            let even: Vec<_> = expected.into_iter().filter(|[i, j]| (i + j).is_multiple_of(2)).collect();
+            assert_eq!(detection.pairs(&boxes, |i, j| (i + j).is_multiple_of(2)), even);
         }
     }
 
     #[test]
     fn pairs_do_not_depend_on_the_number_of_threads() {
-        let boxes = cloud(6, 20_000, |number| if number % 100 == 0 { 1.0 } else { 0.1 });
+        let boxes = cloud(6, 20_000, |number| if number.is_multiple_of(100) { 1.0 } else { 0.1 });
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| Detection::default().pairs(&boxes, |_, _| true).to_vec())

@@ -51,8 +51,9 @@ impl TangentialSpring {
     /// displacements of the vertices in the step [m], `overlap` that of the pair there, `penalty` p in [Pa].
     ///
     /// Energy: the force at the beginning of a step and that at its end, each over half of the slip, do the work
-    /// -(change of [`Self::stored`]) - `dissipated`, but for what the contact turns in the step. With a slip of more than
-    /// the whole extension to and fro in one step that could be a gain: it is left to show in the ledger of energy.
+    /// -(change of [`Self::stored`]) - `dissipated`, but for what the contact turns in the step. Where a spring is thrown
+    /// from one side to the other within a step, that heat could be negative: it is zero then, and the gain is left to
+    /// show in the ledger of energy.
     pub fn advance(
         &mut self,
         law: &FrictionLaw,

@@ -17,12 +17,12 @@
 //!   on vertex i of C: -p sum_k n_k integral phi_T N_i^C dA,
 //!   on vertex j of T: +p sum_k n_k integral phi_T N_j^T dA - p I_T grad N_j^T,
 //!
-//! and the same with T and C exchanged. Both share the point of action of each dA: momentum and angular momentum of the
-//! pair are those of rounding.
+//! and the same with T and C exchanged. The two share the place of each dA: the pair keeps momentum and angular momentum
+//! but for rounding.
 //!
 //! Volume integral. In the part where lambda_j is least, phi_T is linear and div(phi_T (x - a_j)) = 4 phi_T for any
 //! point a_j of face j. What the planes between two parts j and l contribute, phi_T (a_l - a_j) . n, vanishes if
-//! a_l - a_j is parallel to that plane. The choice of `anchors` has this for all but the plane between the parts 0 and
+//! a_l - a_j is parallel to that plane. The choice in `anchors` has this for all but the plane between the parts 0 and
 //! 1, where the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
 //!
 //!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q,
@@ -30,6 +30,10 @@
 //! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, q that over the part inside C
 //! of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every term has a
 //! factor phi_T: faces of T and C that coincide but for rounding do no harm.
+//!
+//! Stiffness. The stiffest pair lies flush with a face of area A and heights h_T, h_C over it, barely d deep:
+//! E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and with masses
+//! of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
 
 use glam::{DVec3, DVec4};
 
@@ -54,7 +58,7 @@ impl Overlap {
     }
 }
 
-/// Weight of the surfaces inside below which it is one of rounding, in energy^(2/3) [-]: that of a tetrahedron on itself is.
+/// Weight of the surfaces inside, in energy^(2/3) [-], below which rounding makes it: a tetrahedron on itself has none.
 const NO_WEIGHT: f64 = 1e-12;
 
 /// Overlap of the tetrahedra T and C, vertices in any order [m]; none if they are apart or only touch.

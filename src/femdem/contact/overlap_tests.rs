@@ -252,7 +252,25 @@ fn a_tetrahedron_that_bounces_keeps_its_energy_whatever_the_penalty() {
                 x[i] += step * v[i];
             }
         }
-        println!("penalty {penalty}: {worst:e}, contact energy up to {contact_most} J");
         assert!(contact_most > 0.1 && worst < 1e-6, "{penalty}: {worst:e}");
     }
+}
+
+#[test]
+fn a_flush_pair_is_as_stiff_as_the_header_says() {
+    let t = regular_tetrahedron(DVec3::ZERO, 1.0);
+    let height = (2.0f64 / 3.0).sqrt();
+    let normal = -t[3].normalize();
+    let mirrored = t[3] + 2.0 * height * normal;
+    // All vertices of the common face move: 1 / sqrt(6) each in the eigenvector.
+    let resultant = |depth: f64| {
+        let c = [t[0], t[1], t[2], mirrored].map(|vertex| vertex - depth * normal);
+        let found = overlap(&t, &c).unwrap();
+        found.forces[1][..3].iter().map(|force| force.dot(normal)).sum::<f64>()
+    };
+    let (depth, change) = (1e-4, 1e-6);
+    let stiffness = (resultant(depth + change) - resultant(depth - change)) / (2.0 * change) * 2.0 / 3.0;
+    let area = 0.75f64.sqrt() / 2.0;
+    // The corners of the face have less, in proportion to the depth.
+    assert!((stiffness * height / (16.0 / 3.0 * area) - 1.0).abs() < 30.0 * depth, "{stiffness}");
 }

@@ -2,6 +2,7 @@
 
 mod contact;
 mod continuum;
+mod dolos;
 mod joints;
 mod stability;
 

@@ -1,0 +1,181 @@
+//! A fracture case as written: deformable bodies that touch and crack.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A fracture case: tetrahedral bodies, what moves and holds them, how strong they are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FractureFile {
+    /// Where the JSON schema lies, for editors (`breakwater schema --fracture` prints it). Not used by the solver.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// One line that names the case.
+    pub title: String,
+    /// What had to be assumed because no source gives it.
+    #[serde(default)]
+    pub assumptions: Vec<String>,
+    /// The mesh and how it is computed.
+    pub fracture: MethodFile,
+    /// Acceleration of gravity [m/s2].
+    #[serde(default)]
+    pub gravity_m_s2: [f64; 3],
+    /// The bodies of the mesh, each once.
+    pub bodies: Vec<FractureBodyFile>,
+    /// Boundary sets of the mesh that are held or moved.
+    #[serde(default)]
+    pub constraints: Vec<ConstraintFile>,
+    /// Materials of the bodies.
+    pub materials: Vec<FractureMaterialFile>,
+    /// Friction between bodies; pairs that are not named are smooth.
+    #[serde(default)]
+    pub friction: Vec<BodyFrictionFile>,
+    /// What is written, and how often.
+    pub output: FractureOutputFile,
+    /// When the run ends.
+    pub stop: FractureStopFile,
+}
+
+/// The mesh and how it is computed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MethodFile {
+    /// MSH 4.1 file, seen from the folder of the case file.
+    pub mesh: String,
+    /// Metres in a unit of length of the mesh.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// How tetrahedra hold together before they crack.
+    #[serde(default)]
+    pub joints: Joints,
+    /// Stiffness of the joints p_0 over Young's modulus [-]; 50 for `intrinsic`, 2 for `tied` joints.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_penalty: Option<f64>,
+    /// Stiffness of contact p over Young's modulus [-].
+    #[serde(default = "one")]
+    pub contact_penalty: f64,
+    /// Share of the longest stable step [-].
+    #[serde(default = "default_step_share")]
+    pub step_share: f64,
+    /// Time step [s], if it is to be shorter than that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dt_s: Option<f64>,
+}
+
+/// How tetrahedra hold together before they crack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Joints {
+    /// Joints between all of them from the start (Guo, Latham and Xiang).
+    Intrinsic,
+    /// They share their nodes until the strength is reached: no compliance of joints, a longer step.
+    #[default]
+    Tied,
+    /// Nothing cracks: the elastic twin of a run.
+    Unbreakable,
+}
+
+/// A body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FractureBodyFile {
+    /// Name of its physical volume in the mesh.
+    pub name: String,
+    /// Its material, one of `materials`.
+    pub material: String,
+    /// Whether it can crack; its material needs its strength then.
+    #[serde(default)]
+    pub cracks: bool,
+    /// Velocity at the start [m/s], of the point `pivot_m`.
+    #[serde(default)]
+    pub velocity_m_s: [f64; 3],
+    /// Angular velocity at the start [rad/s].
+    #[serde(default)]
+    pub angular_velocity_rad_s: [f64; 3],
+    /// A point on the axis of that rotation [m].
+    #[serde(default)]
+    pub pivot_m: [f64; 3],
+}
+
+/// A boundary set that is held or moved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ConstraintFile {
+    /// Name of the physical surface in the mesh.
+    pub set: String,
+    /// Velocity along x, y, z [m/s]; `null` leaves it free.
+    pub velocity_m_s: [Option<f64>; 3],
+}
+
+/// A material.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FractureMaterialFile {
+    /// Name used by `bodies`.
+    pub name: String,
+    /// Density [kg/m3].
+    pub density_kg_m3: f64,
+    /// Young's modulus [Pa].
+    pub young_modulus_pa: f64,
+    /// Poisson's ratio [-].
+    pub poisson_ratio: f64,
+    /// Viscosity of the material [Pa s].
+    #[serde(default)]
+    pub viscosity_pa_s: f64,
+    /// Strength, for bodies that crack.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strength: Option<StrengthFile>,
+}
+
+/// Strength of a material.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StrengthFile {
+    /// Tensile strength f_t [Pa].
+    pub tensile_pa: f64,
+    /// Cohesion c [Pa].
+    pub cohesion_pa: f64,
+    /// Angle of internal friction [degrees].
+    pub friction_angle_deg: f64,
+    /// Fracture energy in opening G_f [J/m2].
+    pub fracture_energy_j_m2: f64,
+    /// Fracture energy in sliding [J/m2]; without it, that in opening.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sliding_energy_j_m2: Option<f64>,
+}
+
+/// Friction between two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyFrictionFile {
+    /// The two bodies; the same one twice for its crack faces.
+    pub between: [String; 2],
+    /// Coulomb's coefficient [-].
+    pub coefficient: f64,
+}
+
+/// What a fracture run writes, and how often.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FractureOutputFile {
+    /// Interval of surfaces and cracks [s]; 0 writes none.
+    pub surfaces_interval_s: f64,
+    /// Interval of the energy book [s].
+    pub energy_interval_s: f64,
+}
+
+/// When a fracture run ends.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FractureStopFile {
+    /// Simulated time [s].
+    pub duration_s: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn default_step_share() -> f64 {
+    0.8
+}

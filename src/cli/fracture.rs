@@ -1,0 +1,126 @@
+//! `breakwater fracture`: deformable units that crack.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Trouble, fresh_folder, show_warnings, stem};
+use crate::{
+    case::FractureCase,
+    fracture::{
+        run::{FractureError, run, world},
+        summary::FractureSummary,
+    },
+    simulation::progress::readable,
+};
+
+/// Will the units break? Runs a fracture case: tetrahedral bodies that deform, touch and crack. Energy book, surfaces with
+/// stresses, cracks and a summary come into one folder.
+#[derive(Args)]
+pub struct FractureArguments {
+    /// The fracture case.
+    case: PathBuf,
+    /// Folder of the results; without it, runs/<name of the case>.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Replace what the folder holds.
+    #[arg(long)]
+    overwrite: bool,
+    /// Threads; without it, one a core. The results do not depend on it.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// No progress.
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl FractureArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let case = load(&self.case)?;
+        let threads = self.threads.unwrap_or(0);
+        if self.threads == Some(0) || threads > 1024 {
+            return Err(Trouble::refused(format!("--threads {threads}: must be between 1 and 1024")));
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Trouble::failed)?;
+        let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
+        fresh_folder(&dir, self.overwrite)?;
+        if !self.quiet {
+            eprintln!("{}\n  results in {}", case.title, dir.display());
+            case.assumptions.iter().for_each(|assumption| eprintln!("  assumed: {assumption}"));
+        }
+        match run(&case, &dir, self.quiet) {
+            Ok(summary) => {
+                tell(&summary, &dir);
+                Ok(())
+            }
+            Err(error @ FractureError::Step { .. }) => {
+                Err(Trouble::refused(format!("{}: {error}", self.case.display())))
+            }
+            Err(error) => Err(Trouble::failed(error)),
+        }
+    }
+}
+
+fn load(path: &Path) -> Result<FractureCase, Trouble> {
+    let case = FractureCase::load(path).map_err(Trouble::refused)?;
+    show_warnings(&case.warnings);
+    Ok(case)
+}
+
+/// Tell what a fracture case holds and what it costs.
+pub(super) fn check(path: &Path) -> Result<(), Trouble> {
+    let case = load(path)?;
+    let world = world(&case).map_err(|error| Trouble::refused(format!("{}: {error}", path.display())))?;
+    println!("{}: {}", path.display(), case.title);
+    for quality in &case.mesh.quality {
+        println!(
+            "  {:10}  {} tetrahedra, {:.4} m3, edges {:.1} to {:.1} mm, least angle {:.1} degrees",
+            quality.body,
+            quality.tets,
+            quality.volume,
+            quality.edge_min * 1e3,
+            quality.edge_max * 1e3,
+            quality.angle_min_deg
+        );
+    }
+    println!(
+        "  joints      {} faces that can crack, {} cracked from the start",
+        world.joints.len(),
+        case.setup.cracks.len()
+    );
+    println!(
+        "  time step   {:.3e} s, {:.0} steps for {} s",
+        world.dt,
+        (case.duration / world.dt).ceil(),
+        case.duration
+    );
+    Ok(())
+}
+
+fn tell(summary: &FractureSummary, dir: &Path) {
+    println!(
+        "{:.3} ms simulated in {} steps and {}, {:.2e} tetrahedra a second",
+        summary.simulated_s * 1e3,
+        summary.steps,
+        readable(summary.execution.wall_s),
+        summary.tet_steps_per_s
+    );
+    for (number, initiation) in summary.initiation.iter().enumerate() {
+        let [x, y, z] = initiation.place;
+        println!(
+            "  crack {} in {}: {:.3} ms at ({x:.3}, {y:.3}, {z:.3}) m, {}, {:.1} cm2 by the end",
+            number + 1,
+            initiation.body,
+            initiation.t_s * 1e3,
+            initiation.mode,
+            initiation.area_m2 * 1e4
+        );
+    }
+    println!(
+        "  {:.1} cm2 cracked, {} pieces, energy book closed to {:.2} % of the kinetic energy",
+        summary.crack_area_m2 * 1e4,
+        summary.fragments.len(),
+        100.0 * summary.energy_residual_ratio
+    );
+    println!("summary: {}; surfaces.vtkhdf and cracks.vtkhdf open in ParaView", dir.join("summary.json").display());
+}

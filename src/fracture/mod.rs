@@ -1,0 +1,15 @@
+//! Fracture runs: what `breakwater fracture` does with a case.
+//!
+//! | file | what it does |
+//! | --- | --- |
+//! | [`run`] | the loop with its outputs |
+//! | [`recorder`] | tables, surfaces and cracks |
+//! | [`fragments`] | pieces that bodies have broken into |
+//! | [`initiation`] | where cracks began, in order |
+//! | [`summary`] | the run in a few numbers |
+
+pub mod fragments;
+pub mod initiation;
+pub mod recorder;
+pub mod run;
+pub mod summary;

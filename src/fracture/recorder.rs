@@ -1,0 +1,164 @@
+//! Tables of a fracture run, and its surfaces and cracks for ParaView.
+
+use std::path::Path;
+
+use glam::{DMat3, DVec3};
+
+use crate::case::FractureCase;
+use crate::femdem::element::{self, Moduli};
+use crate::femdem::energy::Ledger;
+use crate::femdem::world::World;
+use crate::output::{Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, columns, write_atomically};
+
+const ENERGY_FILE: &str = "energy.csv";
+const SURFACES_FILE: &str = "surfaces.vtkhdf";
+const CRACKS_FILE: &str = "cracks.vtkhdf";
+
+const SURFACE_FIELDS: [(&str, FieldKind); 4] = [
+    ("velocity", FieldKind::Vector),
+    ("sigma_1", FieldKind::Scalar),
+    ("sigma_1_minus_sigma_3", FieldKind::Scalar),
+    ("body", FieldKind::Integer),
+];
+const CRACK_FIELDS: [(&str, FieldKind); 3] =
+    [("time_s", FieldKind::Scalar), ("mode", FieldKind::Integer), ("body", FieldKind::Integer)];
+
+/// Open output files of a fracture run.
+pub struct FractureRecorder {
+    energy: CsvSeries,
+    surfaces: Option<[PolyDataSeries; 2]>,
+}
+
+impl FractureRecorder {
+    /// New files in the run folder, and those that do not change.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(case: &FractureCase, dir: &Path) -> Result<Self, OutputError> {
+        write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        write_atomically(&dir.join(FractureCase::MESH), &case.mesh_file)?;
+        let series = |_| -> Result<[PolyDataSeries; 2], OutputError> {
+            Ok([
+                PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &SURFACE_FIELDS)?,
+                PolyDataSeries::create(&dir.join(CRACKS_FILE), Cells::Triangles, &CRACK_FIELDS)?,
+            ])
+        };
+        Ok(Self {
+            energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::FRACTURE_ENERGY)?,
+            surfaces: case.surfaces_interval.map(series).transpose()?,
+        })
+    }
+
+    /// Append a row of the energy book of a moment [s].
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record_energy(&mut self, world: &World, time: f64, book: &Ledger, residual: f64) -> Result<(), OutputError> {
+        let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
+        self.energy.append(&[
+            time,
+            book.kinetic,
+            book.strain,
+            book.joint,
+            book.contact,
+            book.gravity,
+            book.viscous,
+            book.fracture - book.freed,
+            book.friction,
+            book.work,
+            residual,
+            area,
+            world.contacts.touching as f64,
+        ])
+    }
+
+    /// Append the outsides of the bodies and the crack faces as they are now.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_surfaces(&mut self, case: &FractureCase, world: &World) -> Result<(), OutputError> {
+        let Some([surfaces, cracks]) = &mut self.surfaces else { return Ok(()) };
+        let single = |v: DVec3| v.as_vec3().to_array();
+        let setup = world.setup();
+        let (mut points, mut velocity, mut first, mut difference, mut body) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for face in &case.mesh.faces.exteriors {
+            let tet = face.tet as usize;
+            let number = usize::from(world.tets.body[tet]);
+            let places = world.tets.nodes[tet].map(|node| world.nodes.place[node as usize]);
+            let moduli = Moduli::from(&setup.bodies[number].elastic);
+            let [sigma_1, _, sigma_3] = principal(element::stress(&world.tets.shape[tet], &moduli, &places));
+            for corner in face.nodes.map(usize::from) {
+                points.push(single(places[corner]));
+                velocity.push(single(world.nodes.velocity[world.tets.nodes[tet][corner] as usize]));
+                first.push(sigma_1 as f32);
+                difference.push((sigma_1 - sigma_3) as f32);
+                body.push(number as i32);
+            }
+        }
+        let values = [
+            FieldValues::Vector(&velocity),
+            FieldValues::Scalar(&first),
+            FieldValues::Scalar(&difference),
+            FieldValues::Integer(&body),
+        ];
+        surfaces.append(world.time, &points, &corners_in_threes(points.len()), &values)?;
+
+        let (mut points, mut time, mut mode, mut body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let opened = setup.cracks.iter().map(|face| (*face as usize, 0.0, 0));
+        let failed = world.failures.iter().map(|f| (f.interface as usize, f.time, if f.by_sliding { 2 } else { 1 }));
+        for (number, at, how) in opened.chain(failed) {
+            let interface = &setup.interfaces[number];
+            for side in 0..2 {
+                let tet = interface.tets[side] as usize;
+                for corner in interface.nodes[side].map(usize::from) {
+                    points.push(single(world.nodes.place[world.tets.nodes[tet][corner] as usize]));
+                    time.push(at as f32);
+                    mode.push(how);
+                    body.push(i32::from(world.tets.body[tet]));
+                }
+            }
+        }
+        let values = [FieldValues::Scalar(&time), FieldValues::Integer(&mode), FieldValues::Integer(&body)];
+        cracks.append(world.time, &points, &corners_in_threes(points.len()), &values)
+    }
+}
+
+/// Every three points are a triangle.
+fn corners_in_threes(points: usize) -> Vec<[u32; 3]> {
+    (0..points as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()
+}
+
+/// Principal values of a symmetric tensor, the largest first (Smith 1961).
+pub fn principal(t: DMat3) -> [f64; 3] {
+    let mean = (t.x_axis.x + t.y_axis.y + t.z_axis.z) / 3.0;
+    let deviator = t - DMat3::IDENTITY * mean;
+    let squares =
+        deviator.x_axis.length_squared() + deviator.y_axis.length_squared() + deviator.z_axis.length_squared();
+    let p = (squares / 6.0).sqrt();
+    if p == 0.0 {
+        return [mean; 3];
+    }
+    let cosine = (0.5 * (deviator * p.recip()).determinant()).clamp(-1.0, 1.0);
+    let angle = cosine.acos() / 3.0;
+    let third = std::f64::consts::TAU / 3.0;
+    let [largest, least] = [angle, angle + third].map(|angle| mean + 2.0 * p * angle.cos());
+    [largest, 3.0 * mean - largest - least, least]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DQuat;
+
+    #[test]
+    fn principal_stresses_do_not_depend_on_the_axes() {
+        let turn = DMat3::from_quat(DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -1.1, 2.2));
+        for given in [[5.0, 2.0, -7.0], [3.0, 3.0, -1.0], [4.0, 4.0, 4.0], [0.0, 0.0, 0.0]] {
+            let tensor = turn * DMat3::from_diagonal(DVec3::from_array(given)) * turn.transpose();
+            let found = principal(tensor);
+            // The angle of a double root is known to the root of rounding.
+            assert!(found.iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?} {given:?}");
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! A fracture run in a few numbers.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{fragments::fragments, initiation::initiations};
+use crate::case::FractureCase;
+use crate::femdem::energy::Ledger;
+use crate::femdem::world::World;
+use crate::output::{Execution, OutputError, write_atomically};
+
+/// `summary.json` of a fracture run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FractureSummary {
+    /// Title of the case.
+    pub title: String,
+    /// Version that made the run.
+    pub breakwater_version: String,
+    /// Fingerprint of case and mesh.
+    pub case_hash: String,
+    /// Tetrahedra.
+    pub tets: usize,
+    /// Faces between those of bodies that can crack.
+    pub joints: usize,
+    /// Simulated time [s].
+    pub simulated_s: f64,
+    /// Time step [s].
+    pub dt_s: f64,
+    /// Steps.
+    pub steps: u64,
+    /// Tetrahedra times steps over wall clock [1/s].
+    pub tet_steps_per_s: f64,
+    /// Largest residual of the energy book over the largest kinetic energy [-].
+    pub energy_residual_ratio: f64,
+    /// The same, of the kinetic energy at the start; none if it was at rest.
+    pub energy_residual_of_start: Option<f64>,
+    /// Area of the faces that failed [m2].
+    pub crack_area_m2: f64,
+    /// Energy that fracture took over that area times G_f [-]; none if nothing failed.
+    pub energy_over_g_f: Option<f64>,
+    /// Energies at the end [J].
+    pub energy_j: EnergyAtEnd,
+    /// Pieces of the bodies that can crack, the heaviest first.
+    pub fragments: Vec<FragmentSummary>,
+    /// Where cracks began, in order of time.
+    pub initiation: Vec<InitiationSummary>,
+    /// What had to be assumed.
+    pub assumptions: Vec<String>,
+    /// Warnings.
+    pub warnings: Vec<String>,
+    /// Time and machine.
+    pub execution: Execution,
+}
+
+/// Energies at the end of a run [J].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EnergyAtEnd {
+    /// Of motion.
+    pub kinetic: f64,
+    /// Of strain, in joints and in contacts.
+    pub stored: f64,
+    /// In gravity, zero at the start.
+    pub gravity: f64,
+    /// Lost by viscosity.
+    pub viscous: f64,
+    /// Lost by fracture.
+    pub fracture: f64,
+    /// Lost by friction.
+    pub friction: f64,
+    /// Given by constraints.
+    pub work: f64,
+}
+
+/// A piece of a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FragmentSummary {
+    /// The body.
+    pub body: String,
+    /// Tetrahedra.
+    pub tets: usize,
+    /// Mass [kg].
+    pub mass_kg: f64,
+}
+
+/// A place where a crack began.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct InitiationSummary {
+    /// When [s].
+    pub t_s: f64,
+    /// The body.
+    pub body: String,
+    /// Where, in the undeformed body [m].
+    pub place: [f64; 3],
+    /// `opening` (mode I) or `sliding` (mode II).
+    pub mode: String,
+    /// Area of the crack by the end [m2].
+    pub area_m2: f64,
+}
+
+/// What the loop has watched.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Watched {
+    /// Steps.
+    pub steps: u64,
+    /// Largest residual [J].
+    pub residual: f64,
+    /// Kinetic energy at the start, and the largest [J].
+    pub kinetic: [f64; 2],
+    /// Wall clock [s].
+    pub wall: f64,
+}
+
+impl FractureSummary {
+    /// The summary of a run.
+    pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched) -> Self {
+        let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
+        let taken = book.fracture - book.freed;
+        let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
+        let g_f = energies.fold(f64::MAX, f64::min);
+        let name = |body: usize| case.names[body].clone();
+        let fragment =
+            |f: super::fragments::Fragment| FragmentSummary { body: name(f.body), tets: f.tets, mass_kg: f.mass };
+        let initiation = |i: super::initiation::Initiation| InitiationSummary {
+            t_s: i.first.time,
+            body: name(i.body),
+            place: i.first.place.to_array(),
+            mode: if i.first.by_sliding { "sliding" } else { "opening" }.to_owned(),
+            area_m2: i.area,
+        };
+        let ratio = |kinetic: f64| (kinetic > 0.0).then_some(watched.residual / kinetic);
+        let tets = world.tets.nodes.len();
+        Self {
+            title: case.title.clone(),
+            breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
+            case_hash: case.hash.clone(),
+            tets,
+            joints: world.joints.len(),
+            simulated_s: world.time,
+            dt_s: world.dt,
+            steps: watched.steps,
+            tet_steps_per_s: tets as f64 * watched.steps as f64 / watched.wall.max(1e-9),
+            energy_residual_ratio: ratio(watched.kinetic[1]).unwrap_or(0.0),
+            energy_residual_of_start: ratio(watched.kinetic[0]),
+            crack_area_m2: area,
+            energy_over_g_f: (area > 0.0).then_some(taken / (area * g_f)),
+            energy_j: EnergyAtEnd {
+                kinetic: book.kinetic,
+                stored: book.strain + book.joint + book.contact,
+                gravity: book.gravity,
+                viscous: book.viscous,
+                fracture: taken,
+                friction: book.friction,
+                work: book.work,
+            },
+            fragments: fragments(world).into_iter().map(fragment).collect(),
+            initiation: initiations(world).into_iter().map(initiation).collect(),
+            assumptions: case.assumptions.clone(),
+            warnings: case.warnings.clone(),
+            execution: Execution {
+                wall_s: watched.wall,
+                steps_per_s: watched.steps as f64 / watched.wall.max(1e-9),
+                threads: rayon::current_num_threads(),
+                created: None,
+            },
+        }
+    }
+
+    /// Write `summary.json` into the run folder.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, dir: &Path) -> Result<(), OutputError> {
+        let path = dir.join("summary.json");
+        let mut text = serde_json::to_string_pretty(self).map_err(OutputError::json(&path))?;
+        text.push('\n');
+        write_atomically(&path, text.as_bytes())
+    }
+}
