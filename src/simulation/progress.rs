@@ -46,7 +46,8 @@ impl Progress {
         let rate = (steps - self.begun_steps) as f64 / wall.max(1e-9);
         let done = (time - self.begun_at) / wall.max(1e-9);
         let left = readable((self.duration - time) / done.max(1e-12));
-        let message = format!("{time:.2} of {:.2} s, {rate:.1} steps/s, {left} left, {}", self.duration, details());
+        let so_far = simulated(time, self.duration);
+        let message = format!("{so_far}, {rate:.1} steps/s, {left} left, {}", details());
         match &self.bar {
             Some(bar) => {
                 bar.set_position((1000.0 * time / self.duration) as u64);
@@ -78,6 +79,15 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// How far a run is; impacts are told in milliseconds.
+fn simulated(time: f64, duration: f64) -> String {
+    if duration < 0.1 {
+        format!("{:.3} of {:.3} ms", time * 1e3, duration * 1e3)
+    } else {
+        format!("{time:.2} of {duration:.2} s")
     }
 }
 
