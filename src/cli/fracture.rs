@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, fresh_folder, show_warnings, stem};
+use super::{Trouble, fresh_folder, run::MachineArguments, show_warnings, stem};
 use crate::{
     case::FractureCase,
     fracture::{
@@ -26,29 +26,21 @@ pub struct FractureArguments {
     /// Replace what the folder holds.
     #[arg(long)]
     overwrite: bool,
-    /// Threads; without it, one a core. The results do not depend on it.
-    #[arg(long)]
-    threads: Option<usize>,
-    /// No progress.
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    machine: MachineArguments,
 }
 
 impl FractureArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.case)?;
-        let threads = self.threads.unwrap_or(0);
-        if self.threads == Some(0) || threads > 1024 {
-            return Err(Trouble::refused(format!("--threads {threads}: must be between 1 and 1024")));
-        }
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Trouble::failed)?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
+        let quiet = self.machine.prepare()?.quiet;
         fresh_folder(&dir, self.overwrite)?;
-        if !self.quiet {
+        if !quiet {
             eprintln!("{}\n  results in {}", case.title, dir.display());
             case.assumptions.iter().for_each(|assumption| eprintln!("  assumed: {assumption}"));
         }
-        match run(&case, &dir, self.quiet) {
+        match run(&case, &dir, quiet) {
             Ok(summary) => {
                 tell(&summary, &dir);
                 Ok(())

@@ -40,8 +40,9 @@ pub struct ResumeArguments {
     machine: MachineArguments,
 }
 
+/// What a run takes of the machine.
 #[derive(Args)]
-struct MachineArguments {
+pub(super) struct MachineArguments {
     /// Threads; without it, one a core. The results do not depend on it.
     #[arg(long)]
     threads: Option<usize>,
@@ -98,7 +99,7 @@ impl ResumeArguments {
 
 impl MachineArguments {
     /// Size the thread pool.
-    fn prepare(&self) -> Result<RunOptions, Trouble> {
+    pub(super) fn prepare(&self) -> Result<RunOptions, Trouble> {
         let threads = self.threads.unwrap_or(0);
         if self.threads == Some(0) || threads > 1024 {
             return Err(Trouble::refused(format!("--threads {threads}: must be between 1 and 1024")));

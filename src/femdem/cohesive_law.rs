@@ -269,6 +269,8 @@ impl CohesiveLaw {
             let r = opening / self.peak_opening;
             if point.damage > 0.0 { point.secant * opening } else { self.strength.tensile * (2.0 - r) * r }
         };
+        // Up to the peak all work is stored.
+        let from = from.max(to.min(self.peak_opening));
         let work = 0.5 * (stress(old, from) + stress(new, to)) * (to - from);
         let stored = |point: &Point, opening: f64| self.stored_normal(&Point { opening, ..*point });
         (work + stored(old, from) - stored(new, to)).max(0.0)

@@ -23,8 +23,9 @@ impl World {
             }
             let sides = faces(number, &self.setup, &self.tets, &self.nodes);
             if let Some(cohesion) = body_of(&self.setup, self.setup.interfaces[number].tets[0]).cohesion {
-                let joint = &self.joints[number];
-                self.lost.freed += joint::stored(&cohesion.law(joint.edge), joint.area, &joint.memory, &sides);
+                let joint = &mut self.joints[number];
+                joint.freed = joint::stored(&cohesion.law(joint.edge), joint.area, &joint.memory, &sides);
+                self.lost.freed += joint.freed;
             }
         }
         for number in 0..self.joints.len() {

@@ -41,6 +41,8 @@ pub struct Joint {
     pub(super) memory: Memory,
     /// Energy lost so far [J].
     pub dissipated: f64,
+    /// Energy that its spring had when it came free [J].
+    pub freed: f64,
     /// It gives way after this step.
     pub(super) failed: bool,
 }
@@ -120,7 +122,7 @@ impl World {
             let tied = cohesion_of(interface.tets[0]).is_none_or(|cohesion| cohesion.tied);
             let bond = if tied { Bond::Tied } else { Bond::Joint };
             let memory = Memory::default();
-            joints.push(Joint { bond, edge, area, memory, dissipated: 0.0, failed: false });
+            joints.push(Joint { bond, edge, area, memory, dissipated: 0.0, freed: 0.0, failed: false });
         }
         setup.cracks.iter().for_each(|crack| joints[*crack as usize].bond = Bond::Broken);
         let (nodes, tets) = assembly::assemble(&setup, |face| joints[face as usize].bond == Bond::Tied);

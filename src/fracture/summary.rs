@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{fragments::fragments, initiation::initiations};
 use crate::case::FractureCase;
 use crate::femdem::energy::Ledger;
-use crate::femdem::world::World;
+use crate::femdem::world::{Bond, World};
 use crate::output::{Execution, OutputError, write_atomically};
 
 /// `summary.json` of a fracture run.
@@ -37,7 +37,8 @@ pub struct FractureSummary {
     pub energy_residual_of_start: Option<f64>,
     /// Area of the faces that failed [m2].
     pub crack_area_m2: f64,
-    /// Energy that fracture took over that area times G_f [-]; none if nothing failed.
+    /// Energy that the failed faces took, less what their springs had when they came free, over their area times G_f [-];
+    /// none if nothing failed.
     pub energy_over_g_f: Option<f64>,
     /// Energies at the end [J].
     pub energy_j: EnergyAtEnd,
@@ -70,6 +71,8 @@ pub struct EnergyAtEnd {
     pub friction: f64,
     /// Given by constraints.
     pub work: f64,
+    /// What the springs of tied joints had when they came free.
+    pub freed: f64,
 }
 
 /// A piece of a body.
@@ -115,7 +118,8 @@ impl FractureSummary {
     /// The summary of a run.
     pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched) -> Self {
         let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
-        let taken = book.fracture - book.freed;
+        let broken = world.joints.iter().filter(|joint| joint.bond == Bond::Broken);
+        let taken: f64 = broken.map(|joint| joint.dissipated - joint.freed).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
         let g_f = energies.fold(f64::MAX, f64::min);
         let name = |body: usize| case.names[body].clone();
@@ -149,9 +153,10 @@ impl FractureSummary {
                 stored: book.strain + book.joint + book.contact,
                 gravity: book.gravity,
                 viscous: book.viscous,
-                fracture: taken,
+                fracture: book.fracture,
                 friction: book.friction,
                 work: book.work,
+                freed: book.freed,
             },
             fragments: fragments(world).into_iter().map(fragment).collect(),
             initiation: initiations(world).into_iter().map(initiation).collect(),

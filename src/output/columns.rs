@@ -71,9 +71,10 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
-/// `energy.csv` of a fracture run: what there is, what was lost and given since the start, what is left unexplained; area
+/// `energy.csv` of a fracture run: what there is, what was lost and given since the start (`freed_j`: what the springs of tied joints had when they
+/// came free), what is left unexplained; area
 /// of the faces that have failed, and pairs of tetrahedra that press each other.
-pub const FRACTURE_ENERGY: [&str; 13] = [
+pub const FRACTURE_ENERGY: [&str; 14] = [
     "time_s",
     "kinetic_j",
     "strain_j",
@@ -84,6 +85,7 @@ pub const FRACTURE_ENERGY: [&str; 13] = [
     "fracture_j",
     "friction_j",
     "work_j",
+    "freed_j",
     "residual_j",
     "crack_area_m2",
     "pairs_touching",

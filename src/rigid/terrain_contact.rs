@@ -21,8 +21,8 @@ const SAME_PLACE: f64 = 1e-12;
 const BEHIND: f64 = 0.25;
 
 /// Cosine of the angle between two triangles below which they are a valley with two walls, each of which is touched
-/// [-]: from 0.2 rad on, the second wall is first touched while it is 0.02 of the rounding away, deeper than contacts
-/// are.
+/// [-]: from 0.2 rad on, the second wall is first touched 0.02 of the rounding later than the first. Who is pressed in
+/// deeper meets it with an overlap, which does not count.
 const VALLEY: f64 = 0.98;
 
 /// Share of a ridge at its ends that belongs to the corners there [-]: where a search that tends to an end stops.

@@ -148,7 +148,8 @@ impl Contacts {
         let mut pairs: Vec<Pair> = detection.pairs(&boxes, keep).iter().map(|pair| known(tets_of(*pair))).collect();
         for (of, left) in self.opened.drain(..) {
             if let Ok(index) = pairs.binary_search_by_key(&of, |pair| pair.tets) {
-                pairs[index].left = left;
+                // A pair that was looked at before has its overlap counted already.
+                pairs[index].left = if pairs[index].born.is_none() { left } else { 0.0 };
             }
         }
         self.pairs = pairs;
