@@ -77,7 +77,7 @@ pub(super) fn check(path: &Path) -> Result<(), Trouble> {
     }
     println!(
         "  joints      {} faces that can crack, {} cracked from the start",
-        world.joints.len(),
+        world.joints.count(),
         case.setup.cracks.len()
     );
     println!(

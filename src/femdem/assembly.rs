@@ -65,6 +65,8 @@ pub struct Tets {
     pub body: Vec<u16>,
     /// Interface at the face opposite to each vertex.
     pub faces: Vec<[Link; 4]>,
+    /// Whether a joint pulls, or has pulled, at one of its faces.
+    pub jointed: Vec<bool>,
 }
 
 /// Where a face of a tetrahedron is in the list of interfaces.
@@ -107,7 +109,7 @@ impl Tets {
                 faces[interface.tets[side] as usize][face] = link;
             }
         }
-        Self { nodes: setup.tets.clone(), shape, body, faces }
+        Self { nodes: setup.tets.clone(), shape, body, faces, jointed: vec![false; setup.tets.len()] }
     }
 }
 

@@ -13,8 +13,6 @@
 //!
 //! Dissipation is never negative, whatever the path.
 
-use glam::DVec3;
-
 use super::material::Strength;
 use super::softening::{AREA, STEEPEST, z};
 
@@ -166,28 +164,6 @@ impl CohesiveLaw {
         let lost_normal = self.lost_normal(&old, point);
         point.lost = [point.lost[0] + lost_normal, point.lost[1] + lost_shear];
         Traction { normal, shear, dissipated: lost_normal + lost_shear }
-    }
-
-    /// Stress vector of a point that has neither damage nor slip behind it, at a jump of the places [m] between faces
-    /// with the normal n; `None` if it gets some there.
-    #[inline]
-    pub fn respond_whole(&self, jump: DVec3, normal: DVec3) -> Option<DVec3> {
-        let opening = jump.dot(normal);
-        let slip_squared = jump.length_squared() - opening * opening;
-        let elastic = self.stiffness * opening;
-        let stress = if opening <= 0.0 {
-            elastic
-        } else {
-            // K = 2 f_t / delta_p: f_t (2 - r) r is K delta (1 - r / 2).
-            let r = opening / self.peak_opening;
-            if r >= 1.0 {
-                return None;
-            }
-            elastic * (1.0 - 0.5 * r)
-        };
-        let strength = self.strength.shear(stress);
-        let slides = self.stiffness * self.stiffness * slip_squared > strength * strength;
-        (!slides).then(|| jump * self.stiffness + normal * (stress - elastic))
     }
 
     /// Energy that a point would give back at a slip [m], and at the opening of its last call [J/m2].

@@ -6,6 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::lanes::{LANES, Lanes, Vectors};
 use super::material::Elastic;
 
 /// Moduli of an element.
@@ -49,15 +50,56 @@ fn edges(corners: &[DVec3; 4]) -> DMat3 {
     DMat3::from_cols(corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0])
 }
 
-/// Forces of an element and what else is known on the way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer {
+/// Moduli of the elements in the lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneModuli<L> {
+    lambda: L,
+    mu: L,
+    viscosity: L,
+}
+
+impl<L: Lanes> LaneModuli<L> {
+    /// Moduli from a function of the lane.
+    #[inline(always)]
+    pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Moduli) -> Self {
+        Self {
+            lambda: L::from_fn(|lane| f(lane).lambda),
+            mu: L::from_fn(|lane| f(lane).mu),
+            viscosity: L::from_fn(|lane| f(lane).viscosity),
+        }
+    }
+}
+
+/// Columns of matrices.
+type Matrices<L> = [Vectors<L>; 3];
+
+/// Undeformed shapes of the elements in the lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneShape<L> {
+    inverse: Matrices<L>,
+    volume: L,
+}
+
+impl<L: Lanes> LaneShape<L> {
+    /// Shapes from a function of the lane.
+    #[inline(always)]
+    pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Shape) -> Self {
+        let column = |k: usize| Vectors::from_fn(|lane| f(lane).inverse.col(k));
+        Self { inverse: [column(0), column(1), column(2)], volume: L::from_fn(|lane| f(lane).volume) }
+    }
+}
+
+/// Forces of the elements in the lanes and what else is known on the way.
+#[derive(Debug, Clone, Copy)]
+pub struct Deformed<L> {
     /// On the vertices 1 to 3 [N]; vertex 0 has the negative of their sum.
-    pub forces: [DVec3; 3],
+    pub forces: [Vectors<L>; 3],
     /// Ratio of volumes J [-]; not positive for an element turned inside out.
-    pub ratio: f64,
+    pub ratio: L,
     /// Power lost by viscosity [W].
-    pub viscous_power: f64,
+    pub viscous_power: L,
+    /// Sum of the squares of the components of the first Piola-Kirchhoff stress, elastic part [Pa2].
+    pub stress_squared: L,
 }
 
 /// F and det F F^-T.
@@ -73,21 +115,107 @@ fn elastic_stress(moduli: &Moduli, f: DMat3, inverse_transposed: DMat3, log_rati
 }
 
 /// Forces on the vertices at the places x [m] and velocities v [m/s].
-#[inline]
-pub fn forces(shape: &Shape, moduli: &Moduli, x: &[DVec3; 4], v: &[DVec3; 4]) -> Answer {
-    let (f, cofactor) = deformation(shape, x);
-    let ratio = f.x_axis.dot(cofactor.x_axis);
-    let inverse_transposed = cofactor * ratio.recip();
-    let mut stress = elastic_stress(moduli, f, inverse_transposed, ratio.ln());
-    let mut viscous_power = 0.0;
-    if moduli.viscosity > 0.0 {
-        let gradient = edges(v) * shape.inverse * inverse_transposed.transpose();
-        let rate = (gradient + gradient.transpose()) * 0.5;
-        stress += rate * cofactor * moduli.viscosity;
-        viscous_power = moduli.viscosity * ratio * shape.volume * norm_squared(rate);
+#[inline(always)]
+pub fn forces<L: Lanes>(
+    shape: &LaneShape<L>,
+    moduli: &LaneModuli<L>,
+    x: &[Vectors<L>; 4],
+    v: &[Vectors<L>; 4],
+) -> Deformed<L> {
+    let f = times(&lane_edges(x), &shape.inverse);
+    let cofactor = [f[1].cross(f[2]), f[2].cross(f[0]), f[0].cross(f[1])];
+    let ratio = f[0].dot(cofactor[0]);
+    let per_ratio = L::splat(1.0) / ratio;
+    let inverse_transposed = scaled(&cofactor, per_ratio);
+    let pressure = moduli.lambda * logarithm(ratio) - moduli.mu;
+    let elastic = sum(&scaled(&f, moduli.mu), &scaled(&inverse_transposed, pressure));
+    let stress_squared = norm_squared_of(&elastic);
+    // D = sym(dF/dt F^-1); its stress eta D is det F eta D F^-T for the undeformed areas.
+    let gradient = times_transposed(&times(&lane_edges(v), &shape.inverse), &inverse_transposed);
+    let half = L::splat(0.5);
+    let [xy, xz, yz] = [
+        (gradient[0].y + gradient[1].x) * half,
+        (gradient[0].z + gradient[2].x) * half,
+        (gradient[1].z + gradient[2].y) * half,
+    ];
+    let rate = [
+        Vectors { x: gradient[0].x, y: xy, z: xz },
+        Vectors { x: xy, y: gradient[1].y, z: yz },
+        Vectors { x: xz, y: yz, z: gradient[2].z },
+    ];
+    let stress = sum(&elastic, &scaled(&times(&rate, &cofactor), moduli.viscosity));
+    Deformed {
+        forces: scaled(&times_transposed(&stress, &shape.inverse), -shape.volume),
+        ratio,
+        viscous_power: moduli.viscosity * ratio * shape.volume * norm_squared_of(&rate),
+        stress_squared,
     }
-    let h = stress * shape.inverse.transpose() * -shape.volume;
-    Answer { forces: [h.x_axis, h.y_axis, h.z_axis], ratio, viscous_power }
+}
+
+#[inline(always)]
+fn lane_edges<L: Lanes>(x: &[Vectors<L>; 4]) -> Matrices<L> {
+    [x[1] - x[0], x[2] - x[0], x[3] - x[0]]
+}
+
+#[inline(always)]
+fn scaled<L: Lanes>(a: &Matrices<L>, by: L) -> Matrices<L> {
+    [a[0] * by, a[1] * by, a[2] * by]
+}
+
+#[inline(always)]
+fn sum<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// A B.
+#[inline(always)]
+fn times<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
+    [
+        a[0] * b[0].x + a[1] * b[0].y + a[2] * b[0].z,
+        a[0] * b[1].x + a[1] * b[1].y + a[2] * b[1].z,
+        a[0] * b[2].x + a[1] * b[2].y + a[2] * b[2].z,
+    ]
+}
+
+/// A B^T.
+#[inline(always)]
+fn times_transposed<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
+    [
+        a[0] * b[0].x + a[1] * b[1].x + a[2] * b[2].x,
+        a[0] * b[0].y + a[1] * b[1].y + a[2] * b[2].y,
+        a[0] * b[0].z + a[1] * b[1].z + a[2] * b[2].z,
+    ]
+}
+
+/// Whether all of them are small numbers.
+#[inline(always)]
+fn is_small([a, b, c, d]: [f64; LANES]) -> bool {
+    a <= SMALL_CHANGE && b <= SMALL_CHANGE && c <= SMALL_CHANGE && d <= SMALL_CHANGE
+}
+
+#[inline(always)]
+fn norm_squared_of<L: Lanes>(m: &Matrices<L>) -> L {
+    m[0].dot(m[0]) + m[1].dot(m[1]) + m[2].dot(m[2])
+}
+
+/// Change of volume J - 1 up to which the series of ln J is used [-]: concrete breaks at a hundredth of it.
+const SMALL_CHANGE: f64 = 0.02;
+
+/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1): to rounding with five terms, where J is nearly 1 in all
+/// lanes.
+#[inline(always)]
+fn logarithm<L: Lanes>(ratio: L) -> L {
+    let one = L::splat(1.0);
+    let change = ratio - one;
+    if !is_small(change.max(-change).to_array()) {
+        return L::load(&ratio.to_array().map(f64::ln));
+    }
+    let s = change / (ratio + one);
+    let squared = s * s;
+    let sum = squared * L::splat(1.0 / 9.0) + L::splat(1.0 / 7.0);
+    let sum = squared * sum + L::splat(1.0 / 5.0);
+    let sum = squared * sum + L::splat(1.0 / 3.0);
+    (s + s) * (squared * sum + one)
 }
 
 /// Elastic energy [J]: V_0 (mu/2 (tr B - 3 - 2 ln J) + lambda/2 ln^2 J).
@@ -111,8 +239,28 @@ fn norm_squared(m: DMat3) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::lanes::Portable;
     use super::*;
     use glam::DQuat;
+
+    /// Answer for one element.
+    #[derive(Debug)]
+    struct Answer {
+        forces: [DVec3; 3],
+        ratio: f64,
+        viscous_power: f64,
+    }
+
+    fn forces(shape: &Shape, moduli: &Moduli, x: &[DVec3; 4], v: &[DVec3; 4]) -> Answer {
+        let (shape, moduli) = (LaneShape::<Portable>::from_fn(|_| shape), LaneModuli::from_fn(|_| moduli));
+        let [x, v] = [x, v].map(|corners| corners.map(|corner| Vectors::from_fn(|_| corner)));
+        let deformed = super::forces(&shape, &moduli, &x, &v);
+        Answer {
+            forces: deformed.forces.map(|force| force.to_array()[LANES - 1]),
+            ratio: deformed.ratio.to_array()[0],
+            viscous_power: deformed.viscous_power.to_array()[0],
+        }
+    }
 
     const CONCRETE: Elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisson_ratio: 0.2, viscosity: 2e4 };
 
@@ -140,6 +288,16 @@ mod tests {
         let scale = CONCRETE.young_modulus * shape.volume.powf(2.0 / 3.0);
         assert!(answer.forces.iter().all(|f| f.length() < 1e-13 * scale), "{answer:?}");
         assert!((answer.ratio - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_series_of_the_logarithm_is_exact_to_rounding() {
+        for change in [0.0f64, 1e-15, -3e-9, 1e-5, -0.0199, 0.02, 0.03, -0.7, 12.0] {
+            let found = logarithm(Portable::load(&[1.0 + change; LANES])).to_array()[0];
+            let expected = (1.0 + change).ln();
+            // Two units in the last place of J - 1.
+            assert!((found - expected).abs() <= 5e-16 * expected.abs(), "{change}: {found:e} {expected:e}");
+        }
     }
 
     #[test]

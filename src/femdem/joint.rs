@@ -68,52 +68,15 @@ impl Axes {
     }
 }
 
-/// Forces of a joint whose faces have their corners at `sides` [m], on the undeformed area [m2].
-#[inline]
-pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3; 3]; 2]) -> Answer {
-    let jump = jumps(sides);
-    whole_forces(law, area, memory, sides, &jump).unwrap_or_else(|| worn_forces(law, area, memory, sides, &jump))
-}
-
 /// Jump of the places at the corners [m].
-#[inline]
 fn jumps(sides: &[[DVec3; 3]; 2]) -> [DVec3; 3] {
     let [a, b] = sides;
     [b[0] - a[0], b[1] - a[1], b[2] - a[2]]
 }
 
-/// Forces of a joint that has nothing behind it and gets nothing now: nearly all of them nearly always.
-#[inline]
-fn whole_forces(
-    law: &CohesiveLaw,
-    area: f64,
-    memory: &mut Memory,
-    [a, b]: &[[DVec3; 3]; 2],
-    jump: &[DVec3; 3],
-) -> Option<Answer> {
-    if memory.is_worn {
-        return None;
-    }
-    let corner = a[0] + b[0];
-    let normal = (a[1] + b[1] - corner).cross(a[2] + b[2] - corner).normalize();
-    let mut forces = [DVec3::ZERO; 3];
-    for [i, j] in ENDS {
-        let force = law.respond_whole((jump[i] + jump[j]) * 0.5, normal)? * (area / 6.0);
-        forces[i] += force;
-        forces[j] += force;
-    }
-    Some(Answer { forces, ..Answer::default() })
-}
-
-/// Forces of any joint.
-#[cold]
-fn worn_forces(
-    law: &CohesiveLaw,
-    area: f64,
-    memory: &mut Memory,
-    sides: &[[DVec3; 3]; 2],
-    jump: &[DVec3; 3],
-) -> Answer {
+/// Forces of a joint whose faces have their corners at `sides` [m], on the undeformed area [m2].
+pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3; 3]; 2]) -> Answer {
+    let jump = jumps(sides);
     let axes = Axes::of_faces(sides);
     let mut out = Answer::default();
     for (point, [i, j]) in memory.points.iter_mut().zip(ENDS) {
@@ -146,6 +109,11 @@ impl Memory {
         let (normal, shear) = axes.split(traction);
         let (point, offset) = law.loaded(normal, shear);
         Self { points: [point; 3], offset, is_worn: true }
+    }
+
+    /// Whether a point has damage or slip behind it, or came free under load.
+    pub fn is_worn(&self) -> bool {
+        self.is_worn
     }
 
     /// Whether sliding (mode II) has taken more energy than opening (mode I).

@@ -53,6 +53,11 @@ impl Strength {
         (self.cohesion - sigma_n.min(self.tensile) * self.friction).max(0.0)
     }
 
+    /// The least stress that can break the material [Pa].
+    pub fn least(&self) -> f64 {
+        self.tensile.min(self.shear(self.tensile))
+    }
+
     /// Hillerborg's characteristic length E G_f / f_t^2 [m]; a crack is resolved by elements of a quarter of it.
     pub fn characteristic_length(&self, young_modulus: f64) -> f64 {
         young_modulus * self.opening_energy / (self.tensile * self.tensile)

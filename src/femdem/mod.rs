@@ -11,6 +11,10 @@
 //! | `element` | the linear tetrahedron |
 //! | `softening`, `cohesive_law` | the law of a joint at a point |
 //! | `joint` | the joint between two tetrahedra |
+//! | `whole_joint` | joints without a past, four at a time |
+//! | `joints` | all joints of a world |
+//! | `lanes` | four numbers in a SIMD register |
+//! | `deformation` | the pass over the tetrahedra |
 //! | `setup` | what a world is made of |
 //! | `assembly` | nodes, tetrahedra and joints as arrays; how nodes come apart |
 //! | `contact` | tetrahedra that touch: overlap, friction, who can |
@@ -22,13 +26,17 @@
 pub mod assembly;
 pub mod cohesive_law;
 pub mod contact;
+mod deformation;
 pub mod element;
 pub mod energy;
 pub mod joint;
+pub mod joints;
+mod lanes;
 pub mod material;
 pub mod mesh;
 mod release;
 pub mod setup;
 pub mod softening;
 pub mod time_step;
+mod whole_joint;
 pub mod world;

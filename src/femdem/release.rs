@@ -1,56 +1,62 @@
 //! Faces that give way: tied ones become joints, joints that have failed break.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::assembly;
-use super::cohesive_law::Cohesion;
+use super::element;
 use super::joint::{self, Axes, Memory};
-use super::world::{Bond, Failure, Joint, World, body_of, faces};
+use super::joints::{self, Bond, WornJoint};
+use super::world::{Failure, World};
 
 impl World {
     /// Tied faces that have reached their strength become joints, joints that have failed break.
     pub(super) fn release_joints(&mut self) {
-        let freed = self.faces_beyond_strength();
-        let tied = |joints: &[Joint], face: u32| joints[face as usize].bond == Bond::Tied;
-        for (number, memory) in freed {
-            let joint = &mut self.joints[number];
-            joint.bond = Bond::Joint;
-            joint.memory = memory;
-            let joints = &self.joints;
-            for corner in 0..3 {
-                assembly::split(&mut self.nodes, &mut self.tets, &self.setup, number, corner, &|f| tied(joints, f));
-            }
-            let sides = faces(number, &self.setup, &self.tets, &self.nodes);
-            if let Some(cohesion) = body_of(&self.setup, self.setup.interfaces[number].tets[0]).cohesion {
-                let joint = &mut self.joints[number];
-                joint.freed = joint::stored(&cohesion.law(joint.edge), joint.area, &joint.memory, &sides);
-                self.lost.freed += joint.freed;
-            }
+        for (number, memory) in self.faces_beyond_strength() {
+            self.free(number, memory);
         }
-        for number in 0..self.joints.len() {
-            if self.joints[number].failed && self.joints[number].bond == Bond::Joint {
-                self.break_joint(number);
-            }
+        if self.joints.worn.iter().any(|joint| joint.failed) {
+            let (failed, worn) = std::mem::take(&mut self.joints.worn).into_iter().partition(|joint| joint.failed);
+            self.joints.worn = worn;
+            let failed: Vec<WornJoint> = failed;
+            failed.iter().for_each(|joint| self.break_joint(joint));
         }
     }
 
-    fn break_joint(&mut self, number: usize) {
+    /// A tied face becomes a joint with the given memory.
+    fn free(&mut self, number: usize, memory: Memory) {
+        let Self { joints, nodes, tets, setup, .. } = self;
+        joints.bond[number] = Bond::Worn;
+        for corner in 0..3 {
+            assembly::split(nodes, tets, setup, number, corner, &|face| joints.bond[face as usize] == Bond::Tied);
+        }
+        setup.interfaces[number].tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true);
+        let [edge, area] = joints.size[number];
+        let sides = joints::faces(number, setup, tets, nodes);
+        let mut joint = WornJoint::new(number, memory);
+        joint.freed = joint::stored(&joints::cohesion(setup, number).law(edge), area, &memory, &sides);
+        self.lost.freed += joint.freed;
+        joints.worn.push(joint);
+    }
+
+    fn break_joint(&mut self, joint: &WornJoint) {
+        let number = joint.interface as usize;
         // What it would have given back is lost with it.
-        let lost = self.stored_in(number);
-        let corners = self.corners(number);
-        let joint = &mut self.joints[number];
-        joint.bond = Bond::Broken;
-        joint.dissipated += lost;
+        let stored = self.joints.stored_in(joint, &self.setup, &self.tets, &self.nodes);
+        self.lost.fracture += joint.dissipated + stored;
+        self.joints.bond[number] = Bond::Broken;
+        self.joints.forces[number] = Default::default();
+        let corners = joints::corners(&self.setup, number);
+        self.failures.push(Failure {
+            interface: joint.interface,
+            time: self.time,
+            place: (corners[0] + corners[1] + corners[2]) / 3.0,
+            area: self.joints.size[number][1],
+            by_sliding: joint.memory.is_mostly_slid(),
+            energy: joint.dissipated + stored - joint.freed,
+        });
         let opened = self.setup.interfaces[number];
-        self.joint_forces[number] = [DVec3::ZERO; 3];
-        let by_sliding = joint.memory.is_mostly_slid();
-        let place = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let (time, area) = (self.time, joint.area);
-        self.failures.push(Failure { interface: number as u32, time, place, area, by_sliding });
-        self.contacts.open(opened.tets, lost);
-        let joints = &self.joints;
-        let unbroken = |face: u32| joints[face as usize].bond != Bond::Broken;
+        self.contacts.open(opened.tets, stored);
+        let unbroken = |face: u32| self.joints.bond[face as usize] != Bond::Broken;
         for corner in opened.nodes[0] {
             let node = self.setup.tets[opened.tets[0] as usize][usize::from(corner)];
             let groups = assembly::held_together(&self.tets, &self.setup, &self.around[node as usize], &unbroken);
@@ -61,29 +67,30 @@ impl World {
     /// Tied faces on which the mean of the stresses of both sides has reached the strength (eq. 1), with the memory that
     /// carries that stress on.
     fn faces_beyond_strength(&self) -> Vec<(usize, Memory)> {
-        if self.stresses.is_empty() {
+        let Self { joints, setup, tets, nodes, .. } = self;
+        let strained = &self.deformation.strained;
+        let of = |(number, bond): (usize, &Bond)| {
+            let interface = &setup.interfaces[number];
+            if *bond != Bond::Tied || !interface.tets.iter().any(|tet| strained[*tet as usize]) {
+                return None;
+            }
+            let cohesion = joints::cohesion(setup, number);
+            let [one, other] = interface.tets.map(|tet| self.stress(tet as usize));
+            let axes = Axes::of_faces(&joints::faces(number, setup, tets, nodes));
+            let traction = (one + other) * 0.5 * axes.normal();
+            let (normal, [a, b]) = axes.split(traction);
+            let reached = normal >= cohesion.strength.tensile || a.hypot(b) >= cohesion.strength.shear(normal);
+            reached.then(|| (number, Memory::loaded(&cohesion.law(joints.size[number][0]), traction, &axes)))
+        };
+        if !strained.par_iter().any(|strained| *strained) {
             return Vec::new();
         }
-        let of = |(number, joint): (usize, &Joint)| {
-            if joint.bond != Bond::Tied {
-                return None;
-            }
-            let interface = &self.setup.interfaces[number];
-            let cohesion: Cohesion = body_of(&self.setup, interface.tets[0]).cohesion?;
-            let [one, other] = interface.tets.map(|t| self.stresses[t as usize]);
-            let stress = (one + other) * 0.5;
-            let strength = &cohesion.strength;
-            let most = stress.x_axis.length_squared() + stress.y_axis.length_squared() + stress.z_axis.length_squared();
-            let least = strength.tensile.min(strength.shear(strength.tensile));
-            if most < least * least {
-                return None;
-            }
-            let axes = Axes::of_faces(&faces(number, &self.setup, &self.tets, &self.nodes));
-            let traction = stress * axes.normal();
-            let (normal, [a, b]) = axes.split(traction);
-            let reached = normal >= strength.tensile || a.hypot(b) >= strength.shear(normal);
-            reached.then(|| (number, Memory::loaded(&cohesion.law(joint.edge), traction, &axes)))
-        };
-        self.joints.par_iter().enumerate().filter_map(of).collect()
+        joints.bond.par_iter().enumerate().filter_map(of).collect()
+    }
+
+    /// Elastic Cauchy stress of a tetrahedron at the present places [Pa].
+    fn stress(&self, tet: usize) -> glam::DMat3 {
+        let places = self.tets.nodes[tet].map(|node| self.nodes.place[node as usize]);
+        element::stress(&self.tets.shape[tet], &self.moduli[usize::from(self.tets.body[tet])], &places)
     }
 }

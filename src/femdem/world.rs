@@ -4,48 +4,20 @@
 //! that the bits are the same for any number of threads. Velocities stand half a step before the places (central
 //! differences; the paper's eqs. 9 and 10).
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::assembly::{self, Copy4, Nodes, Tets};
 use super::contact::pairs::Contacts;
+use super::deformation::{Bodies, Deformation};
 use super::element::{self, Moduli};
 use super::energy::Ledger;
-use super::joint::{self, Memory};
+use super::joints::{Bond, Joints};
 use super::setup::Setup;
 use super::time_step;
 
 /// Items of one task of the thread pool; sums are taken over these first, so that they have one order.
-const PIECE: usize = 512;
-
-/// What holds two tetrahedra together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bond {
-    /// They share their nodes until the strength is reached.
-    Tied,
-    /// A joint.
-    Joint,
-    /// Nothing any more.
-    Broken,
-}
-
-/// A face between two tetrahedra.
-#[derive(Debug, Clone)]
-pub struct Joint {
-    /// What holds it.
-    pub bond: Bond,
-    /// Mean edge length h [m].
-    pub(super) edge: f64,
-    /// Undeformed area [m2].
-    pub area: f64,
-    pub(super) memory: Memory,
-    /// Energy lost so far [J].
-    pub dissipated: f64,
-    /// Energy that its spring had when it came free [J].
-    pub freed: f64,
-    /// It gives way after this step.
-    pub(super) failed: bool,
-}
+pub(super) const PIECE: usize = 512;
 
 /// A face that has failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +32,8 @@ pub struct Failure {
     pub area: f64,
     /// It slid (mode II) more than it opened (mode I).
     pub by_sliding: bool,
+    /// Energy that it took, beyond what its spring had when it came free [J].
+    pub energy: f64,
 }
 
 /// Why a step cannot be taken.
@@ -69,19 +43,14 @@ pub enum StepError {
     Inverted { tet: usize, time: f64 },
 }
 
-/// What the tetrahedra of one piece had to say besides their forces.
-#[derive(Debug, Clone, Copy, Default)]
-struct PieceSum {
-    viscous: f64,
-    inverted: Option<usize>,
-}
-
 /// Deformable bodies.
 #[derive(Debug, Clone)]
 pub struct World {
     // Parameters.
     pub(super) setup: Setup,
-    moduli: Vec<Moduli>,
+    pub(super) moduli: Vec<Moduli>,
+    /// Least strength of each body [Pa].
+    strength: Vec<f64>,
     /// Step [s].
     pub dt: f64,
     // State.
@@ -92,7 +61,7 @@ pub struct World {
     /// Tetrahedra.
     pub tets: Tets,
     /// Faces between tetrahedra of bodies that crack.
-    pub joints: Vec<Joint>,
+    pub joints: Joints,
     /// Faces that have failed, in order of time.
     pub failures: Vec<Failure>,
     /// Contacts.
@@ -102,40 +71,40 @@ pub struct World {
     pub(super) lost: Ledger,
     gravity_at_start: f64,
     // Workspace.
-    forces: Vec<[DVec3; 4]>,
-    pub(super) joint_forces: Vec<[DVec3; 3]>,
-    /// Of every tetrahedron [Pa], where faces are tied.
-    pub(super) stresses: Vec<DMat3>,
-    sums: Vec<PieceSum>,
-    moved: Vec<[f64; 2]>,
+    pub(super) deformation: Deformation,
+    moved: Vec<Moved>,
+}
+
+/// What the nodes of a piece tell of their step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Moved {
+    /// Kinetic energy at the start of the step [J].
+    kinetic: f64,
+    /// Work of the constraints [J].
+    work: f64,
+    /// Square of the largest velocity [m2/s2].
+    fastest: f64,
 }
 
 impl World {
     /// World at its start; its step is `share` of the longest stable one.
     pub fn new(setup: Setup, share: f64) -> Self {
-        let cohesion_of = |tet: u32| body_of(&setup, tet).cohesion;
-        let mut joints: Vec<Joint> = Vec::with_capacity(setup.interfaces.len());
-        for interface in &setup.interfaces {
-            let corners = interface.nodes[0]
-                .map(|k| setup.nodes[setup.tets[interface.tets[0] as usize][usize::from(k)] as usize]);
-            let (edge, area) = joint::size(&corners);
-            let tied = cohesion_of(interface.tets[0]).is_none_or(|cohesion| cohesion.tied);
-            let bond = if tied { Bond::Tied } else { Bond::Joint };
-            let memory = Memory::default();
-            joints.push(Joint { bond, edge, area, memory, dissipated: 0.0, freed: 0.0, failed: false });
-        }
-        setup.cracks.iter().for_each(|crack| joints[*crack as usize].bond = Bond::Broken);
-        let (nodes, tets) = assembly::assemble(&setup, |face| joints[face as usize].bond == Bond::Tied);
+        let joints = Joints::new(&setup);
+        let (nodes, mut tets) = assembly::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
+        let whole = setup.interfaces.iter().zip(&joints.bond).filter(|(_, bond)| **bond == Bond::Whole);
+        whole.for_each(|(interface, _)| interface.tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true));
         let moduli = setup.bodies.iter().map(|body| Moduli::from(&body.elastic)).collect();
         let count = setup.tets.len();
         let around = assembly::copies_around(&setup);
-        let unbroken = |face: u32| joints[face as usize].bond != Bond::Broken;
+        let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
         let groups: Vec<Vec<Copy4>> =
             around.iter().flat_map(|copies| assembly::held_together(&tets, &setup, copies, &unbroken)).collect();
         let contacts = Contacts::new(&setup, groups.iter().map(Vec::as_slice));
-        let ties = joints.iter().any(|joint| joint.bond == Bond::Tied);
+        let ties = joints.bond.contains(&Bond::Tied);
+        let strength = setup.bodies.iter().map(|body| body.cohesion.map_or(f64::MAX, |c| c.strength.least())).collect();
         let mut world = Self {
             moduli,
+            strength,
             dt: 0.0,
             time: 0.0,
             nodes,
@@ -146,10 +115,7 @@ impl World {
             around,
             lost: Ledger::default(),
             gravity_at_start: 0.0,
-            forces: vec![[DVec3::ZERO; 4]; count],
-            joint_forces: vec![[DVec3::ZERO; 3]; setup.interfaces.len()],
-            stresses: vec![DMat3::ZERO; if ties { count } else { 0 }],
-            sums: vec![PieceSum::default(); count.div_ceil(PIECE)],
+            deformation: Deformation::new(count, ties),
             moved: Vec::new(),
             setup,
         };
@@ -173,8 +139,8 @@ impl World {
             if let Some(cohesion) = body.cohesion {
                 for (face, link) in self.tets.faces[t].into_iter().enumerate() {
                     let Some((number, _)) = link.interface() else { continue };
-                    let joint = &self.joints[number];
-                    let stiffness = cohesion.law(joint.edge).stiffness() * joint.area / 3.0;
+                    let [edge, area] = self.joints.size[number];
+                    let stiffness = cohesion.law(edge).stiffness() * area / 3.0;
                     (0..4).filter(|k| *k != face).for_each(|k| springs[k] += stiffness);
                 }
             }
@@ -203,109 +169,46 @@ impl World {
     }
 
     fn advance(&mut self, book: bool) -> Result<Ledger, StepError> {
-        self.pull_joints();
+        self.joints.pull(&self.setup, &self.tets, &self.nodes);
         let viscous_power = self.deform_tets()?;
         self.press_contacts();
         let mut ledger = if book { self.energies(viscous_power) } else { Ledger::default() };
-        let [kinetic, work] = self.move_nodes();
+        let Moved { kinetic, work, fastest } = self.move_nodes();
         ledger.kinetic = kinetic;
         // Half of the work of this step is done after its start.
         ledger.work += 0.5 * work;
         self.lost.viscous += self.dt * viscous_power;
         self.lost.work += work;
+        self.contacts.travel(fastest.sqrt() * self.dt);
         self.release_joints();
         self.time += self.dt;
         Ok(ledger)
     }
 
-    /// Stresses of the joints at the present places.
-    fn pull_joints(&mut self) {
-        let Self { joints, joint_forces, tets, nodes, setup, .. } = self;
-        let of = |number: usize, joint: &mut Joint, forces: &mut [DVec3; 3]| {
-            if joint.bond != Bond::Joint {
-                return;
-            }
-            let Some(cohesion) = body_of(setup, setup.interfaces[number].tets[0]).cohesion else { return };
-            let sides = faces(number, setup, tets, nodes);
-            let answer = joint::forces(&cohesion.law(joint.edge), joint.area, &mut joint.memory, &sides);
-            *forces = answer.forces;
-            joint.dissipated += answer.dissipated;
-            // Of three points two: the field's use.
-            joint.failed = answer.failed >= 2;
-        };
-        let pieces = joints.par_chunks_mut(PIECE).zip(joint_forces.par_chunks_mut(PIECE)).enumerate();
-        pieces.for_each(|(piece, (joints, forces))| {
-            let each = joints.iter_mut().zip(forces).enumerate();
-            each.for_each(|(k, (joint, forces))| of(piece * PIECE + k, joint, forces));
-        });
-    }
-
     /// Forces of the tetrahedra on their vertices, with those of the joints at their faces; the power of viscosity [W].
     fn deform_tets(&mut self) -> Result<f64, StepError> {
-        let Self { forces, joint_forces, stresses, sums, tets, nodes, moduli, .. } = self;
-        let tet = |t: usize, out: &mut [DVec3; 4], stress: Option<&mut DMat3>, sum: &mut PieceSum| {
-            let at = tets.nodes[t].map(|n| n as usize);
-            let (x, v) = (at.map(|n| nodes.place[n]), at.map(|n| nodes.velocity[n]));
-            let moduli = &moduli[usize::from(tets.body[t])];
-            let answer = element::forces(&tets.shape[t], moduli, &x, &v);
-            let [a, b, c] = answer.forces;
-            *out = [-(a + b + c), a, b, c];
-            sum.viscous += answer.viscous_power;
-            // Not a number counts, too.
-            if answer.ratio.is_nan() || answer.ratio <= 0.0 {
-                sum.inverted = sum.inverted.or(Some(t));
-            }
-            if let Some(stress) = stress {
-                *stress = element::stress(&tets.shape[t], moduli, &x);
-            }
-            for link in tets.faces[t] {
-                let Some((number, side)) = link.interface() else { continue };
-                let sign = if side == 0 { 1.0 } else { -1.0 };
-                for (k, force) in link.nodes.into_iter().zip(joint_forces[number]) {
-                    out[usize::from(k)] += force * sign;
-                }
-            }
-        };
-        let with_stress = !stresses.is_empty();
-        let pieces = forces.par_chunks_mut(PIECE).zip(sums.par_iter_mut()).enumerate();
-        if with_stress {
-            pieces.zip(stresses.par_chunks_mut(PIECE)).for_each(|((piece, (forces, sum)), stresses)| {
-                *sum = PieceSum::default();
-                for (k, (out, stress)) in forces.iter_mut().zip(stresses).enumerate() {
-                    tet(piece * PIECE + k, out, Some(stress), sum);
-                }
-            });
-        } else {
-            pieces.for_each(|(piece, (forces, sum))| {
-                *sum = PieceSum::default();
-                for (k, out) in forces.iter_mut().enumerate() {
-                    tet(piece * PIECE + k, out, None, sum);
-                }
-            });
-        }
-        if let Some(tet) = self.sums.iter().find_map(|sum| sum.inverted) {
-            return Err(StepError::Inverted { tet, time: self.time });
-        }
-        Ok(self.sums.iter().map(|sum| sum.viscous).sum())
+        let Self { deformation, joints, tets, nodes, moduli, strength, .. } = self;
+        let bodies = Bodies { tets, nodes, moduli, strength, joints: &joints.forces };
+        deformation.compute(bodies).map_err(|tet| StepError::Inverted { tet, time: self.time })
     }
 
     /// Contact forces at the present places.
     fn press_contacts(&mut self) {
-        let Self { contacts, setup, tets, nodes, joints, forces, dt, .. } = self;
-        let is_broken = |face: usize| joints[face].bond == Bond::Broken;
-        contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, forces);
+        let Self { contacts, setup, tets, nodes, joints, deformation, dt, .. } = self;
+        let is_broken = |face: usize| joints.bond[face] == Bond::Broken;
+        contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
     }
 
-    /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10); returns the kinetic energy at the start of the step
-    /// and the work of the constraints over it [J].
-    fn move_nodes(&mut self) -> [f64; 2] {
-        let Self { nodes, forces, setup, dt, moved, .. } = self;
+    /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10).
+    fn move_nodes(&mut self) -> Moved {
+        let Self { nodes, deformation, setup, dt, moved, .. } = self;
+        let forces = &deformation.forces;
         let (dt, gravity) = (*dt, setup.gravity);
         let Nodes { place, velocity, mass, constraint, ties } = nodes;
-        moved.resize(place.len().div_ceil(PIECE), [0.0; 2]);
+        moved.resize(place.len().div_ceil(PIECE), Moved::default());
         let pieces = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
         pieces.enumerate().for_each(|(piece, ((places, velocities), moved))| {
-            *moved = [0.0; 2];
+            *moved = Moved::default();
             for (k, (x, v)) in places.iter_mut().zip(velocities).enumerate() {
                 let node = piece * PIECE + k;
                 let mut force = gravity * mass[node];
@@ -319,36 +222,25 @@ impl World {
                         let Some(given) = given else { continue };
                         let reaction = mass[node] * (given - before[axis]) / dt - force[axis];
                         v[axis] = given;
-                        moved[1] += reaction * 0.5 * (before[axis] + given) * dt;
+                        moved.work += reaction * 0.5 * (before[axis] + given) * dt;
                     }
                 }
-                moved[0] += 0.5 * mass[node] * before.dot(*v);
+                moved.kinetic += 0.5 * mass[node] * before.dot(*v);
+                moved.fastest = moved.fastest.max(v.length_squared());
                 *x += *v * dt;
             }
         });
-        moved.iter().fold([0.0; 2], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1]])
-    }
-
-    /// Energy that a joint would give back [J].
-    pub(super) fn stored_in(&self, number: usize) -> f64 {
-        let joint = &self.joints[number];
-        let cohesion = body_of(&self.setup, self.setup.interfaces[number].tets[0]).cohesion;
-        let (Bond::Joint, Some(cohesion)) = (joint.bond, cohesion) else { return 0.0 };
-        let sides = faces(number, &self.setup, &self.tets, &self.nodes);
-        joint::stored(&cohesion.law(joint.edge), joint.area, &joint.memory, &sides)
+        moved.iter().fold(Moved::default(), |sum, piece| Moved {
+            kinetic: sum.kinetic + piece.kinetic,
+            work: sum.work + piece.work,
+            fastest: sum.fastest.max(piece.fastest),
+        })
     }
 
     /// Undeformed place of a node [m].
     pub fn place_at_start(&self, node: usize) -> DVec3 {
         let copy = self.nodes.ties.of(node)[0] as usize;
         self.setup.nodes[self.setup.tets[copy / 4][copy % 4] as usize]
-    }
-
-    /// Undeformed corners of an interface [m].
-    pub fn corners(&self, number: usize) -> [DVec3; 3] {
-        let interface = &self.setup.interfaces[number];
-        let tet = &self.setup.tets[interface.tets[0] as usize];
-        interface.nodes[0].map(|k| self.setup.nodes[tet[usize::from(k)] as usize])
     }
 
     /// Energies at the present places, but for motion.
@@ -361,11 +253,10 @@ impl World {
         let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
         Ledger {
             strain: ordered_sum(tets.nodes.len(), strain),
-            joint: ordered_sum(self.joints.len(), |number| self.stored_in(number)),
+            joint: self.joints.stored(&self.setup, tets, &self.nodes),
             contact: self.contacts.stored,
             friction: self.contacts.friction,
-            fracture: ordered_sum(self.joints.len(), |number| self.joints[number].dissipated)
-                - self.contacts.taken_over,
+            fracture: self.lost.fracture + self.joints.dissipated() - self.contacts.taken_over,
             gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
             // The power is that of the velocity half a step ago, and goes on to the next.
             viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
@@ -374,23 +265,8 @@ impl World {
     }
 }
 
-pub(super) fn body_of(setup: &Setup, tet: u32) -> &super::setup::Body {
-    let number = setup.bodies.partition_point(|body| body.tets.end <= tet as usize);
-    &setup.bodies[number]
-}
-
-/// Corners of both sides of an interface [m].
-#[inline]
-pub(super) fn faces(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) -> [[DVec3; 3]; 2] {
-    let interface = &setup.interfaces[number];
-    [0, 1].map(|side| {
-        let at = &tets.nodes[interface.tets[side] as usize];
-        interface.nodes[side].map(|k| nodes.place[at[usize::from(k)] as usize])
-    })
-}
-
 /// Sum over 0..count in an order that does not depend on the threads.
-fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
+pub(super) fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
     let pieces: Vec<f64> = (0..count.div_ceil(PIECE))
         .into_par_iter()
         .map(|piece| (piece * PIECE..((piece + 1) * PIECE).min(count)).map(&of).sum())

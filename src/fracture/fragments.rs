@@ -1,6 +1,7 @@
 //! Pieces that bodies have broken into.
 
-use crate::femdem::world::{Bond, World};
+use crate::femdem::joints::Bond;
+use crate::femdem::world::World;
 
 /// A piece of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,8 +18,8 @@ pub struct Fragment {
 pub fn fragments(world: &World) -> Vec<Fragment> {
     let setup = world.setup();
     let mut leader: Vec<u32> = (0..setup.tets.len() as u32).collect();
-    for (interface, joint) in setup.interfaces.iter().zip(&world.joints) {
-        if joint.bond != Bond::Broken {
+    for (interface, bond) in setup.interfaces.iter().zip(&world.joints.bond) {
+        if *bond != Bond::Broken {
             let [a, b] = interface.tets.map(|tet| first_of(&mut leader, tet));
             // The lower number leads, whatever the order.
             leader[a.max(b) as usize] = a.min(b);

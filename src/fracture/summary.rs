@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{fragments::fragments, initiation::initiations};
 use crate::case::FractureCase;
 use crate::femdem::energy::Ledger;
-use crate::femdem::world::{Bond, World};
+use crate::femdem::world::World;
 use crate::output::{Execution, OutputError, write_atomically};
 
 /// `summary.json` of a fracture run.
@@ -118,8 +118,7 @@ impl FractureSummary {
     /// The summary of a run.
     pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched) -> Self {
         let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
-        let broken = world.joints.iter().filter(|joint| joint.bond == Bond::Broken);
-        let taken: f64 = broken.map(|joint| joint.dissipated - joint.freed).sum();
+        let taken: f64 = world.failures.iter().map(|failure| failure.energy).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
         let g_f = energies.fold(f64::MAX, f64::min);
         let name = |body: usize| case.names[body].clone();
@@ -139,7 +138,7 @@ impl FractureSummary {
             breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
             case_hash: case.hash.clone(),
             tets,
-            joints: world.joints.len(),
+            joints: world.joints.count(),
             simulated_s: world.time,
             dt_s: world.dt,
             steps: watched.steps,

@@ -1,0 +1,123 @@
+//! Joints with neither damage nor slip behind them: nearly all of them nearly always, four at a time.
+//!
+//! What they answer is what [`super::joint::forces`] answers with an empty memory, to rounding; a joint that would get
+//! something to remember is told apart and left to it.
+
+use super::cohesive_law::Cohesion;
+use super::lanes::{Lanes, Vectors};
+
+/// Laws of the joints in the lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct WholeLaw<L> {
+    /// p_0 [Pa].
+    penalty: L,
+    tensile: L,
+    /// 1 / (2 f_t) [1/Pa].
+    per_tensile: L,
+    cohesion: L,
+    friction: L,
+}
+
+/// Answer of the joints in the lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct WholeAnswer<L> {
+    /// On the corners of side 0 [N]; side 1 has the negative.
+    pub forces: [Vectors<L>; 3],
+    /// Positive where a joint opens beyond its peak or slips beyond its strength: the forces do not count there.
+    pub beyond: L,
+}
+
+impl<L: Lanes> WholeLaw<L> {
+    /// Laws from a function of the lane.
+    #[inline(always)]
+    pub fn from_fn<'a>(of: impl Fn(usize) -> &'a Cohesion) -> Self {
+        Self {
+            penalty: L::from_fn(|lane| of(lane).penalty),
+            tensile: L::from_fn(|lane| of(lane).strength.tensile),
+            per_tensile: L::from_fn(|lane| 0.5 / of(lane).strength.tensile),
+            cohesion: L::from_fn(|lane| of(lane).strength.cohesion),
+            friction: L::from_fn(|lane| of(lane).strength.friction),
+        }
+    }
+
+    /// Forces of joints of the mean edge lengths h [m] and undeformed areas [m2], corners of both sides at `sides` [m].
+    #[inline(always)]
+    pub fn forces(&self, edge: L, area: L, [a, b]: &[[Vectors<L>; 3]; 2]) -> WholeAnswer<L> {
+        let jump = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+        // Of the mid-surface, twice as large.
+        let corner = a[0] + b[0];
+        let normal = (a[1] + b[1] - corner).cross(a[2] + b[2] - corner);
+        let normal = normal * (L::splat(1.0) / normal.dot(normal).sqrt());
+        let stiffness = self.penalty / edge;
+        let half = L::splat(0.5);
+        let p = self.respond(stiffness, (jump[0] + jump[1]) * half, normal);
+        let q = self.respond(stiffness, (jump[1] + jump[2]) * half, normal);
+        let r = self.respond(stiffness, (jump[2] + jump[0]) * half, normal);
+        // A third of the area to a point; half of it to each end of the edge.
+        let share = area * L::splat(1.0 / 6.0);
+        WholeAnswer {
+            forces: [(p.0 + r.0) * share, (p.0 + q.0) * share, (q.0 + r.0) * share],
+            beyond: p.1.max(q.1).max(r.1),
+        }
+    }
+
+    /// Stress vector at a jump of the places [m], eq. 2 and elastic slip, and by how much it is beyond what is elastic.
+    #[inline(always)]
+    fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
+        let zero = L::splat(0.0);
+        let opening = jump.dot(normal);
+        let slip_squared = jump.dot(jump) - opening * opening;
+        let elastic = stiffness * opening;
+        // K = 2 f_t / delta_p: r = K delta / (2 f_t), and f_t (2 - r) r is K delta (1 - r / 2).
+        let r = (elastic * self.per_tensile).max(zero);
+        let stress = elastic - elastic * (r * L::splat(0.5));
+        let strength = (self.cohesion - stress.min(self.tensile) * self.friction).max(zero);
+        let sliding = stiffness * stiffness * slip_squared - strength * strength;
+        (jump * stiffness + normal * (stress - elastic), sliding.max(r - L::splat(1.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::cohesive_law::Range;
+    use super::super::joint::{self, Memory};
+    use super::super::lanes::{LANES, Portable};
+    use super::super::material::Strength;
+    use super::*;
+    use crate::random::SplitMix64;
+
+    #[test]
+    fn a_whole_joint_answers_like_one_with_an_empty_memory() {
+        let strength =
+            Strength { tensile: 3.3e6, cohesion: 16.5e6, friction: 0.577, opening_energy: 50.0, sliding_energy: 50.0 };
+        let cohesion = Cohesion { strength, penalty: 50.0 * 26e9, range: Range::Exact, tied: false };
+        let corners = [DVec3::ZERO, DVec3::new(0.03, 0.0, 0.004), DVec3::new(0.002, 0.028, 0.0)];
+        let (edge, area) = joint::size(&corners);
+        let mut random = SplitMix64::new(5);
+        let (mut whole, mut worn) = (0, 0);
+        for _ in 0..2000 {
+            // Around the openings and slips of the strength, 0.15 and 0.37 micrometres.
+            let mut away = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
+            let sides = [corners.map(|corner| corner - away()), corners.map(|corner| corner + away() - away())];
+            let mut memory = Memory::default();
+            let expected = joint::forces(&cohesion.law(edge), area, &mut memory, &sides);
+            let lanes = sides.map(|side| side.map(|corner| Vectors::<Portable>::from_fn(|_| corner)));
+            let law = WholeLaw::from_fn(|_| &cohesion);
+            let found = law.forces(Portable::splat(edge), Portable::splat(area), &lanes);
+            let beyond = found.beyond.to_array()[LANES - 1] > 0.0;
+            assert_eq!(beyond, memory.is_worn());
+            if beyond {
+                worn += 1;
+                continue;
+            }
+            whole += 1;
+            for (found, expected) in found.forces.into_iter().zip(expected.forces) {
+                // Rounding of places of 3 cm, of which jumps of a tenth of a micrometre are the differences.
+                assert!((found.to_array()[0] - expected).length() < 1e-9 * expected.length() + 1e-6);
+            }
+        }
+        assert!(whole > 200 && worn > 200, "{whole} {worn}");
+    }
+}
