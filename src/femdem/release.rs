@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::assembly;
 use super::cohesive_law::Cohesion;
 use super::joint::{self, Axes, Memory};
-use super::world::{Bond, Failure, Joint, World, body_of, faces};
+use super::world::{Bond, Joint, World, body_of, faces};
 
 impl World {
     /// Tied faces that have reached their strength become joints, joints that have failed break.
@@ -38,16 +38,13 @@ impl World {
     fn break_joint(&mut self, number: usize) {
         // What it would have given back is lost with it.
         let lost = self.stored_in(number);
-        let corners = self.corners(number);
         let joint = &mut self.joints[number];
         joint.bond = Bond::Broken;
         joint.dissipated += lost;
         let opened = self.setup.interfaces[number];
         self.joint_forces[number] = [DVec3::ZERO; 3];
         let by_sliding = joint.memory.is_mostly_slid();
-        let place = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let (time, area) = (self.time, joint.area);
-        self.failures.push(Failure { interface: number as u32, time, place, area, by_sliding });
+        self.failures.push(self.failure(number as u32, self.time, by_sliding));
         self.contacts.open(opened.tets, lost);
         let joints = &self.joints;
         let unbroken = |face: u32| joints[face as usize].bond != Bond::Broken;

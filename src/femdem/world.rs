@@ -14,6 +14,7 @@ use super::energy::Ledger;
 use super::joint::{self, Memory};
 use super::setup::Setup;
 use super::time_step;
+use super::watch::{Limits, StepError};
 
 /// Items of one task of the thread pool; sums are taken over these first, so that they have one order.
 const PIECE: usize = 512;
@@ -62,13 +63,6 @@ pub struct Failure {
     pub by_sliding: bool,
 }
 
-/// Why a step cannot be taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StepError {
-    /// A tetrahedron was turned inside out.
-    Inverted { tet: usize, time: f64 },
-}
-
 /// What the tetrahedra of one piece had to say besides their forces.
 #[derive(Debug, Clone, Copy, Default)]
 struct PieceSum {
@@ -101,13 +95,14 @@ pub struct World {
     pub(super) around: Vec<Vec<Copy4>>,
     pub(super) lost: Ledger,
     gravity_at_start: f64,
+    pub(super) limits: Limits,
     // Workspace.
     forces: Vec<[DVec3; 4]>,
     pub(super) joint_forces: Vec<[DVec3; 3]>,
     /// Of every tetrahedron [Pa], where faces are tied.
     pub(super) stresses: Vec<DMat3>,
     sums: Vec<PieceSum>,
-    moved: Vec<[f64; 2]>,
+    moved: Vec<[f64; 3]>,
 }
 
 impl World {
@@ -129,10 +124,8 @@ impl World {
         let moduli = setup.bodies.iter().map(|body| Moduli::from(&body.elastic)).collect();
         let count = setup.tets.len();
         let around = assembly::copies_around(&setup);
-        let unbroken = |face: u32| joints[face as usize].bond != Bond::Broken;
-        let groups: Vec<Vec<Copy4>> =
-            around.iter().flat_map(|copies| assembly::held_together(&tets, &setup, copies, &unbroken)).collect();
-        let contacts = Contacts::new(&setup, groups.iter().map(Vec::as_slice));
+        let contacts = contacts(&setup, &tets, &around, &joints);
+        let limits = Limits::new(&setup, &nodes);
         let ties = joints.iter().any(|joint| joint.bond == Bond::Tied);
         let mut world = Self {
             moduli,
@@ -146,6 +139,7 @@ impl World {
             around,
             lost: Ledger::default(),
             gravity_at_start: 0.0,
+            limits,
             forces: vec![[DVec3::ZERO; 4]; count],
             joint_forces: vec![[DVec3::ZERO; 3]; setup.interfaces.len()],
             stresses: vec![DMat3::ZERO; if ties { count } else { 0 }],
@@ -189,7 +183,7 @@ impl World {
     /// Take one step.
     ///
     /// # Errors
-    /// If a tetrahedron is turned inside out.
+    /// If a tetrahedron is turned inside out, or a node is too fast or not a number.
     pub fn step(&mut self) -> Result<(), StepError> {
         self.advance(false).map(|_| ())
     }
@@ -207,7 +201,7 @@ impl World {
         let viscous_power = self.deform_tets()?;
         self.press_contacts();
         let mut ledger = if book { self.energies(viscous_power) } else { Ledger::default() };
-        let [kinetic, work] = self.move_nodes();
+        let [kinetic, work, fastest_squared] = self.move_nodes();
         ledger.kinetic = kinetic;
         // Half of the work of this step is done after its start.
         ledger.work += 0.5 * work;
@@ -215,6 +209,7 @@ impl World {
         self.lost.work += work;
         self.release_joints();
         self.time += self.dt;
+        self.check_speed(fastest_squared)?;
         Ok(ledger)
     }
 
@@ -252,7 +247,7 @@ impl World {
             *out = [-(a + b + c), a, b, c];
             sum.viscous += answer.viscous_power;
             // Not a number counts, too.
-            if answer.ratio.is_nan() || answer.ratio <= 0.0 {
+            if !answer.ratio.is_finite() || answer.ratio <= 0.0 {
                 sum.inverted = sum.inverted.or(Some(t));
             }
             if let Some(stress) = stress {
@@ -284,7 +279,7 @@ impl World {
             });
         }
         if let Some(tet) = self.sums.iter().find_map(|sum| sum.inverted) {
-            return Err(StepError::Inverted { tet, time: self.time });
+            return Err(self.why_inverted(tet));
         }
         Ok(self.sums.iter().map(|sum| sum.viscous).sum())
     }
@@ -297,15 +292,15 @@ impl World {
     }
 
     /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10); returns the kinetic energy at the start of the step
-    /// and the work of the constraints over it [J].
-    fn move_nodes(&mut self) -> [f64; 2] {
+    /// and the work of the constraints over it [J], and the square of the largest speed at its end [m2/s2].
+    fn move_nodes(&mut self) -> [f64; 3] {
         let Self { nodes, forces, setup, dt, moved, .. } = self;
         let (dt, gravity) = (*dt, setup.gravity);
         let Nodes { place, velocity, mass, constraint, ties } = nodes;
-        moved.resize(place.len().div_ceil(PIECE), [0.0; 2]);
+        moved.resize(place.len().div_ceil(PIECE), [0.0; 3]);
         let pieces = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
         pieces.enumerate().for_each(|(piece, ((places, velocities), moved))| {
-            *moved = [0.0; 2];
+            *moved = [0.0; 3];
             for (k, (x, v)) in places.iter_mut().zip(velocities).enumerate() {
                 let node = piece * PIECE + k;
                 let mut force = gravity * mass[node];
@@ -323,10 +318,11 @@ impl World {
                     }
                 }
                 moved[0] += 0.5 * mass[node] * before.dot(*v);
+                moved[2] = moved[2].max(v.length_squared());
                 *x += *v * dt;
             }
         });
-        moved.iter().fold([0.0; 2], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1]])
+        moved.iter().fold([0.0; 3], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1], sum[2].max(piece[2])])
     }
 
     /// Energy that a joint would give back [J].
@@ -372,6 +368,15 @@ impl World {
             ..self.lost
         }
     }
+}
+
+/// Contacts in which what unbroken faces hold together around a node does not touch.
+pub(super) fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints: &[Joint]) -> Contacts {
+    let unbroken = |face: u32| joints[face as usize].bond != Bond::Broken;
+    let around = around.iter().filter(|copies| !copies.is_empty());
+    let groups: Vec<Vec<Copy4>> =
+        around.flat_map(|copies| assembly::held_together(tets, setup, copies, &unbroken)).collect();
+    Contacts::new(setup, groups.iter().map(Vec::as_slice))
 }
 
 pub(super) fn body_of(setup: &Setup, tet: u32) -> &super::setup::Body {
