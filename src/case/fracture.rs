@@ -1,5 +1,7 @@
 //! A fracture case, validated.
 
+mod output;
+
 use std::path::Path;
 
 use glam::DVec3;
@@ -18,6 +20,9 @@ use crate::femdem::setup::{Body, Constraint, Setup};
 /// p_0 over E where the case does not give it [-]: the published practice for joints that hold from the start; tied ones
 /// need little, for only joints that have come free are soft.
 const PENALTY: [f64; 2] = [50.0, 2.0];
+
+/// Steps of a run at most [-]: more take years.
+const MOST_STEPS: f64 = 1e10;
 
 /// A fracture case whose values make sense; SI units throughout.
 #[derive(Debug, Clone)]
@@ -48,6 +53,8 @@ pub struct FractureCase {
     pub surfaces_interval: Option<f64>,
     /// Interval of the energy book [s].
     pub energy_interval: f64,
+    /// Interval of the checkpoints [s]; without it none is written.
+    pub checkpoint_interval: Option<f64>,
     /// Simulated time [s].
     pub duration: f64,
 }
@@ -84,6 +91,7 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     if file.title.trim().is_empty() {
         check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case");
     }
+    let [surfaces_interval, checkpoint_interval] = output::validate(file, check);
     validate_numbers(file, check);
     let (mesh_file, mesh) = read_mesh(file, name, check)?;
     let bodies = validate_bodies(file, &mesh, check)?;
@@ -97,7 +105,6 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     // Writing to memory cannot fail: every key is a string.
     let kept_text =
         if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
-    let interval = file.output.surfaces_interval_s;
     Some(FractureCase {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -110,15 +117,15 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
         setup,
         step_share: file.fracture.step_share,
         dt: file.fracture.dt_s,
-        surfaces_interval: (interval > 0.0).then_some(interval),
+        surfaces_interval,
         energy_interval: file.output.energy_interval_s,
+        checkpoint_interval,
         duration: file.stop.duration_s,
     })
 }
 
 fn validate_numbers(file: &FractureFile, check: &mut Checker) {
     let method = &file.fracture;
-    check.number("fracture.scale", method.scale, above(0.0).up_to(1e3), "", "0.001 for a mesh in millimetres");
     let advice = "1 makes a contact eight times as stiff as the tetrahedron behind it";
     check.number("fracture.contact_penalty", method.contact_penalty, from(1e-3).up_to(1e3), "", advice);
     check.number(
@@ -132,20 +139,19 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
         check.number("fracture.joint_penalty", penalty, from(0.1).up_to(1e4), "", "50 costs 5 % of the stiffness");
     }
     if let Some(dt) = method.dt_s {
-        check.number("fracture.dt_s", dt, above(0.0).up_to(1.0), "s", "leave it out for the longest stable step");
+        let shortest = from(file.stop.duration_s.max(0.0) / MOST_STEPS);
+        check.number("fracture.dt_s", dt, shortest.up_to(1.0), "s", "leave it out for the longest stable step");
     }
     for (axis, g) in file.gravity_m_s2.into_iter().enumerate() {
         check.number(&format!("gravity_m_s2[{axis}]"), g, from(-1e3).up_to(1e3), "m/s2", "[0, 0, -9.8] on earth");
     }
-    let duration = file.stop.duration_s;
-    check.number("stop.duration_s", duration, above(0.0).up_to(1e3), "s", "an impact lasts some milliseconds");
-    let advice = "a hundredth of the duration draws a smooth curve";
-    check.number("output.energy_interval_s", file.output.energy_interval_s, above(0.0).up_to(1e3), "s", advice);
-    let advice = "0 writes none";
-    check.number("output.surfaces_interval_s", file.output.surfaces_interval_s, from(0.0).up_to(1e3), "s", advice);
 }
 
 fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Vec<u8>, PreparedMesh)> {
+    let advice = "0.001 for a mesh in millimetres";
+    if !check.number("fracture.scale", file.fracture.scale, above(0.0).up_to(1e3), "", advice) {
+        return None;
+    }
     let path = Path::new(name).parent().unwrap_or(Path::new("")).join(&file.fracture.mesh);
     let shown = format!("{:?}", path.display().to_string());
     let bytes = match std::fs::read(&path) {

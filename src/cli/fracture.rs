@@ -7,8 +7,10 @@ use clap::Args;
 use super::{Trouble, fresh_folder, run::MachineArguments, show_warnings, stem};
 use crate::{
     case::FractureCase,
+    femdem::world::World,
     fracture::{
-        run::{FractureError, run, world},
+        checkpoint,
+        run::{FractureError, resume, run, world},
         summary::FractureSummary,
     },
     simulation::progress::readable,
@@ -35,22 +37,46 @@ impl FractureArguments {
         let case = load(&self.case)?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let quiet = self.machine.prepare()?.quiet;
+        let world = at_start(&case, &self.case)?;
         fresh_folder(&dir, self.overwrite)?;
-        if !quiet {
-            eprintln!("{}\n  results in {}", case.title, dir.display());
-            case.assumptions.iter().for_each(|assumption| eprintln!("  assumed: {assumption}"));
-        }
-        match run(&case, &dir, quiet) {
-            Ok(summary) => {
-                tell(&summary, &dir);
-                Ok(())
-            }
-            Err(error @ FractureError::Step { .. }) => {
-                Err(Trouble::refused(format!("{}: {error}", self.case.display())))
-            }
-            Err(error) => Err(Trouble::failed(error)),
-        }
+        introduce(&case, &dir, quiet);
+        finish(run(&case, world, &dir, quiet), &dir)
     }
+}
+
+/// Go on with an interrupted run.
+pub(super) fn resume_run(dir: &Path, machine: &MachineArguments) -> Result<(), Trouble> {
+    let path = dir.join("case.json");
+    let case = load(&path)?;
+    let checkpoint = dir.join(checkpoint::FILE);
+    if !checkpoint.exists() {
+        return Err(Trouble::refused(format!(
+            "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater fracture",
+            checkpoint.display()
+        )));
+    }
+    let quiet = machine.prepare()?.quiet;
+    let world = at_start(&case, &path)?;
+    introduce(&case, dir, quiet);
+    finish(resume(&case, world, dir, quiet), dir)
+}
+
+/// The world of a case read from a file.
+fn at_start(case: &FractureCase, path: &Path) -> Result<World, Trouble> {
+    world(case).map_err(|error| Trouble::refused(format!("{}: {error}", path.display())))
+}
+
+fn introduce(case: &FractureCase, dir: &Path, quiet: bool) {
+    if !quiet {
+        eprintln!("{}\n  results in {}", case.title, dir.display());
+        case.assumptions.iter().for_each(|assumption| eprintln!("  assumed: {assumption}"));
+    }
+}
+
+/// Say how a run ended.
+fn finish(ended: Result<FractureSummary, FractureError>, dir: &Path) -> Result<(), Trouble> {
+    tell(&ended.map_err(Trouble::failed)?, dir);
+    Ok(())
 }
 
 fn load(path: &Path) -> Result<FractureCase, Trouble> {
@@ -62,7 +88,7 @@ fn load(path: &Path) -> Result<FractureCase, Trouble> {
 /// Tell what a fracture case holds and what it costs.
 pub(super) fn check(path: &Path) -> Result<(), Trouble> {
     let case = load(path)?;
-    let world = world(&case).map_err(|error| Trouble::refused(format!("{}: {error}", path.display())))?;
+    let world = at_start(&case, path)?;
     println!("{}: {}", path.display(), case.title);
     for quality in &case.mesh.quality {
         println!(

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, dry_report, fresh_folder, load_any, stem};
+use super::{AnyCase, Trouble, dry_report, fracture, fresh_folder, is_fracture, load_any, stem};
 use crate::{
     case::Case,
     dry::{self, recorder::DryRecorder},
@@ -72,7 +72,11 @@ impl RunArguments {
 
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let case = load_any(&self.dir.join("case.json"))?;
+        let file = self.dir.join("case.json");
+        if is_fracture(&file) {
+            return fracture::resume_run(&self.dir, &self.machine);
+        }
+        let case = load_any(&file)?;
         let checkpoint = self.dir.join(match &case {
             AnyCase::Wet(_) => Checkpoint::FILE,
             AnyCase::Dry(_) => DryRecorder::CHECKPOINT,

@@ -35,6 +35,55 @@ impl Nodes {
     pub fn count(&self) -> usize {
         self.place.len()
     }
+
+    /// Nodes of a later moment: `vertices` are those at the vertices of the tetrahedra, by number, with their places [m]
+    /// and velocities [m/s]. Copies, masses and constraints follow from the vertices and from the nodes of the start,
+    /// which these are. The tetrahedra get the new vertices.
+    ///
+    /// # Errors
+    /// If nodes cannot have come apart like that: what is wrong.
+    pub(super) fn come_apart(
+        &mut self,
+        tets: &mut Tets,
+        setup: &Setup,
+        vertices: Vec<[u32; 4]>,
+        [place, velocity]: [Vec<DVec3>; 2],
+    ) -> Result<(), &'static str> {
+        let count = place.len();
+        let known = |node: &u32| (*node as usize) < count;
+        if velocity.len() != count || vertices.len() != setup.tets.len() || !vertices.iter().flatten().all(known) {
+            return Err("its nodes and tetrahedra are not those of the mesh");
+        }
+        let mut span = vec![[0; 2]; count];
+        vertices.iter().flatten().for_each(|node| span[*node as usize][1] += 1);
+        let mut first = 0;
+        for [begin, copies] in &mut span {
+            *begin = first;
+            first += std::mem::take(copies);
+        }
+        let mut copies = vec![0; first as usize];
+        for (copy, node) in vertices.iter().flatten().enumerate() {
+            let [begin, found] = &mut span[*node as usize];
+            copies[(*begin + *found) as usize] = copy as Copy4;
+            *found += 1;
+        }
+        let ties = Ties { span, copies };
+        let origin = |copy: Copy4| setup.tets[copy as usize / 4][copy as usize % 4];
+        let at_start = |copy: Copy4| tets.nodes[copy as usize / 4][copy as usize % 4] as usize;
+        let (mut mass, mut constraint) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for node in 0..count {
+            let of_node = ties.of(node);
+            let Some(one) = of_node.first() else { return Err("it has nodes without a tetrahedron") };
+            if of_node.iter().any(|copy| origin(*copy) != origin(*one)) {
+                return Err("it ties nodes together that are apart in the mesh");
+            }
+            mass.push(mass_of(of_node, tets, setup));
+            constraint.push(self.constraint[at_start(*one)]);
+        }
+        tets.nodes = vertices;
+        *self = Self { place, velocity, mass, constraint, ties };
+        Ok(())
+    }
 }
 
 /// The copies of every node.

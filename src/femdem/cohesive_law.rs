@@ -58,13 +58,13 @@ pub struct Point {
     /// Largest damage D so far [-].
     pub damage: f64,
     /// Secant stiffness in opening [Pa/m]; infinite before damage.
-    secant: f64,
+    pub(super) secant: f64,
     /// Opening at the last call [m].
-    opening: f64,
+    pub(super) opening: f64,
     /// Plastic slip in the axes of the joint [m].
-    plastic: [f64; 2],
+    pub(super) plastic: [f64; 2],
     /// Length of the path of the plastic slip [m].
-    slipped: f64,
+    pub(super) slipped: f64,
     /// Energy lost by opening and by sliding so far [J/m2].
     pub lost: [f64; 2],
 }

@@ -105,7 +105,7 @@ impl WithLanes for Piece<'_> {
                 self.bodies.add_joints(of[lane], out);
                 sum.viscous += power[lane];
                 // Not a number counts, too.
-                if ratio[lane].is_nan() || ratio[lane] <= 0.0 {
+                if !ratio[lane].is_finite() || ratio[lane] <= 0.0 {
                     sum.inverted = sum.inverted.or(Some(of[lane]));
                 }
             }

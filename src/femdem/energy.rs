@@ -1,7 +1,9 @@
 //! The energy book.
 
+use serde::{Deserialize, Serialize};
+
 /// Energies [J]: what the bodies have, and what has been lost or given since the start.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Ledger {
     /// Of motion, sum of m v- v+ / 2 of the velocities half a step before and after.
     pub kinetic: f64,

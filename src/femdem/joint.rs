@@ -19,7 +19,7 @@ pub struct Memory {
     /// Opening that a joint had, in terms of its law, when it came free [m].
     pub offset: f64,
     /// A point has damage or slip behind it, or came free under load.
-    is_worn: bool,
+    pub(super) is_worn: bool,
 }
 
 /// Forces of a joint and its energy.

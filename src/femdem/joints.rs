@@ -39,7 +39,7 @@ pub struct WornJoint {
     /// Energy that its spring had when it came free [J].
     pub freed: f64,
     /// On the corners of side 0 [N].
-    forces: [DVec3; 3],
+    pub(super) forces: [DVec3; 3],
     /// It gives way after this step.
     pub failed: bool,
 }
@@ -80,6 +80,12 @@ impl Joints {
         }
         setup.cracks.iter().for_each(|crack| joints.bond[*crack as usize] = Bond::Broken);
         joints
+    }
+
+    /// Mark the tetrahedra at whose faces joints pull, or have pulled.
+    pub fn mark(&self, setup: &Setup, tets: &mut Tets) {
+        let jointed = setup.interfaces.iter().zip(&self.bond).filter(|(_, bond)| **bond != Bond::Tied);
+        jointed.for_each(|(interface, _)| interface.tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true));
     }
 
     /// How many faces there are.

@@ -25,6 +25,11 @@ impl Elastic {
         self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
 
+    /// Celerity of a longitudinal wave, sqrt((lambda + 2 mu) / rho) [m/s].
+    pub fn celerity(&self) -> f64 {
+        ((self.lambda() + 2.0 * self.mu()) / self.density).sqrt()
+    }
+
     /// Celerity of a longitudinal wave in a thin bar, sqrt(E / rho) [m/s].
     pub fn bar_celerity(&self) -> f64 {
         (self.young_modulus / self.density).sqrt()

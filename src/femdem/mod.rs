@@ -22,6 +22,8 @@
 //! | `world` | the step: the entry to this module |
 //! | `release` | faces that give way |
 //! | `energy` | the energy book |
+//! | `watch` | when a step cannot be trusted |
+//! | `snapshot` | what changes with time, taken down and put back |
 
 pub mod assembly;
 pub mod cohesive_law;
@@ -36,7 +38,9 @@ pub mod material;
 pub mod mesh;
 mod release;
 pub mod setup;
+pub mod snapshot;
 pub mod softening;
 pub mod time_step;
+pub mod watch;
 mod whole_joint;
 pub mod world;

@@ -6,7 +6,7 @@ use super::assembly;
 use super::element;
 use super::joint::{self, Axes, Memory};
 use super::joints::{self, Bond, WornJoint};
-use super::world::{Failure, World};
+use super::world::World;
 
 impl World {
     /// Tied faces that have reached their strength become joints, joints that have failed break.
@@ -45,15 +45,8 @@ impl World {
         self.lost.fracture += joint.dissipated + stored;
         self.joints.bond[number] = Bond::Broken;
         self.joints.forces[number] = Default::default();
-        let corners = joints::corners(&self.setup, number);
-        self.failures.push(Failure {
-            interface: joint.interface,
-            time: self.time,
-            place: (corners[0] + corners[1] + corners[2]) / 3.0,
-            area: self.joints.size[number][1],
-            by_sliding: joint.memory.is_mostly_slid(),
-            energy: joint.dissipated + stored - joint.freed,
-        });
+        let energy = joint.dissipated + stored - joint.freed;
+        self.failures.push(self.failure(joint.interface, self.time, joint.memory.is_mostly_slid(), energy));
         let opened = self.setup.interfaces[number];
         self.contacts.open(opened.tets, stored);
         let unbroken = |face: u32| self.joints.bond[face as usize] != Bond::Broken;

@@ -54,7 +54,7 @@ pub struct Setup {
     pub interfaces: Vec<Interface>,
     /// Numbers of the interfaces that are cracked at the start.
     pub cracks: Vec<u32>,
-    /// Tetrahedra at the outside, in rising order.
+    /// Tetrahedra at the outside and at the cracks of the start, in rising order.
     pub outer: Vec<u32>,
     /// Coulomb's coefficient between two bodies [-]: a row for each; crack faces of a body rub with its own.
     pub friction: Vec<Vec<f64>>,
@@ -93,7 +93,9 @@ impl Setup {
             faces.cracks.iter().flat_map(|set| &set.faces).filter_map(|face| number[*face as usize]).collect();
         open.sort_unstable();
         open.dedup();
-        let mut outer: Vec<u32> = faces.exteriors.iter().map(|face| face.tet).collect();
+        let at_cracks = open.iter().flat_map(|crack| interfaces[*crack as usize].tets);
+        let mut outer: Vec<u32> = faces.exteriors.iter().map(|face| face.tet).chain(at_cracks).collect();
+        outer.sort_unstable();
         outer.dedup();
         let friction = vec![vec![0.0; bodies.len()]; bodies.len()];
         Self {

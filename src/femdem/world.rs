@@ -15,6 +15,7 @@ use super::energy::Ledger;
 use super::joints::{Bond, Joints};
 use super::setup::Setup;
 use super::time_step;
+use super::watch::{Limits, StepError};
 
 /// Items of one task of the thread pool; sums are taken over these first, so that they have one order.
 pub(super) const PIECE: usize = 512;
@@ -34,13 +35,6 @@ pub struct Failure {
     pub by_sliding: bool,
     /// Energy that it took, beyond what its spring had when it came free [J].
     pub energy: f64,
-}
-
-/// Why a step cannot be taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StepError {
-    /// A tetrahedron was turned inside out.
-    Inverted { tet: usize, time: f64 },
 }
 
 /// Deformable bodies.
@@ -70,6 +64,7 @@ pub struct World {
     pub(super) around: Vec<Vec<Copy4>>,
     pub(super) lost: Ledger,
     gravity_at_start: f64,
+    pub(super) limits: Limits,
     // Workspace.
     pub(super) deformation: Deformation,
     moved: Vec<Moved>,
@@ -91,15 +86,12 @@ impl World {
     pub fn new(setup: Setup, share: f64) -> Self {
         let joints = Joints::new(&setup);
         let (nodes, mut tets) = assembly::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
-        let whole = setup.interfaces.iter().zip(&joints.bond).filter(|(_, bond)| **bond == Bond::Whole);
-        whole.for_each(|(interface, _)| interface.tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true));
+        joints.mark(&setup, &mut tets);
         let moduli = setup.bodies.iter().map(|body| Moduli::from(&body.elastic)).collect();
         let count = setup.tets.len();
         let around = assembly::copies_around(&setup);
-        let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
-        let groups: Vec<Vec<Copy4>> =
-            around.iter().flat_map(|copies| assembly::held_together(&tets, &setup, copies, &unbroken)).collect();
-        let contacts = Contacts::new(&setup, groups.iter().map(Vec::as_slice));
+        let contacts = contacts(&setup, &tets, &around, &joints);
+        let limits = Limits::new(&setup, &nodes);
         let ties = joints.bond.contains(&Bond::Tied);
         let strength = setup.bodies.iter().map(|body| body.cohesion.map_or(f64::MAX, |c| c.strength.least())).collect();
         let mut world = Self {
@@ -115,6 +107,7 @@ impl World {
             around,
             lost: Ledger::default(),
             gravity_at_start: 0.0,
+            limits,
             deformation: Deformation::new(count, ties),
             moved: Vec::new(),
             setup,
@@ -155,7 +148,7 @@ impl World {
     /// Take one step.
     ///
     /// # Errors
-    /// If a tetrahedron is turned inside out.
+    /// If a tetrahedron is turned inside out, or a node is too fast or not a number.
     pub fn step(&mut self) -> Result<(), StepError> {
         self.advance(false).map(|_| ())
     }
@@ -182,6 +175,7 @@ impl World {
         self.contacts.travel(fastest.sqrt() * self.dt);
         self.release_joints();
         self.time += self.dt;
+        self.check_speed(fastest)?;
         Ok(ledger)
     }
 
@@ -189,7 +183,7 @@ impl World {
     fn deform_tets(&mut self) -> Result<f64, StepError> {
         let Self { deformation, joints, tets, nodes, moduli, strength, .. } = self;
         let bodies = Bodies { tets, nodes, moduli, strength, joints: &joints.forces };
-        deformation.compute(bodies).map_err(|tet| StepError::Inverted { tet, time: self.time })
+        deformation.compute(bodies).map_err(|tet| self.why_inverted(tet))
     }
 
     /// Contact forces at the present places.
@@ -263,6 +257,15 @@ impl World {
             ..self.lost
         }
     }
+}
+
+/// Contacts in which what unbroken faces hold together around a node does not touch.
+pub(super) fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints: &Joints) -> Contacts {
+    let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
+    let around = around.iter().filter(|copies| !copies.is_empty());
+    let groups: Vec<Vec<Copy4>> =
+        around.flat_map(|copies| assembly::held_together(tets, setup, copies, &unbroken)).collect();
+    Contacts::new(setup, groups.iter().map(Vec::as_slice))
 }
 
 /// Sum over 0..count in an order that does not depend on the threads.

@@ -4,10 +4,14 @@
 //! | --- | --- |
 //! | [`run`] | the loop with its outputs |
 //! | [`recorder`] | tables, surfaces and cracks |
+//! | [`checkpoint`] | the state of a run, to go on from |
+//! | [`failure`] | why a run cannot go on, in words |
 //! | [`fragments`] | pieces that bodies have broken into |
 //! | [`initiation`] | where cracks began, in order |
 //! | [`summary`] | the run in a few numbers |
 
+pub mod checkpoint;
+pub mod failure;
 pub mod fragments;
 pub mod initiation;
 pub mod recorder;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::{DMat3, DVec3};
 
+use super::checkpoint::RunState;
 use crate::case::FractureCase;
 use crate::femdem::element::{self, Moduli};
 use crate::femdem::energy::Ledger;
@@ -47,6 +48,28 @@ impl FractureRecorder {
             energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::FRACTURE_ENERGY)?,
             surfaces: case.surfaces_interval.map(series).transpose()?,
         })
+    }
+
+    /// The files of an interrupted run, cut to where they stood at its checkpoint.
+    ///
+    /// # Errors
+    /// If a file is missing or shorter than it was.
+    pub fn reopen(case: &FractureCase, dir: &Path, state: &RunState) -> Result<Self, OutputError> {
+        let steps = state.frames as usize;
+        let series = |_| -> Result<[PolyDataSeries; 2], OutputError> {
+            let open =
+                |file, fields| PolyDataSeries::open_and_truncate(&dir.join(file), Cells::Triangles, fields, steps);
+            Ok([open(SURFACES_FILE, &SURFACE_FIELDS[..])?, open(CRACKS_FILE, &CRACK_FIELDS[..])?])
+        };
+        Ok(Self {
+            energy: CsvSeries::open_truncated(&dir.join(ENERGY_FILE), state.bytes)?,
+            surfaces: case.surfaces_interval.map(series).transpose()?,
+        })
+    }
+
+    /// Length of the energy book [bytes].
+    pub fn bytes(&self) -> u64 {
+        self.energy.bytes()
     }
 
     /// Append a row of the energy book of a moment [s].

@@ -5,14 +5,16 @@ use std::{path::Path, time::Instant};
 use thiserror::Error;
 
 use super::{
+    checkpoint::{self, RunState},
+    failure::Failure,
     recorder::FractureRecorder,
-    summary::{FractureSummary, Watched},
+    summary::FractureSummary,
 };
 use crate::{
     case::FractureCase,
-    femdem::world::{StepError, World},
+    femdem::{watch::StepError, world::World},
     output::OutputError,
-    simulation::progress::Progress,
+    simulation::{progress::Progress, recorder::is_due},
 };
 
 /// Why a fracture run ended early.
@@ -28,18 +30,15 @@ pub enum FractureError {
         /// The longest one [s].
         longest: f64,
     },
-    /// A tetrahedron was turned inside out.
-    #[error(
-        "tetrahedron {tag} of the mesh was turned inside out after {time:.6} s: the impact is too hard for the mesh; refine it \
-         there, or shorten the step with fracture.step_share"
-    )]
-    Inverted {
-        /// Its number in the mesh file.
-        tag: u64,
-        /// When [s].
-        time: f64,
+    /// The computation went astray.
+    #[error("{failure}\nThe state is kept in {kept}; the last regular checkpoint is not touched.")]
+    Failed {
+        /// What happened.
+        failure: Box<Failure>,
+        /// Where the state lies.
+        kept: String,
     },
-    /// A file cannot be written.
+    /// A file cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
 }
@@ -60,55 +59,88 @@ pub fn world(case: &FractureCase) -> Result<World, FractureError> {
     Ok(world)
 }
 
-/// Run a fracture case into an existing, empty folder.
+/// Steps between two looks at places and contacts: these cost as much as a tenth of a step.
+const LOOK: u64 = 100;
+
+/// Run a fracture case, whose world is at its start, into an existing, empty folder.
 ///
 /// # Errors
-/// If the step is not stable, a tetrahedron is turned inside out, or a file cannot be written.
-pub fn run(case: &FractureCase, dir: &Path, quiet: bool) -> Result<FractureSummary, FractureError> {
-    let mut world = world(case)?;
-    let mut recorder = FractureRecorder::create(case, dir)?;
-    let begun = Instant::now();
-    let mut progress = Progress::new(case.duration, 0.0, 0, quiet);
-    let mut watched = Watched::default();
-    let mut start = None;
-    let (mut rows, mut frames) = (0u64, 0u64);
+/// If the computation goes astray or a file cannot be written.
+pub fn run(case: &FractureCase, world: World, dir: &Path, quiet: bool) -> Result<FractureSummary, FractureError> {
+    let recorder = FractureRecorder::create(case, dir)?;
+    drive(case, world, recorder, RunState::default(), dir, quiet)
+}
+
+/// Go on with a fracture run from its last checkpoint; `world` is that of its case at the start.
+///
+/// # Errors
+/// As [`run`], and if the checkpoint is damaged or not one of the case.
+pub fn resume(
+    case: &FractureCase,
+    mut world: World,
+    dir: &Path,
+    quiet: bool,
+) -> Result<FractureSummary, FractureError> {
+    let state = checkpoint::read(case, &mut world, &dir.join(checkpoint::FILE))?;
+    let recorder = FractureRecorder::reopen(case, dir, &state)?;
+    drive(case, world, recorder, state, dir, quiet)
+}
+
+fn drive(
+    case: &FractureCase,
+    mut world: World,
+    mut recorder: FractureRecorder,
+    mut state: RunState,
+    dir: &Path,
+    quiet: bool,
+) -> Result<FractureSummary, FractureError> {
+    let (begun, wall_before) = (Instant::now(), state.watched.wall);
+    let mut progress = Progress::new(case.duration, world.time, state.watched.steps, quiet);
     loop {
+        state.watched.wall = wall_before + begun.elapsed().as_secs_f64();
         let over = world.time >= case.duration;
-        let row_due = over || world.time >= rows as f64 * case.energy_interval;
-        let frame_due = case.surfaces_interval.is_some_and(|interval| over || world.time >= frames as f64 * interval);
+        let row_due = over || world.time >= state.rows as f64 * case.energy_interval;
+        let frame_due =
+            case.surfaces_interval.is_some_and(|interval| over || world.time >= state.frames as f64 * interval);
         if frame_due {
             recorder.record_surfaces(case, &world)?;
-            frames += 1;
+            state.frames += 1;
         }
-        if row_due {
-            let time = world.time;
-            let book = world.step_with_ledger().map_err(|error| told(case, error))?;
-            let total = *start.get_or_insert(book.total());
-            let residual = book.total() - total;
-            if watched.steps == 0 {
-                watched.kinetic[0] = book.kinetic;
-            }
-            watched.kinetic[1] = watched.kinetic[1].max(book.kinetic);
-            watched.residual = watched.residual.max(residual.abs());
+        let time = world.time;
+        let stepped = if row_due { world.step_with_ledger().map(Some) } else { world.step().map(|()| None) };
+        let book = stepped.map_err(|error| failed(case, &world, &state, dir, error))?;
+        if let Some(book) = book {
+            let residual = state.note(&book);
             recorder.record_energy(&world, time, &book, residual)?;
-            rows += 1;
+            (state.rows, state.bytes) = (state.rows + 1, recorder.bytes());
             if over {
-                watched.wall = begun.elapsed().as_secs_f64();
                 progress.finish();
-                let summary = FractureSummary::of(case, &world, &book, watched);
+                let summary = FractureSummary::of(case, &world, &book, state.watched);
                 summary.write(dir)?;
                 return Ok(summary);
             }
-        } else {
-            world.step().map_err(|error| told(case, error))?;
         }
-        watched.steps += 1;
+        state.watched.steps += 1;
+        // The first one is due at the first interval: the start can be made anew from the case.
+        let checkpoint_due = is_due(state.checkpoints + 1, case.checkpoint_interval, world.time);
+        if checkpoint_due || state.watched.steps.is_multiple_of(LOOK) {
+            world.watch().map_err(|error| failed(case, &world, &state, dir, error))?;
+        }
+        if checkpoint_due {
+            state.checkpoints += 1;
+            checkpoint::write(case, &world, &state, &dir.join(checkpoint::FILE))?;
+        }
         let (failed, touching) = (world.failures.len(), world.contacts.touching);
-        progress.update(world.time, watched.steps, || format!("{failed} faces failed, {touching} pairs touch"));
+        progress.update(world.time, state.watched.steps, || format!("{failed} faces failed, {touching} pairs touch"));
     }
 }
 
-fn told(case: &FractureCase, error: StepError) -> FractureError {
-    let StepError::Inverted { tet, time } = error;
-    FractureError::Inverted { tag: case.mesh.mesh.tet_tags[tet], time }
+/// Keeps the state of a run that has gone astray.
+fn failed(case: &FractureCase, world: &World, state: &RunState, dir: &Path, error: StepError) -> FractureError {
+    let path = dir.join(checkpoint::FAILED_FILE);
+    let kept = match checkpoint::write(case, world, state, &path) {
+        Ok(()) => path.display().to_string(),
+        Err(error) => format!("no file ({error})"),
+    };
+    FractureError::Failed { failure: Box::new(Failure::of(case, world, state.watched.steps, error)), kept }
 }

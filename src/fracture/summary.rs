@@ -102,7 +102,7 @@ pub struct InitiationSummary {
 }
 
 /// What the loop has watched.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Watched {
     /// Steps.
     pub steps: u64,
@@ -110,7 +110,7 @@ pub struct Watched {
     pub residual: f64,
     /// Kinetic energy at the start, and the largest [J].
     pub kinetic: [f64; 2],
-    /// Wall clock [s].
+    /// Wall clock, before an interruption and after it [s].
     pub wall: f64,
 }
 

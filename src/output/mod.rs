@@ -20,6 +20,7 @@ mod error;
 pub mod plot;
 mod report;
 mod series;
+pub(crate) mod state_file;
 mod summary;
 mod table;
 mod unit_surface;

@@ -3,19 +3,25 @@
 //! Arrays are datasets; bodies with their contacts, statistics and the state of the outputs are JSON texts, in which
 //! every number is the shortest text that reads back to the same bits.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
-use hdf5_metno::{File, Group, types::VarLenUnicode};
+use hdf5_metno::File;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::{Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics};
-use crate::{output::OutputError, particles::water::Water, rigid::RigidSnapshot, waves::absorption::AbsorptionState};
+use crate::{
+    output::{
+        OutputError,
+        state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
+    },
+    particles::water::Water,
+    rigid::RigidSnapshot,
+    waves::absorption::AbsorptionState,
+};
 
 /// Layout of the file; raised when it changes.
 const VERSION: u32 = 8;
-
-type Hdf5Result<T> = hdf5_metno::Result<T>;
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]
@@ -71,30 +77,17 @@ impl Checkpoint {
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, dir: &Path, file: &str) -> Result<(), OutputError> {
-        let (path, temporary) = (dir.join(file), dir.join(format!("{file}.part")));
+        let path = dir.join(file);
         let text = serde_json::to_string(&self.scalars).map_err(OutputError::json(&path))?;
-        self.write_arrays(&text, &temporary).map_err(OutputError::hdf5(&temporary))?;
-        let publish = || {
-            std::fs::File::open(&temporary)?.sync_all()?;
-            std::fs::rename(&temporary, &path)
-        };
-        publish().map_err(OutputError::io(&path))
-    }
-
-    fn write_arrays(&self, text: &str, path: &Path) -> Hdf5Result<()> {
-        let file = File::create(path)?;
-        let text: VarLenUnicode =
-            text.parse().map_err(|_| hdf5_metno::Error::from("the state holds a NUL character"))?;
-        file.new_attr::<VarLenUnicode>().create("state")?.write_scalar(&text)?;
-        let group = file.create_group("water")?;
-        write_vectors(&group, "position_m", &self.water.position)?;
-        write_vectors(&group, "velocity_m_s", &self.water.velocity)?;
-        group.new_dataset_builder().with_data(&self.water.density[..]).create("density_kg_m3")?;
-        group.new_dataset_builder().with_data(&self.water.mass[..]).create("mass_kg")?;
-        group.new_dataset_builder().with_data(&self.water.id[..]).create("id")?;
-        let group = file.create_group("boundary")?;
-        group.new_dataset_builder().with_data(&self.boundary_density[..]).create("density_kg_m3")?;
-        file.close()
+        write_state(&path, &text, |file| {
+            let group = file.create_group("water")?;
+            write_vectors(&group, "position_m", &self.water.position)?;
+            write_vectors(&group, "velocity_m_s", &self.water.velocity)?;
+            write_column(&group, "density_kg_m3", &self.water.density)?;
+            write_column(&group, "mass_kg", &self.water.mass)?;
+            write_column(&group, "id", &self.water.id)?;
+            write_column(&file.create_group("boundary")?, "density_kg_m3", &self.boundary_density)
+        })
     }
 }
 
@@ -104,7 +97,7 @@ impl Checkpoint {
 /// If there is no checkpoint, it is damaged, or it is one of another case.
 pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
     let path = dir.join(Checkpoint::FILE);
-    let (text, arrays) = read_arrays(&path).map_err(OutputError::hdf5(&path))?;
+    let (text, arrays) = read_state(&path, read_arrays)?;
     let scalars: Scalars = parse(&text, &path)?;
     if scalars.version != VERSION {
         let what = format!("was written by another version of breakwater (layout {})", scalars.version);
@@ -152,29 +145,14 @@ struct Arrays {
     boundary_density: Vec<f64>,
 }
 
-fn read_arrays(path: &PathBuf) -> Hdf5Result<(String, Arrays)> {
-    let file = File::open(path)?;
-    let text = file.attr("state")?.read_scalar::<VarLenUnicode>()?;
+fn read_arrays(file: &File) -> Hdf5Result<Arrays> {
     let water = file.group("water")?;
-    let arrays = Arrays {
+    Ok(Arrays {
         position: read_vectors(&water, "position_m")?,
         velocity: read_vectors(&water, "velocity_m_s")?,
         density: water.dataset("density_kg_m3")?.read_raw()?,
         mass: water.dataset("mass_kg")?.read_raw()?,
         id: water.dataset("id")?.read_raw()?,
         boundary_density: file.dataset("boundary/density_kg_m3")?.read_raw()?,
-    };
-    Ok((text.to_string(), arrays))
-}
-
-/// A dataset of three columns a particle.
-fn write_vectors(group: &Group, name: &str, values: &[DVec3]) -> Hdf5Result<()> {
-    let dataset = group.new_dataset::<f64>().shape((values.len(), 3)).create(name)?;
-    let flat: Vec<f64> = values.iter().flat_map(|v| v.to_array()).collect();
-    dataset.write_raw(&flat)
-}
-
-fn read_vectors(group: &Group, name: &str) -> Hdf5Result<Vec<DVec3>> {
-    let flat: Vec<f64> = group.dataset(name)?.read_raw()?;
-    Ok(flat.chunks_exact(3).map(DVec3::from_slice).collect())
+    })
 }

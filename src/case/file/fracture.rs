@@ -162,6 +162,11 @@ pub struct FractureOutputFile {
     pub surfaces_interval_s: f64,
     /// Interval of the energy book [s].
     pub energy_interval_s: f64,
+    /// Interval of the state that `breakwater resume` goes on from [s]; 0 writes none. Without it, a fiftieth of the
+    /// duration.
+    // Left out at its default, so that cases that do not use it keep their hash.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checkpoint_interval_s: Option<f64>,
 }
 
 /// When a fracture run ends.

@@ -22,9 +22,9 @@ pub struct FrictionLaw {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialSpring {
     /// Extension d of the spring, the way that C is ahead of T [m].
-    extension: DVec3,
+    pub(super) extension: DVec3,
     /// Direction of the contact force on C when the extension was last brought up to date.
-    normal: DVec3,
+    pub(super) normal: DVec3,
 }
 
 /// What friction does to a pair.

@@ -9,6 +9,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+mod depth;
+pub mod snapshot;
+
 use super::super::assembly::{Copy4, Tets};
 use super::super::setup::Setup;
 use super::detection::{Bounds, Detection};

@@ -1,0 +1,166 @@
+//! What changes in a world with time, taken down and put back to the last bit.
+//!
+//! Kept are places, velocities and the nodes at the vertices, the bonds and memories of joints, failed faces, the memory
+//! of contacts and the energies lost. Shapes, masses, constraints, copies of nodes, who can touch whom and the step follow
+//! from the setup again; forces and stresses belong to a step.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::cohesive_law::Point;
+use super::contact::pairs::snapshot::{ContactScalars, ContactSnapshot};
+use super::energy::Ledger;
+use super::joint::Memory;
+use super::joints::{self, Bond, WornJoint};
+use super::world::{Failure, World, contacts};
+
+/// Numbers of a joint that is worn: offset, whether it is worn, energies, three points.
+pub const MEMORY: usize = 4 + 3 * POINT;
+/// Numbers of a point.
+const POINT: usize = 8;
+
+/// State of a world.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Snapshot {
+    /// Places of the nodes [m].
+    pub place: Vec<DVec3>,
+    /// Their velocities [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Nodes at the vertices of the tetrahedra.
+    pub vertices: Vec<[u32; 4]>,
+    /// What holds each face: 0 tied, 1 a joint without a past, 2 nothing, 3 a joint with a past.
+    pub bonds: Vec<u8>,
+    /// Numbers of the joints with a past, in their order.
+    pub worn: Vec<u32>,
+    /// What it is: opaque.
+    pub memories: Vec<[f64; MEMORY]>,
+    /// Faces that have failed, in order of time.
+    pub failed: Vec<u32>,
+    /// When [s].
+    pub failed_at: Vec<f64>,
+    /// 1 where it slid more than it opened.
+    pub failed_by_sliding: Vec<u8>,
+    /// Energy that it took [J].
+    pub failed_energy: Vec<f64>,
+    /// Contacts.
+    pub contacts: ContactSnapshot,
+    /// Everything else.
+    pub scalars: Scalars,
+}
+
+/// Numbers of a world as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Scalars {
+    time: f64,
+    dt: f64,
+    lost: Ledger,
+    contacts: ContactScalars,
+}
+
+impl Snapshot {
+    /// The scalars, with those of the contacts: what is no array.
+    pub fn scalars(&self) -> Scalars {
+        Scalars { contacts: self.contacts.scalars, ..self.scalars }
+    }
+
+    /// Puts the scalars where they belong.
+    pub fn set_scalars(&mut self, scalars: Scalars) {
+        (self.scalars, self.contacts.scalars) = (scalars, scalars.contacts);
+    }
+}
+
+impl World {
+    /// The state after a step.
+    pub fn snapshot(&self) -> Snapshot {
+        let bond = |bond: &Bond| match bond {
+            Bond::Tied => 0,
+            Bond::Whole => 1,
+            Bond::Broken => 2,
+            Bond::Worn => 3,
+        };
+        let contacts = self.contacts.snapshot();
+        Snapshot {
+            place: self.nodes.place.clone(),
+            velocity: self.nodes.velocity.clone(),
+            vertices: self.tets.nodes.clone(),
+            bonds: self.joints.bond.iter().map(bond).collect(),
+            worn: self.joints.worn.iter().map(|joint| joint.interface).collect(),
+            memories: self.joints.worn.iter().map(numbers_of).collect(),
+            failed: self.failures.iter().map(|failure| failure.interface).collect(),
+            failed_at: self.failures.iter().map(|failure| failure.time).collect(),
+            failed_by_sliding: self.failures.iter().map(|failure| u8::from(failure.by_sliding)).collect(),
+            failed_energy: self.failures.iter().map(|failure| failure.energy).collect(),
+            scalars: Scalars { time: self.time, dt: self.dt, lost: self.lost, contacts: contacts.scalars },
+            contacts,
+        }
+    }
+
+    /// Puts a world at its start into a state of a world of the same setup.
+    ///
+    /// # Errors
+    /// If the state cannot be that of such a world: what is wrong. The world must not be used then.
+    pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), &'static str> {
+        let Snapshot { place, velocity, vertices, bonds, worn, memories, contacts: of_contacts, scalars, .. } =
+            snapshot;
+        let Snapshot { failed, failed_at, failed_by_sliding, failed_energy, .. } = snapshot;
+        let known = |face: &u32| (*face as usize) < self.joints.count();
+        let of_failed = [failed_at.len(), failed_by_sliding.len(), failed_energy.len()];
+        let faces = worn.len() == memories.len() && of_failed == [failed.len(); 3];
+        if bonds.len() != self.joints.count() || !faces || !worn.iter().chain(&failed).all(known) {
+            return Err("its joints are not those of the mesh");
+        }
+        for (bond, number) in self.joints.bond.iter_mut().zip(bonds) {
+            *bond = match number {
+                0 => Bond::Tied,
+                1 => Bond::Whole,
+                2 => Bond::Broken,
+                3 => Bond::Worn,
+                _ => return Err("it has faces that are held by nothing known"),
+            };
+        }
+        self.joints.worn = worn.into_iter().zip(memories).map(|(number, numbers)| recall(number, numbers)).collect();
+        self.joints.mark(&self.setup, &mut self.tets);
+        self.nodes.come_apart(&mut self.tets, &self.setup, vertices, [place, velocity])?;
+        self.failures.clear();
+        let how = failed_by_sliding.into_iter().zip(failed_energy);
+        for ((interface, time), (by_sliding, energy)) in failed.into_iter().zip(failed_at).zip(how) {
+            self.failures.push(self.failure(interface, time, by_sliding != 0, energy));
+        }
+        self.contacts = contacts(&self.setup, &self.tets, &self.around, &self.joints);
+        let open = self.failures.iter().flat_map(|failure| self.setup.interfaces[failure.interface as usize].tets);
+        self.contacts.restore(of_contacts, open, &self.setup, &self.tets)?;
+        (self.time, self.dt, self.lost) = (scalars.time, scalars.dt, scalars.lost);
+        Ok(())
+    }
+
+    /// The failure of a face at a time [s], which took an energy [J].
+    pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: f64) -> Failure {
+        let corners = joints::corners(&self.setup, interface as usize);
+        let place = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let [_, area] = self.joints.size[interface as usize];
+        Failure { interface, time, place, area, by_sliding, energy }
+    }
+}
+
+fn numbers_of(joint: &WornJoint) -> [f64; MEMORY] {
+    let Memory { points, offset, is_worn } = joint.memory;
+    let mut numbers = [0.0; MEMORY];
+    numbers[..4].copy_from_slice(&[offset, f64::from(u8::from(is_worn)), joint.dissipated, joint.freed]);
+    for (numbers, point) in numbers[4..].chunks_exact_mut(POINT).zip(points) {
+        let Point { damage, secant, opening, plastic, slipped, lost } = point;
+        numbers.copy_from_slice(&[damage, secant, opening, plastic[0], plastic[1], slipped, lost[0], lost[1]]);
+    }
+    numbers
+}
+
+fn recall(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
+    let [offset, is_worn, dissipated, freed, ref points @ ..] = numbers;
+    let memory = Memory { offset, is_worn: is_worn != 0.0, ..Memory::default() };
+    let mut joint = WornJoint { dissipated, freed, ..WornJoint::new(number as usize, memory) };
+    for (point, numbers) in joint.memory.points.iter_mut().zip(points.as_chunks::<POINT>().0) {
+        let [damage, secant, opening, along, across, slipped, by_opening, by_sliding] = *numbers;
+        let (plastic, lost) = ([along, across], [by_opening, by_sliding]);
+        *point = Point { damage, secant, opening, plastic, slipped, lost };
+    }
+    joint
+}

@@ -1,0 +1,157 @@
+//! State of a fracture run to and from HDF5, to the last bit.
+//!
+//! Arrays are datasets; what else there is is one JSON text, in which every number is the shortest text that reads back
+//! to the same bits.
+
+use std::path::Path;
+
+use hdf5_metno::File;
+use serde::{Deserialize, Serialize};
+
+use super::summary::Watched;
+use crate::{
+    case::FractureCase,
+    femdem::{
+        contact::pairs::snapshot::ContactSnapshot,
+        energy::Ledger,
+        snapshot::{Scalars, Snapshot},
+        world::World,
+    },
+    output::{
+        OutputError,
+        state_file::{
+            Hdf5Result, read_rows, read_state, read_vectors, write_column, write_rows, write_state, write_vectors,
+        },
+    },
+};
+
+/// Name of the checkpoint in a run folder.
+pub const FILE: &str = "checkpoint.h5";
+
+/// Name of the state at which a run failed.
+pub const FAILED_FILE: &str = "failed.h5";
+
+/// Layout of the file; raised when it changes.
+const VERSION: u32 = 1;
+
+/// Where a run stands besides its world.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct RunState {
+    /// What the loop has watched.
+    pub watched: Watched,
+    /// What the energy book came to at the start [J].
+    pub total_at_start: Option<f64>,
+    /// Rows of the energy book.
+    pub rows: u64,
+    /// Steps of each of the files for ParaView.
+    pub frames: u64,
+    /// Checkpoints.
+    pub checkpoints: u64,
+    /// Length of the energy book [bytes].
+    pub bytes: u64,
+}
+
+impl RunState {
+    /// Notes a row of the energy book; returns its residual against the start [J].
+    pub fn note(&mut self, book: &Ledger) -> f64 {
+        let residual = book.total() - *self.total_at_start.get_or_insert(book.total());
+        let watched = &mut self.watched;
+        if watched.steps == 0 {
+            watched.kinetic[0] = book.kinetic;
+        }
+        watched.kinetic[1] = watched.kinetic[1].max(book.kinetic);
+        watched.residual = watched.residual.max(residual.abs());
+        residual
+    }
+}
+
+/// Everything but the arrays.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    version: u32,
+    case_hash: String,
+    run: RunState,
+    world: Scalars,
+}
+
+/// Write the state of a run of the case to a file.
+///
+/// # Errors
+/// If the file cannot be written; one of before is then untouched.
+pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) -> Result<(), OutputError> {
+    let state = world.snapshot();
+    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: *run, world: state.scalars() };
+    let text = serde_json::to_string(&header).map_err(OutputError::json(path))?;
+    write_state(path, &text, |file| write_arrays(file, &state))
+}
+
+/// Put a world at its start into the state of a checkpoint of the same case; returns where the run stands.
+///
+/// # Errors
+/// If there is no checkpoint, it is damaged, or one of another case.
+pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunState, OutputError> {
+    let (text, mut state) = read_state(path, read_arrays)?;
+    let Header { version, case_hash, run, world: scalars } =
+        serde_json::from_str(&text).map_err(OutputError::json(path))?;
+    if version != VERSION {
+        let what = format!("was written by another version of breakwater (layout {version})");
+        return Err(OutputError::content(path, what));
+    }
+    if case_hash != case.hash {
+        return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh beside it"));
+    }
+    state.set_scalars(scalars);
+    let damaged = |what| OutputError::content(path, format!("is damaged: {what}; start the run again"));
+    world.restore(state).map_err(damaged)?;
+    Ok(run)
+}
+
+fn write_arrays(file: &File, state: &Snapshot) -> Hdf5Result<()> {
+    let group = file.create_group("nodes")?;
+    write_vectors(&group, "place_m", &state.place)?;
+    write_vectors(&group, "velocity_m_s", &state.velocity)?;
+    write_rows(&file.create_group("tets")?, "nodes", &state.vertices)?;
+    let group = file.create_group("joints")?;
+    write_column(&group, "bond", &state.bonds)?;
+    write_column(&group, "worn", &state.worn)?;
+    write_rows(&group, "memory", &state.memories)?;
+    let group = file.create_group("failures")?;
+    write_column(&group, "joint", &state.failed)?;
+    write_column(&group, "time_s", &state.failed_at)?;
+    write_column(&group, "by_sliding", &state.failed_by_sliding)?;
+    write_column(&group, "energy_j", &state.failed_energy)?;
+    let (group, contacts) = (file.create_group("contacts")?, &state.contacts);
+    write_rows(&group, "tets", &contacts.tets)?;
+    write_column(&group, "born_m3", &contacts.born)?;
+    write_column(&group, "sprung", &contacts.sprung)?;
+    write_rows(&group, "spring", &contacts.springs)?;
+    write_rows(&group, "opened_tets", &contacts.opened)?;
+    write_column(&group, "opened_left_j", &contacts.left)
+}
+
+fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
+    let [nodes, tets, joints] = [file.group("nodes")?, file.group("tets")?, file.group("joints")?];
+    let [failures, contacts] = [file.group("failures")?, file.group("contacts")?];
+    Ok(Snapshot {
+        place: read_vectors(&nodes, "place_m")?,
+        velocity: read_vectors(&nodes, "velocity_m_s")?,
+        vertices: read_rows(&tets, "nodes")?,
+        bonds: joints.dataset("bond")?.read_raw()?,
+        worn: joints.dataset("worn")?.read_raw()?,
+        memories: read_rows(&joints, "memory")?,
+        failed: failures.dataset("joint")?.read_raw()?,
+        failed_at: failures.dataset("time_s")?.read_raw()?,
+        failed_by_sliding: failures.dataset("by_sliding")?.read_raw()?,
+        failed_energy: failures.dataset("energy_j")?.read_raw()?,
+        contacts: ContactSnapshot {
+            tets: read_rows(&contacts, "tets")?,
+            born: contacts.dataset("born_m3")?.read_raw()?,
+            sprung: contacts.dataset("sprung")?.read_raw()?,
+            springs: read_rows(&contacts, "spring")?,
+            opened: read_rows(&contacts, "opened_tets")?,
+            left: contacts.dataset("opened_left_j")?.read_raw()?,
+            ..ContactSnapshot::default()
+        },
+        ..Snapshot::default()
+    })
+}

@@ -1,0 +1,86 @@
+//! HDF5 files that hold the state of a run to the last bit: there whole or not at all.
+
+use std::path::Path;
+
+use glam::DVec3;
+use hdf5_metno::{File, Group, H5Type, types::VarLenUnicode};
+
+use super::OutputError;
+
+/// What the HDF5 library returns.
+pub(crate) type Hdf5Result<T> = hdf5_metno::Result<T>;
+
+/// Name of the attribute that holds what is no array.
+const TEXT: &str = "state";
+
+/// Write a file with a text and what `fill` puts into it: to a temporary name first, synced, then renamed, so that the
+/// file of before is there until this one is.
+///
+/// # Errors
+/// If the file cannot be written.
+pub(crate) fn write_state(
+    path: &Path,
+    text: &str,
+    fill: impl FnOnce(&File) -> Hdf5Result<()>,
+) -> Result<(), OutputError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let temporary = path.with_file_name(name);
+    let write = || -> Hdf5Result<()> {
+        let file = File::create(&temporary)?;
+        let text: VarLenUnicode =
+            text.parse().map_err(|_| hdf5_metno::Error::from("the state holds a NUL character"))?;
+        file.new_attr::<VarLenUnicode>().create(TEXT)?.write_scalar(&text)?;
+        fill(&file)?;
+        file.close()
+    };
+    write().map_err(OutputError::hdf5(&temporary))?;
+    let publish = || {
+        std::fs::File::open(&temporary)?.sync_all()?;
+        std::fs::rename(&temporary, path)
+    };
+    publish().map_err(OutputError::io(path))
+}
+
+/// Text of a file, and what `read` finds in it.
+///
+/// # Errors
+/// If the file is not there, or not what it should be.
+pub(crate) fn read_state<T>(
+    path: &Path,
+    read: impl FnOnce(&File) -> Hdf5Result<T>,
+) -> Result<(String, T), OutputError> {
+    let open = || -> Hdf5Result<(String, T)> {
+        let file = File::open(path)?;
+        let text = file.attr(TEXT)?.read_scalar::<VarLenUnicode>()?;
+        Ok((text.to_string(), read(&file)?))
+    };
+    open().map_err(OutputError::hdf5(path))
+}
+
+/// A dataset of one column.
+pub(crate) fn write_column<T: H5Type>(group: &Group, name: &str, values: &[T]) -> Hdf5Result<()> {
+    group.new_dataset::<T>().shape(values.len()).create(name)?.write_raw(values)
+}
+
+/// A dataset of one row for each entry.
+pub(crate) fn write_rows<T: H5Type, const N: usize>(group: &Group, name: &str, rows: &[[T; N]]) -> Hdf5Result<()> {
+    group.new_dataset::<T>().shape((rows.len(), N)).create(name)?.write_raw(rows.as_flattened())
+}
+
+/// A dataset of three columns, one row for each vector.
+pub(crate) fn write_vectors(group: &Group, name: &str, values: &[DVec3]) -> Hdf5Result<()> {
+    let rows: Vec<[f64; 3]> = values.iter().map(|v| v.to_array()).collect();
+    write_rows(group, name, &rows)
+}
+
+/// Rows as [`write_rows`] wrote them.
+pub(crate) fn read_rows<T: H5Type + Copy, const N: usize>(group: &Group, name: &str) -> Hdf5Result<Vec<[T; N]>> {
+    let flat: Vec<T> = group.dataset(name)?.read_raw()?;
+    Ok(flat.as_chunks::<N>().0.to_vec())
+}
+
+/// Vectors as [`write_vectors`] wrote them.
+pub(crate) fn read_vectors(group: &Group, name: &str) -> Hdf5Result<Vec<DVec3>> {
+    Ok(read_rows(group, name)?.into_iter().map(DVec3::from_array).collect())
+}
