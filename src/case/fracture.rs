@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::check::{Checker, above, from, show};
 use super::error::CaseErrors;
 use super::file::{BodyFrictionFile, FractureBodyFile, FractureFile, FractureMaterialFile, Joints, StrengthFile};
+use super::fracture_places::{self, Landmark, Plane};
 use super::hash::fingerprint;
 use super::parse::parse;
 use super::validate::read;
@@ -44,8 +45,14 @@ pub struct FractureCase {
     pub step_share: f64,
     /// Time step [s], if the case gives it.
     pub dt: Option<f64>,
-    /// Interval of surfaces and cracks [s].
+    /// Places with names.
+    pub landmarks: Vec<Landmark>,
+    /// Plane of the pictures of the stress.
+    pub section: Plane,
+    /// Interval of surfaces, cracks and cut plane [s].
     pub surfaces_interval: Option<f64>,
+    /// Interval of all tetrahedra [s].
+    pub tets_interval: Option<f64>,
     /// Interval of the energy book [s].
     pub energy_interval: f64,
     /// Simulated time [s].
@@ -97,7 +104,8 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     // Writing to memory cannot fail: every key is a string.
     let kept_text =
         if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
-    let interval = file.output.surfaces_interval_s;
+    let some = |interval: f64| (interval > 0.0).then_some(interval);
+    let section = fracture_places::section(file, &setup, &mesh, check);
     Some(FractureCase {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -110,7 +118,10 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
         setup,
         step_share: file.fracture.step_share,
         dt: file.fracture.dt_s,
-        surfaces_interval: (interval > 0.0).then_some(interval),
+        landmarks: fracture_places::landmarks(file, check),
+        section,
+        surfaces_interval: some(file.output.surfaces_interval_s),
+        tets_interval: some(file.output.tets_interval_s),
         energy_interval: file.output.energy_interval_s,
         duration: file.stop.duration_s,
     })
@@ -143,6 +154,7 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
     check.number("output.energy_interval_s", file.output.energy_interval_s, above(0.0).up_to(1e3), "s", advice);
     let advice = "0 writes none";
     check.number("output.surfaces_interval_s", file.output.surfaces_interval_s, from(0.0).up_to(1e3), "s", advice);
+    check.number("output.tets_interval_s", file.output.tets_interval_s, from(0.0).up_to(1e3), "s", advice);
 }
 
 fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Vec<u8>, PreparedMesh)> {
