@@ -8,6 +8,8 @@ use super::{Trouble, fresh_folder, run::MachineArguments, show_warnings, stem};
 use crate::{
     case::FractureCase,
     fracture::{
+        detail::tets_bytes,
+        report::write_fracture_report,
         run::{FractureError, run, world},
         summary::FractureSummary,
     },
@@ -42,7 +44,9 @@ impl FractureArguments {
         }
         match run(&case, &dir, quiet) {
             Ok(summary) => {
+                let report = write_fracture_report(&dir).map_err(Trouble::failed)?;
                 tell(&summary, &dir);
+                println!("report: {}", report.display());
                 Ok(())
             }
             Err(error @ FractureError::Step { .. }) => {
@@ -86,6 +90,9 @@ pub(super) fn check(path: &Path) -> Result<(), Trouble> {
         (case.duration / world.dt).ceil(),
         case.duration
     );
+    if case.tets_interval.is_some() {
+        println!("  tets.vtkhdf {:.0} MB, more where cracks part nodes", tets_bytes(&case) * 1e-6);
+    }
     Ok(())
 }
 

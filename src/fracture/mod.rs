@@ -4,12 +4,18 @@
 //! | --- | --- |
 //! | [`run`] | the loop with its outputs |
 //! | [`recorder`] | tables, surfaces and cracks |
+//! | [`detail`] | failed faces as a table, cut plane, tetrahedra |
+//! | [`section`] | where the cut plane meets the tetrahedra |
 //! | [`fragments`] | pieces that bodies have broken into |
 //! | [`initiation`] | where cracks began, in order |
+//! | [`report`] | the run on one page, with pictures |
 //! | [`summary`] | the run in a few numbers |
 
+pub mod detail;
 pub mod fragments;
 pub mod initiation;
 pub mod recorder;
+pub mod report;
 pub mod run;
+pub mod section;
 pub mod summary;

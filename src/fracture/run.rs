@@ -5,6 +5,7 @@ use std::{path::Path, time::Instant};
 use thiserror::Error;
 
 use super::{
+    fragments::{pieces, write_fragments},
     recorder::FractureRecorder,
     summary::{FractureSummary, Watched},
 };
@@ -80,6 +81,7 @@ pub fn run(case: &FractureCase, dir: &Path, quiet: bool) -> Result<FractureSumma
             recorder.record_surfaces(case, &world)?;
             frames += 1;
         }
+        recorder.detail.record_tets_if_due(&world, over)?;
         if row_due {
             let time = world.time;
             let book = world.step_with_ledger().map_err(|error| told(case, error))?;
@@ -95,7 +97,9 @@ pub fn run(case: &FractureCase, dir: &Path, quiet: bool) -> Result<FractureSumma
             if over {
                 watched.wall = begun.elapsed().as_secs_f64();
                 progress.finish();
-                let summary = FractureSummary::of(case, &world, &book, watched);
+                let fragments = pieces(&world).fragments;
+                write_fragments(&fragments, dir)?;
+                let summary = FractureSummary::of(case, &world, &book, watched, &fragments);
                 summary.write(dir)?;
                 return Ok(summary);
             }
@@ -103,6 +107,9 @@ pub fn run(case: &FractureCase, dir: &Path, quiet: bool) -> Result<FractureSumma
             world.step().map_err(|error| told(case, error))?;
         }
         watched.steps += 1;
+        if watched.impact.is_none() && world.contacts.between_bodies(&world.tets) {
+            watched.impact = Some(world.time - world.dt);
+        }
         let (failed, touching) = (world.failures.len(), world.contacts.touching);
         progress.update(world.time, watched.steps, || format!("{failed} faces failed, {touching} pairs touch"));
     }
