@@ -11,7 +11,7 @@ const MOST: usize = 20;
 pub fn cracks(run: &FractureFolder) -> String {
     let all = &run.summary.initiation;
     let row = |(index, crack): (usize, &super::super::summary::InitiationSummary)| {
-        let [x, y, z] = crack.place.map(|c| format!("{c:.3}").replace('-', "\u{2212}"));
+        let [x, y, z] = crack.place.map(to_millimetres);
         let mode = if crack.mode == "sliding" { "sliding&nbsp;(II)" } else { "opening&nbsp;(I)" };
         format!(
             "<tr><td>{}</td><td>{:.3}</td><td>{}</td><td class=\"words\">{}</td><td>{x}</td><td>{y}</td><td>{z}</td><td>{mode}</td>\
@@ -45,7 +45,7 @@ pub fn fragments(run: &FractureFolder) -> String {
     let all = &run.summary.fragments;
     let mass_of = |body: &str| all.iter().filter(|f| f.body == body).map(|f| f.mass_kg).sum::<f64>();
     let row = |(index, piece): (usize, &super::super::summary::FragmentSummary)| {
-        let [x, y, z] = piece.centre_m.map(|c| format!("{c:.3}").replace('-', "\u{2212}"));
+        let [x, y, z] = piece.centre_m.map(to_millimetres);
         let speed = piece.velocity_m_s.iter().map(|v| v * v).sum::<f64>().sqrt();
         format!(
             "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{x}</td><td>{y}</td><td>{z}</td><td>{}</td></tr>\n",
@@ -107,7 +107,24 @@ pub fn bodies(run: &FractureFolder) -> String {
     )
 }
 
+/// A coordinate [m] to the millimetre, without a minus sign before zero.
+fn to_millimetres(coordinate: f64) -> String {
+    let rounded = (coordinate * 1e3).round() / 1e3 + 0.0;
+    format!("{rounded:.3}").replace('-', "\u{2212}")
+}
+
 fn capital(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_have_no_negative_zero() {
+        assert_eq!(to_millimetres(-0.0001), "0.000");
+        assert_eq!(to_millimetres(-0.1346), "\u{2212}0.135");
+    }
 }
