@@ -130,7 +130,9 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
     }
     let pictures = report.matches("data:image/png;base64,").count();
     assert!((8..=12).contains(&pictures), "{pictures} pictures of four to six moments");
-    assert!(report.contains("the edge of the slab") && !report.contains("NaN"));
+    // The letters of a picture may be any.
+    let words: String = report.split('"').filter(|part| !part.starts_with("data:")).collect();
+    assert!(words.contains("the edge of the slab") && !words.contains("NaN"));
     // Small enough to be mailed.
     assert!(report.len() < 2_000_000, "{} bytes", report.len());
     std::fs::remove_file(dir.join("report.html")).unwrap();
