@@ -139,3 +139,22 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
     breakwater(&["report", dir.to_str().unwrap()]);
     assert_eq!(std::fs::read_to_string(dir.join("report.html")).unwrap(), report);
 }
+
+#[test]
+fn places_that_make_no_sense_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = case(folder.path());
+    let mut value: Value = serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
+    value["landmarks"][0]["high_m"][1] = json!(-0.1);
+    value["landmarks"][0]["name"] = json!(" ");
+    value["output"]["section"] = json!({ "point_m": [0, 0, 0], "normal": [0, 0, 0] });
+    value["output"]["tets_interval_s"] = json!(-1);
+    std::fs::write(&file, value.to_string()).unwrap();
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_breakwater")).args(["check", file.to_str().unwrap()]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    let keys =
+        ["landmarks[0].high_m[1] = -0.1", "landmarks[0].name", "output.section.normal", "output.tets_interval_s = -1"];
+    keys.into_iter().for_each(|key| assert!(said.contains(key), "{key} in {said}"));
+}
