@@ -13,8 +13,20 @@ use breakwater::fracture::run::world;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-const FILES: [&str; 7] =
-    ["case.json", "checkpoint.h5", "cracks.vtkhdf", "energy.csv", "mesh.msh", "summary.json", "surfaces.vtkhdf"];
+const FILES: [&str; 12] = [
+    "case.json",
+    "checkpoint.h5",
+    "cracks.csv",
+    "cracks.vtkhdf",
+    "energy.csv",
+    "fragments.csv",
+    "mesh.msh",
+    "report.html",
+    "section.vtkhdf",
+    "summary.json",
+    "surfaces.vtkhdf",
+    "tets.vtkhdf",
+];
 
 /// A block with a crack, 12 x 8 x 8 cm, thrown at a plate: 108 tetrahedra, of which it loses some within a millisecond.
 fn thrown() -> Value {
@@ -38,7 +50,8 @@ fn thrown() -> Value {
             { "between": ["block", "plate"], "coefficient": 0.6 },
             { "between": ["block", "block"], "coefficient": 0.6 }
         ],
-        "output": { "surfaces_interval_s": 1e-4, "energy_interval_s": 2e-5, "checkpoint_interval_s": 5e-5 },
+        "output": { "surfaces_interval_s": 1e-4, "energy_interval_s": 2e-5, "checkpoint_interval_s": 5e-5,
+                    "tets_interval_s": 2e-4 },
         "stop": { "duration_s": 1e-3 }
     })
 }

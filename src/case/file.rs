@@ -5,6 +5,7 @@
 
 mod dry;
 mod fracture;
+mod fracture_places;
 mod numerics;
 mod objects;
 mod wave_source;
@@ -15,6 +16,7 @@ pub use fracture::{
     BodyFrictionFile, ConstraintFile, FractureBodyFile, FractureFile, FractureMaterialFile, FractureOutputFile,
     FractureStopFile, Joints, MethodFile, StrengthFile,
 };
+pub use fracture_places::{LandmarkFile, SectionFile};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,

@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::check::{Checker, above, from, show};
 use super::error::CaseErrors;
 use super::file::{BodyFrictionFile, FractureBodyFile, FractureFile, FractureMaterialFile, Joints, StrengthFile};
+use super::fracture_places::{self, Landmark, Plane};
 use super::hash::fingerprint;
 use super::parse::parse;
 use super::validate::read;
@@ -49,8 +50,14 @@ pub struct FractureCase {
     pub step_share: f64,
     /// Time step [s], if the case gives it.
     pub dt: Option<f64>,
-    /// Interval of surfaces and cracks [s].
+    /// Places with names.
+    pub landmarks: Vec<Landmark>,
+    /// Plane of the pictures of the stress.
+    pub section: Plane,
+    /// Interval of surfaces, cracks and cut plane [s].
     pub surfaces_interval: Option<f64>,
+    /// Interval of all tetrahedra [s].
+    pub tets_interval: Option<f64>,
     /// Interval of the energy book [s].
     pub energy_interval: f64,
     /// Interval of the checkpoints [s]; without it none is written.
@@ -91,7 +98,7 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     if file.title.trim().is_empty() {
         check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case");
     }
-    let [surfaces_interval, checkpoint_interval] = output::validate(file, check);
+    let [surfaces_interval, tets_interval, checkpoint_interval] = output::validate(file, check);
     validate_numbers(file, check);
     let (mesh_file, mesh) = read_mesh(file, name, check)?;
     let bodies = validate_bodies(file, &mesh, check)?;
@@ -105,6 +112,7 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     // Writing to memory cannot fail: every key is a string.
     let kept_text =
         if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
+    let section = fracture_places::section(file, &setup, &mesh, check);
     Some(FractureCase {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -117,7 +125,10 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
         setup,
         step_share: file.fracture.step_share,
         dt: file.fracture.dt_s,
+        landmarks: fracture_places::landmarks(file, check),
+        section,
         surfaces_interval,
+        tets_interval,
         energy_interval: file.output.energy_interval_s,
         checkpoint_interval,
         duration: file.stop.duration_s,

@@ -12,6 +12,7 @@ mod estimate;
 pub mod file;
 mod flume;
 mod fracture;
+mod fracture_places;
 mod gauges;
 mod given_wave;
 mod hash;
@@ -48,6 +49,7 @@ pub use file::{
 };
 pub use flume::{Flume, Mound};
 pub use fracture::FractureCase;
+pub use fracture_places::{Landmark, Plane};
 pub use gauges::{Gauge, Motion, Quantity};
 pub use given_wave::{GivenWave, ROWS_FILE};
 pub use materials::{FrictionPair, Material};

@@ -10,6 +10,8 @@ use crate::{
     femdem::world::World,
     fracture::{
         checkpoint,
+        detail::tets_bytes,
+        report::write_fracture_report,
         run::{FractureError, resume, run, world},
         summary::FractureSummary,
     },
@@ -75,7 +77,10 @@ fn introduce(case: &FractureCase, dir: &Path, quiet: bool) {
 
 /// Say how a run ended.
 fn finish(ended: Result<FractureSummary, FractureError>, dir: &Path) -> Result<(), Trouble> {
-    tell(&ended.map_err(Trouble::failed)?, dir);
+    let summary = ended.map_err(Trouble::failed)?;
+    let report = write_fracture_report(dir).map_err(Trouble::failed)?;
+    tell(&summary, dir);
+    println!("report: {}", report.display());
     Ok(())
 }
 
@@ -112,6 +117,9 @@ pub(super) fn check(path: &Path) -> Result<(), Trouble> {
         (case.duration / world.dt).ceil(),
         case.duration
     );
+    if case.tets_interval.is_some() {
+        println!("  tets.vtkhdf {:.0} MB, more where cracks part nodes", tets_bytes(&case) * 1e-6);
+    }
     Ok(())
 }
 

@@ -165,13 +165,14 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 26] = [
+const RESULT_FILES: [&str; 30] = [
     "case.json",
     "checkpoint.h5",
     "checkpoint.json",
     "compare.csv",
     "compare.html",
     "contacts.csv",
+    "cracks.csv",
     "cracks.vtkhdf",
     "diagnostics.csv",
     "energy.csv",
@@ -180,14 +181,17 @@ const RESULT_FILES: [&str; 26] = [
     "fluid.vtkhdf",
     "flume_gauges.csv",
     "flume_piston.csv",
+    "fragments.csv",
     "gauges.csv",
     "mesh.msh",
     "ml_piston_velx.csv",
     "picture.svg",
     "profile.csv",
     "report.html",
+    "section.vtkhdf",
     "summary.json",
     "surfaces.vtkhdf",
+    "tets.vtkhdf",
     "unit_surface.json",
     "units.csv",
     "units.vtkhdf",

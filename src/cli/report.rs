@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Trouble;
-use crate::output::write_report;
+use super::{Trouble, is_fracture};
+use crate::{fracture::report::write_fracture_report, output::write_report};
 
 /// Make the report of a finished run anew.
 #[derive(Args)]
@@ -16,7 +16,8 @@ pub struct ReportArguments {
 
 impl ReportArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let path = write_report(&self.dir).map_err(Trouble::refused)?;
+        let write = if is_fracture(&self.dir.join("case.json")) { write_fracture_report } else { write_report };
+        let path = write(&self.dir).map_err(Trouble::refused)?;
         println!("{}", path.display());
         Ok(())
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 use hdf5_metno::File;
 use serde::{Deserialize, Serialize};
 
-use super::summary::Watched;
+use super::{detail::DetailLengths, summary::Watched};
 use crate::{
     case::FractureCase,
     femdem::{
@@ -49,6 +49,8 @@ pub struct RunState {
     pub checkpoints: u64,
     /// Length of the energy book [bytes].
     pub bytes: u64,
+    /// Lengths of the other files.
+    pub detail: DetailLengths,
 }
 
 impl RunState {

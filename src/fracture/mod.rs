@@ -6,14 +6,20 @@
 //! | [`recorder`] | tables, surfaces and cracks |
 //! | [`checkpoint`] | the state of a run, to go on from |
 //! | [`failure`] | why a run cannot go on, in words |
+//! | [`detail`] | failed faces as a table, cut plane, tetrahedra |
+//! | [`section`] | where the cut plane meets the tetrahedra |
 //! | [`fragments`] | pieces that bodies have broken into |
 //! | [`initiation`] | where cracks began, in order |
+//! | [`report`] | the run on one page, with pictures |
 //! | [`summary`] | the run in a few numbers |
 
 pub mod checkpoint;
+pub mod detail;
 pub mod failure;
 pub mod fragments;
 pub mod initiation;
 pub mod recorder;
+pub mod report;
 pub mod run;
+pub mod section;
 pub mod summary;

@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::{DMat3, DVec3};
 
 use super::checkpoint::RunState;
+use super::detail::DetailRecorder;
 use crate::case::FractureCase;
 use crate::femdem::element::{self, Moduli};
 use crate::femdem::energy::Ledger;
@@ -28,6 +29,8 @@ const CRACK_FIELDS: [(&str, FieldKind); 3] =
 pub struct FractureRecorder {
     energy: CsvSeries,
     surfaces: Option<[PolyDataSeries; 2]>,
+    /// Failed faces, cut plane, tetrahedra.
+    pub detail: DetailRecorder,
 }
 
 impl FractureRecorder {
@@ -47,6 +50,7 @@ impl FractureRecorder {
         Ok(Self {
             energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::FRACTURE_ENERGY)?,
             surfaces: case.surfaces_interval.map(series).transpose()?,
+            detail: DetailRecorder::create(case, dir)?,
         })
     }
 
@@ -64,6 +68,7 @@ impl FractureRecorder {
         Ok(Self {
             energy: CsvSeries::open_truncated(&dir.join(ENERGY_FILE), state.bytes)?,
             surfaces: case.surfaces_interval.map(series).transpose()?,
+            detail: DetailRecorder::reopen(case, dir, &state.detail)?,
         })
     }
 
@@ -72,11 +77,12 @@ impl FractureRecorder {
         self.energy.bytes()
     }
 
-    /// Append a row of the energy book of a moment [s].
+    /// Append a row of the energy book of a moment [s], and the faces that have failed since the row before.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn record_energy(&mut self, world: &World, time: f64, book: &Ledger, residual: f64) -> Result<(), OutputError> {
+        self.detail.record_cracks(world)?;
         let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
         self.energy.append(&[
             time,
@@ -96,12 +102,13 @@ impl FractureRecorder {
         ])
     }
 
-    /// Append the outsides of the bodies and the crack faces as they are now.
+    /// Append the outsides of the bodies, the crack faces and the cut plane as they are now.
     ///
     /// # Errors
     /// If a file cannot be written.
     pub fn record_surfaces(&mut self, case: &FractureCase, world: &World) -> Result<(), OutputError> {
         let Some([surfaces, cracks]) = &mut self.surfaces else { return Ok(()) };
+        self.detail.record_section(world)?;
         let single = |v: DVec3| v.as_vec3().to_array();
         let setup = world.setup();
         let (mut points, mut velocity, mut first, mut difference, mut body) =

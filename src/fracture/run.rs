@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::{
     checkpoint::{self, RunState},
     failure::Failure,
+    fragments::{pieces, write_fragments},
     recorder::FractureRecorder,
     summary::FractureSummary,
 };
@@ -106,6 +107,7 @@ fn drive(
             recorder.record_surfaces(case, &world)?;
             state.frames += 1;
         }
+        recorder.detail.record_tets_if_due(&world, over)?;
         let time = world.time;
         let stepped = if row_due { world.step_with_ledger().map(Some) } else { world.step().map(|()| None) };
         let book = stepped.map_err(|error| failed(case, &world, &state, dir, error))?;
@@ -115,12 +117,17 @@ fn drive(
             (state.rows, state.bytes) = (state.rows + 1, recorder.bytes());
             if over {
                 progress.finish();
-                let summary = FractureSummary::of(case, &world, &book, state.watched);
+                let fragments = pieces(&world).fragments;
+                write_fragments(&fragments, dir)?;
+                let summary = FractureSummary::of(case, &world, &book, state.watched, &fragments);
                 summary.write(dir)?;
                 return Ok(summary);
             }
         }
         state.watched.steps += 1;
+        if state.watched.impact.is_none() && world.contacts.between_bodies(&world.tets) {
+            state.watched.impact = Some(world.time - world.dt);
+        }
         // The first one is due at the first interval: the start can be made anew from the case.
         let checkpoint_due = is_due(state.checkpoints + 1, case.checkpoint_interval, world.time);
         if checkpoint_due || state.watched.steps.is_multiple_of(LOOK) {
@@ -128,6 +135,7 @@ fn drive(
         }
         if checkpoint_due {
             state.checkpoints += 1;
+            state.detail = recorder.detail.lengths();
             checkpoint::write(case, &world, &state, &dir.join(checkpoint::FILE))?;
         }
         let (failed, touching) = (world.failures.len(), world.contacts.touching);

@@ -4,11 +4,13 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{fragments::fragments, initiation::initiations};
+use super::{fragments::Fragment, initiation::initiations};
 use crate::case::FractureCase;
 use crate::femdem::energy::Ledger;
 use crate::femdem::world::World;
 use crate::output::{Execution, OutputError, write_atomically};
+
+const SUMMARY_FILE: &str = "summary.json";
 
 /// `summary.json` of a fracture run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,6 +37,8 @@ pub struct FractureSummary {
     pub energy_residual_ratio: f64,
     /// The same, of the kinetic energy at the start; none if it was at rest.
     pub energy_residual_of_start: Option<f64>,
+    /// When two bodies first touched [s]; none if they did not.
+    pub impact_s: Option<f64>,
     /// Area of the faces that failed [m2].
     pub crack_area_m2: f64,
     /// Energy that the failed faces took, less what their springs had when they came free, over their area times G_f [-];
@@ -84,6 +88,10 @@ pub struct FragmentSummary {
     pub tets: usize,
     /// Mass [kg].
     pub mass_kg: f64,
+    /// Centre of mass at the end [m].
+    pub centre_m: [f64; 3],
+    /// Velocity of the centre at the end [m/s].
+    pub velocity_m_s: [f64; 3],
 }
 
 /// A place where a crack began.
@@ -91,10 +99,16 @@ pub struct FragmentSummary {
 pub struct InitiationSummary {
     /// When [s].
     pub t_s: f64,
+    /// Time since two bodies first touched [s].
+    pub since_impact_s: Option<f64>,
     /// The body.
     pub body: String,
     /// Where, in the undeformed body [m].
     pub place: [f64; 3],
+    /// The nearest landmark of the case.
+    pub near: Option<String>,
+    /// Distance from it [m]; zero inside its box.
+    pub distance_m: Option<f64>,
     /// `opening` (mode I) or `sliding` (mode II).
     pub mode: String,
     /// Area of the crack by the end [m2].
@@ -110,26 +124,40 @@ pub struct Watched {
     pub residual: f64,
     /// Kinetic energy at the start, and the largest [J].
     pub kinetic: [f64; 2],
+    /// When two bodies first touched [s].
+    pub impact: Option<f64>,
     /// Wall clock, before an interruption and after it [s].
     pub wall: f64,
 }
 
 impl FractureSummary {
-    /// The summary of a run.
-    pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched) -> Self {
+    /// The summary of a run that ended with these fragments.
+    pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched, fragments: &[Fragment]) -> Self {
         let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
         let taken: f64 = world.failures.iter().map(|failure| failure.energy).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
         let g_f = energies.fold(f64::MAX, f64::min);
         let name = |body: usize| case.names[body].clone();
-        let fragment =
-            |f: super::fragments::Fragment| FragmentSummary { body: name(f.body), tets: f.tets, mass_kg: f.mass };
-        let initiation = |i: super::initiation::Initiation| InitiationSummary {
-            t_s: i.first.time,
-            body: name(i.body),
-            place: i.first.place.to_array(),
-            mode: if i.first.by_sliding { "sliding" } else { "opening" }.to_owned(),
-            area_m2: i.area,
+        let fragment = |f: &Fragment| FragmentSummary {
+            body: name(f.body),
+            tets: f.tets,
+            mass_kg: f.mass,
+            centre_m: f.centre.to_array(),
+            velocity_m_s: f.velocity.to_array(),
+        };
+        let initiation = |i: super::initiation::Initiation| {
+            let distances = case.landmarks.iter().map(|landmark| (landmark, landmark.distance(i.first.place)));
+            let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
+            InitiationSummary {
+                t_s: i.first.time,
+                since_impact_s: watched.impact.map(|impact| i.first.time - impact),
+                body: name(i.body),
+                place: i.first.place.to_array(),
+                near: nearest.map(|(landmark, _)| landmark.name.clone()),
+                distance_m: nearest.map(|(_, distance)| distance),
+                mode: if i.first.by_sliding { "sliding" } else { "opening" }.to_owned(),
+                area_m2: i.area,
+            }
         };
         let ratio = |kinetic: f64| (kinetic > 0.0).then_some(watched.residual / kinetic);
         let tets = world.tets.nodes.len();
@@ -145,6 +173,7 @@ impl FractureSummary {
             tet_steps_per_s: tets as f64 * watched.steps as f64 / watched.wall.max(1e-9),
             energy_residual_ratio: ratio(watched.kinetic[1]).unwrap_or(0.0),
             energy_residual_of_start: ratio(watched.kinetic[0]),
+            impact_s: watched.impact,
             crack_area_m2: area,
             energy_over_g_f: (area > 0.0).then_some(taken / (area * g_f)),
             energy_j: EnergyAtEnd {
@@ -157,7 +186,7 @@ impl FractureSummary {
                 work: book.work,
                 freed: book.freed,
             },
-            fragments: fragments(world).into_iter().map(fragment).collect(),
+            fragments: fragments.iter().map(fragment).collect(),
             initiation: initiations(world).into_iter().map(initiation).collect(),
             assumptions: case.assumptions.clone(),
             warnings: case.warnings.clone(),
@@ -170,12 +199,22 @@ impl FractureSummary {
         }
     }
 
+    /// Read `summary.json` of a run folder.
+    ///
+    /// # Errors
+    /// If the file is missing or is not that of a fracture run.
+    pub fn read(dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join(SUMMARY_FILE);
+        let text = std::fs::read_to_string(&path).map_err(OutputError::io(&path))?;
+        serde_json::from_str(&text).map_err(OutputError::json(&path))
+    }
+
     /// Write `summary.json` into the run folder.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, dir: &Path) -> Result<(), OutputError> {
-        let path = dir.join("summary.json");
+        let path = dir.join(SUMMARY_FILE);
         let mut text = serde_json::to_string_pretty(self).map_err(OutputError::json(&path))?;
         text.push('\n');
         write_atomically(&path, text.as_bytes())

@@ -91,6 +91,14 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
     "pairs_touching",
 ];
 
+/// `cracks.csv` of a fracture run, a row for each face that has failed, in order of time: middle of the undeformed face, its
+/// area; `mode` 1 is opening, 2 sliding; `body` counts from 0 in the order of the mesh, as in the VTKHDF files.
+pub const CRACKS: [&str; 7] = ["time_s", "x_m", "y_m", "z_m", "area_m2", "mode", "body"];
+
+/// `fragments.csv` of a fracture run: the pieces at its end, the heaviest first; centre of mass and its velocity.
+pub const FRAGMENTS: [&str; 10] =
+    ["fragment", "body", "tets", "mass_kg", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"];
+
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3`
 /// its change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all
 /// steps since the row before, `steps` counts from the start, `dt_s` is the length of the step that comes.

@@ -18,6 +18,7 @@ pub mod columns;
 mod compare;
 mod error;
 pub mod plot;
+pub mod raster;
 mod report;
 mod series;
 pub(crate) mod state_file;
@@ -31,7 +32,7 @@ mod writer;
 pub use atomic::write_atomically;
 pub use compare::{Comparison, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare};
 pub use error::OutputError;
-pub use report::write_report;
+pub use report::{clock, grouped, page, section, write_report};
 pub use series::CsvSeries;
 pub use summary::{
     ContactSummary, EnergySummary, Execution, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
@@ -39,6 +40,8 @@ pub use summary::{
 };
 pub use table::Table;
 pub use unit_surface::UnitSurface;
-pub use vtkhdf::{Cells, FieldKind, FieldValues, PolyDataSeries, WaterSnapshot, WaterSnapshots};
+pub use vtkhdf::{
+    Cells, FieldKind, FieldValues, PolyDataSeries, TetMoment, TetSeries, TriangleMoments, WaterSnapshot, WaterSnapshots,
+};
 pub use wave_page::{write_flume_gauges, write_flume_piston, write_wave_page};
 pub use writer::Writer;

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{LandmarkFile, SectionFile};
+
 /// A fracture case: tetrahedral bodies, what moves and holds them, how strong they are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -30,6 +32,9 @@ pub struct FractureFile {
     /// Friction between bodies; pairs that are not named are smooth.
     #[serde(default)]
     pub friction: Vec<BodyFrictionFile>,
+    /// Places with names, to tell by where cracks begin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub landmarks: Vec<LandmarkFile>,
     /// What is written, and how often.
     pub output: FractureOutputFile,
     /// When the run ends.
@@ -158,7 +163,7 @@ pub struct BodyFrictionFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FractureOutputFile {
-    /// Interval of surfaces and cracks [s]; 0 writes none.
+    /// Interval of surfaces, cracks and cut plane [s]; 0 writes none, and the report has no pictures.
     pub surfaces_interval_s: f64,
     /// Interval of the energy book [s].
     pub energy_interval_s: f64,
@@ -167,6 +172,12 @@ pub struct FractureOutputFile {
     // Left out at its default, so that cases that do not use it keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoint_interval_s: Option<f64>,
+    /// Interval of all tetrahedra with their stresses [s]; 0, as without it, writes none.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub tets_interval_s: f64,
+    /// Plane of the pictures of the stress; without it, upright along x through the middle of the bodies that can crack.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section: Option<SectionFile>,
 }
 
 /// When a fracture run ends.
@@ -175,6 +186,10 @@ pub struct FractureOutputFile {
 pub struct FractureStopFile {
     /// Simulated time [s].
     pub duration_s: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn one() -> f64 {

@@ -139,6 +139,13 @@ impl Contacts {
         }
     }
 
+    /// Whether tetrahedra of two different bodies press each other.
+    pub fn between_bodies(&self, tets: &Tets) -> bool {
+        let body = |tet: u32| tets.body[tet as usize];
+        self.touching > 0
+            && self.pairs.iter().any(|pair| pair.forces.is_some() && body(pair.tets[0]) != body(pair.tets[1]))
+    }
+
     /// Pairs whose boxes are nearer than two skins; those known already keep what they remember.
     fn search(&mut self, setup: &Setup, tets: &Tets, place: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
         let size: f64 = self.outer.iter().map(|tet| tets.shape[*tet as usize].volume.cbrt()).sum();

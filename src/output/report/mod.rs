@@ -22,6 +22,8 @@ use super::{OutputError, write_atomically};
 use folder::RunFolder;
 use moments::Moments;
 
+pub use sections::{clock, grouped, section};
+
 /// Writes `report.html` into the run folder from the files that are there; only `summary.json` must be. Where the water
 /// of a moment is there, `picture.svg` too.
 ///
@@ -39,7 +41,7 @@ pub fn write_report(run_dir: &Path) -> Result<PathBuf, OutputError> {
 }
 
 /// A whole page with the style sheet in it.
-pub(in crate::output) fn page(title: &str, body: &str) -> String {
+pub fn page(title: &str, body: &str) -> String {
     let title = escape(title);
     let style = [include_str!("style.css"), include_str!("shades.css")].concat();
     format!(

@@ -23,7 +23,7 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
 }
 
 /// A section with its heading; nothing if there is no content.
-fn section(heading: &str, content: &str) -> String {
+pub fn section(heading: &str, content: &str) -> String {
     if content.is_empty() { String::new() } else { format!("<section>\n<h2>{heading}</h2>\n{content}</section>\n") }
 }
 
@@ -340,7 +340,7 @@ fn files(run: &RunFolder) -> String {
 }
 
 /// A whole number with thin spaces between groups of three figures.
-fn grouped(number: u64) -> String {
+pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -352,7 +352,8 @@ fn grouped(number: u64) -> String {
     text
 }
 
-fn clock(seconds: f64) -> String {
+/// A duration [s] in the unit that suits it.
+pub fn clock(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{} s", short(s, 1)),
         s if s < 5400.0 => format!("{} min", short(s / 60.0, 1)),

@@ -1,16 +1,16 @@
-//! Groups and datasets of a VTKHDF PolyData file, and how rows are put into them.
+//! Groups and datasets of VTKHDF files, and how rows are put into them.
 
 use hdf5_metno::types::FixedAscii;
 use hdf5_metno::{Dataset, File, Group, H5Type};
 
-use super::FieldKind;
+use super::{FieldKind, FieldValues};
 
 pub(super) type Hdf5Result<T> = hdf5_metno::Result<T>;
 
 /// Rows of a chunk in the long datasets (64 KiB for one f32 a row).
-const LONG_CHUNK: usize = 16_384;
+pub(super) const LONG_CHUNK: usize = 16_384;
 /// Rows of a chunk in the datasets with one row a step.
-const STEP_CHUNK: usize = 256;
+pub(super) const STEP_CHUNK: usize = 256;
 /// The four topologies of VTK's PolyData, in the order of the columns of `CellOffsets`.
 pub(super) const TOPOLOGIES: [&str; 4] = ["Vertices", "Lines", "Polygons", "Strips"];
 
@@ -21,13 +21,20 @@ pub(super) fn unlocked() -> hdf5_metno::FileBuilder {
     builder
 }
 
-/// Groups, attributes and empty datasets.
-pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
+/// The two groups of a file that grows step by step, with what says of which type it is. VTK wants the name of the type
+/// without room to spare: `LETTERS` is its length.
+pub(super) fn new_root<const LETTERS: usize>(file: &File, type_name: &str) -> Hdf5Result<[Group; 2]> {
     let root = file.create_group("VTKHDF")?;
     root.new_attr_builder().with_data(&[2_i64, 0]).create("Version")?;
-    let kind = FixedAscii::<8>::from_ascii("PolyData").map_err(|e| hdf5_metno::Error::from(e.to_string()))?;
-    root.new_attr::<FixedAscii<8>>().create("Type")?.write_scalar(&kind)?;
+    let kind = FixedAscii::<LETTERS>::from_ascii(type_name).map_err(|e| hdf5_metno::Error::from(e.to_string()))?;
+    root.new_attr::<FixedAscii<LETTERS>>().create("Type")?.write_scalar(&kind)?;
     let steps = root.create_group("Steps")?;
+    Ok([root, steps])
+}
+
+/// Groups, attributes and empty datasets of PolyData.
+pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
+    let [root, steps] = new_root::<8>(file, "PolyData")?;
     steps.new_attr::<i64>().create("NSteps")?.write_scalar(&0_i64)?;
     new_list::<f64>(&steps, "Values", STEP_CHUNK)?;
     for name in ["PartOffsets", "NumberOfParts", "PointOffsets"] {
@@ -37,7 +44,7 @@ pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5R
         steps.new_dataset::<i64>().chunk((STEP_CHUNK, 4)).shape((0.., 4)).create(name)?;
     }
     new_list::<i64>(&root, "NumberOfPoints", STEP_CHUNK)?;
-    new_list_of_3(&root, "Points")?;
+    new_rows::<3>(&root, "Points")?;
     for name in TOPOLOGIES {
         let group = root.create_group(name)?;
         new_list::<i64>(&group, "NumberOfCells", STEP_CHUNK)?;
@@ -48,23 +55,46 @@ pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5R
     }
     let point_data = root.create_group("PointData")?;
     let offsets = steps.create_group("PointDataOffsets")?;
-    for (name, kind) in fields {
-        match kind {
-            FieldKind::Scalar => new_list::<f32>(&point_data, name, LONG_CHUNK)?,
-            FieldKind::Vector => new_list_of_3(&point_data, name)?,
-            FieldKind::Integer => new_list::<i32>(&point_data, name, LONG_CHUNK)?,
-        };
-        new_list::<i64>(&offsets, name, STEP_CHUNK)?;
-    }
+    fields.iter().try_for_each(|(name, kind)| new_field(&point_data, &offsets, name, *kind))
+}
+
+/// The list of a field, and that of where its steps start.
+pub(super) fn new_field(data: &Group, offsets: &Group, name: &str, kind: FieldKind) -> Hdf5Result<()> {
+    match kind {
+        FieldKind::Scalar => new_list::<f32>(data, name, LONG_CHUNK)?,
+        FieldKind::Vector => new_rows::<3>(data, name)?,
+        FieldKind::Tensor => new_rows::<6>(data, name)?,
+        FieldKind::Integer => new_list::<i32>(data, name, LONG_CHUNK)?,
+    };
+    new_list::<i64>(offsets, name, STEP_CHUNK)?;
     Ok(())
 }
 
-fn new_list<T: H5Type>(group: &Group, name: &str, chunk: usize) -> Hdf5Result<Dataset> {
+/// Appends the values of a field; returns where they start.
+pub(super) fn append_values(dataset: &Dataset, values: &FieldValues<'_>) -> Hdf5Result<usize> {
+    match values {
+        FieldValues::Scalar(values) => append_rows(dataset, values),
+        FieldValues::Vector(values) => append_rows_of(dataset, values),
+        FieldValues::Tensor(values) => append_rows_of(dataset, values),
+        FieldValues::Integer(values) => append_rows(dataset, values),
+    }
+}
+
+/// Cuts the list of a field behind its first `rows`.
+pub(super) fn cut_field(dataset: &Dataset, kind: FieldKind, rows: usize) -> Hdf5Result<()> {
+    match kind {
+        FieldKind::Vector => dataset.resize((rows, 3)),
+        FieldKind::Tensor => dataset.resize((rows, 6)),
+        FieldKind::Scalar | FieldKind::Integer => dataset.resize(rows),
+    }
+}
+
+pub(super) fn new_list<T: H5Type>(group: &Group, name: &str, chunk: usize) -> Hdf5Result<Dataset> {
     group.new_dataset::<T>().chunk(chunk).shape(0..).create(name)
 }
 
-fn new_list_of_3(group: &Group, name: &str) -> Hdf5Result<Dataset> {
-    group.new_dataset::<f32>().chunk((LONG_CHUNK, 3)).shape((0.., 3)).create(name)
+pub(super) fn new_rows<const N: usize>(group: &Group, name: &str) -> Hdf5Result<Dataset> {
+    group.new_dataset::<f32>().chunk((LONG_CHUNK, N)).shape((0.., N)).create(name)
 }
 
 /// Appends values to a list; returns where they start.
@@ -77,11 +107,11 @@ pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T]) -> Hdf5Res
     Ok(start)
 }
 
-/// Appends rows of three values; returns where they start.
-pub(super) fn append_rows_of_3(dataset: &Dataset, rows: &[[f32; 3]]) -> Hdf5Result<usize> {
-    let start = dataset.size() / 3;
+/// Appends rows of several values; returns where they start.
+pub(super) fn append_rows_of<const N: usize>(dataset: &Dataset, rows: &[[f32; N]]) -> Hdf5Result<usize> {
+    let start = dataset.size() / N;
     if !rows.is_empty() {
-        dataset.resize((start + rows.len(), 3))?;
+        dataset.resize((start + rows.len(), N))?;
         dataset.write_slice::<_, f32, _, _>(rows, (start..start + rows.len(), ..))?;
     }
     Ok(start)

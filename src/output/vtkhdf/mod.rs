@@ -11,16 +11,21 @@ use std::path::{Path, PathBuf};
 use hdf5_metno::{Dataset, File, Group};
 
 use self::layout::{
-    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of_3, set_row, set_row_of_4, unlocked, write_skeleton,
+    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, cut_field, set_row, set_row_of_4, unlocked,
+    write_skeleton,
 };
 use super::OutputError;
 
 pub use self::snapshots::{WaterSnapshot, WaterSnapshots};
+pub use self::triangles::TriangleMoments;
+pub use self::volume::{TetMoment, TetSeries};
 
 mod layout;
 mod snapshots;
 #[cfg(test)]
 mod tests;
+mod triangles;
+mod volume;
 
 /// What the cells of a series are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,24 +52,28 @@ impl Cells {
     }
 }
 
-/// What a point field holds.
+/// What a field holds for each point or cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldKind {
-    /// One f32 a point.
+    /// One f32.
     Scalar,
-    /// Three f32 a point.
+    /// Three f32.
     Vector,
-    /// One i32 a point.
+    /// A symmetric tensor as six f32: xx, yy, zz, xy, yz, xz, the order of ParaView.
+    Tensor,
+    /// One i32.
     Integer,
 }
 
-/// Values of a point field in one step, one for each point.
+/// Values of a field in one step, one for each point or cell.
 #[derive(Debug, Clone, Copy)]
 pub enum FieldValues<'a> {
     /// For [`FieldKind::Scalar`].
     Scalar(&'a [f32]),
     /// For [`FieldKind::Vector`].
     Vector(&'a [[f32; 3]]),
+    /// For [`FieldKind::Tensor`].
+    Tensor(&'a [[f32; 6]]),
     /// For [`FieldKind::Integer`].
     Integer(&'a [i32]),
 }
@@ -74,6 +83,7 @@ impl FieldValues<'_> {
         match self {
             Self::Scalar(_) => FieldKind::Scalar,
             Self::Vector(_) => FieldKind::Vector,
+            Self::Tensor(_) => FieldKind::Tensor,
             Self::Integer(_) => FieldKind::Integer,
         }
     }
@@ -82,6 +92,7 @@ impl FieldValues<'_> {
         match self {
             Self::Scalar(values) => values.len(),
             Self::Vector(values) => values.len(),
+            Self::Tensor(values) => values.len(),
             Self::Integer(values) => values.len(),
         }
     }
@@ -204,17 +215,12 @@ impl PolyDataSeries {
             Cells::Triangles => triangles.len(),
         };
 
-        let point_start = append_rows_of_3(&root.dataset("Points")?, points)?;
+        let point_start = append_rows_of(&root.dataset("Points")?, points)?;
         let connectivity_start = self.write_cells(&root, points.len(), triangles, count)?;
         let point_data = root.group("PointData")?;
         let point_data_offsets = steps.group("PointDataOffsets")?;
         for ((name, _), value) in self.fields.iter().zip(values) {
-            let dataset = point_data.dataset(name)?;
-            let start = match value {
-                FieldValues::Scalar(values) => append_rows(&dataset, values)?,
-                FieldValues::Vector(values) => append_rows_of_3(&dataset, values)?,
-                FieldValues::Integer(values) => append_rows(&dataset, values)?,
-            };
+            let start = append_values(&point_data.dataset(name)?, value)?;
             set_row(&point_data_offsets.dataset(name)?, row, start as i64)?;
         }
 
@@ -282,11 +288,7 @@ impl PolyDataSeries {
         let point_data_offsets = steps.group("PointDataOffsets")?;
         for (name, kind) in &self.fields {
             let starts = point_data_offsets.dataset(name)?;
-            let (dataset, rows) = (root.group("PointData")?.dataset(name)?, end_of(&starts)?);
-            match kind {
-                FieldKind::Vector => dataset.resize((rows, 3))?,
-                FieldKind::Scalar | FieldKind::Integer => dataset.resize(rows)?,
-            }
+            cut_field(&root.group("PointData")?.dataset(name)?, *kind, end_of(&starts)?)?;
             starts.resize(kept)?;
         }
         if self.cells == Cells::Triangles {

@@ -1,0 +1,186 @@
+//! What a fracture run tells besides energy and surfaces: failed faces as a table, the cut plane, all tetrahedra.
+
+use std::path::Path;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::fragments::pieces;
+use super::recorder::principal;
+use super::section::{SECTION_FIELDS, Section};
+use crate::case::FractureCase;
+use crate::femdem::element::{self, Moduli};
+use crate::femdem::world::World;
+use crate::output::{
+    Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, TetMoment, TetSeries, columns,
+};
+
+const CRACKS_FILE: &str = "cracks.csv";
+const SECTION_FILE: &str = "section.vtkhdf";
+const TETS_FILE: &str = "tets.vtkhdf";
+
+const TET_FIELDS: [(&str, FieldKind); 5] = [
+    ("stress", FieldKind::Tensor),
+    ("sigma_1", FieldKind::Scalar),
+    ("sigma_1_minus_sigma_3", FieldKind::Scalar),
+    ("body", FieldKind::Integer),
+    ("fragment", FieldKind::Integer),
+];
+/// Bytes of a tetrahedron in a moment of `tets.vtkhdf`: fields, offset and type, and its share of place and velocity of
+/// the nodes, of which meshes like those of tools/mesh have a fifth of the tetrahedra.
+const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
+/// Bytes of its connectivity.
+const CONNECTIVITY_BYTES: f64 = 32.0;
+
+/// How long the files were at a checkpoint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct DetailLengths {
+    /// Bytes of `cracks.csv`.
+    pub cracks_bytes: u64,
+    /// Rows of `cracks.csv`.
+    pub cracks: usize,
+    /// Steps of `section.vtkhdf`; 0 if there is none.
+    pub section_steps: usize,
+    /// Steps of `tets.vtkhdf`; 0 if there is none.
+    pub tets_steps: usize,
+}
+
+/// Open files.
+pub struct DetailRecorder {
+    cracks: CsvSeries,
+    /// Failed faces in the table.
+    told: usize,
+    section: Option<(Section, PolyDataSeries)>,
+    tets: Option<(f64, TetSeries)>,
+}
+
+impl DetailRecorder {
+    /// New files in the run folder.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(case: &FractureCase, dir: &Path) -> Result<Self, OutputError> {
+        let section = |_| PolyDataSeries::create(&dir.join(SECTION_FILE), Cells::Triangles, &SECTION_FIELDS);
+        let tets = |interval| Ok((interval, TetSeries::create(&dir.join(TETS_FILE), &TET_FIELDS)?));
+        Ok(Self {
+            cracks: CsvSeries::create(&dir.join(CRACKS_FILE), &columns::CRACKS)?,
+            told: 0,
+            section: case.surfaces_interval.map(section).transpose()?.map(|series| (cut(case), series)),
+            tets: case.tets_interval.map(tets).transpose()?,
+        })
+    }
+
+    /// The files of an interrupted run, cut where they were at a checkpoint.
+    ///
+    /// # Errors
+    /// If a file cannot be opened, or is shorter.
+    pub fn reopen(case: &FractureCase, dir: &Path, lengths: &DetailLengths) -> Result<Self, OutputError> {
+        let (path, steps) = (dir.join(SECTION_FILE), lengths.section_steps);
+        let section = |_| PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &SECTION_FIELDS, steps);
+        let tets = |interval| {
+            let series = TetSeries::open_and_truncate(&dir.join(TETS_FILE), &TET_FIELDS, lengths.tets_steps)?;
+            Ok((interval, series))
+        };
+        Ok(Self {
+            cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), lengths.cracks_bytes)?,
+            told: lengths.cracks,
+            section: case.surfaces_interval.map(section).transpose()?.map(|series| (cut(case), series)),
+            tets: case.tets_interval.map(tets).transpose()?,
+        })
+    }
+
+    /// How long the files are now.
+    pub fn lengths(&self) -> DetailLengths {
+        DetailLengths {
+            cracks_bytes: self.cracks.bytes(),
+            cracks: self.told,
+            section_steps: self.section.as_ref().map_or(0, |(_, series)| series.steps()),
+            tets_steps: self.tets.as_ref().map_or(0, |(_, series)| series.steps()),
+        }
+    }
+
+    /// Append the faces that have failed since the last call.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record_cracks(&mut self, world: &World) -> Result<(), OutputError> {
+        let row = |failure: &crate::femdem::world::Failure| {
+            let [x, y, z] = failure.place.to_array();
+            let tet = world.setup().interfaces[failure.interface as usize].tets[0] as usize;
+            let mode = if failure.by_sliding { 2.0 } else { 1.0 };
+            [failure.time, x, y, z, failure.area, mode, f64::from(world.tets.body[tet])]
+        };
+        self.cracks.append_rows(world.failures[self.told..].iter().map(row))?;
+        self.told = world.failures.len();
+        Ok(())
+    }
+
+    /// Append the cut plane as it is now.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record_section(&mut self, world: &World) -> Result<(), OutputError> {
+        self.section.as_mut().map_or(Ok(()), |(section, series)| section.record(world, series))
+    }
+
+    /// Append all tetrahedra as they are now, where the interval of the case or the end of the run asks for it.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record_tets_if_due(&mut self, world: &World, over: bool) -> Result<(), OutputError> {
+        match &mut self.tets {
+            Some((interval, series)) if over || world.time >= series.steps() as f64 * *interval => {
+                record_tets(world, series)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Size of `tets.vtkhdf` [bytes], as long as no nodes come apart; 0 if the case asks for none.
+pub fn tets_bytes(case: &FractureCase) -> f64 {
+    let moments = case.tets_interval.map_or(0.0, |interval| (case.duration / interval).ceil() + 1.0);
+    let tets = case.setup.tets.len() as f64;
+    moments * tets * TET_BYTES + if moments > 0.0 { CONNECTIVITY_BYTES * tets } else { 0.0 }
+}
+
+fn cut(case: &FractureCase) -> Section {
+    Section::new(&case.setup, &case.section)
+}
+
+fn record_tets(world: &World, series: &mut TetSeries) -> Result<(), OutputError> {
+    let single = |v: &DVec3| v.as_vec3().to_array();
+    let points: Vec<[f32; 3]> = world.nodes.place.iter().map(single).collect();
+    let velocity: Vec<[f32; 3]> = world.nodes.velocity.iter().map(single).collect();
+    let fragment: Vec<i32> = pieces(world).of_tet.into_iter().map(|number| number as i32).collect();
+    let count = world.tets.nodes.len();
+    let (mut stress, mut first, mut difference, mut body) =
+        (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
+    for (tet, nodes) in world.tets.nodes.iter().enumerate() {
+        let number = world.tets.body[tet];
+        let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
+        let places = nodes.map(|node| world.nodes.place[node as usize]);
+        let t = element::stress(&world.tets.shape[tet], &moduli, &places);
+        let [sigma_1, _, sigma_3] = principal(t);
+        let components = [t.x_axis.x, t.y_axis.y, t.z_axis.z, t.x_axis.y, t.y_axis.z, t.x_axis.z];
+        stress.push(components.map(|component| component as f32));
+        first.push(sigma_1 as f32);
+        difference.push((sigma_1 - sigma_3) as f32);
+        body.push(i32::from(number));
+    }
+    let values = [
+        FieldValues::Tensor(&stress),
+        FieldValues::Scalar(&first),
+        FieldValues::Scalar(&difference),
+        FieldValues::Integer(&body),
+        FieldValues::Integer(&fragment),
+    ];
+    let moment = TetMoment {
+        time_s: world.time,
+        points_m: &points,
+        velocity_m_s: &velocity,
+        tets: &world.tets.nodes,
+        values: &values,
+    };
+    series.append(&moment)
+}

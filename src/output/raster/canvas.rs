@@ -1,0 +1,135 @@
+//! Pixels with a depth, and triangles and lines on them.
+
+use super::View;
+use super::image;
+
+/// Red, green and blue, 0 to 1.
+pub type Colour = [f32; 3];
+
+/// Samples of a pixel along each side: smooth edges.
+const FINER: usize = 2;
+
+/// A picture in the making. Coordinates are those of a [`View`] of its size.
+#[derive(Debug, Clone)]
+pub struct Canvas {
+    columns: usize,
+    rows: usize,
+    /// Colour of each sample, row by row from the upper left.
+    pub colour: Vec<Colour>,
+    /// Distance of what each sample shows [m]; infinite where there is nothing.
+    pub depth: Vec<f64>,
+}
+
+impl Canvas {
+    /// An empty picture of the size of a view.
+    pub fn new(view: &View, ground: Colour) -> Self {
+        let [columns, rows] = view.size.map(|length| length.round().max(1.0) as usize * FINER);
+        Self { columns, rows, colour: vec![ground; columns * rows], depth: vec![f64::INFINITY; columns * rows] }
+    }
+
+    /// Calls `visit` with every sample in a triangle (across [px], down [px], depth [m]) and its depth there.
+    pub fn visit(&self, corners: [[f64; 3]; 3], mut visit: impl FnMut(usize, f64)) {
+        let [a, b, c] = corners.map(|[x, y, depth]| [x * FINER as f64 - 0.5, y * FINER as f64 - 0.5, depth]);
+        let double = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if double == 0.0 || !double.is_finite() {
+            return;
+        }
+        let span = |axis: usize, end: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]).ceil().max(0.0);
+            let high = (a[axis].max(b[axis]).max(c[axis]).floor() + 1.0).clamp(0.0, end as f64);
+            low as usize..high as usize
+        };
+        for row in span(1, self.rows) {
+            for column in span(0, self.columns) {
+                let (x, y) = (column as f64, row as f64);
+                let share = |p: [f64; 3], q: [f64; 3]| ((p[0] - x) * (q[1] - y) - (p[1] - y) * (q[0] - x)) / double;
+                let (of_a, of_b, of_c) = (share(b, c), share(c, a), share(a, b));
+                if of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0 {
+                    visit(row * self.columns + column, of_a * a[2] + of_b * b[2] + of_c * c[2]);
+                }
+            }
+        }
+    }
+
+    /// Paints a triangle where nothing is nearer.
+    pub fn fill(&mut self, corners: [[f64; 3]; 3], colour: Colour) {
+        let (mut colours, mut depths) = (std::mem::take(&mut self.colour), std::mem::take(&mut self.depth));
+        self.visit(corners, |sample, depth| {
+            if depth < depths[sample] {
+                (depths[sample], colours[sample]) = (depth, colour);
+            }
+        });
+        (self.colour, self.depth) = (colours, depths);
+    }
+
+    /// Draws a line of a width [px] over what is not nearer than it by more than `hidden` [m], mixed in by `strength`.
+    pub fn line(&mut self, [a, b]: [[f64; 3]; 2], width: f64, colour: Colour, strength: f32, hidden: f64) {
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let length = dx.hypot(dy);
+        if length == 0.0 {
+            return;
+        }
+        let (nx, ny) = (-0.5 * width * dy / length, 0.5 * width * dx / length);
+        let at = |p: [f64; 3], side: f64| [p[0] + side * nx, p[1] + side * ny, p[2]];
+        let mut colours = std::mem::take(&mut self.colour);
+        for corners in [[at(a, 1.0), at(b, 1.0), at(b, -1.0)], [at(a, 1.0), at(b, -1.0), at(a, -1.0)]] {
+            self.visit(corners, |sample, depth| {
+                if depth < self.depth[sample] + hidden {
+                    colours[sample] = mixed(colours[sample], colour, strength);
+                }
+            });
+        }
+        self.colour = colours;
+    }
+
+    /// The picture as a PNG inside the address of an image.
+    pub fn data_uri(&self) -> String {
+        let (width, height) = (self.columns / FINER, self.rows / FINER);
+        let mut bytes = Vec::with_capacity(3 * width * height);
+        for row in 0..height {
+            for column in 0..width {
+                let mut sum = [0.0_f32; 3];
+                for sample in 0..FINER * FINER {
+                    let (y, x) = (FINER * row + sample / FINER, FINER * column + sample % FINER);
+                    let of_sample = self.colour[y * self.columns + x];
+                    sum.iter_mut().zip(of_sample).for_each(|(sum, part)| *sum += part);
+                }
+                let mean = |sum: f32| (sum / (FINER * FINER) as f32 * 255.0).round().clamp(0.0, 255.0) as u8;
+                bytes.extend(sum.map(mean));
+            }
+        }
+        image::data_uri(width as u32, height as u32, &bytes)
+    }
+}
+
+/// One colour with a share of another.
+pub fn mixed(one: Colour, other: Colour, share: f32) -> Colour {
+    [0, 1, 2].map(|k| one[k] + share * (other[k] - one[k]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn what_is_nearer_is_seen() {
+        let view = View::along(DVec3::Y, [DVec3::ZERO, DVec3::ONE], [10.0, 10.0], 0.0);
+        let mut canvas = Canvas::new(&view, [1.0; 3]);
+        let triangle = |depth: f64| [[0.0, 0.0, depth], [10.0, 0.0, depth], [0.0, 10.0, depth]];
+        canvas.fill(triangle(2.0), [1.0, 0.0, 0.0]);
+        canvas.fill(triangle(1.0), [0.0, 1.0, 0.0]);
+        canvas.fill(triangle(3.0), [0.0, 0.0, 1.0]);
+        assert_eq!(canvas.colour[0], [0.0, 1.0, 0.0]);
+        assert_eq!(canvas.colour[399], [1.0; 3]);
+        // Half of the samples, and those on the edge.
+        let mut inside = 0;
+        canvas.visit(triangle(0.0), |_, _| inside += 1);
+        assert!((190..=210).contains(&inside), "{inside}");
+        // Behind the triangle a line is hidden, before it is not.
+        canvas.line([[0.0, 2.0, 5.0], [6.0, 2.0, 5.0]], 2.0, [0.0; 3], 1.0, 0.0);
+        assert_eq!(canvas.colour[4 * 20 + 4], [0.0, 1.0, 0.0]);
+        canvas.line([[0.0, 2.0, 0.5], [6.0, 2.0, 0.5]], 2.0, [0.0; 3], 1.0, 0.0);
+        assert_eq!(canvas.colour[4 * 20 + 4], [0.0; 3]);
+    }
+}

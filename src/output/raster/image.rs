@@ -1,0 +1,51 @@
+//! PNG inside a page.
+
+/// Letters of base64 (RFC 4648).
+const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// A picture of 8 bits a colour, red, green and blue, row by row, as the address of an image.
+///
+/// # Panics
+/// If there are not three bytes a pixel.
+pub fn data_uri(width: u32, height: u32, rgb: &[u8]) -> String {
+    assert_eq!(rgb.len(), 3 * width as usize * height as usize, "three bytes a pixel");
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(rgb));
+    // Writing to memory fails for no picture of the right length.
+    debug_assert!(written.is_ok());
+    format!("data:image/png;base64,{}", base64(&bytes))
+}
+
+fn base64(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let bits = group.iter().fold(0u32, |bits, byte| bits << 8 | u32::from(*byte)) << (8 * (3 - group.len()));
+        for place in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * place) & 63) as usize];
+            text.push(if place > group.len() { '=' } else { char::from(letter) });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_is_that_of_the_rfc() {
+        let cases = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")];
+        cases.into_iter().for_each(|(text, expected)| assert_eq!(base64(text.as_bytes()), expected));
+    }
+
+    #[test]
+    fn a_picture_is_a_png() {
+        let uri = data_uri(2, 1, &[255, 0, 0, 0, 0, 255]);
+        // The eight bytes that a PNG begins with.
+        assert!(uri.starts_with("data:image/png;base64,iVBORw0KGgo"), "{uri}");
+    }
+}

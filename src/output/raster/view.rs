@@ -1,0 +1,77 @@
+//! A parallel view of a scene.
+
+use glam::DVec3;
+
+/// Where the paper is: parallel rays fall on it along one direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    right: DVec3,
+    up: DVec3,
+    /// Away from the viewer.
+    ahead: DVec3,
+    /// Middle of the picture [m].
+    centre: DVec3,
+    /// Pixels of a metre [px/m].
+    pub scale: f64,
+    /// Width and height of the picture [px].
+    pub size: [f64; 2],
+}
+
+impl View {
+    /// The view along `ahead` (of any length) that shows all `places` [m] in a picture of a size [px], with a margin as a
+    /// share of it. The z axis points upwards on the paper; the y axis where the view is along z.
+    pub fn along(ahead: DVec3, places: impl IntoIterator<Item = DVec3>, size: [f64; 2], margin: f64) -> Self {
+        let ahead = ahead.normalize_or(DVec3::Y);
+        let upwards = if ahead.z.abs() > 0.999 { DVec3::Y } else { DVec3::Z };
+        let right = ahead.cross(upwards).normalize();
+        let up = right.cross(ahead);
+        let bounds = places.into_iter().fold(None, |bounds: Option<[DVec3; 2]>, place| {
+            let at = DVec3::new(place.dot(right), place.dot(up), place.dot(ahead));
+            Some(bounds.map_or([at, at], |[low, high]| [low.min(at), high.max(at)]))
+        });
+        let [low, high] = bounds.unwrap_or([-DVec3::ONE, DVec3::ONE]);
+        let middle = (low + high) * 0.5;
+        let extent = (high - low).max(DVec3::splat(1e-9));
+        let scale = (1.0 - 2.0 * margin) * (size[0] / extent.x).min(size[1] / extent.y);
+        let centre = right * middle.x + up * middle.y + ahead * middle.z;
+        Self { right, up, ahead, centre, scale, size }
+    }
+
+    /// Where a place [m] is on the paper: across and down from the upper left corner [px], and away from the viewer [m].
+    pub fn project(&self, place: DVec3) -> [f64; 3] {
+        let from = place - self.centre;
+        [
+            0.5 * self.size[0] + self.scale * from.dot(self.right),
+            0.5 * self.size[1] - self.scale * from.dot(self.up),
+            from.dot(self.ahead),
+        ]
+    }
+
+    /// Whether a face with this normal looks at the viewer.
+    pub fn faces(&self, normal: DVec3) -> bool {
+        normal.dot(self.ahead) < 0.0
+    }
+
+    /// How bright a face with this normal (of any length) is, 0 to 1, in a light over the viewer's left shoulder.
+    pub fn light(&self, normal: DVec3) -> f64 {
+        let towards = (self.up * 0.75 - self.right * 0.45 - self.ahead * 0.8).normalize();
+        0.5 + 0.5 * normal.normalize_or_zero().dot(towards).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_view_along_y_has_x_to_the_right_and_z_upwards() {
+        let corners = [DVec3::new(1.0, 5.0, -1.0), DVec3::new(3.0, 9.0, 0.0)];
+        let view = View::along(DVec3::Y, corners, [200.0, 200.0], 0.0);
+        let [x, y, near] = view.project(corners[0]);
+        // 2 m across 200 px; 1 m upwards in the middle.
+        assert!(x.abs() < 1e-9 && (y - 150.0).abs() < 1e-9, "{x} {y}");
+        let [x, y, far] = view.project(corners[1]);
+        assert!((x - 200.0).abs() < 1e-9 && (y - 50.0).abs() < 1e-9 && far > near);
+        assert!(view.faces(-DVec3::Y) && !view.faces(DVec3::Y));
+    }
+}

@@ -1,0 +1,107 @@
+//! Reading triangles back, moment by moment: surfaces, cracks, cut planes.
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use hdf5_metno::{File, H5Type};
+
+use super::super::OutputError;
+use super::layout::{Hdf5Result, unlocked};
+
+/// The moments in a file of triangles with corners of their own, as [`super::PolyDataSeries`] writes it.
+#[derive(Debug)]
+pub struct TriangleMoments {
+    path: PathBuf,
+    file: File,
+    times_s: Vec<f64>,
+    counts: Vec<usize>,
+}
+
+impl TriangleMoments {
+    /// Opens the file; it may still be growing.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        let read = || -> Hdf5Result<Self> {
+            let file = unlocked().open(path)?;
+            let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
+            let mut times_s = file.dataset("VTKHDF/Steps/Values")?.read_raw::<f64>()?;
+            times_s.truncate(usize::try_from(present).unwrap_or(0));
+            let counts = offsets(&file, "NumberOfPoints")?;
+            Ok(Self { path: path.to_owned(), file, times_s, counts })
+        };
+        read().map_err(OutputError::hdf5(path))
+    }
+
+    /// Time of each moment [s].
+    pub fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    /// Corners of the triangles of a moment [m].
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    ///
+    /// # Panics
+    /// If there are not so many moments.
+    pub fn triangles(&self, moment: usize) -> Result<Vec<[DVec3; 3]>, OutputError> {
+        let read = || -> Hdf5Result<Vec<[DVec3; 3]>> {
+            let start = offsets(&self.file, "Steps/PointOffsets")?[moment];
+            let dataset = self.file.dataset("VTKHDF/Points")?;
+            let rows = dataset.read_slice_2d::<f32, _>((start..start + self.counts[moment], ..))?;
+            let points: Vec<DVec3> =
+                rows.outer_iter().map(|row| DVec3::new(row[0].into(), row[1].into(), row[2].into())).collect();
+            Ok(points.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect())
+        };
+        read().map_err(OutputError::hdf5(&self.path))
+    }
+
+    /// A field with one number a point, at the first corner of each triangle.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or has no such field.
+    ///
+    /// # Panics
+    /// If there are not so many moments.
+    pub fn values<T: H5Type + Copy>(&self, moment: usize, field: &str) -> Result<Vec<T>, OutputError> {
+        let read = || -> Hdf5Result<Vec<T>> {
+            let start = offsets(&self.file, &format!("Steps/PointDataOffsets/{field}"))?[moment];
+            let dataset = self.file.dataset(&format!("VTKHDF/PointData/{field}"))?;
+            let values = dataset.read_slice_1d::<T, _>(start..start + self.counts[moment])?;
+            Ok(values.iter().copied().step_by(3).collect())
+        };
+        read().map_err(OutputError::hdf5(&self.path))
+    }
+}
+
+fn offsets(file: &File, name: &str) -> Hdf5Result<Vec<usize>> {
+    let values = file.dataset(&format!("VTKHDF/{name}"))?.read_raw::<i64>()?;
+    Ok(values.into_iter().map(|v| usize::try_from(v).unwrap_or(0)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Cells, FieldKind, FieldValues, PolyDataSeries};
+    use super::*;
+
+    #[test]
+    fn triangles_read_back_moment_by_moment() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cracks.vtkhdf");
+        let mut series = PolyDataSeries::create(&path, Cells::Triangles, &[("mode", FieldKind::Integer)]).unwrap();
+        for (time, count) in [(0.0, 0), (0.1, 2), (0.2, 3)] {
+            let points: Vec<[f32; 3]> = (0..3 * count).map(|i| [i as f32, time as f32, 0.0]).collect();
+            let triangles: Vec<[u32; 3]> = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let mode: Vec<i32> = (0..3 * count as i32).collect();
+            series.append(time, &points, &triangles, &[FieldValues::Integer(&mode)]).unwrap();
+        }
+        let moments = TriangleMoments::open(&path).unwrap();
+        assert_eq!(moments.times_s(), [0.0, 0.1, 0.2]);
+        assert!(moments.triangles(0).unwrap().is_empty());
+        assert_eq!(moments.triangles(2).unwrap()[1][2].x, 5.0);
+        assert_eq!(moments.values::<i32>(1, "mode").unwrap(), [0, 3]);
+        assert!(moments.values::<i32>(1, "none").is_err());
+    }
+}

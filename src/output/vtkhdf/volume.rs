@@ -1,0 +1,269 @@
+//! Tetrahedra for ParaView: VTKHDF temporal UnstructuredGrid, one file a series.
+//!
+//! As in [`super::PolyDataSeries`] every step is one part. Connectivity is written again only when nodes have come apart.
+//! `Offsets` and `Types` never change, but are written in every step: VTK looks for the offsets of a part behind those of
+//! the parts before it.
+
+use std::path::{Path, PathBuf};
+
+use hdf5_metno::{Dataset, File};
+
+use super::super::OutputError;
+use super::layout::{
+    Hdf5Result, LONG_CHUNK, STEP_CHUNK, append_rows, append_rows_of, append_values, cut_field, new_field, new_list,
+    new_root, new_rows, set_row, unlocked,
+};
+use super::{FieldKind, FieldValues};
+
+/// VTK's number of a linear tetrahedron.
+const VTK_TETRA: u8 = 10;
+/// Point field of every file.
+const VELOCITY: &str = "velocity";
+
+/// A VTKHDF file of tetrahedra that grows step by step.
+#[derive(Debug)]
+pub struct TetSeries {
+    path: PathBuf,
+    file: File,
+    fields: Vec<(String, FieldKind)>,
+    steps: usize,
+    /// Connectivity of the last step and where it starts in the file.
+    last_tets: Vec<[u32; 4]>,
+    last_connectivity_start: usize,
+}
+
+/// What a file of tetrahedra holds of a moment.
+#[derive(Debug, Clone, Copy)]
+pub struct TetMoment<'a> {
+    /// Time [s].
+    pub time_s: f64,
+    /// Nodes [m].
+    pub points_m: &'a [[f32; 3]],
+    /// Velocity of each node [m/s].
+    pub velocity_m_s: &'a [[f32; 3]],
+    /// Nodes of each tetrahedron; as many in every step.
+    pub tets: &'a [[u32; 4]],
+    /// Values of each field of the tetrahedra, in the order of creation.
+    pub values: &'a [FieldValues<'a>],
+}
+
+impl TetSeries {
+    /// A new file with fields of the tetrahedra of the given names and kinds; an old file is overwritten.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create(path: &Path, fields: &[(&str, FieldKind)]) -> Result<Self, OutputError> {
+        let create = || -> Hdf5Result<File> {
+            let file = unlocked().create(path)?;
+            write_skeleton(&file, fields)?;
+            file.flush()?;
+            Ok(file)
+        };
+        let file = create().map_err(OutputError::hdf5(path))?;
+        Ok(Self::new(path, file, fields, 0))
+    }
+
+    /// Opens a file of an interrupted run and drops the steps beyond the first `steps`.
+    ///
+    /// # Errors
+    /// If the file cannot be opened, is no file of such fields, or has fewer steps.
+    pub fn open_and_truncate(path: &Path, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
+        let open = || -> Hdf5Result<(File, usize)> {
+            let file = unlocked().open_rw(path)?;
+            let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
+            for (name, _) in fields {
+                file.dataset(&format!("VTKHDF/CellData/{name}"))?;
+            }
+            Ok((file, usize::try_from(present).unwrap_or(0)))
+        };
+        let (file, present) = open().map_err(OutputError::hdf5(path))?;
+        if present < steps {
+            let what = format!("holds {present} steps, fewer than the {steps} at the checkpoint");
+            return Err(OutputError::content(path, what));
+        }
+        let mut series = Self::new(path, file, fields, steps);
+        series.truncate().map_err(OutputError::hdf5(path))?;
+        Ok(series)
+    }
+
+    fn new(path: &Path, file: File, fields: &[(&str, FieldKind)], steps: usize) -> Self {
+        let fields = fields.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect();
+        Self { path: path.to_owned(), file, fields, steps, last_tets: Vec::new(), last_connectivity_start: 0 }
+    }
+
+    /// Number of steps in the file.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Appends one step.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    ///
+    /// # Panics
+    /// If the fields do not match those of the file, or a field has not one value for each tetrahedron.
+    pub fn append(&mut self, moment: &TetMoment<'_>) -> Result<(), OutputError> {
+        assert_eq!(moment.points_m.len(), moment.velocity_m_s.len(), "one velocity a node");
+        assert_eq!(moment.values.len(), self.fields.len(), "{}: one value list a field", self.path.display());
+        for ((name, kind), value) in self.fields.iter().zip(moment.values) {
+            assert_eq!(*kind, value.kind(), "kind of field {name}");
+            assert_eq!(moment.tets.len(), value.len(), "length of field {name}");
+        }
+        self.write_step(moment).map_err(OutputError::hdf5(&self.path))
+    }
+
+    fn write_step(&mut self, moment: &TetMoment<'_>) -> Hdf5Result<()> {
+        let root = self.file.group("VTKHDF")?;
+        let (steps, row, cells) = (root.group("Steps")?, self.steps, moment.tets.len());
+        append_rows(&root.dataset("Offsets")?, &(0..=cells).map(|i| 4 * i as i64).collect::<Vec<_>>())?;
+        let cell_start = append_rows(&root.dataset("Types")?, &vec![VTK_TETRA; cells])?;
+        if row == 0 || self.last_tets != moment.tets {
+            let ids: Vec<i64> = moment.tets.iter().flatten().map(|i| i64::from(*i)).collect();
+            self.last_connectivity_start = append_rows(&root.dataset("Connectivity")?, &ids)?;
+            self.last_tets = moment.tets.to_vec();
+        }
+        let point_start = append_rows_of(&root.dataset("Points")?, moment.points_m)?;
+        let velocity_start = append_rows_of(&root.group("PointData")?.dataset(VELOCITY)?, moment.velocity_m_s)?;
+        set_row(&steps.group("PointDataOffsets")?.dataset(VELOCITY)?, row, velocity_start as i64)?;
+        for ((name, _), value) in self.fields.iter().zip(moment.values) {
+            let start = append_values(&root.group("CellData")?.dataset(name)?, value)?;
+            set_row(&steps.group("CellDataOffsets")?.dataset(name)?, row, start as i64)?;
+        }
+        let of_part = [moment.points_m.len(), cells, 4 * cells];
+        for (name, count) in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"].into_iter().zip(of_part) {
+            set_row(&root.dataset(name)?, row, count as i64)?;
+        }
+        set_row(&steps.dataset("Values")?, row, moment.time_s)?;
+        let starts = [row, 1, point_start, cell_start, self.last_connectivity_start];
+        for (name, start) in STARTS.into_iter().zip(starts) {
+            set_row(&steps.dataset(name)?, row, start as i64)?;
+        }
+        self.steps += 1;
+        steps.attr("NSteps")?.write_scalar(&(self.steps as i64))?;
+        self.file.flush()
+    }
+
+    /// Cuts every dataset behind the last kept step.
+    fn truncate(&mut self) -> Hdf5Result<()> {
+        let root = self.file.group("VTKHDF")?;
+        let steps = root.group("Steps")?;
+        let kept = self.steps;
+        steps.attr("NSteps")?.write_scalar(&(kept as i64))?;
+        let end_of = |starts: &Dataset, counts: &str| -> Hdf5Result<usize> {
+            let Some(last) = kept.checked_sub(1) else { return Ok(0) };
+            let count = root.dataset(counts)?.read_1d::<i64>()?[last];
+            Ok(usize::try_from(starts.read_1d::<i64>()?[last] + count).unwrap_or(0))
+        };
+        root.dataset("Points")?.resize((end_of(&steps.dataset("PointOffsets")?, "NumberOfPoints")?, 3))?;
+        let starts = steps.group("PointDataOffsets")?.dataset(VELOCITY)?;
+        root.group("PointData")?.dataset(VELOCITY)?.resize((end_of(&starts, "NumberOfPoints")?, 3))?;
+        starts.resize(kept)?;
+        for (name, kind) in &self.fields {
+            let starts = steps.group("CellDataOffsets")?.dataset(name)?;
+            cut_field(&root.group("CellData")?.dataset(name)?, *kind, end_of(&starts, "NumberOfCells")?)?;
+            starts.resize(kept)?;
+        }
+        let cells = end_of(&steps.dataset("CellOffsets")?, "NumberOfCells")?;
+        root.dataset("Types")?.resize(cells)?;
+        root.dataset("Offsets")?.resize(cells + kept)?;
+        let connectivity = root.dataset("Connectivity")?;
+        let starts = steps.dataset("ConnectivityIdOffsets")?;
+        let end = end_of(&starts, "NumberOfConnectivityIds")?;
+        connectivity.resize(end)?;
+        if let Some(last) = kept.checked_sub(1) {
+            let start = usize::try_from(starts.read_1d::<i64>()?[last]).unwrap_or(0);
+            let corners = connectivity.read_slice_1d::<i64, _>(start..end)?;
+            let corners: Vec<u32> = corners.iter().map(|i| u32::try_from(*i).unwrap_or(0)).collect();
+            self.last_tets = corners.chunks_exact(4).map(|t| [t[0], t[1], t[2], t[3]]).collect();
+            self.last_connectivity_start = start;
+        }
+        for name in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"] {
+            root.dataset(name)?.resize(kept)?;
+        }
+        steps.dataset("Values")?.resize(kept)?;
+        STARTS.into_iter().try_for_each(|name| steps.dataset(name)?.resize(kept))?;
+        self.file.flush()
+    }
+}
+
+/// Lists of the steps with one whole number each.
+const STARTS: [&str; 5] = ["PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
+
+/// Groups, attributes and empty datasets.
+fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
+    let [root, steps] = new_root::<16>(file, "UnstructuredGrid")?;
+    steps.new_attr::<i64>().create("NSteps")?.write_scalar(&0_i64)?;
+    new_list::<f64>(&steps, "Values", STEP_CHUNK)?;
+    for name in STARTS {
+        new_list::<i64>(&steps, name, STEP_CHUNK)?;
+    }
+    for name in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"] {
+        new_list::<i64>(&root, name, STEP_CHUNK)?;
+    }
+    new_rows::<3>(&root, "Points")?;
+    for name in ["Offsets", "Connectivity"] {
+        new_list::<i64>(&root, name, LONG_CHUNK)?;
+    }
+    new_list::<u8>(&root, "Types", LONG_CHUNK)?;
+    let (point_data, point_offsets) = (root.create_group("PointData")?, steps.create_group("PointDataOffsets")?);
+    new_field(&point_data, &point_offsets, VELOCITY, FieldKind::Vector)?;
+    let (cell_data, cell_offsets) = (root.create_group("CellData")?, steps.create_group("CellDataOffsets")?);
+    fields.iter().try_for_each(|(name, kind)| new_field(&cell_data, &cell_offsets, name, *kind))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FIELDS: [(&str, FieldKind); 2] = [("stress", FieldKind::Tensor), ("body", FieldKind::Integer)];
+
+    fn append(series: &mut TetSeries, time_s: f64, points: usize, tets: &[[u32; 4]]) {
+        let points_m: Vec<[f32; 3]> = (0..points).map(|i| [i as f32, time_s as f32, 0.0]).collect();
+        let stress: Vec<[f32; 6]> = (0..tets.len()).map(|i| [1, 2, 3, 4, 5, 6].map(|k| (10 * i + k) as f32)).collect();
+        let body = vec![time_s as i32; tets.len()];
+        let values = [FieldValues::Tensor(&stress), FieldValues::Integer(&body)];
+        series
+            .append(&TetMoment { time_s, points_m: &points_m, velocity_m_s: &points_m, tets, values: &values })
+            .unwrap();
+    }
+
+    fn list(file: &File, name: &str) -> Vec<i64> {
+        file.dataset(&format!("VTKHDF/{name}")).unwrap().read_raw().unwrap()
+    }
+
+    #[test]
+    fn nodes_may_come_apart_and_a_resumed_series_goes_on_behind_the_checkpoint() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("tets.vtkhdf");
+        let (whole, split) = ([[0, 1, 2, 3], [1, 2, 3, 4]], [[0, 1, 2, 3], [5, 2, 3, 4]]);
+        let mut series = TetSeries::create(&path, &FIELDS).unwrap();
+        append(&mut series, 0.0, 5, &whole);
+        append(&mut series, 1.0, 5, &whole);
+        append(&mut series, 2.0, 6, &split);
+        append(&mut series, 3.0, 6, &split);
+        drop(series);
+        let file = File::open(&path).unwrap();
+        assert_eq!(list(&file, "Steps/ConnectivityIdOffsets"), [0, 0, 8, 8]);
+        assert_eq!(list(&file, "Offsets"), [0, 4, 8].repeat(4));
+        assert_eq!(list(&file, "Steps/CellOffsets"), [0, 2, 4, 6]);
+        assert_eq!(file.dataset("VTKHDF/Types").unwrap().read_raw::<u8>().unwrap(), [10; 8]);
+        assert_eq!(list(&file, "Steps/PointOffsets"), [0, 5, 10, 16]);
+        assert_eq!(list(&file, "Steps/CellDataOffsets/stress"), [0, 2, 4, 6]);
+        drop(file);
+        let mut series = TetSeries::open_and_truncate(&path, &FIELDS, 2).unwrap();
+        assert_eq!(series.steps(), 2);
+        append(&mut series, 2.0, 6, &split);
+        drop(series);
+        let file = File::open(&path).unwrap();
+        assert_eq!(list(&file, "NumberOfPoints"), [5, 5, 6]);
+        assert_eq!(list(&file, "Connectivity").len(), 16);
+        assert_eq!(list(&file, "Offsets"), [0, 4, 8].repeat(3));
+        assert_eq!(list(&file, "Types"), [10; 6]);
+        assert_eq!(file.dataset("VTKHDF/CellData/stress").unwrap().shape(), [6, 6]);
+        assert_eq!(list(&file, "Steps/ConnectivityIdOffsets"), [0, 0, 8]);
+        drop(file);
+        let error = TetSeries::open_and_truncate(&path, &FIELDS, 9).unwrap_err();
+        assert!(error.to_string().contains("holds 3 steps, fewer than the 9"), "{error}");
+    }
+}
