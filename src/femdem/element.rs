@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use super::material::Elastic;
 
 /// Moduli of an element.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moduli {
     lambda: f64,
     mu: f64,

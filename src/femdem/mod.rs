@@ -12,22 +12,31 @@
 //! | `softening`, `cohesive_law` | the law of a joint at a point |
 //! | `joint` | the joint between two tetrahedra |
 //! | `setup` | what a world is made of |
+//! | `history` | values that change with time |
+//! | `loads` | tractions, pressures and forces about a place |
+//! | `rigid_body`, `rigid_hold`, `principal_axes` | bodies that are not deformed |
 //! | `assembly` | nodes, tetrahedra and joints as arrays; how nodes come apart |
 //! | `contact` | tetrahedra that touch: overlap, friction, who can |
 //! | `time_step` | the longest stable step |
 //! | `world` | the step: the entry to this module |
 //! | `release` | faces that give way |
-//! | `energy` | the energy book |
+//! | `energy`, `body_energy` | the energy book, and each body's part of it |
 
 pub mod assembly;
+pub mod body_energy;
 pub mod cohesive_law;
 pub mod contact;
 pub mod element;
 pub mod energy;
+pub mod history;
 pub mod joint;
+pub mod loads;
 pub mod material;
 pub mod mesh;
+pub mod principal_axes;
 mod release;
+pub mod rigid_body;
+mod rigid_hold;
 pub mod setup;
 pub mod softening;
 pub mod time_step;

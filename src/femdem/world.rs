@@ -8,15 +8,18 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::assembly::{self, Copy4, Nodes, Tets};
+use super::body_energy::BodyEnergy;
 use super::contact::pairs::Contacts;
 use super::element::{self, Moduli};
 use super::energy::Ledger;
 use super::joint::{self, Memory};
-use super::setup::Setup;
+use super::loads::CornerForce;
+use super::rigid_body::{RIGID, RigidBody};
+use super::setup::{Body, Setup};
 use super::time_step;
 
 /// Items of one task of the thread pool; sums are taken over these first, so that they have one order.
-const PIECE: usize = 512;
+pub(super) const PIECE: usize = 512;
 
 /// What holds two tetrahedra together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,7 +84,7 @@ struct PieceSum {
 pub struct World {
     // Parameters.
     pub(super) setup: Setup,
-    moduli: Vec<Moduli>,
+    pub(super) moduli: Vec<Moduli>,
     /// Step [s].
     pub dt: f64,
     // State.
@@ -97,12 +100,15 @@ pub struct World {
     pub failures: Vec<Failure>,
     /// Contacts.
     pub contacts: Contacts,
+    /// Bodies that are not deformed.
+    pub rigid_bodies: Vec<RigidBody>,
     /// All copies of every node of the mesh.
     pub(super) around: Vec<Vec<Copy4>>,
     pub(super) lost: Ledger,
     gravity_at_start: f64,
     // Workspace.
-    forces: Vec<[DVec3; 4]>,
+    pub(super) forces: Vec<[DVec3; 4]>,
+    pub(super) loaded: Vec<CornerForce>,
     pub(super) joint_forces: Vec<[DVec3; 3]>,
     /// Of every tetrahedron [Pa], where faces are tied.
     pub(super) stresses: Vec<DMat3>,
@@ -126,7 +132,10 @@ impl World {
         }
         setup.cracks.iter().for_each(|crack| joints[*crack as usize].bond = Bond::Broken);
         let (nodes, tets) = assembly::assemble(&setup, |face| joints[face as usize].bond == Bond::Tied);
-        let moduli = setup.bodies.iter().map(|body| Moduli::from(&body.elastic)).collect();
+        let rigid_bodies = RigidBody::all(&setup, &nodes, &tets);
+        // Without moduli, tetrahedra of rigid bodies have no forces.
+        let moduli_of = |body: &Body| if body.rigid { Moduli::default() } else { Moduli::from(&body.elastic) };
+        let moduli = setup.bodies.iter().map(moduli_of).collect();
         let count = setup.tets.len();
         let around = assembly::copies_around(&setup);
         let unbroken = |face: u32| joints[face as usize].bond != Bond::Broken;
@@ -143,10 +152,12 @@ impl World {
             joints,
             failures: Vec::new(),
             contacts,
+            rigid_bodies,
             around,
             lost: Ledger::default(),
             gravity_at_start: 0.0,
             forces: vec![[DVec3::ZERO; 4]; count],
+            loaded: Vec::new(),
             joint_forces: vec![[DVec3::ZERO; 3]; setup.interfaces.len()],
             stresses: vec![DMat3::ZERO; if ties { count } else { 0 }],
             sums: vec![PieceSum::default(); count.div_ceil(PIECE)],
@@ -179,6 +190,11 @@ impl World {
                 }
             }
             let pressed = time_step::contact_stiffness(shape, body.contact_penalty);
+            if body.rigid {
+                // Only what can touch counts. Nodes that move as one answer less than those of a tetrahedron alone.
+                let touches = pressed > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
+                return if touches { time_step::stable_step(2.0 * pressed / mass, 0.0) } else { f64::INFINITY };
+            }
             let springs = 2.0 * springs.into_iter().fold(pressed, f64::max) / mass;
             let frequency_squared = time_step::element_frequency_squared(shape, &body.elastic) + springs;
             time_step::stable_step(frequency_squared, time_step::element_damping_rate(shape, &body.elastic))
@@ -191,7 +207,7 @@ impl World {
     /// # Errors
     /// If a tetrahedron is turned inside out.
     pub fn step(&mut self) -> Result<(), StepError> {
-        self.advance(false).map(|_| ())
+        self.advance(false, None).map(|_| ())
     }
 
     /// Take one step, and tell the energy book at its start.
@@ -199,15 +215,35 @@ impl World {
     /// # Errors
     /// As [`Self::step`].
     pub fn step_with_ledger(&mut self) -> Result<Ledger, StepError> {
-        self.advance(true)
+        self.advance(true, None)
     }
 
-    fn advance(&mut self, book: bool) -> Result<Ledger, StepError> {
+    /// Take one step, and tell the energy book at its start with each body's part of it.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn step_with_books(&mut self) -> Result<(Ledger, Vec<BodyEnergy>), StepError> {
+        let mut bodies = Vec::new();
+        let ledger = self.advance(true, Some(&mut bodies))?;
+        Ok((ledger, bodies))
+    }
+
+    fn advance(&mut self, book: bool, mut bodies: Option<&mut Vec<BodyEnergy>>) -> Result<Ledger, StepError> {
         self.pull_joints();
         let viscous_power = self.deform_tets()?;
         self.press_contacts();
+        self.apply_loads();
         let mut ledger = if book { self.energies(viscous_power) } else { Ledger::default() };
+        let before = bodies.as_mut().map(|bodies| {
+            **bodies = self.body_energies();
+            self.nodes.velocity.clone()
+        });
+        let power = self.power_of_loads();
         let [kinetic, work] = self.move_nodes();
+        let work = work + 0.5 * self.dt * (power + self.power_of_loads());
+        if let (Some(bodies), Some(before)) = (bodies, before) {
+            self.add_kinetic_energies(bodies, &before);
+        }
         ledger.kinetic = kinetic;
         // Half of the work of this step is done after its start.
         ledger.work += 0.5 * work;
@@ -299,8 +335,10 @@ impl World {
     /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10); returns the kinetic energy at the start of the step
     /// and the work of the constraints over it [J].
     fn move_nodes(&mut self) -> [f64; 2] {
-        let Self { nodes, forces, setup, dt, moved, .. } = self;
+        let Self { nodes, forces, setup, dt, time, moved, rigid_bodies, .. } = self;
         let (dt, gravity) = (*dt, setup.gravity);
+        // Velocities stand half a step on.
+        let given: Vec<_> = setup.constraints.iter().map(|constraint| constraint.at(*time + 0.5 * dt)).collect();
         let Nodes { place, velocity, mass, constraint, ties } = nodes;
         moved.resize(place.len().div_ceil(PIECE), [0.0; 2]);
         let pieces = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
@@ -308,6 +346,9 @@ impl World {
             *moved = [0.0; 2];
             for (k, (x, v)) in places.iter_mut().zip(velocities).enumerate() {
                 let node = piece * PIECE + k;
+                if constraint[node] == RIGID {
+                    continue;
+                }
                 let mut force = gravity * mass[node];
                 for copy in ties.of(node) {
                     force += forces[*copy as usize / 4][*copy as usize % 4];
@@ -315,7 +356,7 @@ impl World {
                 let before = *v;
                 *v += force * (dt / mass[node]);
                 if let Some(number) = usize::from(constraint[node]).checked_sub(1) {
-                    for (axis, given) in setup.constraints[number].velocity.into_iter().enumerate() {
+                    for (axis, given) in given[number].into_iter().enumerate() {
                         let Some(given) = given else { continue };
                         let reaction = mass[node] * (given - before[axis]) / dt - force[axis];
                         v[axis] = given;
@@ -326,7 +367,12 @@ impl World {
                 *x += *v * dt;
             }
         });
-        moved.iter().fold([0.0; 2], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1]])
+        let mut sum = moved.iter().fold([0.0; 2], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1]]);
+        for body in rigid_bodies {
+            let [kinetic, work] = body.advance(nodes, forces, gravity, dt, &given);
+            sum = [sum[0] + kinetic, sum[1] + work];
+        }
+        sum
     }
 
     /// Energy that a joint would give back [J].

@@ -1,9 +1,12 @@
 //! Deformable bodies and joints against elasticity and fracture mechanics.
 
+mod bounce;
 mod contact;
 mod continuum;
 mod dolos;
 mod joints;
+mod loads;
+mod rigid;
 mod stability;
 
 use breakwater::femdem::cohesive_law::{Cohesion, Range};

@@ -1,0 +1,58 @@
+//! Each body's part of the energy book.
+
+use glam::DVec3;
+
+use super::element;
+use super::rigid_body::RIGID;
+use super::world::World;
+
+/// Energies of a body [J]; contacts belong to two of them and stay in the book of all.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BodyEnergy {
+    /// Of motion, as in the book.
+    pub kinetic: f64,
+    /// Strain energy of its tetrahedra.
+    pub strain: f64,
+    /// What its joints would give back.
+    pub joint: f64,
+    /// In gravity, zero at the start.
+    pub gravity: f64,
+    /// Lost in its joints so far, contacts that took it over not counted.
+    pub fracture: f64,
+}
+
+impl World {
+    /// Energies of the bodies at the present places, but for motion.
+    pub(super) fn body_energies(&self) -> Vec<BodyEnergy> {
+        let mut energies = vec![BodyEnergy::default(); self.setup.bodies.len()];
+        for t in 0..self.tets.nodes.len() {
+            let number = usize::from(self.tets.body[t]);
+            let x = self.tets.nodes[t].map(|node| self.nodes.place[node as usize]);
+            energies[number].strain += element::energy(&self.tets.shape[t], &self.moduli[number], &x);
+        }
+        for (number, joint) in self.joints.iter().enumerate() {
+            let of = &mut energies[usize::from(self.tets.body[self.setup.interfaces[number].tets[0] as usize])];
+            of.joint += self.stored_in(number);
+            of.fracture += joint.dissipated;
+        }
+        for node in 0..self.nodes.count() {
+            let way = self.nodes.place[node] - self.place_at_start(node);
+            energies[self.body_of_node(node)].gravity -= self.nodes.mass[node] * self.setup.gravity.dot(way);
+        }
+        energies
+    }
+
+    /// Adds the kinetic energies from the velocities half a step before and those now, half a step after.
+    pub(super) fn add_kinetic_energies(&self, energies: &mut [BodyEnergy], before: &[DVec3]) {
+        for (node, before) in before.iter().enumerate().filter(|(node, _)| self.nodes.constraint[*node] != RIGID) {
+            let energy = 0.5 * self.nodes.mass[node] * before.dot(self.nodes.velocity[node]);
+            energies[self.body_of_node(node)].kinetic += energy;
+        }
+        self.rigid_bodies.iter().for_each(|body| energies[body.body].kinetic += body.kinetic);
+    }
+
+    /// Number of the body that a node belongs to.
+    fn body_of_node(&self, node: usize) -> usize {
+        usize::from(self.tets.body[self.nodes.ties.of(node)[0] as usize / 4])
+    }
+}
