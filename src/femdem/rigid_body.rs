@@ -136,7 +136,8 @@ impl RigidBody {
                 let components = given[usize::from(*number)].into_iter().enumerate();
                 components.filter_map(move |(axis, given)| Some(Row { axis: DVec3::AXES[axis], arm, velocity: given? }))
             });
-            let free = Freedom { velocity: motion.velocity, angular_velocity: inverse_inertia * motion.angular_momentum };
+            let free =
+                Freedom { velocity: motion.velocity, angular_velocity: inverse_inertia * motion.angular_momentum };
             let impulse = hold(self.mass, inverse_inertia, free, rows);
             motion.velocity += impulse.force / self.mass;
             motion.angular_momentum += impulse.torque;

@@ -136,18 +136,17 @@ mod tests {
     #[test]
     fn points_get_their_velocity_and_the_rest_stays_free() {
         let row = |axis, arm, velocity| Row { axis, arm, velocity };
-        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)].map(|x| x - DVec3::new(0.5, 0.5, 1.0));
+        let corners =
+            [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)].map(|x| x - DVec3::new(0.5, 0.5, 1.0));
         // A plane of points moved along z: no turning about x and y, and nothing else changes.
         let rows: Vec<Row> = corners.iter().map(|arm| row(DVec3::Z, *arm, -7.0)).collect();
         let moved = after(&rows, FREE);
-        let expected =
-            Freedom { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
+        let expected = Freedom { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
         // Rounding.
         assert!((moved.velocity - expected.velocity).length() < 1e-13);
         assert!((moved.angular_velocity - expected.angular_velocity).length() < 1e-13);
         // All components of all points: at rest.
-        let rows: Vec<Row> =
-            corners.iter().flat_map(|arm| DVec3::AXES.map(|axis| row(axis, *arm, 0.0))).collect();
+        let rows: Vec<Row> = corners.iter().flat_map(|arm| DVec3::AXES.map(|axis| row(axis, *arm, 0.0))).collect();
         let held = after(&rows, FREE);
         assert!(held.velocity.length() < 1e-13 && held.angular_velocity.length() < 1e-13);
         // One point held turns about it.

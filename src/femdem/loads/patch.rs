@@ -117,7 +117,13 @@ impl Patch {
         let mut corners = Vec::with_capacity(4 * tets.len());
         for tet in &tets {
             let weight = 0.25 * volume(*tet) / all;
-            corners.extend((0..4).zip(at(*tet)).map(|(corner, x)| Corner { tet: *tet, corner, share: 0.0, weight, arm: x }));
+            corners.extend((0..4).zip(at(*tet)).map(|(corner, x)| Corner {
+                tet: *tet,
+                corner,
+                share: 0.0,
+                weight,
+                arm: x,
+            }));
         }
         let centroid: DVec3 = corners.iter().map(|corner| corner.arm * corner.weight).sum();
         corners.iter_mut().for_each(|corner| corner.arm -= centroid);
@@ -172,9 +178,8 @@ impl Patch {
     /// Rotation of the tetrahedra since the start: of the best affine map, by Higham's iteration (1986).
     fn turn(&self, places: &Places) -> DMat3 {
         let centroid = self.centroid(places);
-        let moved = |corner: &Corner| {
-            outer(places.now(corner.tet, corner.corner) - centroid, corner.arm) * corner.weight
-        };
+        let moved =
+            |corner: &Corner| outer(places.now(corner.tet, corner.corner) - centroid, corner.arm) * corner.weight;
         let mut turn = self.corners.iter().fold(DMat3::ZERO, |sum, corner| sum + moved(corner)) * self.inverse_spread;
         for _ in 0..ROUNDS {
             turn = (turn + turn.inverse().transpose()) * 0.5;

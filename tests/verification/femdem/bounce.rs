@@ -19,15 +19,14 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
             [0.0, 0.3, 0.0],
             [0.0, 0.0, -0.3],
         ]
-        .map(|[x, y, z]: [f64; 3]| DVec3::new(x, y, if z >= 0.0 && x.abs() < 0.11 && y < 0.11 && y > -0.1 { z + 1e-5 } else { z }))
+        .map(|[x, y, z]: [f64; 3]| {
+            DVec3::new(x, y, if z >= 0.0 && x.abs() < 0.11 && y < 0.11 && y > -0.1 { z + 1e-5 } else { z })
+        })
         .to_vec(),
         node_tags: (1..=8).collect(),
         tets: vec![[0, 1, 2, 3], [4, 6, 5, 7]],
         tet_tags: vec![1, 2],
-        bodies: vec![
-            MeshBody { name: "one".to_owned(), tets: 0..1 },
-            MeshBody { name: "base".to_owned(), tets: 1..2 },
-        ],
+        bodies: vec![MeshBody { name: "one".to_owned(), tets: 0..1 }, MeshBody { name: "base".to_owned(), tets: 1..2 }],
         ..Mesh::default()
     };
     let mesh = prepare(mesh).unwrap();

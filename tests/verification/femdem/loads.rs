@@ -40,17 +40,16 @@ fn a_bar_under_traction_stretches_by_hooke_and_the_book_closes() {
     setup.constraints = vec![Constraint::constant(at(0), [Some(0.0), None, None])];
     // Over ten times the way of a wave to and fro.
     let time = 20.0 * length / CONCRETE.bar_celerity();
-    setup.loads =
-        vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
+    setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
     let mut world = World::new(setup, 0.5);
     let first = world.step_with_ledger().unwrap();
     while world.time < 1.5 * time {
         world.step().unwrap();
     }
     let last = world.step_with_ledger().unwrap();
-    let stretched =
-        end.iter().map(|n| world.nodes.place[*n].x - length).sum::<f64>() / end.len() as f64 * CONCRETE.young_modulus
-            / (stress * length);
+    let stretched = end.iter().map(|n| world.nodes.place[*n].x - length).sum::<f64>() / end.len() as f64
+        * CONCRETE.young_modulus
+        / (stress * length);
     // Half of force times way is stored, from a slow load.
     let expected = 0.5 * stress * stress / CONCRETE.young_modulus * length * 0.0025;
     println!(

@@ -1,0 +1,161 @@
+//! Loads of a fracture case.
+
+use glam::DVec3;
+
+use super::super::check::{Checker, from, show};
+use super::super::file::{FractureFile, LoadAxes, LoadFile, LoadedFaces};
+use crate::femdem::history::History;
+use crate::femdem::loads::patch::{Axes, Patch, faces_near};
+use crate::femdem::loads::{Load, Surface};
+use crate::femdem::mesh::PreparedMesh;
+use crate::femdem::mesh::faces::Exterior;
+
+/// Largest stress of a load [Pa] and largest force and moment [N, N m].
+const MOST: f64 = 1e12;
+
+/// The loads; those with errors are left out.
+pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Load> {
+    let each = file.loads.iter().enumerate();
+    each.filter_map(|(index, load)| {
+        let path = format!("loads[{index}]");
+        match load {
+            LoadFile::Traction { set, stress_pa, history } => {
+                let faces = faces_of(set, &path, mesh, check);
+                let good = numbers(stress_pa, &format!("{path}.stress_pa"), "Pa", check);
+                let factor = given_factor(history.as_deref(), &path, check)?;
+                let stress = DVec3::from_array(*stress_pa);
+                faces.filter(|_| good).map(|faces| Load::Traction { faces, stress, factor })
+            }
+            LoadFile::Pressure { set, pressure_pa, on, history } => {
+                let faces = faces_of(set, &path, mesh, check);
+                let good = numbers(&[*pressure_pa], &format!("{path}.pressure_pa"), "Pa", check);
+                let factor = given_factor(history.as_deref(), &path, check)?;
+                let on = match on {
+                    LoadedFaces::Deformed => Surface::Deformed,
+                    LoadedFaces::Undeformed => Surface::Undeformed,
+                };
+                faces.filter(|_| good).map(|faces| Load::Pressure { faces, pressure: *pressure_pa, on, factor })
+            }
+            LoadFile::Force { body, place_m, radius_m, axes, history } => {
+                let axes = match axes {
+                    LoadAxes::Space => Axes::Space,
+                    LoadAxes::Body => Axes::Body,
+                };
+                let history = forces(history, &path, check);
+                let faces = loaded_faces(body, *place_m, *radius_m, &path, mesh, check)?;
+                Some(Load::Patch(Patch::new(mesh, &faces, DVec3::from_array(*place_m), axes, history?)))
+            }
+        }
+    })
+    .collect()
+}
+
+/// Faces of a named boundary.
+fn faces_of(name: &str, path: &str, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Exterior>> {
+    let found = mesh.faces.boundaries.iter().find(|set| set.name == name);
+    if found.is_none() {
+        let names: Vec<&str> = mesh.faces.boundaries.iter().map(|set| set.name.as_str()).collect();
+        let allowed = format!("one of {}", names.join(", "));
+        let advice = "loaded sets are physical surfaces of the mesh";
+        check.refuse(&format!("{path}.set"), format!("{name:?}"), allowed, advice);
+    }
+    found.map(|set| set.faces.iter().map(|face| mesh.faces.exteriors[*face as usize]).collect())
+}
+
+/// Faces of a body about a place.
+fn loaded_faces(
+    name: &str,
+    place_m: [f64; 3],
+    radius_m: f64,
+    path: &str,
+    mesh: &PreparedMesh,
+    check: &mut Checker,
+) -> Option<Vec<Exterior>> {
+    let body = mesh.mesh.bodies.iter().position(|body| body.name == name);
+    if body.is_none() {
+        let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
+        let allowed = format!("one of {}", names.join(", "));
+        check.refuse(&format!("{path}.body"), format!("{name:?}"), allowed, "the body that takes the force");
+    }
+    let mut good = true;
+    for (axis, x) in place_m.iter().enumerate() {
+        good &= check.number(&format!("{path}.place_m[{axis}]"), *x, from(-1e4).up_to(1e4), "m", "in metres");
+    }
+    let advice = "0 loads the nearest face";
+    good &= check.number(&format!("{path}.radius_m"), radius_m, from(0.0).up_to(1e3), "m", advice);
+    let body = body.filter(|_| good)?;
+    let near = faces_near(mesh, body, DVec3::from_array(place_m), radius_m);
+    let farthest = near.edge.max(radius_m);
+    if near.distance > farthest {
+        check.refuse(
+            &format!("{path}.place_m"),
+            format!("{place_m:?}"),
+            format!(
+                "at most {} m from the surface of {name:?}, the length of the face there or the radius; it is {} m",
+                show(farthest),
+                show(near.distance)
+            ),
+            "the place is that in the undeformed mesh",
+        );
+        return None;
+    }
+    Some(near.faces)
+}
+
+/// Factor of a load: 1 without a history.
+fn given_factor(rows: Option<&[[f64; 2]]>, path: &str, check: &mut Checker) -> Option<History<1>> {
+    let Some(rows) = rows else { return Some(History::from(1.0)) };
+    let path = format!("{path}.history");
+    let values: Vec<f64> = rows.iter().map(|row| row[1]).collect();
+    let good = numbers(&values, &path, "", check);
+    factor(rows, &path, check).filter(|_| good)
+}
+
+/// History of one value; its times must rise.
+pub(super) fn factor(rows: &[[f64; 2]], path: &str, check: &mut Checker) -> Option<History<1>> {
+    rising(rows.iter().map(|[t, value]| (*t, [*value])).collect(), path, check)
+}
+
+/// History of force and moment.
+fn forces(rows: &[Vec<f64>], path: &str, check: &mut Checker) -> Option<History<6>> {
+    let path = format!("{path}.history");
+    let mut all = Vec::with_capacity(rows.len());
+    for (index, row) in rows.iter().enumerate() {
+        let path = format!("{path}[{index}]");
+        if !matches!(row.len(), 4 | 7) {
+            let allowed = "t, F_x, F_y, F_z, or these and M_x, M_y, M_z";
+            check.refuse(&path, format!("{row:?}"), allowed, "seconds, newtons, newton metres");
+            return None;
+        }
+        if !numbers(&row[1..], &path, "", check) {
+            return None;
+        }
+        let mut values = [0.0; 6];
+        values[..row.len() - 1].copy_from_slice(&row[1..]);
+        all.push((row[0], values));
+    }
+    rising(all, &path, check)
+}
+
+fn rising<const N: usize>(rows: Vec<(f64, [f64; N])>, path: &str, check: &mut Checker) -> Option<History<N>> {
+    let times: Vec<f64> = rows.iter().map(|row| row.0).collect();
+    let finite = times.iter().all(|t| t.is_finite());
+    let history = History::new(rows).filter(|_| finite);
+    if history.is_none() {
+        let at = times.windows(2).position(|pair| pair[1].is_nan() || pair[0] >= pair[1]);
+        let value =
+            at.map_or("no row".to_owned(), |at| format!("{} s after {} s", show(times[at + 1]), show(times[at])));
+        check.refuse(path, value, "at least one row, each later than the one before", "sort the rows by time");
+    }
+    history
+}
+
+/// Whether all numbers are of a size that a load can have.
+fn numbers(values: &[f64], path: &str, unit: &str, check: &mut Checker) -> bool {
+    let mut good = true;
+    for (index, value) in values.iter().enumerate() {
+        let path = if values.len() == 1 { path.to_owned() } else { format!("{path}[{index}]") };
+        good &= check.number(&path, *value, from(-MOST).up_to(MOST), unit, "a number of that size");
+    }
+    good
+}
