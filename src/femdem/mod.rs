@@ -20,10 +20,11 @@
 //! | `time_step` | the longest stable step |
 //! | `world` | the step: the entry to this module |
 //! | `release` | faces that give way |
-//! | `energy`, `body_energy` | the energy book, and each body's part of it |
+//! | `motion` | how nodes and rigid bodies move on |
+//! | `energy`, `book` | the energy book, and each body's part of it |
 
 pub mod assembly;
-pub mod body_energy;
+pub mod book;
 pub mod cohesive_law;
 pub mod contact;
 pub mod element;
@@ -33,6 +34,7 @@ pub mod joint;
 pub mod loads;
 pub mod material;
 pub mod mesh;
+mod motion;
 pub mod principal_axes;
 mod release;
 pub mod rigid_body;

@@ -8,13 +8,13 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::assembly::{self, Copy4, Nodes, Tets};
-use super::body_energy::BodyEnergy;
+use super::book::BodyEnergy;
 use super::contact::pairs::Contacts;
 use super::element::{self, Moduli};
 use super::energy::Ledger;
 use super::joint::{self, Memory};
 use super::loads::CornerForce;
-use super::rigid_body::{RIGID, RigidBody};
+use super::rigid_body::RigidBody;
 use super::setup::{Body, Setup};
 use super::time_step;
 
@@ -105,7 +105,7 @@ pub struct World {
     /// All copies of every node of the mesh.
     pub(super) around: Vec<Vec<Copy4>>,
     pub(super) lost: Ledger,
-    gravity_at_start: f64,
+    pub(super) gravity_at_start: f64,
     // Workspace.
     pub(super) forces: Vec<[DVec3; 4]>,
     pub(super) loaded: Vec<CornerForce>,
@@ -113,7 +113,7 @@ pub struct World {
     /// Of every tetrahedron [Pa], where faces are tied.
     pub(super) stresses: Vec<DMat3>,
     sums: Vec<PieceSum>,
-    moved: Vec<[f64; 2]>,
+    pub(super) moved: Vec<[f64; 2]>,
 }
 
 impl World {
@@ -332,49 +332,6 @@ impl World {
         contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, forces);
     }
 
-    /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10); returns the kinetic energy at the start of the step
-    /// and the work of the constraints over it [J].
-    fn move_nodes(&mut self) -> [f64; 2] {
-        let Self { nodes, forces, setup, dt, time, moved, rigid_bodies, .. } = self;
-        let (dt, gravity) = (*dt, setup.gravity);
-        // Velocities stand half a step on.
-        let given: Vec<_> = setup.constraints.iter().map(|constraint| constraint.at(*time + 0.5 * dt)).collect();
-        let Nodes { place, velocity, mass, constraint, ties } = nodes;
-        moved.resize(place.len().div_ceil(PIECE), [0.0; 2]);
-        let pieces = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
-        pieces.enumerate().for_each(|(piece, ((places, velocities), moved))| {
-            *moved = [0.0; 2];
-            for (k, (x, v)) in places.iter_mut().zip(velocities).enumerate() {
-                let node = piece * PIECE + k;
-                if constraint[node] == RIGID {
-                    continue;
-                }
-                let mut force = gravity * mass[node];
-                for copy in ties.of(node) {
-                    force += forces[*copy as usize / 4][*copy as usize % 4];
-                }
-                let before = *v;
-                *v += force * (dt / mass[node]);
-                if let Some(number) = usize::from(constraint[node]).checked_sub(1) {
-                    for (axis, given) in given[number].into_iter().enumerate() {
-                        let Some(given) = given else { continue };
-                        let reaction = mass[node] * (given - before[axis]) / dt - force[axis];
-                        v[axis] = given;
-                        moved[1] += reaction * 0.5 * (before[axis] + given) * dt;
-                    }
-                }
-                moved[0] += 0.5 * mass[node] * before.dot(*v);
-                *x += *v * dt;
-            }
-        });
-        let mut sum = moved.iter().fold([0.0; 2], |sum, piece| [sum[0] + piece[0], sum[1] + piece[1]]);
-        for body in rigid_bodies {
-            let [kinetic, work] = body.advance(nodes, forces, gravity, dt, &given);
-            sum = [sum[0] + kinetic, sum[1] + work];
-        }
-        sum
-    }
-
     /// Energy that a joint would give back [J].
     pub(super) fn stored_in(&self, number: usize) -> f64 {
         let joint = &self.joints[number];
@@ -396,28 +353,6 @@ impl World {
         let tet = &self.setup.tets[interface.tets[0] as usize];
         interface.nodes[0].map(|k| self.setup.nodes[tet[usize::from(k)] as usize])
     }
-
-    /// Energies at the present places, but for motion.
-    fn energies(&self, viscous_power: f64) -> Ledger {
-        let tets = &self.tets;
-        let strain = |t: usize| {
-            let x = tets.nodes[t].map(|n| self.nodes.place[n as usize]);
-            element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
-        };
-        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
-        Ledger {
-            strain: ordered_sum(tets.nodes.len(), strain),
-            joint: ordered_sum(self.joints.len(), |number| self.stored_in(number)),
-            contact: self.contacts.stored,
-            friction: self.contacts.friction,
-            fracture: ordered_sum(self.joints.len(), |number| self.joints[number].dissipated)
-                - self.contacts.taken_over,
-            gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
-            // The power is that of the velocity half a step ago, and goes on to the next.
-            viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
-            ..self.lost
-        }
-    }
 }
 
 pub(super) fn body_of(setup: &Setup, tet: u32) -> &super::setup::Body {
@@ -433,13 +368,4 @@ pub(super) fn faces(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) ->
         let at = &tets.nodes[interface.tets[side] as usize];
         interface.nodes[side].map(|k| nodes.place[at[usize::from(k)] as usize])
     })
-}
-
-/// Sum over 0..count in an order that does not depend on the threads.
-fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let pieces: Vec<f64> = (0..count.div_ceil(PIECE))
-        .into_par_iter()
-        .map(|piece| (piece * PIECE..((piece + 1) * PIECE).min(count)).map(&of).sum())
-        .collect();
-    pieces.iter().sum()
 }

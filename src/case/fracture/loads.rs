@@ -159,3 +159,88 @@ fn numbers(values: &[f64], path: &str, unit: &str, check: &mut Checker) -> bool 
     }
     good
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::super::super::file::FractureFile;
+    use super::super::FractureCase;
+
+    /// A case with one bar and the given boundary conditions.
+    fn case(rigid: bool, constraints: Value, loads: Value) -> Result<FractureCase, String> {
+        let file = json!({
+            "title": "bar",
+            "fracture": { "mesh": "meshes/bar_single-coarse.msh" },
+            "bodies": [{ "name": "bar", "material": "concrete", "cracks": !rigid, "rigid": rigid }],
+            "constraints": constraints,
+            "loads": loads,
+            "materials": [{
+                "name": "concrete", "density_kg_m3": 2340, "young_modulus_pa": 26e9, "poisson_ratio": 0.2,
+                "strength": {
+                    "tensile_pa": 3.3e6, "cohesion_pa": 16.5e6, "friction_angle_deg": 30, "fracture_energy_j_m2": 50
+                }
+            }],
+            "output": { "surfaces_interval_s": 0, "energy_interval_s": 1e-4 },
+            "stop": { "duration_s": 1e-3 }
+        });
+        let name = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/fracture/test.json");
+        FractureCase::from_str(&file.to_string(), name).map_err(|errors| errors.to_string())
+    }
+
+    #[test]
+    fn boundary_conditions_become_those_of_the_world() {
+        let loads = json!([
+            { "kind": "traction", "set": "right", "stress_pa": [1e6, 0, 0], "history": [[0, 0], [1e-3, 1]] },
+            { "kind": "pressure", "set": "right", "pressure_pa": 1e5, "on": "undeformed" },
+            {
+                "kind": "force", "body": "bar", "place_m": [0.25, 0.025, 0.05], "radius_m": 0.03, "axes": "body",
+                "history": [[0, 0, 0, 0], [1e-3, 0, 0, -1e3, 0, 5, 0]]
+            }
+        ]);
+        let constraints = json!([{ "set": "left", "velocity_m_s": [0, null, [[0, 0], [1e-3, -0.1]]] }]);
+        let found = case(false, constraints.clone(), loads.clone()).unwrap();
+        assert_eq!((found.setup.loads.len(), found.setup.constraints.len()), (3, 1));
+        assert_eq!(found.setup.constraints[0].at(5e-4), [Some(0.0), None, Some(-0.05)]);
+        // What a run keeps is the same case.
+        let kept: FractureFile = serde_json::from_str(&found.text).unwrap();
+        assert_eq!(kept.loads.len(), 3);
+        assert!(case(true, constraints, loads).unwrap().setup.bodies[0].rigid);
+    }
+
+    #[test]
+    fn errors_name_the_key_and_what_is_allowed() {
+        let refused = |constraints: Value, loads: Value| case(false, constraints, loads).unwrap_err();
+        let force = |history: Value, place: Value| {
+            refused(json!([]), json!([{ "kind": "force", "body": "bar", "place_m": place, "history": history }]))
+        };
+        let middle = json!([0.25, 0.025, 0.05]);
+        for (message, expected) in [
+            (
+                force(json!([[0, 1, 2]]), middle.clone()),
+                "loads[0].history[0] = [0.0, 1.0, 2.0]: must be t, F_x, F_y, F_z",
+            ),
+            (force(json!([]), middle.clone()), "loads[0].history = no row: must be at least one row"),
+            (
+                force(json!([[1, 0, 0, 0], [1, 0, 0, 0]]), middle.clone()),
+                "loads[0].history = 1 s after 1 s: must be at least one row, each later than the one before",
+            ),
+            (force(json!([[0, 0, 0, 1e99]]), middle), "loads[0].history[0][2] = 1e99: must be at least"),
+            (force(json!([[0, 0, 0, 1]]), json!([0.25, 0.0, 1.0])), "m from the surface of \"bar\""),
+            (
+                refused(json!([]), json!([{ "kind": "traction", "set": "top", "stress_pa": [0, 0, 1] }])),
+                "loads[0].set = \"top\": must be one of left, right",
+            ),
+            (
+                refused(json!([{ "set": "left", "velocity_m_s": ["fast", null, null] }]), json!([])),
+                "must be a velocity [m/s], rows [[time [s], velocity [m/s]], ...], or null",
+            ),
+            (
+                refused(json!([{ "set": "left", "velocity_m_s": [[[1, 0], [0, 1]], null, null] }]), json!([])),
+                "constraints[0].velocity_m_s[0] = 0 s after 1 s",
+            ),
+        ] {
+            assert!(message.contains(expected), "{message}\n  expected: {expected}");
+        }
+    }
+}

@@ -3,6 +3,7 @@
 mod bounce;
 mod contact;
 mod continuum;
+mod core_locs;
 mod dolos;
 mod joints;
 mod loads;

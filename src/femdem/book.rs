@@ -1,10 +1,12 @@
-//! Each body's part of the energy book.
+//! The energy book of a world, and each body's part of it.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::element;
+use super::energy::Ledger;
 use super::rigid_body::RIGID;
-use super::world::World;
+use super::world::{PIECE, World};
 
 /// Energies of a body [J]; contacts belong to two of them and stay in the book of all.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,6 +24,28 @@ pub struct BodyEnergy {
 }
 
 impl World {
+    /// Energies at the present places, but for motion.
+    pub(super) fn energies(&self, viscous_power: f64) -> Ledger {
+        let tets = &self.tets;
+        let strain = |t: usize| {
+            let x = tets.nodes[t].map(|n| self.nodes.place[n as usize]);
+            element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
+        };
+        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
+        Ledger {
+            strain: ordered_sum(tets.nodes.len(), strain),
+            joint: ordered_sum(self.joints.len(), |number| self.stored_in(number)),
+            contact: self.contacts.stored,
+            friction: self.contacts.friction,
+            fracture: ordered_sum(self.joints.len(), |number| self.joints[number].dissipated)
+                - self.contacts.taken_over,
+            gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
+            // The power is that of the velocity half a step ago, and goes on to the next.
+            viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
+            ..self.lost
+        }
+    }
+
     /// Energies of the bodies at the present places, but for motion.
     pub(super) fn body_energies(&self) -> Vec<BodyEnergy> {
         let mut energies = vec![BodyEnergy::default(); self.setup.bodies.len()];
@@ -55,4 +79,13 @@ impl World {
     fn body_of_node(&self, node: usize) -> usize {
         usize::from(self.tets.body[self.nodes.ties.of(node)[0] as usize / 4])
     }
+}
+
+/// Sum over 0..count in an order that does not depend on the threads.
+fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let pieces: Vec<f64> = (0..count.div_ceil(PIECE))
+        .into_par_iter()
+        .map(|piece| (piece * PIECE..((piece + 1) * PIECE).min(count)).map(&of).sum())
+        .collect();
+    pieces.iter().sum()
 }
