@@ -9,6 +9,7 @@ mod joints;
 mod loads;
 mod rigid;
 mod stability;
+mod strength;
 
 use breakwater::femdem::cohesive_law::{Cohesion, Range};
 use breakwater::femdem::material::{Elastic, Strength};
