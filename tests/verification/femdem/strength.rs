@@ -71,8 +71,7 @@ fn nodes_where(mesh: &PreparedMesh, is_there: impl Fn(DVec3) -> bool) -> Vec<u32
 }
 
 fn material(strength: Strength, penalty: f64, tied: bool, mesh: &PreparedMesh) -> Setup {
-    let cohesion =
-        Some(Cohesion { strength, penalty: penalty * CONCRETE.young_modulus, range: Range::Exact, tied });
+    let cohesion = Some(Cohesion { strength, penalty: penalty * CONCRETE.young_modulus, range: Range::Exact, tied });
     let mut setup = setup(mesh, cohesion);
     setup.friction = vec![vec![0.6]];
     setup
@@ -86,10 +85,7 @@ fn crushed(file: &Path, penalty: f64, tied: bool) -> f64 {
     let velocity = downwards(0.15, 5e-4);
     setup.constraints = vec![
         Constraint::constant(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
-        Constraint {
-            nodes: nodes_where(&mesh, |x| x.z > 0.1 - 1e-9),
-            velocity: [None, None, Some(velocity.clone())],
-        },
+        Constraint { nodes: nodes_where(&mesh, |x| x.z > 0.1 - 1e-9), velocity: [None, None, Some(velocity.clone())] },
     ];
     let curve = load(setup, 0.8, &velocity, 2e-5, |world| world.time);
     let slid = curve.world.failures.iter().filter(|failure| failure.by_sliding).count();
