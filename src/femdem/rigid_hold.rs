@@ -105,9 +105,8 @@ fn solve(mut system: [[f64; FREEDOMS + 1]; FREEDOMS], count: usize) -> Vector {
     for pivot in 0..count {
         for row in pivot + 1..count {
             let share = system[row][pivot] / system[pivot][pivot];
-            for column in pivot..=FREEDOMS {
-                system[row][column] -= share * system[pivot][column];
-            }
+            let above = system[pivot];
+            system[row].iter_mut().zip(above).for_each(|(own, above)| *own -= share * above);
         }
     }
     let mut solution = [0.0; FREEDOMS];
