@@ -14,7 +14,7 @@ mod waves;
 pub use dry::{DropFile, DryDomainFile, DryFile, DryFlumeFile, DryOutputFile, DryTestFile, TerrainFile, TiltFile};
 pub use fracture::{
     BodyFrictionFile, ConstraintFile, FractureBodyFile, FractureFile, FractureMaterialFile, FractureOutputFile,
-    FractureStopFile, Joints, MethodFile, StrengthFile,
+    FractureStopFile, Joints, LoadAxes, LoadFile, LoadedFaces, MethodFile, Softening, StrengthFile, VelocityFile,
 };
 pub use fracture_places::{LandmarkFile, SectionFile};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};

@@ -1,5 +1,8 @@
 //! A fracture case, validated.
 
+mod bodies;
+mod boundary;
+mod loads;
 mod output;
 
 use std::path::Path;
@@ -8,19 +11,13 @@ use glam::DVec3;
 
 use super::check::{Checker, above, from, show};
 use super::error::CaseErrors;
-use super::file::{BodyFrictionFile, FractureBodyFile, FractureFile, FractureMaterialFile, Joints, StrengthFile};
+use super::file::FractureFile;
 use super::fracture_places::{self, Landmark, Plane};
 use super::hash::fingerprint;
 use super::parse::parse;
 use super::validate::read;
-use crate::femdem::cohesive_law::{Cohesion, Range};
-use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::{self, PreparedMesh};
-use crate::femdem::setup::{Body, Constraint, Setup};
-
-/// p_0 over E where the case does not give it [-]: the published practice for joints that hold from the start; tied ones
-/// need little, for only joints that have come free are soft.
-const PENALTY: [f64; 2] = [50.0, 2.0];
+use crate::femdem::setup::Setup;
 
 /// Steps of a run at most [-]: more take years.
 const MOST_STEPS: f64 = 1e10;
@@ -101,11 +98,12 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     let [surfaces_interval, tets_interval, checkpoint_interval] = output::validate(file, check);
     validate_numbers(file, check);
     let (mesh_file, mesh) = read_mesh(file, name, check)?;
-    let bodies = validate_bodies(file, &mesh, check)?;
+    let bodies = bodies::validate(file, &mesh, check)?;
     let mut setup = Setup::of_mesh(&mesh, bodies);
     setup.gravity = DVec3::from_array(file.gravity_m_s2);
-    setup.friction = friction(file, &mesh, check);
-    setup.constraints = constraints(file, &mesh, check);
+    setup.friction = boundary::friction(file, &mesh, check);
+    setup.constraints = boundary::constraints(file, &mesh, check);
+    setup.loads = loads::validate(file, &mesh, check);
     warn_of_coarse_mesh(&setup, &mesh, check);
     let mut kept = file.clone();
     kept.fracture.mesh = FractureCase::MESH.to_owned();
@@ -181,196 +179,6 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
             None
         }
     }
-}
-
-/// The bodies in the order of the mesh.
-fn validate_bodies(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
-    let before = check.count();
-    let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
-    for (index, material) in file.materials.iter().enumerate() {
-        validate_material(index, material, check);
-    }
-    for (index, body) in file.bodies.iter().enumerate() {
-        if !names.contains(&body.name.as_str()) {
-            let allowed = format!("one of {}", names.join(", "));
-            let advice = "bodies are the physical volumes of the mesh";
-            check.refuse(&format!("bodies[{index}].name"), format!("{:?}", body.name), allowed, advice);
-        }
-        if file.bodies[..index].iter().any(|other| other.name == body.name) {
-            let path = format!("bodies[{index}].name");
-            check.refuse(&path, format!("{:?}", body.name), "different from the others", "leave one out");
-        }
-    }
-    let mut bodies = Vec::new();
-    for of_mesh in &mesh.mesh.bodies {
-        match file.bodies.iter().position(|body| body.name == of_mesh.name) {
-            Some(index) => {
-                let body = &file.bodies[index];
-                bodies.extend(validate_body(index, body, file, of_mesh.tets.clone(), check));
-            }
-            None => {
-                let advice = "every physical volume of the mesh needs its entry";
-                check.refuse("bodies", "(missing)", format!("an entry named {:?}", of_mesh.name), advice);
-            }
-        }
-    }
-    (check.count() == before).then_some(bodies)
-}
-
-fn validate_material(index: usize, material: &FractureMaterialFile, check: &mut Checker) {
-    let path = |key: &str| format!("materials[{index}].{key}");
-    check.number(&path("density_kg_m3"), material.density_kg_m3, from(1.0).up_to(1e5), "kg/m3", "concrete has 2340");
-    check.number(
-        &path("young_modulus_pa"),
-        material.young_modulus_pa,
-        from(1e3).up_to(1e13),
-        "Pa",
-        "concrete has 2.6e10",
-    );
-    check.number(&path("poisson_ratio"), material.poisson_ratio, from(0.0).up_to(0.45), "", "concrete has 0.2");
-    check.number(&path("viscosity_pa_s"), material.viscosity_pa_s, from(0.0).up_to(1e9), "Pa s", "0 for none");
-    let Some(strength) = &material.strength else { return };
-    let path = |key: &str| format!("materials[{index}].strength.{key}");
-    let StrengthFile { tensile_pa, cohesion_pa, friction_angle_deg, fracture_energy_j_m2, sliding_energy_j_m2 } =
-        *strength;
-    check.number(&path("tensile_pa"), tensile_pa, above(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
-    check.number(&path("friction_angle_deg"), friction_angle_deg, from(0.0).below(90.0), "degrees", "concrete has 30");
-    let least = tensile_pa * friction_angle_deg.to_radians().tan();
-    let advice = "at the tensile strength something must be left of the shear strength";
-    check.number(&path("cohesion_pa"), cohesion_pa, above(least).up_to(1e11), "Pa", advice);
-    check.number(&path("fracture_energy_j_m2"), fracture_energy_j_m2, above(0.0).up_to(1e7), "J/m2", "concrete has 50");
-    if let Some(energy) = sliding_energy_j_m2 {
-        check.number(
-            &path("sliding_energy_j_m2"),
-            energy,
-            above(0.0).up_to(1e7),
-            "J/m2",
-            "leave it out for that in opening",
-        );
-    }
-}
-
-fn validate_body(
-    index: usize,
-    body: &FractureBodyFile,
-    file: &FractureFile,
-    tets: std::ops::Range<usize>,
-    check: &mut Checker,
-) -> Option<Body> {
-    let Some(material) = file.materials.iter().find(|material| material.name == body.material) else {
-        let allowed = "the name of one of `materials`";
-        let path = format!("bodies[{index}].material");
-        check.refuse(&path, format!("{:?}", body.material), allowed, "add the material or mend the name");
-        return None;
-    };
-    let motion = [body.velocity_m_s, body.angular_velocity_rad_s, body.pivot_m];
-    for (values, key) in motion.iter().zip(["velocity_m_s", "angular_velocity_rad_s", "pivot_m"]) {
-        for (axis, value) in values.iter().enumerate() {
-            let path = format!("bodies[{index}].{key}[{axis}]");
-            check.number(&path, *value, from(-1e4).up_to(1e4), "", "a number of that size");
-        }
-    }
-    let elastic = Elastic {
-        density: material.density_kg_m3,
-        young_modulus: material.young_modulus_pa,
-        poisson_ratio: material.poisson_ratio,
-        viscosity: material.viscosity_pa_s,
-    };
-    let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
-    let cohesion = match &material.strength {
-        Some(strength) if cracks => Some(cohesion(file, &elastic, strength)),
-        None if body.cracks => {
-            let advice = "give tensile strength, cohesion, friction angle and fracture energy";
-            let path = format!("bodies[{index}].cracks");
-            check.refuse(&path, "true", format!("false, for {:?} has no strength", material.name), advice);
-            None
-        }
-        _ => None,
-    };
-    Some(Body {
-        cohesion,
-        contact_penalty: file.fracture.contact_penalty * elastic.young_modulus,
-        velocity: DVec3::from_array(body.velocity_m_s),
-        angular_velocity: DVec3::from_array(body.angular_velocity_rad_s),
-        pivot: DVec3::from_array(body.pivot_m),
-        ..Body::at_rest(tets, elastic)
-    })
-}
-
-fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> Cohesion {
-    let tied = file.fracture.joints == Joints::Tied;
-    let penalty = file.fracture.joint_penalty.unwrap_or(PENALTY[usize::from(tied)]);
-    Cohesion {
-        strength: Strength {
-            tensile: strength.tensile_pa,
-            cohesion: strength.cohesion_pa,
-            friction: strength.friction_angle_deg.to_radians().tan(),
-            opening_energy: strength.fracture_energy_j_m2,
-            sliding_energy: strength.sliding_energy_j_m2.unwrap_or(strength.fracture_energy_j_m2),
-        },
-        penalty: penalty * elastic.young_modulus,
-        range: Range::Exact,
-        tied,
-    }
-}
-
-/// Coefficients between the bodies, in the order of the mesh.
-fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
-    let count = mesh.mesh.bodies.len();
-    let mut table = vec![vec![0.0; count]; count];
-    for (index, BodyFrictionFile { between, coefficient }) in file.friction.iter().enumerate() {
-        let path = format!("friction[{index}].coefficient");
-        check.number(&path, *coefficient, from(0.0).up_to(10.0), "", "concrete on concrete has 0.6");
-        let numbers = between.each_ref().map(|name| mesh.mesh.bodies.iter().position(|body| body.name == *name));
-        match numbers {
-            [Some(a), Some(b)] => {
-                table[a][b] = *coefficient;
-                table[b][a] = *coefficient;
-            }
-            _ => check.refuse(
-                &format!("friction[{index}].between"),
-                format!("{between:?}"),
-                "names of two bodies of the mesh",
-                "the same one twice stands for its crack faces",
-            ),
-        }
-    }
-    table
-}
-
-/// Constraints of the sets; a node of several sets has the components of all of them.
-fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
-    let mut of_node: Vec<[Option<f64>; 3]> = vec![[None; 3]; mesh.mesh.nodes.len()];
-    for (index, constraint) in file.constraints.iter().enumerate() {
-        let Some(set) = mesh.faces.boundaries.iter().find(|set| set.name == constraint.set) else {
-            let names: Vec<&str> = mesh.faces.boundaries.iter().map(|set| set.name.as_str()).collect();
-            let allowed = format!("one of {}", names.join(", "));
-            let advice = "sets are the physical surfaces of the mesh";
-            check.refuse(&format!("constraints[{index}].set"), format!("{:?}", constraint.set), allowed, advice);
-            continue;
-        };
-        for (axis, velocity) in constraint.velocity_m_s.iter().enumerate() {
-            let path = format!("constraints[{index}].velocity_m_s[{axis}]");
-            let given = velocity.is_some_and(|v| check.number(&path, v, from(-1e4).up_to(1e4), "m/s", "0 holds it"));
-            if !given {
-                continue;
-            }
-            for face in &set.faces {
-                let exterior = &mesh.faces.exteriors[*face as usize];
-                for corner in exterior.nodes {
-                    of_node[mesh.mesh.tets[exterior.tet as usize][usize::from(corner)] as usize][axis] = *velocity;
-                }
-            }
-        }
-    }
-    let mut constraints: Vec<Constraint> = Vec::new();
-    for (node, velocity) in of_node.into_iter().enumerate().filter(|(_, v)| v.iter().any(Option::is_some)) {
-        match constraints.iter_mut().find(|constraint| constraint.velocity == velocity) {
-            Some(constraint) => constraint.nodes.push(node as u32),
-            None => constraints.push(Constraint { nodes: vec![node as u32], velocity }),
-        }
-    }
-    constraints
 }
 
 /// A crack is trusted where elements are no larger than a quarter of the characteristic length.

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::element::Shape;
+use super::rigid_body::RIGID;
 use super::setup::Setup;
 
 /// No interface at a face.
@@ -24,7 +25,7 @@ pub struct Nodes {
     pub velocity: Vec<DVec3>,
     /// Masses [kg].
     pub mass: Vec<f64>,
-    /// Constraint of each, counted from 1; 0 is free.
+    /// Constraint of each, counted from 1; 0 is free, [`RIGID`] moves with its body.
     pub constraint: Vec<u16>,
     /// Copies that move as each of them.
     pub ties: Ties,
@@ -184,7 +185,7 @@ pub fn assemble(setup: &Setup, tied: impl Fn(u32) -> bool) -> (Nodes, Tets) {
         let place = setup.nodes[origin];
         nodes.place.push(place);
         nodes.velocity.push(of.velocity + of.angular_velocity.cross(place - of.pivot));
-        nodes.constraint.push(constraint_of[origin]);
+        nodes.constraint.push(if of.rigid { RIGID } else { constraint_of[origin] });
         nodes.ties.span.push([nodes.ties.copies.len() as u32, group.len() as u32]);
         nodes.ties.copies.extend(&group);
     }

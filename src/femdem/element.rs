@@ -10,7 +10,7 @@ use super::lanes::{LANES, Lanes, Vectors};
 use super::material::Elastic;
 
 /// Moduli of an element.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moduli {
     lambda: f64,
     mu: f64,

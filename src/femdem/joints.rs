@@ -7,12 +7,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::assembly::{Nodes, Tets};
+use super::book::ordered_sum;
 use super::cohesive_law::Cohesion;
 use super::joint::{self, Memory};
 use super::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 use super::setup::Setup;
 use super::whole_joint::{WholeAnswer, WholeLaw};
-use super::world::{PIECE, ordered_sum};
+use super::world::PIECE;
 
 /// What holds two tetrahedra together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,19 +122,22 @@ impl Joints {
 
     /// Energy that the joints would give back [J].
     pub fn stored(&self, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
-        let whole = |number: usize| {
-            if self.bond[number] != Bond::Whole {
-                return 0.0;
-            }
-            let [edge, area] = self.size[number];
-            let (law, sides) = (cohesion(setup, number).law(edge), faces(number, setup, tets, nodes));
-            // Brings an empty memory to the present places.
-            let mut memory = Memory::default();
-            joint::forces(&law, area, &mut memory, &sides);
-            joint::stored(&law, area, &memory, &sides)
-        };
+        let whole = |number: usize| self.stored_in_whole(number, setup, tets, nodes);
         let worn = |k: usize| self.stored_in(&self.worn[k], setup, tets, nodes);
         ordered_sum(self.count(), whole) + ordered_sum(self.worn.len(), worn)
+    }
+
+    /// Energy that the joint of a face would give back [J], if it has no past.
+    pub fn stored_in_whole(&self, number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
+        if self.bond[number] != Bond::Whole {
+            return 0.0;
+        }
+        let [edge, area] = self.size[number];
+        let (law, sides) = (cohesion(setup, number).law(edge), faces(number, setup, tets, nodes));
+        // Brings an empty memory to the present places.
+        let mut memory = Memory::default();
+        joint::forces(&law, area, &mut memory, &sides);
+        joint::stored(&law, area, &memory, &sides)
     }
 
     /// Energy that joints with a past have lost so far, but for those that have broken [J].

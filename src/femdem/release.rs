@@ -45,7 +45,7 @@ impl World {
         self.lost.fracture += joint.dissipated + stored;
         self.joints.bond[number] = Bond::Broken;
         self.joints.forces[number] = Default::default();
-        let energy = joint.dissipated + stored - joint.freed;
+        let energy = [joint.dissipated + stored, joint.freed];
         self.failures.push(self.failure(joint.interface, self.time, joint.memory.is_mostly_slid(), energy));
         let opened = self.setup.interfaces[number];
         self.contacts.open(opened.tets, stored);

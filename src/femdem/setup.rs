@@ -5,6 +5,8 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::cohesive_law::Cohesion;
+use super::history::History;
+use super::loads::Load;
 use super::material::Elastic;
 use super::mesh::PreparedMesh;
 use super::mesh::faces::Interface;
@@ -18,6 +20,8 @@ pub struct Body {
     pub elastic: Elastic,
     /// How its joints hold; without it, the body does not crack.
     pub cohesion: Option<Cohesion>,
+    /// It is not deformed: all its nodes move as one. It cannot crack.
+    pub rigid: bool,
     /// Stress per potential of its contacts [Pa]; a pair has the smaller one.
     pub contact_penalty: f64,
     /// Velocity at the start [m/s].
@@ -38,7 +42,25 @@ pub struct Constraint {
     /// Nodes of the mesh.
     pub nodes: Vec<u32>,
     /// Velocity along each axis [m/s]; `None` leaves it free.
-    pub velocity: [Option<f64>; 3],
+    pub velocity: [Option<History<1>>; 3],
+}
+
+impl Constraint {
+    /// Velocity along each axis that stays the same [m/s].
+    pub fn constant(nodes: Vec<u32>, velocity: [Option<f64>; 3]) -> Self {
+        Self { nodes, velocity: velocity.map(|given| given.map(History::from)) }
+    }
+
+    /// No node of it is made to move faster [m/s].
+    pub fn fastest(&self) -> f64 {
+        let most = |given: &Option<History<1>>| given.as_ref().map_or(0.0, |history| history.largest()[0]);
+        DVec3::from_array(self.velocity.each_ref().map(most)).length()
+    }
+
+    /// Velocity along each axis at a time [m/s].
+    pub fn at(&self, time: f64) -> [Option<f64>; 3] {
+        self.velocity.each_ref().map(|given| given.as_ref().map(|history| history.at(time)[0]))
+    }
 }
 
 /// Everything that a world of deformable bodies is made of.
@@ -60,6 +82,8 @@ pub struct Setup {
     pub friction: Vec<Vec<f64>>,
     /// Nodes with given velocities.
     pub constraints: Vec<Constraint>,
+    /// Loads.
+    pub loads: Vec<Load>,
     /// Acceleration of gravity [m/s2].
     pub gravity: DVec3,
 }
@@ -69,7 +93,16 @@ impl Body {
     pub fn at_rest(tets: Range<usize>, elastic: Elastic) -> Self {
         let still = DVec3::ZERO;
         let contact_penalty = CONTACT_PENALTY * elastic.young_modulus;
-        Self { tets, elastic, cohesion: None, contact_penalty, velocity: still, angular_velocity: still, pivot: still }
+        Self {
+            tets,
+            elastic,
+            cohesion: None,
+            rigid: false,
+            contact_penalty,
+            velocity: still,
+            angular_velocity: still,
+            pivot: still,
+        }
     }
 }
 
@@ -107,6 +140,7 @@ impl Setup {
             outer,
             friction,
             constraints: Vec::new(),
+            loads: Vec::new(),
             gravity: DVec3::ZERO,
         }
     }

@@ -12,6 +12,7 @@ use super::contact::pairs::snapshot::{ContactScalars, ContactSnapshot};
 use super::energy::Ledger;
 use super::joint::Memory;
 use super::joints::{self, Bond, WornJoint};
+use super::rigid_body::RigidMotion;
 use super::world::{Failure, World, contacts};
 
 /// Numbers of a joint that is worn: offset, whether it is worn, energies, three points.
@@ -40,8 +41,10 @@ pub struct Snapshot {
     pub failed_at: Vec<f64>,
     /// 1 where it slid more than it opened.
     pub failed_by_sliding: Vec<u8>,
-    /// Energy that it took [J].
-    pub failed_energy: Vec<f64>,
+    /// Energy that it took, and that its spring had when it came free [J].
+    pub failed_energy: Vec<[f64; 2]>,
+    /// Motions of the rigid bodies: opaque.
+    pub rigid: Vec<[f64; 13]>,
     /// Contacts.
     pub contacts: ContactSnapshot,
     /// Everything else.
@@ -89,7 +92,8 @@ impl World {
             failed: self.failures.iter().map(|failure| failure.interface).collect(),
             failed_at: self.failures.iter().map(|failure| failure.time).collect(),
             failed_by_sliding: self.failures.iter().map(|failure| u8::from(failure.by_sliding)).collect(),
-            failed_energy: self.failures.iter().map(|failure| failure.energy).collect(),
+            failed_energy: self.failures.iter().map(|failure| [failure.dissipated, failure.freed]).collect(),
+            rigid: self.rigid_bodies.iter().map(|body| body.motion.to_array()).collect(),
             scalars: Scalars { time: self.time, dt: self.dt, lost: self.lost, contacts: contacts.scalars },
             contacts,
         }
@@ -102,7 +106,13 @@ impl World {
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), &'static str> {
         let Snapshot { place, velocity, vertices, bonds, worn, memories, contacts: of_contacts, scalars, .. } =
             snapshot;
-        let Snapshot { failed, failed_at, failed_by_sliding, failed_energy, .. } = snapshot;
+        let Snapshot { failed, failed_at, failed_by_sliding, failed_energy, rigid, .. } = snapshot;
+        if rigid.len() != self.rigid_bodies.len() {
+            return Err("its rigid bodies are not those of the case");
+        }
+        for (body, numbers) in self.rigid_bodies.iter_mut().zip(rigid) {
+            body.motion = RigidMotion::from_array(&numbers);
+        }
         let known = |face: &u32| (*face as usize) < self.joints.count();
         let of_failed = [failed_at.len(), failed_by_sliding.len(), failed_energy.len()];
         let faces = worn.len() == memories.len() && of_failed == [failed.len(); 3];
@@ -133,12 +143,12 @@ impl World {
         Ok(())
     }
 
-    /// The failure of a face at a time [s], which took an energy [J].
-    pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: f64) -> Failure {
+    /// The failure of a face at a time [s], with the energies that it took and that its spring had [J].
+    pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: [f64; 2]) -> Failure {
         let corners = joints::corners(&self.setup, interface as usize);
         let place = (corners[0] + corners[1] + corners[2]) / 3.0;
         let [_, area] = self.joints.size[interface as usize];
-        Failure { interface, time, place, area, by_sliding, energy }
+        Failure { interface, time, place, area, by_sliding, dissipated: energy[0], freed: energy[1] }
     }
 }
 

@@ -11,7 +11,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::assembly::Nodes;
-use super::setup::Setup;
+use super::setup::{Constraint, Setup};
 use super::world::World;
 
 /// Longitudinal celerities that a node may be faster than the case makes it [-]: at one of them strains are of order one,
@@ -95,7 +95,7 @@ impl Limits {
         let low = setup.nodes.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = setup.nodes.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let celerity = setup.bodies.iter().map(|body| body.elastic.celerity()).fold(0.0, f64::max);
-        let made = setup.constraints.iter().map(|c| DVec3::from_array(c.velocity.map(|v| v.unwrap_or(0.0))).length());
+        let made = setup.constraints.iter().map(Constraint::fastest);
         Self {
             centre: 0.5 * (low + high),
             reach: REACH * low.distance(high),

@@ -8,12 +8,16 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::assembly::{self, Copy4, Nodes, Tets};
+use super::book::BodyEnergy;
 use super::contact::pairs::Contacts;
 use super::deformation::{Bodies, Deformation};
-use super::element::{self, Moduli};
+use super::element::Moduli;
 use super::energy::Ledger;
 use super::joints::{Bond, Joints};
-use super::setup::Setup;
+use super::loads::CornerForce;
+use super::motion::Moved;
+use super::rigid_body::RigidBody;
+use super::setup::{Body, Setup};
 use super::time_step;
 use super::watch::{Limits, StepError};
 
@@ -33,8 +37,10 @@ pub struct Failure {
     pub area: f64,
     /// It slid (mode II) more than it opened (mode I).
     pub by_sliding: bool,
-    /// Energy that it took, beyond what its spring had when it came free [J].
-    pub energy: f64,
+    /// Energy that it took [J].
+    pub dissipated: f64,
+    /// Energy of that which its spring had when it came free [J].
+    pub freed: f64,
 }
 
 /// Deformable bodies.
@@ -60,25 +66,17 @@ pub struct World {
     pub failures: Vec<Failure>,
     /// Contacts.
     pub contacts: Contacts,
+    /// Bodies that are not deformed.
+    pub rigid_bodies: Vec<RigidBody>,
     /// All copies of every node of the mesh.
     pub(super) around: Vec<Vec<Copy4>>,
     pub(super) lost: Ledger,
-    gravity_at_start: f64,
+    pub(super) gravity_at_start: f64,
     pub(super) limits: Limits,
     // Workspace.
     pub(super) deformation: Deformation,
-    moved: Vec<Moved>,
-}
-
-/// What the nodes of a piece tell of their step.
-#[derive(Debug, Clone, Copy, Default)]
-struct Moved {
-    /// Kinetic energy at the start of the step [J].
-    kinetic: f64,
-    /// Work of the constraints [J].
-    work: f64,
-    /// Square of the largest velocity [m2/s2].
-    fastest: f64,
+    pub(super) loaded: Vec<CornerForce>,
+    pub(super) moved: Vec<Moved>,
 }
 
 impl World {
@@ -87,7 +85,10 @@ impl World {
         let joints = Joints::new(&setup);
         let (nodes, mut tets) = assembly::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
         joints.mark(&setup, &mut tets);
-        let moduli = setup.bodies.iter().map(|body| Moduli::from(&body.elastic)).collect();
+        let rigid_bodies = RigidBody::all(&setup, &nodes, &tets);
+        // Without moduli, tetrahedra of rigid bodies have no forces.
+        let moduli_of = |body: &Body| if body.rigid { Moduli::default() } else { Moduli::from(&body.elastic) };
+        let moduli = setup.bodies.iter().map(moduli_of).collect();
         let count = setup.tets.len();
         let around = assembly::copies_around(&setup);
         let contacts = contacts(&setup, &tets, &around, &joints);
@@ -104,11 +105,13 @@ impl World {
             joints,
             failures: Vec::new(),
             contacts,
+            rigid_bodies,
             around,
             lost: Ledger::default(),
             gravity_at_start: 0.0,
             limits,
             deformation: Deformation::new(count, ties),
+            loaded: Vec::new(),
             moved: Vec::new(),
             setup,
         };
@@ -138,6 +141,11 @@ impl World {
                 }
             }
             let pressed = time_step::contact_stiffness(shape, body.contact_penalty);
+            if body.rigid {
+                // Only what can touch counts. Nodes that move as one answer less than those of a tetrahedron alone.
+                let touches = pressed > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
+                return if touches { time_step::stable_step(2.0 * pressed / mass, 0.0) } else { f64::INFINITY };
+            }
             let springs = 2.0 * springs.into_iter().fold(pressed, f64::max) / mass;
             let frequency_squared = time_step::element_frequency_squared(shape, &body.elastic) + springs;
             time_step::stable_step(frequency_squared, time_step::element_damping_rate(shape, &body.elastic))
@@ -150,7 +158,7 @@ impl World {
     /// # Errors
     /// If a tetrahedron is turned inside out, or a node is too fast or not a number.
     pub fn step(&mut self) -> Result<(), StepError> {
-        self.advance(false).map(|_| ())
+        self.advance(false, None).map(|_| ())
     }
 
     /// Take one step, and tell the energy book at its start.
@@ -158,15 +166,35 @@ impl World {
     /// # Errors
     /// As [`Self::step`].
     pub fn step_with_ledger(&mut self) -> Result<Ledger, StepError> {
-        self.advance(true)
+        self.advance(true, None)
     }
 
-    fn advance(&mut self, book: bool) -> Result<Ledger, StepError> {
+    /// Take one step, and tell the energy book at its start with each body's part of it.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn step_with_books(&mut self) -> Result<(Ledger, Vec<BodyEnergy>), StepError> {
+        let mut bodies = Vec::new();
+        let ledger = self.advance(true, Some(&mut bodies))?;
+        Ok((ledger, bodies))
+    }
+
+    fn advance(&mut self, book: bool, mut bodies: Option<&mut Vec<BodyEnergy>>) -> Result<Ledger, StepError> {
         self.joints.pull(&self.setup, &self.tets, &self.nodes);
         let viscous_power = self.deform_tets()?;
         self.press_contacts();
+        self.apply_loads();
         let mut ledger = if book { self.energies(viscous_power) } else { Ledger::default() };
+        let before = bodies.as_mut().map(|bodies| {
+            **bodies = self.body_energies();
+            self.nodes.velocity.clone()
+        });
+        let power = self.power_of_loads();
         let Moved { kinetic, work, fastest } = self.move_nodes();
+        let work = work + 0.5 * self.dt * (power + self.power_of_loads());
+        if let (Some(bodies), Some(before)) = (bodies, before) {
+            self.add_kinetic_energies(bodies, &before);
+        }
         ledger.kinetic = kinetic;
         // Half of the work of this step is done after its start.
         ledger.work += 0.5 * work;
@@ -193,69 +221,10 @@ impl World {
         contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
     }
 
-    /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10).
-    fn move_nodes(&mut self) -> Moved {
-        let Self { nodes, deformation, setup, dt, moved, .. } = self;
-        let forces = &deformation.forces;
-        let (dt, gravity) = (*dt, setup.gravity);
-        let Nodes { place, velocity, mass, constraint, ties } = nodes;
-        moved.resize(place.len().div_ceil(PIECE), Moved::default());
-        let pieces = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
-        pieces.enumerate().for_each(|(piece, ((places, velocities), moved))| {
-            *moved = Moved::default();
-            for (k, (x, v)) in places.iter_mut().zip(velocities).enumerate() {
-                let node = piece * PIECE + k;
-                let mut force = gravity * mass[node];
-                for copy in ties.of(node) {
-                    force += forces[*copy as usize / 4][*copy as usize % 4];
-                }
-                let before = *v;
-                *v += force * (dt / mass[node]);
-                if let Some(number) = usize::from(constraint[node]).checked_sub(1) {
-                    for (axis, given) in setup.constraints[number].velocity.into_iter().enumerate() {
-                        let Some(given) = given else { continue };
-                        let reaction = mass[node] * (given - before[axis]) / dt - force[axis];
-                        v[axis] = given;
-                        moved.work += reaction * 0.5 * (before[axis] + given) * dt;
-                    }
-                }
-                moved.kinetic += 0.5 * mass[node] * before.dot(*v);
-                moved.fastest = moved.fastest.max(v.length_squared());
-                *x += *v * dt;
-            }
-        });
-        moved.iter().fold(Moved::default(), |sum, piece| Moved {
-            kinetic: sum.kinetic + piece.kinetic,
-            work: sum.work + piece.work,
-            fastest: sum.fastest.max(piece.fastest),
-        })
-    }
-
     /// Undeformed place of a node [m].
     pub fn place_at_start(&self, node: usize) -> DVec3 {
         let copy = self.nodes.ties.of(node)[0] as usize;
         self.setup.nodes[self.setup.tets[copy / 4][copy % 4] as usize]
-    }
-
-    /// Energies at the present places, but for motion.
-    fn energies(&self, viscous_power: f64) -> Ledger {
-        let tets = &self.tets;
-        let strain = |t: usize| {
-            let x = tets.nodes[t].map(|n| self.nodes.place[n as usize]);
-            element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
-        };
-        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
-        Ledger {
-            strain: ordered_sum(tets.nodes.len(), strain),
-            joint: self.joints.stored(&self.setup, tets, &self.nodes),
-            contact: self.contacts.stored,
-            friction: self.contacts.friction,
-            fracture: self.lost.fracture + self.joints.dissipated() - self.contacts.taken_over,
-            gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
-            // The power is that of the velocity half a step ago, and goes on to the next.
-            viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
-            ..self.lost
-        }
     }
 }
 
@@ -266,13 +235,4 @@ pub(super) fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints
     let groups: Vec<Vec<Copy4>> =
         around.flat_map(|copies| assembly::held_together(tets, setup, copies, &unbroken)).collect();
     Contacts::new(setup, groups.iter().map(Vec::as_slice))
-}
-
-/// Sum over 0..count in an order that does not depend on the threads.
-pub(super) fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let pieces: Vec<f64> = (0..count.div_ceil(PIECE))
-        .into_par_iter()
-        .map(|piece| (piece * PIECE..((piece + 1) * PIECE).min(count)).map(&of).sum())
-        .collect();
-    pieces.iter().sum()
 }

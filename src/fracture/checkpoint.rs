@@ -121,7 +121,8 @@ fn write_arrays(file: &File, state: &Snapshot) -> Hdf5Result<()> {
     write_column(&group, "joint", &state.failed)?;
     write_column(&group, "time_s", &state.failed_at)?;
     write_column(&group, "by_sliding", &state.failed_by_sliding)?;
-    write_column(&group, "energy_j", &state.failed_energy)?;
+    write_rows(&group, "energy_j", &state.failed_energy)?;
+    write_rows(&file.create_group("rigid_bodies")?, "motion", &state.rigid)?;
     let (group, contacts) = (file.create_group("contacts")?, &state.contacts);
     write_rows(&group, "tets", &contacts.tets)?;
     write_column(&group, "born_m3", &contacts.born)?;
@@ -144,7 +145,8 @@ fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
         failed: failures.dataset("joint")?.read_raw()?,
         failed_at: failures.dataset("time_s")?.read_raw()?,
         failed_by_sliding: failures.dataset("by_sliding")?.read_raw()?,
-        failed_energy: failures.dataset("energy_j")?.read_raw()?,
+        failed_energy: read_rows(&failures, "energy_j")?,
+        rigid: read_rows(&file.group("rigid_bodies")?, "motion")?,
         contacts: ContactSnapshot {
             tets: read_rows(&contacts, "tets")?,
             born: contacts.dataset("born_m3")?.read_raw()?,

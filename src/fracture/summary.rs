@@ -134,7 +134,7 @@ impl FractureSummary {
     /// The summary of a run that ended with these fragments.
     pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched, fragments: &[Fragment]) -> Self {
         let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
-        let taken: f64 = world.failures.iter().map(|failure| failure.energy).sum();
+        let taken: f64 = world.failures.iter().map(|failure| failure.dissipated - failure.freed).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
         let g_f = energies.fold(f64::MAX, f64::min);
         let name = |body: usize| case.names[body].clone();

@@ -27,6 +27,9 @@ pub struct FractureFile {
     /// Boundary sets of the mesh that are held or moved.
     #[serde(default)]
     pub constraints: Vec<ConstraintFile>,
+    /// Loads on the bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadFile>,
     /// Materials of the bodies.
     pub materials: Vec<FractureMaterialFile>,
     /// Friction between bodies; pairs that are not named are smooth.
@@ -56,6 +59,9 @@ pub struct MethodFile {
     /// Stiffness of the joints p_0 over Young's modulus [-]; 50 for `intrinsic`, 2 for `tied` joints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_penalty: Option<f64>,
+    /// Range over which a joint softens.
+    #[serde(default)]
+    pub softening: Softening,
     /// Stiffness of contact p over Young's modulus [-].
     #[serde(default = "one")]
     pub contact_penalty: f64,
@@ -80,6 +86,17 @@ pub enum Joints {
     Unbreakable,
 }
 
+/// Range over which a joint softens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Softening {
+    /// The area under the curve is the fracture energy.
+    #[default]
+    Exact,
+    /// max(2 delta_p, 3 G_f / f) as the published programs have it: dissipates 1.16 G_f.
+    Published,
+}
+
 /// A body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -91,6 +108,9 @@ pub struct FractureBodyFile {
     /// Whether it can crack; its material needs its strength then.
     #[serde(default)]
     pub cracks: bool,
+    /// Whether it is not deformed: all its nodes move as one. It cannot crack then.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub rigid: bool,
     /// Velocity at the start [m/s], of the point `pivot_m`.
     #[serde(default)]
     pub velocity_m_s: [f64; 3],
@@ -106,10 +126,88 @@ pub struct FractureBodyFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConstraintFile {
-    /// Name of the physical surface in the mesh.
+    /// Name of the physical surface, curve or point in the mesh.
     pub set: String,
-    /// Velocity along x, y, z [m/s]; `null` leaves it free.
-    pub velocity_m_s: [Option<f64>; 3],
+    /// Velocity along x, y, z [m/s], or rows of time [s] and velocity; `null` leaves it free. If nodes of a rigid body are
+    /// held, the body is.
+    pub velocity_m_s: [Option<VelocityFile>; 3],
+}
+
+/// Velocity of a constraint [m/s].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "must be a velocity [m/s], rows [[time [s], velocity [m/s]], ...], or null")]
+pub enum VelocityFile {
+    /// Always the same [m/s].
+    Constant(f64),
+    /// Rows of time [s] and velocity [m/s]; linear between, constant before the first and after the last.
+    History(Vec<[f64; 2]>),
+}
+
+/// A load. Histories are linear between their rows, constant before the first and after the last.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
+pub enum LoadFile {
+    /// A stress vector on undeformed faces; it keeps its direction.
+    Traction {
+        /// Name of the physical surface in the mesh.
+        set: String,
+        /// Force over undeformed area [Pa].
+        stress_pa: [f64; 3],
+        /// Rows of time [s] and factor [-]; without it, the load is constant.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        history: Option<Vec<[f64; 2]>>,
+    },
+    /// A pressure normal to faces.
+    Pressure {
+        /// Name of the physical surface in the mesh.
+        set: String,
+        /// Pressure [Pa], positive where it presses.
+        pressure_pa: f64,
+        /// Faces whose area and normal count.
+        #[serde(default)]
+        on: LoadedFaces,
+        /// Rows of time [s] and factor [-]; without it, the load is constant.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        history: Option<Vec<[f64; 2]>>,
+    },
+    /// A force, and perhaps a moment, about a place of a body: a recorded impact.
+    Force {
+        /// Name of the body.
+        body: String,
+        /// The place in the undeformed body [m].
+        place_m: [f64; 3],
+        /// The faces with their middle within this radius of the place take the force [m]; if there is none, the nearest
+        /// face does.
+        #[serde(default)]
+        radius_m: f64,
+        /// Axes of the components.
+        #[serde(default)]
+        axes: LoadAxes,
+        /// Rows of time [s] and force [N], t, F_x, F_y, F_z; or of these and the moment about the place [N m], M_x, M_y, M_z.
+        history: Vec<Vec<f64>>,
+    },
+}
+
+/// Faces whose area and normal count for a pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadedFaces {
+    /// As they are at the moment: a fluid.
+    #[default]
+    Deformed,
+    /// As they were at the start.
+    Undeformed,
+}
+
+/// Axes of the components of a force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadAxes {
+    /// Those of space.
+    #[default]
+    Space,
+    /// Those of the body at the start, which turn with it.
+    Body,
 }
 
 /// A material.

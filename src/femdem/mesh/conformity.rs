@@ -274,6 +274,7 @@ mod tests {
             tet_tags: (1..=3).collect(),
             bodies: vec![Body { name: "unit".to_owned(), tets: 0..3 }],
             sets: Vec::new(),
+            node_sets: Vec::new(),
         };
         let faces = Faces::new(&mesh).unwrap();
         let error = check_surface(&mesh, &faces).unwrap_err();

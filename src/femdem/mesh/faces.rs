@@ -316,6 +316,7 @@ mod tests {
             tet_tags: (1..).take(tets.len()).collect(),
             bodies: vec![Body { name: "unit".to_owned(), tets: 0..tets.len() }],
             sets: Vec::new(),
+            node_sets: Vec::new(),
         };
         assert!(Faces::new(&mesh(&[[0, 1, 2, 3], [0, 2, 1, 5]])).is_ok());
         let same_side = Faces::new(&mesh(&[[0, 1, 2, 3], [0, 1, 2, 4]])).unwrap_err();

@@ -4,7 +4,7 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `msh` | reading MSH 4.1: named volumes become bodies, named surfaces become sets of triangles |
+//! | `msh` | reading MSH 4.1: named volumes become bodies, surfaces sets of triangles, curves and points sets of nodes |
 //! | `quality` | volume, edges, heights and angles of each body; inverted and flat tetrahedra |
 //! | `order` | tetrahedra along a space-filling curve, nodes by first use |
 //! | `faces` | interior faces with their two tetrahedra, exterior faces, cracks and boundaries |
@@ -61,6 +61,8 @@ pub struct Mesh {
     pub bodies: Vec<Body>,
     /// Boundaries and cracks.
     pub sets: Vec<TriangleSet>,
+    /// Lines and points of nodes.
+    pub node_sets: Vec<NodeSet>,
 }
 
 /// A named part of the tetrahedra: one solid.
@@ -79,6 +81,15 @@ pub struct TriangleSet {
     pub name: String,
     /// Nodes of each triangle, in any sense of rotation.
     pub triangles: Vec<[u32; 3]>,
+}
+
+/// A named set of nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeSet {
+    /// Name of the physical curve or point.
+    pub name: String,
+    /// Its nodes, ascending, each once.
+    pub nodes: Vec<u32>,
 }
 
 impl TriangleSet {

@@ -32,6 +32,7 @@ pub fn along_curve(mesh: &Mesh) -> Mesh {
         tet_tags: order.iter().map(|tet| mesh.tet_tags[*tet]).collect(),
         bodies: mesh.bodies.clone(),
         sets: mesh.sets.clone(),
+        node_sets: mesh.node_sets.clone(),
         nodes: Vec::with_capacity(mesh.nodes.len()),
         node_tags: Vec::with_capacity(mesh.nodes.len()),
     };
@@ -48,6 +49,11 @@ pub fn along_curve(mesh: &Mesh) -> Mesh {
     let triangles = sorted.sets.iter_mut().flat_map(|set| set.triangles.iter_mut().flatten());
     for node in sorted.tets.iter_mut().flatten().chain(triangles) {
         *node = new_index[*node as usize];
+    }
+    for set in &mut sorted.node_sets {
+        // Nodes of tetrahedra, all of them.
+        set.nodes.iter_mut().for_each(|node| *node = new_index[*node as usize]);
+        set.nodes.sort_unstable();
     }
     sorted
 }

@@ -161,6 +161,7 @@ mod tests {
             tet_tags: vec![7],
             bodies: vec![Body { name: "corner".to_owned(), tets: 0..1 }],
             sets: Vec::new(),
+            node_sets: Vec::new(),
         }
     }
 

@@ -5,7 +5,7 @@ use breakwater::femdem::mesh::Mesh;
 use breakwater::femdem::setup::Constraint;
 
 /// Two blocks as bodies of one mesh, each moved to its place [m].
-fn two(blocks: [(DVec3, [usize; 3], DVec3); 2]) -> PreparedMesh {
+pub fn two(blocks: [(DVec3, [usize; 3], DVec3); 2]) -> PreparedMesh {
     let mut all = Mesh::default();
     for (number, (lengths, cells, shift)) in blocks.into_iter().enumerate() {
         let mut one = block(lengths, cells, Pattern::Centred);
@@ -23,7 +23,7 @@ fn two(blocks: [(DVec3, [usize; 3], DVec3); 2]) -> PreparedMesh {
 }
 
 /// Setup of two bodies that do not crack.
-fn both(mesh: &PreparedMesh, elastic: [Elastic; 2], friction: f64) -> Setup {
+pub fn both(mesh: &PreparedMesh, elastic: [Elastic; 2], friction: f64) -> Setup {
     let bodies = mesh.mesh.bodies.iter().zip(elastic).map(|(body, elastic)| Body::at_rest(body.tets.clone(), elastic));
     let mut setup = Setup::of_mesh(mesh, bodies.collect());
     setup.friction = vec![vec![friction; 2]; 2];
@@ -107,7 +107,7 @@ fn a_block_slides_to_rest_over_the_way_of_coulomb() {
     let mut setup = both(&mesh, [soft, soft], 0.6);
     let lower = mesh.mesh.bodies[1].tets.clone();
     let fixed: std::collections::BTreeSet<u32> = mesh.mesh.tets[lower].iter().flatten().copied().collect();
-    setup.constraints = vec![Constraint { nodes: fixed.into_iter().collect(), velocity: [Some(0.0); 3] }];
+    setup.constraints = vec![Constraint::constant(fixed.into_iter().collect(), [Some(0.0); 3])];
     setup.gravity = DVec3::NEG_Z * 9.8;
     setup.bodies[0].velocity = DVec3::X;
     let mut world = World::new(setup, 0.8);
@@ -148,7 +148,7 @@ fn down_a_slope(degrees: f64) -> [f64; 2] {
     let mut setup = both(&mesh, [soft, soft], 0.6);
     let lower = mesh.mesh.bodies[1].tets.clone();
     let fixed: std::collections::BTreeSet<u32> = mesh.mesh.tets[lower].iter().flatten().copied().collect();
-    setup.constraints = vec![Constraint { nodes: fixed.into_iter().collect(), velocity: [Some(0.0); 3] }];
+    setup.constraints = vec![Constraint::constant(fixed.into_iter().collect(), [Some(0.0); 3])];
     let angle = degrees.to_radians();
     setup.gravity = DVec3::new(angle.sin(), 0.0, -angle.cos()) * 9.8;
     let mut world = World::new(setup, 0.8);

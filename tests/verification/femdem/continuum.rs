@@ -78,7 +78,7 @@ fn cantilever(cells: usize) -> f64 {
     let mesh = mesh(DVec3::new(1.0, 0.1, 0.1), [10 * cells, cells, cells]);
     let mut setup = setup(&mesh, None);
     let clamped = (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == 0.0).collect();
-    setup.constraints = vec![breakwater::femdem::setup::Constraint { nodes: clamped, velocity: [Some(0.0); 3] }];
+    setup.constraints = vec![breakwater::femdem::setup::Constraint::constant(clamped, [Some(0.0); 3])];
     let mut world = World::new(setup, 0.9);
     // First mode of Euler and Bernoulli.
     let (k, r) = (1.875_104_07, 0.734_095_5);

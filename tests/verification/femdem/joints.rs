@@ -21,8 +21,8 @@ fn pulled(cohesion: Option<Cohesion>, speed: f64) -> Pulled {
     setup.bodies[0].elastic.viscosity = 2e4;
     let at = |x: f64| (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == x).collect();
     setup.constraints = vec![
-        Constraint { nodes: at(0.0), velocity: [Some(-speed), None, None] },
-        Constraint { nodes: at(0.2), velocity: [Some(speed), None, None] },
+        Constraint::constant(at(0.0), [Some(-speed), None, None]),
+        Constraint::constant(at(0.2), [Some(speed), None, None]),
     ];
     // Stretched evenly from the start: no wave runs through.
     for body in &mut setup.bodies {

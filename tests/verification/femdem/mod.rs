@@ -1,10 +1,15 @@
 //! Deformable bodies and joints against elasticity and fracture mechanics.
 
+mod bounce;
 mod contact;
 mod continuum;
+mod core_locs;
 mod dolos;
 mod joints;
+mod loads;
+mod rigid;
 mod stability;
+mod strength;
 
 use breakwater::femdem::cohesive_law::{Cohesion, Range};
 use breakwater::femdem::material::{Elastic, Strength};

@@ -1,10 +1,10 @@
 //! From the sections of a file to bodies and sets.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use glam::DVec3;
 
-use super::super::{Body, Mesh, TriangleSet, faces};
+use super::super::{Body, Mesh, NodeSet, TriangleSet, faces};
 use super::error::MshError;
 use super::sections::{ElementBlock, Key, Sections, TRIANGLE, element_type};
 
@@ -29,12 +29,31 @@ pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
         }
         mesh.bodies.push(Body { name, tets: first..mesh.tets.len() });
     }
+    let in_body = nodes.used.clone();
     for (name, blocks) in named(file, 2, surfaces)? {
         let mut triangles = Vec::new();
         for block in &blocks {
             triangles.extend(elements::<3>(block, &mut nodes)?);
         }
         mesh.sets.push(TriangleSet { name, triangles });
+    }
+    for dimension in [1, 0] {
+        for (name, blocks) in named(file, dimension, line_blocks(file, dimension))? {
+            let kind = kind_of(dimension);
+            if mesh.sets.iter().any(|set| set.name == name) || mesh.node_sets.iter().any(|set| set.name == name) {
+                return Err(MshError::SameName { kind: "set", name });
+            }
+            let indices: Option<BTreeSet<u32>> =
+                blocks.iter().flat_map(|block| &block.nodes).map(|tag| nodes.index(*tag)).collect();
+            let count = |set: &BTreeSet<u32>| set.iter().filter(|node| !in_body[**node as usize]).count();
+            match indices {
+                Some(set) if count(&set) == 0 => {
+                    mesh.node_sets.push(NodeSet { name, nodes: set.into_iter().collect() });
+                }
+                Some(set) => return Err(MshError::LooseNodes { kind, name, count: count(&set) }),
+                None => return Err(MshError::LooseNodes { kind, name, count: 1 }),
+            }
+        }
     }
     nodes.drop_unused(&mut mesh);
     Ok(mesh)
@@ -79,6 +98,27 @@ fn surface_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     Ok(groups)
 }
 
+/// Curves or points: sets of nodes.
+fn line_blocks(file: &Sections, dimension: i32) -> Groups<'_> {
+    let mut groups = declared(file, dimension);
+    for block in file.blocks.iter().filter(|block| block.dimension == dimension) {
+        for group in file.groups.get(&(dimension, block.entity)).into_iter().flatten() {
+            groups.entry(*group).or_default().push(block);
+        }
+    }
+    groups
+}
+
+/// What Gmsh calls a physical group of a dimension.
+fn kind_of(dimension: i32) -> &'static str {
+    match dimension {
+        0 => "Point",
+        1 => "Curve",
+        2 => "Surface",
+        _ => "Volume",
+    }
+}
+
 /// All groups of a dimension that the file speaks of, so that none is lost because it is empty.
 fn declared(file: &Sections, dimension: i32) -> Groups<'_> {
     let named = file.names.keys().filter(|key| key.0 == dimension).map(|key| key.1);
@@ -92,13 +132,17 @@ fn named<'a>(
     dimension: i32,
     groups: Groups<'a>,
 ) -> Result<Vec<(String, Vec<&'a ElementBlock>)>, MshError> {
-    let kind = if dimension == 3 { "Volume" } else { "Surface" };
+    let kind = kind_of(dimension);
     let mut result: Vec<(String, Vec<&ElementBlock>)> = Vec::with_capacity(groups.len());
     for (tag, blocks) in groups {
         let key: Key = (dimension, tag);
         let name = file.names.get(&key).ok_or(MshError::Unnamed { kind, tag })?.clone();
         if blocks.is_empty() {
-            return Err(if dimension == 3 { MshError::EmptyVolume(name) } else { MshError::EmptySurface(name) });
+            return Err(match dimension {
+                3 => MshError::EmptyVolume(name),
+                2 => MshError::EmptySurface(name),
+                _ => MshError::EmptyNodeSet { kind, name },
+            });
         }
         if result.iter().any(|(other, _)| *other == name) {
             return Err(MshError::SameName { kind, name });
@@ -168,5 +212,7 @@ impl NodeTable {
         for node in mesh.tets.iter_mut().flatten().chain(triangles) {
             *node = new_index[*node as usize];
         }
+        let in_sets = mesh.node_sets.iter_mut().flat_map(|set| &mut set.nodes);
+        in_sets.for_each(|node| *node = new_index[*node as usize]);
     }
 }

@@ -97,6 +97,15 @@ pub enum MshError {
     /// A group without triangles.
     #[error("physical surface {0:?} has no triangles; remove it or let it name a surface that is meshed")]
     EmptySurface(String),
+    /// A group without lines or points.
+    #[error("physical {kind} {name:?} has no elements; remove it or let it name something that is meshed")]
+    EmptyNodeSet { kind: &'static str, name: String },
+    /// A line or a point beside the bodies.
+    #[error(
+        "physical {kind} {name:?}: {count} of its nodes belong to no tetrahedron; make it a part of the volume before \
+         meshing (Curve{{...}} In Surface or Volume, BooleanFragments)"
+    )]
+    LooseNodes { kind: &'static str, name: String, count: usize },
     /// Two nodes with one number.
     #[error("node {0} is given twice; write the mesh again with `gmsh -3 -format msh41`")]
     DuplicateNode(u64),

@@ -1,7 +1,7 @@
 //! MSH 4.1, the mesh format of Gmsh, text or binary.
 //!
-//! Each named physical volume is a body, each named physical surface a set of triangles. Format: Gmsh reference
-//! manual, section "MSH file format".
+//! Each named physical volume is a body, each named physical surface a set of triangles, each named physical curve or
+//! point a set of nodes. Format: Gmsh reference manual, section "MSH file format".
 
 mod assemble;
 mod error;

@@ -23,20 +23,20 @@ pub(super) type Key = (i32, i32);
 pub(super) struct Sections {
     /// Name of each physical group.
     pub names: BTreeMap<Key, String>,
-    /// Physical groups of each surface and volume.
+    /// Physical groups of each entity.
     pub groups: BTreeMap<Key, Vec<i32>>,
     /// Tag and position in units of the file.
     pub nodes: Vec<(u64, DVec3)>,
-    /// Elements of surfaces and volumes.
+    /// Elements of all entities.
     pub blocks: Vec<ElementBlock>,
 }
 
-/// Elements of one shape in one surface or volume.
+/// Elements of one shape in one entity.
 #[derive(Debug)]
 pub(super) struct ElementBlock {
-    /// 2 for a surface, 3 for a volume.
+    /// 0 for a point, 1 for a curve, 2 for a surface, 3 for a volume.
     pub dimension: i32,
-    /// Number of the surface or volume.
+    /// Number of the entity.
     pub entity: i32,
     /// Gmsh's number for the shape.
     pub kind: i32,
@@ -109,9 +109,7 @@ impl Sections {
                 }
                 groups.sort_unstable();
                 groups.dedup();
-                if dimension >= 2 {
-                    self.groups.insert((dimension, entity), groups);
-                }
+                self.groups.insert((dimension, entity), groups);
                 if dimension > 0 {
                     for _ in 0..source.size()? {
                         source.int()?;
@@ -187,7 +185,7 @@ impl Sections {
                     block.nodes.push(source.size()?);
                 }
             }
-            if dimension >= 2 && count > 0 {
+            if count > 0 {
                 self.blocks.push(block);
             }
         }

@@ -39,6 +39,7 @@ fn fixture(name: &str) -> Mesh {
 fn text_and_binary_read_back_as_written() {
     for pattern in [Pattern::Diagonal, Pattern::Centred] {
         let mut mesh = block(DVec3::new(0.3, 0.2, 0.1), [3, 2, 1], pattern);
+        mesh.node_sets = vec![super::super::NodeSet { name: "support".to_owned(), nodes: vec![0, 2, 5] }];
         for binary in [false, true] {
             assert_eq!(parse(&write::msh(&mesh, binary), 1.0).unwrap(), mesh);
         }
@@ -49,6 +50,37 @@ fn text_and_binary_read_back_as_written() {
             assert_eq!(parse(&write::msh(&mesh, binary), 1.0).unwrap(), mesh);
         }
     }
+}
+
+#[test]
+fn physical_curves_are_sets_of_nodes() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/fracture/meshes/beam-coarse.msh");
+    let mesh = prepare(parse(&std::fs::read(path).unwrap(), 1.0).unwrap()).unwrap().mesh;
+    let lines = [("load", 0.0, 0.04), ("support_left", -0.157, 0.0), ("support_right", 0.157, 0.0)];
+    assert_eq!(mesh.node_sets.len(), lines.len());
+    for (name, x, z) in lines {
+        let set = mesh.node_sets.iter().find(|set| set.name == name).unwrap();
+        assert!(set.nodes.len() > 2);
+        let on_line = |at: DVec3| (at.x - x).abs() < 1e-9 && (at.z - z).abs() < 1e-9;
+        assert!(set.nodes.iter().all(|node| on_line(mesh.nodes[*node as usize])), "{name}");
+    }
+}
+
+#[test]
+fn sets_of_nodes_must_belong_to_a_body_and_have_names_of_their_own() {
+    let mut mesh = cracked();
+    mesh.node_sets = vec![super::super::NodeSet { name: "xmin".to_owned(), nodes: vec![0] }];
+    let same = refusal(&String::from_utf8(write::msh(&mesh, false)).unwrap());
+    assert!(same.contains("two physical sets are named \"xmin\""), "{same}");
+    mesh.node_sets[0].name = "support".to_owned();
+    mesh.nodes.push(DVec3::splat(9.0));
+    mesh.node_tags.push(1000);
+    mesh.node_sets[0].nodes = vec![mesh.nodes.len() as u32 - 1];
+    let loose = refusal(&String::from_utf8(write::msh(&mesh, false)).unwrap());
+    assert!(loose.contains("physical Point \"support\": 1 of its nodes belong to no tetrahedron"), "{loose}");
+    mesh.node_sets[0].nodes.clear();
+    let empty = refusal(&String::from_utf8(write::msh(&mesh, false)).unwrap());
+    assert!(empty.contains("physical Point \"support\" has no elements"), "{empty}");
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Writing meshes in MSH 4.1, for tests: one entity for each body and set, as small as the format allows.
+//! Writing meshes in MSH 4.1, for tests: one entity for each body and set, as small as the format allows. Sets of nodes
+//! are points.
 
 use super::super::Mesh;
 
@@ -44,7 +45,7 @@ impl Sink {
     }
 }
 
-/// The mesh as a file: bodies are the volumes 1, 2, ..., sets the surfaces 1, 2, ...
+/// The mesh as a file: bodies are the volumes 1, 2, ..., sets the surfaces 1, 2, ..., those of nodes the points 1, 2, ...
 pub(in super::super) fn msh(mesh: &Mesh, binary: bool) -> Vec<u8> {
     let mut sink = Sink { bytes: Vec::new(), binary };
     sink.text(if binary { "$MeshFormat\n4.1 1 8\n" } else { "$MeshFormat\n4.1 0 8\n" });
@@ -52,7 +53,10 @@ pub(in super::super) fn msh(mesh: &Mesh, binary: bool) -> Vec<u8> {
         sink.int(1);
     }
     sink.text("\n$EndMeshFormat\n$PhysicalNames\n");
-    sink.text(&format!("{}\n", mesh.bodies.len() + mesh.sets.len()));
+    sink.text(&format!("{}\n", mesh.bodies.len() + mesh.sets.len() + mesh.node_sets.len()));
+    for (tag, set) in (1..).zip(&mesh.node_sets) {
+        sink.text(&format!("0 {tag} \"{}\"\n", set.name));
+    }
     for (tag, set) in (1..).zip(&mesh.sets) {
         sink.text(&format!("2 {tag} \"{}\"\n", set.name));
     }
@@ -60,8 +64,15 @@ pub(in super::super) fn msh(mesh: &Mesh, binary: bool) -> Vec<u8> {
         sink.text(&format!("3 {tag} \"{}\"\n", body.name));
     }
     sink.text("$EndPhysicalNames\n$Entities\n");
-    sink.sizes(&[0, 0, mesh.sets.len(), mesh.bodies.len()]);
+    sink.sizes(&[mesh.node_sets.len(), 0, mesh.sets.len(), mesh.bodies.len()]);
     sink.line_end();
+    for tag in 1..=mesh.node_sets.len() as i32 {
+        sink.int(tag);
+        sink.reals(&[0.0; 3]);
+        sink.size(1);
+        sink.int(tag);
+        sink.line_end();
+    }
     for count in [mesh.sets.len(), mesh.bodies.len()] {
         for tag in 1..=count as i32 {
             sink.int(tag);
@@ -89,10 +100,22 @@ pub(in super::super) fn msh(mesh: &Mesh, binary: bool) -> Vec<u8> {
     }
     sink.text("\n$EndNodes\n$Elements\n");
     let triangles: usize = mesh.sets.iter().map(|set| set.triangles.len()).sum();
-    let elements = mesh.tets.len() + triangles;
-    sink.sizes(&[mesh.bodies.len() + mesh.sets.len(), elements, 1, elements]);
+    let points: usize = mesh.node_sets.iter().map(|set| set.nodes.len()).sum();
+    let elements = mesh.tets.len() + triangles + points;
+    sink.sizes(&[mesh.bodies.len() + mesh.sets.len() + mesh.node_sets.len(), elements, 1, elements]);
     sink.line_end();
     let mut next_tag = mesh.tet_tags.iter().max().map_or(1, |tag| *tag as usize + 1);
+    for (entity, set) in (1..).zip(&mesh.node_sets) {
+        sink.ints(&[0, entity, 15]);
+        sink.size(set.nodes.len());
+        sink.line_end();
+        for node in &set.nodes {
+            sink.size(next_tag);
+            next_tag += 1;
+            sink.size(mesh.node_tags[*node as usize] as usize);
+            sink.line_end();
+        }
+    }
     for (entity, set) in (1..).zip(&mesh.sets) {
         sink.ints(&[2, entity, 2]);
         sink.size(set.triangles.len());

@@ -1,0 +1,155 @@
+//! Bodies of a fracture case and their materials.
+
+use std::ops::Range as TetRange;
+
+use glam::DVec3;
+
+use super::super::check::{Checker, above, from};
+use super::super::file::{FractureBodyFile, FractureFile, FractureMaterialFile, Joints, Softening, StrengthFile};
+use crate::femdem::cohesive_law::{Cohesion, Range};
+use crate::femdem::material::{Elastic, Strength};
+use crate::femdem::mesh::PreparedMesh;
+use crate::femdem::setup::Body;
+
+/// p_0 over E where the case does not give it [-]: the published practice for joints that hold from the start; tied ones
+/// need little, for only joints that have come free are soft.
+const PENALTY: [f64; 2] = [50.0, 2.0];
+
+/// The bodies in the order of the mesh.
+pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
+    let before = check.count();
+    let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
+    for (index, material) in file.materials.iter().enumerate() {
+        validate_material(index, material, check);
+    }
+    for (index, body) in file.bodies.iter().enumerate() {
+        if !names.contains(&body.name.as_str()) {
+            let allowed = format!("one of {}", names.join(", "));
+            let advice = "bodies are the physical volumes of the mesh";
+            check.refuse(&format!("bodies[{index}].name"), format!("{:?}", body.name), allowed, advice);
+        }
+        if file.bodies[..index].iter().any(|other| other.name == body.name) {
+            let path = format!("bodies[{index}].name");
+            check.refuse(&path, format!("{:?}", body.name), "different from the others", "leave one out");
+        }
+    }
+    let mut bodies = Vec::new();
+    for of_mesh in &mesh.mesh.bodies {
+        match file.bodies.iter().position(|body| body.name == of_mesh.name) {
+            Some(index) => {
+                let body = &file.bodies[index];
+                bodies.extend(validate_body(index, body, file, of_mesh.tets.clone(), check));
+            }
+            None => {
+                let advice = "every physical volume of the mesh needs its entry";
+                check.refuse("bodies", "(missing)", format!("an entry named {:?}", of_mesh.name), advice);
+            }
+        }
+    }
+    (check.count() == before).then_some(bodies)
+}
+
+fn validate_material(index: usize, material: &FractureMaterialFile, check: &mut Checker) {
+    let path = |key: &str| format!("materials[{index}].{key}");
+    check.number(&path("density_kg_m3"), material.density_kg_m3, from(1.0).up_to(1e5), "kg/m3", "concrete has 2340");
+    check.number(
+        &path("young_modulus_pa"),
+        material.young_modulus_pa,
+        from(1e3).up_to(1e13),
+        "Pa",
+        "concrete has 2.6e10",
+    );
+    check.number(&path("poisson_ratio"), material.poisson_ratio, from(0.0).up_to(0.45), "", "concrete has 0.2");
+    check.number(&path("viscosity_pa_s"), material.viscosity_pa_s, from(0.0).up_to(1e9), "Pa s", "0 for none");
+    let Some(strength) = &material.strength else { return };
+    let path = |key: &str| format!("materials[{index}].strength.{key}");
+    let StrengthFile { tensile_pa, cohesion_pa, friction_angle_deg, fracture_energy_j_m2, sliding_energy_j_m2 } =
+        *strength;
+    check.number(&path("tensile_pa"), tensile_pa, above(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
+    check.number(&path("friction_angle_deg"), friction_angle_deg, from(0.0).below(90.0), "degrees", "concrete has 30");
+    let least = tensile_pa * friction_angle_deg.to_radians().tan();
+    let advice = "at the tensile strength something must be left of the shear strength";
+    check.number(&path("cohesion_pa"), cohesion_pa, above(least).up_to(1e11), "Pa", advice);
+    check.number(&path("fracture_energy_j_m2"), fracture_energy_j_m2, above(0.0).up_to(1e7), "J/m2", "concrete has 50");
+    if let Some(energy) = sliding_energy_j_m2 {
+        check.number(
+            &path("sliding_energy_j_m2"),
+            energy,
+            above(0.0).up_to(1e7),
+            "J/m2",
+            "leave it out for that in opening",
+        );
+    }
+}
+
+fn validate_body(
+    index: usize,
+    body: &FractureBodyFile,
+    file: &FractureFile,
+    tets: TetRange<usize>,
+    check: &mut Checker,
+) -> Option<Body> {
+    let Some(material) = file.materials.iter().find(|material| material.name == body.material) else {
+        let allowed = "the name of one of `materials`";
+        let path = format!("bodies[{index}].material");
+        check.refuse(&path, format!("{:?}", body.material), allowed, "add the material or mend the name");
+        return None;
+    };
+    let motion = [body.velocity_m_s, body.angular_velocity_rad_s, body.pivot_m];
+    for (values, key) in motion.iter().zip(["velocity_m_s", "angular_velocity_rad_s", "pivot_m"]) {
+        for (axis, value) in values.iter().enumerate() {
+            let path = format!("bodies[{index}].{key}[{axis}]");
+            check.number(&path, *value, from(-1e4).up_to(1e4), "", "a number of that size");
+        }
+    }
+    let elastic = Elastic {
+        density: material.density_kg_m3,
+        young_modulus: material.young_modulus_pa,
+        poisson_ratio: material.poisson_ratio,
+        viscosity: material.viscosity_pa_s,
+    };
+    if body.rigid && body.cracks {
+        let path = format!("bodies[{index}].rigid");
+        check.refuse(&path, "true", "false for a body that cracks", "a rigid body has no stresses: leave one out");
+    }
+    let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
+    let cohesion = match &material.strength {
+        Some(strength) if cracks => Some(cohesion(file, &elastic, strength)),
+        None if body.cracks => {
+            let advice = "give tensile strength, cohesion, friction angle and fracture energy";
+            let path = format!("bodies[{index}].cracks");
+            check.refuse(&path, "true", format!("false, for {:?} has no strength", material.name), advice);
+            None
+        }
+        _ => None,
+    };
+    Some(Body {
+        cohesion,
+        rigid: body.rigid,
+        contact_penalty: file.fracture.contact_penalty * elastic.young_modulus,
+        velocity: DVec3::from_array(body.velocity_m_s),
+        angular_velocity: DVec3::from_array(body.angular_velocity_rad_s),
+        pivot: DVec3::from_array(body.pivot_m),
+        ..Body::at_rest(tets, elastic)
+    })
+}
+
+fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> Cohesion {
+    let tied = file.fracture.joints == Joints::Tied;
+    let penalty = file.fracture.joint_penalty.unwrap_or(PENALTY[usize::from(tied)]);
+    Cohesion {
+        strength: Strength {
+            tensile: strength.tensile_pa,
+            cohesion: strength.cohesion_pa,
+            friction: strength.friction_angle_deg.to_radians().tan(),
+            opening_energy: strength.fracture_energy_j_m2,
+            sliding_energy: strength.sliding_energy_j_m2.unwrap_or(strength.fracture_energy_j_m2),
+        },
+        penalty: penalty * elastic.young_modulus,
+        range: match file.fracture.softening {
+            Softening::Exact => Range::Exact,
+            Softening::Published => Range::Published,
+        },
+        tied,
+    }
+}

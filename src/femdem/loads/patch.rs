@@ -1,0 +1,209 @@
+//! A force and a moment about a place, spread over the faces near it: what a recorded impact or the water did to a unit.
+//!
+//! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and sum w_i X_i = P,
+//! the place in the undeformed body. Whatever the body does, the resultant is then the force and has no moment about
+//! p = sum w_i x_i, the place in the deformed body. The shares are those of an even stress, changed by the smallest
+//! amount, linear in the place, that takes them to P:
+//!
+//! w_i = A_i / A + m_i (X_i - C) . S^-1 (P - sum A_j X_j / A),  S = sum m_i (X_i - C)(X_i - C)^T
+//!
+//! m_i a quarter of the volume of the tetrahedron over that of all, C the centroid. A moment M comes as the forces
+//! m_i theta x (x_i - c), theta = J^-1 M with the inertia J of the present places.
+
+use glam::{DMat3, DVec3};
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::shape::Triangle;
+
+use super::super::history::History;
+use super::super::mesh::PreparedMesh;
+use super::super::mesh::faces::Exterior;
+use super::{CornerForce, Places};
+
+/// Rounds of the polar decomposition; it converges quadratically from strains of a few per cent.
+const ROUNDS: usize = 12;
+
+/// Axes in which the components of a force are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axes {
+    /// Those of space.
+    Space,
+    /// Those of the undeformed body, which turn with the tetrahedra at the loaded faces.
+    Body,
+}
+
+/// A vertex that takes a part of a load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Corner {
+    tet: u32,
+    corner: u8,
+    /// Share of the force, w_i [-].
+    share: f64,
+    /// Weight m_i [-].
+    weight: f64,
+    /// Undeformed place from the centroid, X_i - C [m].
+    arm: DVec3,
+}
+
+/// A force and a moment about a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Patch {
+    corners: Vec<Corner>,
+    /// S^-1 [1/m2].
+    inverse_spread: DMat3,
+    axes: Axes,
+    /// Force [N] and moment about the place [N m].
+    history: History<6>,
+}
+
+/// Faces near a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Near {
+    /// The faces.
+    pub faces: Vec<Exterior>,
+    /// Distance of the place from the nearest face [m].
+    pub distance: f64,
+    /// Longest edge of the nearest face [m].
+    pub edge: f64,
+}
+
+/// Faces of a body with their centre within a radius [m] of a place [m]; the nearest one, if there is none.
+pub fn faces_near(mesh: &PreparedMesh, body: usize, place: DVec3, radius: f64) -> Near {
+    let tets = &mesh.mesh.bodies[body].tets;
+    let own = mesh.faces.exteriors.iter().filter(|face| tets.contains(&(face.tet as usize)));
+    let corners = |face: &Exterior| {
+        face.nodes.map(|corner| mesh.mesh.nodes[mesh.mesh.tets[face.tet as usize][usize::from(corner)] as usize])
+    };
+    let mut near = Near { faces: Vec::new(), distance: f64::INFINITY, edge: 0.0 };
+    let mut nearest = None;
+    for face in own {
+        let [a, b, c] = corners(face);
+        if ((a + b + c) / 3.0).distance(place) <= radius {
+            near.faces.push(*face);
+        }
+        let distance = Triangle::new(a, b, c).distance_to_local_point(place, true);
+        if distance < near.distance {
+            near.distance = distance;
+            near.edge = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            nearest = Some(*face);
+        }
+    }
+    if near.faces.is_empty() {
+        near.faces.extend(nearest);
+    }
+    near
+}
+
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+impl Patch {
+    /// Load on faces of a mesh, whose force acts through a place [m]; the history has force [N] and moment about the
+    /// place [N m].
+    ///
+    /// # Panics
+    /// If there is no face.
+    pub fn new(mesh: &PreparedMesh, faces: &[Exterior], place: DVec3, axes: Axes, history: History<6>) -> Self {
+        assert!(!faces.is_empty(), "a load on no face");
+        let mut tets: Vec<u32> = faces.iter().map(|face| face.tet).collect();
+        tets.sort_unstable();
+        tets.dedup();
+        let at = |tet: u32| mesh.mesh.corners(tet as usize);
+        let volume = |tet: u32| {
+            let [a, b, c, d] = at(tet);
+            (b - a).cross(c - a).dot(d - a) / 6.0
+        };
+        let all: f64 = tets.iter().map(|tet| volume(*tet)).sum();
+        let mut corners = Vec::with_capacity(4 * tets.len());
+        for tet in &tets {
+            let weight = 0.25 * volume(*tet) / all;
+            corners.extend((0..4).zip(at(*tet)).map(|(corner, x)| Corner {
+                tet: *tet,
+                corner,
+                share: 0.0,
+                weight,
+                arm: x,
+            }));
+        }
+        let centroid: DVec3 = corners.iter().map(|corner| corner.arm * corner.weight).sum();
+        corners.iter_mut().for_each(|corner| corner.arm -= centroid);
+        let area = |face: &Exterior| {
+            let [a, b, c] = face.nodes.map(|corner| at(face.tet)[usize::from(corner)]);
+            0.5 * (b - a).cross(c - a).length()
+        };
+        let total: f64 = faces.iter().map(area).sum();
+        for face in faces {
+            // Found: the tetrahedra are those of the faces.
+            let first = 4 * tets.partition_point(|tet| *tet < face.tet);
+            for corner in face.nodes {
+                corners[first + usize::from(corner)].share += area(face) / (3.0 * total);
+            }
+        }
+        let spread = |corners: &[Corner]| {
+            corners.iter().fold(DMat3::ZERO, |sum, corner| sum + outer(corner.arm, corner.arm) * corner.weight)
+        };
+        let inverse_spread = spread(&corners).inverse();
+        // Twice: the second time takes away what rounding left.
+        for _ in 0..2 {
+            let missing = place - centroid - corners.iter().map(|corner| corner.arm * corner.share).sum::<DVec3>();
+            let slope = inverse_spread * missing;
+            corners.iter_mut().for_each(|corner| corner.share += corner.weight * slope.dot(corner.arm));
+        }
+        Self { corners, inverse_spread, axes, history }
+    }
+
+    /// Where the place is now [m].
+    pub fn place(&self, places: &Places) -> DVec3 {
+        self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.share).sum()
+    }
+
+    /// Force [N] and moment about the place [N m] in the axes of space.
+    pub fn asked_for(&self, places: &Places, time: f64) -> [DVec3; 2] {
+        let values = self.history.at(time);
+        let given = [0, 3].map(|k| DVec3::from_slice(&values[k..k + 3]));
+        match self.axes {
+            Axes::Space => given,
+            Axes::Body => {
+                let turn = self.turn(places);
+                given.map(|v| turn * v)
+            }
+        }
+    }
+
+    /// Centroid of the present places [m].
+    fn centroid(&self, places: &Places) -> DVec3 {
+        self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.weight).sum()
+    }
+
+    /// Rotation of the tetrahedra since the start: of the best affine map, by Higham's iteration (1986).
+    fn turn(&self, places: &Places) -> DMat3 {
+        let centroid = self.centroid(places);
+        let moved =
+            |corner: &Corner| outer(places.now(corner.tet, corner.corner) - centroid, corner.arm) * corner.weight;
+        let mut turn = self.corners.iter().fold(DMat3::ZERO, |sum, corner| sum + moved(corner)) * self.inverse_spread;
+        for _ in 0..ROUNDS {
+            turn = (turn + turn.inverse().transpose()) * 0.5;
+        }
+        turn
+    }
+
+    /// Adds the forces at a time [s] to a list.
+    pub(super) fn forces(&self, places: &Places, time: f64, out: &mut Vec<CornerForce>) {
+        let [force, moment] = self.asked_for(places, time);
+        let centroid = self.centroid(places);
+        let arm = |corner: &Corner| places.now(corner.tet, corner.corner) - centroid;
+        let theta = if moment == DVec3::ZERO {
+            DVec3::ZERO
+        } else {
+            let inertia = self.corners.iter().fold(DMat3::ZERO, |sum, corner| {
+                let r = arm(corner);
+                sum + (DMat3::IDENTITY * r.length_squared() - outer(r, r)) * corner.weight
+            });
+            inertia.inverse() * moment
+        };
+        out.extend(self.corners.iter().map(|corner| {
+            let force = force * corner.share + theta.cross(arm(corner)) * corner.weight;
+            CornerForce { tet: corner.tet, corner: corner.corner, force }
+        }));
+    }
+}

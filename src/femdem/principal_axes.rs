@@ -1,0 +1,53 @@
+//! Principal axes of a symmetric matrix, by Jacobi's rotations.
+
+use glam::{DMat3, DVec3};
+
+/// Sweeps over the three planes; the elements beside the diagonal fall by their square, six are plenty.
+const SWEEPS: usize = 12;
+
+/// Principal values and axes of a symmetric matrix; the axes are columns and right-handed.
+pub fn principal_axes(matrix: DMat3) -> (DVec3, DMat3) {
+    let (mut m, mut axes) = (matrix, DMat3::IDENTITY);
+    for _ in 0..SWEEPS {
+        for [p, q] in [[0, 1], [0, 2], [1, 2]] {
+            let beside = m.col(q)[p];
+            if beside == 0.0 {
+                continue;
+            }
+            // tan of the angle, the smaller root (Golub and Van Loan, section 8.5).
+            let tau = (m.col(q)[q] - m.col(p)[p]) / (2.0 * beside);
+            let t = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
+            let c = 1.0 / (1.0 + t * t).sqrt();
+            let mut turn = DMat3::IDENTITY;
+            turn.col_mut(p)[p] = c;
+            turn.col_mut(q)[q] = c;
+            turn.col_mut(q)[p] = t * c;
+            turn.col_mut(p)[q] = -t * c;
+            m = turn.transpose() * m * turn;
+            axes *= turn;
+        }
+    }
+    (DVec3::new(m.x_axis.x, m.y_axis.y, m.z_axis.z), axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DQuat, EulerRot};
+
+    #[test]
+    fn axes_make_the_matrix_diagonal() {
+        let turn = DMat3::from_quat(DQuat::from_euler(EulerRot::XYZ, 0.3, -1.1, 2.2));
+        for given in [[5.0, 2.0, 7.0], [3.0, 3.0, 1.0], [4.0, 4.0, 4.0]] {
+            let matrix = turn * DMat3::from_diagonal(DVec3::from_array(given)) * turn.transpose();
+            let (values, axes) = principal_axes(matrix);
+            // Rounding.
+            assert!((axes * DMat3::from_diagonal(values) * axes.transpose()).abs_diff_eq(matrix, 1e-14));
+            assert!((axes.determinant() - 1.0).abs() < 1e-14);
+            let mut sorted = (values.to_array(), given);
+            sorted.0.sort_by(f64::total_cmp);
+            sorted.1.sort_by(f64::total_cmp);
+            assert!(sorted.0.iter().zip(sorted.1).all(|(a, b)| (a - b).abs() < 1e-14));
+        }
+    }
+}

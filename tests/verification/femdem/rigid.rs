@@ -1,0 +1,180 @@
+//! Bodies that are not deformed: free motion, holds, contact.
+
+use super::contact::{both, two};
+use super::*;
+use breakwater::femdem::history::History;
+use breakwater::femdem::setup::Constraint;
+use std::f64::consts::TAU;
+
+fn rigid_block(lengths: DVec3, cells: [usize; 3]) -> (PreparedMesh, Setup) {
+    let mesh = mesh(lengths, cells);
+    let mut setup = setup(&mesh, None);
+    setup.bodies[0].rigid = true;
+    (mesh, setup)
+}
+
+#[test]
+fn a_free_rigid_body_tumbles_and_falls_without_loss() {
+    let (_, mut setup) = rigid_block(DVec3::new(0.3, 0.2, 0.1), [2, 2, 1]);
+    setup.bodies[0].velocity = DVec3::new(1.0, -2.0, 0.5);
+    // About the middle axis, nearly.
+    setup.bodies[0].angular_velocity = DVec3::new(0.3, 20.0, 0.5);
+    setup.gravity = DVec3::NEG_Z * 9.8;
+    let mut world = World::new(setup, 1.0);
+    world.dt = 1e-4;
+    let (first, books) = world.step_with_books().unwrap();
+    let start = world.rigid_bodies[0].motion;
+    // Mass, and moments of a cuboid.
+    let mass = 2340.0 * 0.006;
+    let moment = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
+    let l = DVec3::new(0.3 * moment(0.2, 0.1), 20.0 * moment(0.3, 0.1), 0.5 * moment(0.3, 0.2));
+    assert!((start.angular_momentum - l).length() < 1e-12 * l.length());
+    assert!((books[0].kinetic / first.kinetic - 1.0).abs() < 1e-14);
+    let (mut residual, mut longest) = (0.0f64, 0.0f64);
+    let edge = world.place_at_start(0).distance(world.place_at_start(1));
+    for _ in 0..20_000 {
+        let book = world.step_with_ledger().unwrap();
+        residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
+        longest = longest.max((world.nodes.place[0].distance(world.nodes.place[1]) / edge - 1.0).abs());
+    }
+    let now = world.rigid_bodies[0].motion;
+    println!("residual {residual:.1e}, edges change by {longest:.1e}");
+    // No torque: the same bits but for the sum of the forces, which is zero.
+    assert!((now.angular_momentum - start.angular_momentum).length() < 1e-12 * l.length());
+    assert!(now.centre.distance(start.centre) > 10.0 && longest < 1e-12);
+    // Second order of the step: (omega dt)^2 = 4e-6.
+    assert!(residual < 1e-5);
+}
+
+#[test]
+fn a_rigid_pendulum_swings_about_its_held_edge() {
+    let (length, side) = (0.3, 0.04);
+    let (mesh, mut setup) = rigid_block(DVec3::new(side, side, length), [1, 1, 4]);
+    // The edge along y at x = 0 on top.
+    let edge: Vec<u32> = (0..mesh.mesh.nodes.len() as u32)
+        .filter(|n| mesh.mesh.nodes[*n as usize].z == length && mesh.mesh.nodes[*n as usize].x == 0.0)
+        .collect();
+    setup.constraints = vec![Constraint::constant(edge, [Some(0.0); 3])];
+    // At rest where the centre is below the edge, then pushed.
+    let tilt = (side / length).atan();
+    setup.gravity = DVec3::new(-tilt.sin(), 0.0, -tilt.cos()).normalize() * 9.8;
+    let (dx, dz) = (0.5 * side, 0.5 * length);
+    let down = DVec3::new(dx, 0.0, -dz);
+    setup.gravity = down.normalize() * 9.8;
+    setup.bodies[0].pivot = DVec3::new(0.0, 0.0, length);
+    setup.bodies[0].angular_velocity = DVec3::Y * 0.1;
+    let mut world = World::new(setup, 1.0);
+    world.dt = 1e-4;
+    let first = world.step_with_ledger().unwrap();
+    let centre = world.rigid_bodies[0].motion.centre;
+    let (mut signal, mut residual) = (Vec::new(), 0.0f64);
+    while world.time < 2.5 {
+        let book = world.step_with_ledger().unwrap();
+        residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
+        signal.push((world.time, (world.rigid_bodies[0].motion.centre - centre).dot(DVec3::X)));
+    }
+    let times = crossings(&signal);
+    let period = 2.0 * (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    // T = 2 pi sqrt(I / (m g d)) with I about the edge; the amplitude of 0.02 adds 1/16 of its square.
+    let inertia = (side * side + length * length) / 12.0 + down.length_squared();
+    let expected = TAU * (inertia / (9.8 * down.length())).sqrt();
+    println!("{period:.5} s ({expected:.5}), residual {residual:.1e}");
+    // 0.1 %: half of it is the resolution of the crossings about a centre half a step off.
+    assert!((period / expected - 1.0).abs() < 1e-3);
+    // The hold does no work but for the way that the step cuts short.
+    assert!(residual < 1e-3);
+}
+
+#[test]
+fn a_rigid_block_bounces_off_a_deformable_one() {
+    let gap = 1e-5;
+    let mesh = two([
+        (DVec3::new(0.06, 0.06, 0.06), [2, 2, 2], DVec3::new(0.02, 0.03, 0.1 + gap)),
+        (DVec3::new(0.1, 0.1, 0.1), [3, 3, 3], DVec3::ZERO),
+    ]);
+    let mut setup = both(&mesh, [CONCRETE; 2], 0.3);
+    setup.bodies[0].rigid = true;
+    setup.bodies[0].velocity = DVec3::new(0.2, 0.0, -1.0);
+    setup.bodies[0].angular_velocity = DVec3::new(0.0, 2.0, 0.0);
+    setup.bodies[0].pivot = DVec3::new(0.05, 0.06, 0.13);
+    let mut world = World::new(setup, 0.2);
+    let momentum = |world: &World| -> [DVec3; 2] {
+        let motion = world.rigid_bodies[0].motion;
+        let p = motion.velocity * (2340.0 * 0.06f64.powi(3));
+        let mut sum = [p, motion.centre.cross(p) + motion.angular_momentum];
+        for n in (0..world.nodes.count()).filter(|n| world.nodes.ties.of(*n)[0] as usize / 4 >= 24 * 8) {
+            let (x, p) = (world.nodes.place[n], world.nodes.velocity[n] * world.nodes.mass[n]);
+            sum = [sum[0] + p, sum[1] + x.cross(p)];
+        }
+        sum
+    };
+    let (first, start) = (world.step_with_ledger().unwrap(), momentum(&world));
+    let mut touched = 0;
+    while world.time < 5e-4 {
+        world.step().unwrap();
+        touched += usize::from(world.contacts.touching > 0);
+    }
+    let (last, end) = (world.step_with_ledger().unwrap(), momentum(&world));
+    println!(
+        "touched for {touched} steps, residual {:.1e}, velocity {}, friction {:.1e} J, momentum by {:.1e}, {:.1e}",
+        (last.total() - first.total()) / first.kinetic,
+        world.rigid_bodies[0].motion.velocity,
+        last.friction,
+        (end[0] - start[0]).length(),
+        (end[1] - start[1]).length()
+    );
+    assert!(touched > 10 && world.rigid_bodies[0].motion.velocity.z > -0.5 && last.friction > 0.0);
+    // Rounding.
+    assert!((end[0] - start[0]).length() < 1e-12 && (end[1] - start[1]).length() < 1e-12);
+    // Second order of a fifth of the longest step.
+    assert!((last.total() - first.total()).abs() < 1e-2 * first.kinetic);
+}
+
+#[test]
+fn a_rigid_platen_with_a_given_velocity_presses_a_block_and_its_work_is_booked() {
+    let mesh = two([
+        (DVec3::new(0.12, 0.12, 0.03), [2, 2, 1], DVec3::new(-0.01, -0.01, 0.1)),
+        (DVec3::new(0.1, 0.1, 0.1), [3, 3, 3], DVec3::ZERO),
+    ]);
+    let mut setup = both(&mesh, [CONCRETE; 2], 0.0);
+    setup.bodies[0].rigid = true;
+    setup.bodies[1].elastic.viscosity = 1e5;
+    let at = |body: usize, z: f64| -> Vec<u32> {
+        let tets = &mesh.mesh.tets[mesh.mesh.bodies[body].tets.clone()];
+        let mut nodes: Vec<u32> = tets.iter().flatten().copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes.retain(|n| (mesh.mesh.nodes[*n as usize].z - z).abs() < 1e-9);
+        nodes
+    };
+    // To 0.02 m/s within 0.4 ms, then back to rest.
+    let velocity = History::new([(0.0, [0.0]), (4e-4, [-0.02]), (8e-4, [0.0])]).unwrap();
+    let top = at(0, 0.13);
+    setup.constraints = vec![
+        Constraint { nodes: top, velocity: [Some(0.0.into()), Some(0.0.into()), Some(velocity)] },
+        Constraint::constant(at(1, 0.0), [None, None, Some(0.0)]),
+    ];
+    let mut world = World::new(setup, 0.5);
+    let first = world.step_with_ledger().unwrap();
+    let start = world.rigid_bodies[0].motion;
+    let mut residual = 0.0f64;
+    while world.time < 1e-3 {
+        let book = world.step_with_ledger().unwrap();
+        residual = residual.max((book.total() - first.total()).abs());
+    }
+    let last = world.step_with_ledger().unwrap();
+    let motion = world.rigid_bodies[0].motion;
+    let way = start.centre.z - motion.centre.z;
+    // Between two smooth platens: E A / L, the contact is a spring in series at one end.
+    let least = 0.5 * CONCRETE.young_modulus * 0.1 * way * way;
+    println!(
+        "way {:.3} um, work {:.4} J of {least:.4} J without contact, residual {:.1e}",
+        way * 1e6,
+        last.work,
+        residual / last.work
+    );
+    // Rounding: velocities at the middle of steps add up to the way of the history, 8 um.
+    assert!((way / 8e-6 - 1.0).abs() < 1e-3 && motion.orientation.angle_between(start.orientation) < 1e-9);
+    assert!(last.work > 0.5 * least && last.work < least * 1.01);
+    assert!(residual < 1e-3 * last.work);
+}

@@ -1,0 +1,275 @@
+//! Strength of whole bodies, loaded slowly: compression, bending, splitting.
+
+use super::*;
+use breakwater::femdem::history::History;
+use breakwater::femdem::mesh;
+use breakwater::femdem::setup::Constraint;
+use std::path::Path;
+
+/// Force against the way of what is moved downwards.
+struct Curve {
+    /// Way [m], force [N] as the mean since the row before, and what `watched` gave.
+    rows: Vec<[f64; 3]>,
+    world: World,
+    /// Largest residual of the energy book until the largest force, over the work [-].
+    residual: f64,
+    /// Kinetic over strain energy at the largest force [-].
+    swing: f64,
+}
+
+impl Curve {
+    fn peak(&self) -> f64 {
+        self.rows.iter().map(|row| row[1]).fold(0.0, f64::max)
+    }
+
+    /// Slope of the force over what was watched between two shares of the largest force [N/m], least squares.
+    fn slope(&self, from: f64, to: f64) -> f64 {
+        let peak = self.peak();
+        let top = self.rows.iter().position(|row| row[1] == peak).unwrap();
+        let used = || self.rows[..top].iter().filter(|row| row[1] > from * peak && row[1] < to * peak);
+        let count = used().count() as f64;
+        let mean = |k: usize| used().map(|row| row[k]).sum::<f64>() / count;
+        let [x, y] = [mean(2), mean(1)];
+        used().map(|row| (row[2] - x) * (row[1] - y)).sum::<f64>() / used().map(|row| (row[2] - x).powi(2)).sum::<f64>()
+    }
+}
+
+/// A velocity [m/s] downwards that is reached after a time [s].
+fn downwards(speed: f64, after: f64) -> History<1> {
+    History::new([(0.0, [0.0]), (after, [-speed])]).unwrap()
+}
+
+/// Moves on until the force has fallen to a half; only what moves by the history does work.
+fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watched: impl Fn(&World) -> f64) -> Curve {
+    let mut world = World::new(setup, share);
+    let mut rows: Vec<[f64; 3]> = Vec::new();
+    let (mut way, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
+    let (mut residual, mut largest, mut swing) = (0.0f64, 0.0f64, 0.0);
+    let first = world.step_with_ledger().unwrap().total();
+    while rows.last().is_none_or(|row| row[1] > 0.5 * peak || row[1] < 1e-3 * peak || peak == 0.0) || way < 1e-6 {
+        let until = world.time + row;
+        while world.time < until {
+            way -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
+            world.step().unwrap();
+        }
+        way -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
+        let book = world.step_with_ledger().unwrap();
+        let force = (book.work - before[1]) / (way - before[0]);
+        before = [way, book.work];
+        rows.push([way, force, watched(&world)]);
+        residual = residual.max((book.total() - first).abs());
+        if force > peak {
+            (peak, swing) = (force, book.kinetic / book.strain);
+            largest = residual / book.work;
+        }
+    }
+    Curve { rows, world, residual: largest, swing }
+}
+
+fn nodes_where(mesh: &PreparedMesh, is_there: impl Fn(DVec3) -> bool) -> Vec<u32> {
+    (0..mesh.mesh.nodes.len() as u32).filter(|n| is_there(mesh.mesh.nodes[*n as usize])).collect()
+}
+
+fn material(strength: Strength, penalty: f64, tied: bool, mesh: &PreparedMesh) -> Setup {
+    let cohesion = Some(Cohesion { strength, penalty: penalty * CONCRETE.young_modulus, range: Range::Exact, tied });
+    let mut setup = setup(mesh, cohesion);
+    setup.friction = vec![vec![0.6]];
+    setup
+}
+
+/// Largest stress of a prism of 50 x 50 x 100 mm between smooth platens [Pa].
+fn crushed(file: &Path, penalty: f64, tied: bool) -> f64 {
+    let mesh = mesh::read(file, 1.0).unwrap();
+    let mut setup = material(STRENGTH, penalty, tied, &mesh);
+    // A wave runs through the prism sixty times before it breaks.
+    let velocity = downwards(0.15, 5e-4);
+    setup.constraints = vec![
+        Constraint::constant(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
+        Constraint { nodes: nodes_where(&mesh, |x| x.z > 0.1 - 1e-9), velocity: [None, None, Some(velocity.clone())] },
+    ];
+    let curve = load(setup, 0.8, &velocity, 2e-5, |world| world.time);
+    let slid = curve.world.failures.iter().filter(|failure| failure.by_sliding).count();
+    println!(
+        "{}, tied {tied}: {:.2} MPa, {} of {} failed faces slid, kinetic over strain energy {:.1e}, residual {:.1e}",
+        file.file_name().unwrap().display(),
+        curve.peak() / 25e-4 / 1e6,
+        slid,
+        curve.world.failures.len(),
+        curve.swing,
+        curve.residual
+    );
+    assert!(curve.swing < 0.05 && slid * 10 > curve.world.failures.len() * 9);
+    curve.peak() / 25e-4
+}
+
+/// 2 c cos(phi) / (1 - sin(phi)) of Mohr and Coulomb for the concrete of table 2: 57.16 MPa.
+fn uniaxial() -> f64 {
+    let phi = STRENGTH.friction.atan();
+    2.0 * STRENGTH.cohesion * phi.cos() / (1.0 - phi.sin())
+}
+
+fn coarse(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/fracture/meshes/{name}-coarse.msh"))
+}
+
+/// On elements of 12.5 mm: 58.6 MPa with tied faces, 54.6 MPa with joints of p_0 = 50 E; with 20 E it is 47.7 MPa.
+///
+/// cargo test --release --test verification strength::a_prism -- --ignored --nocapture
+#[test]
+#[ignore = "some minutes"]
+fn a_prism_is_crushed_at_the_uniaxial_strength() {
+    for (penalty, tied) in [(2.0, true), (50.0, false)] {
+        let found = crushed(&coarse("compression"), penalty, tied);
+        // 10 %: asked for.
+        assert!((found / uniaxial() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
+    }
+}
+
+/// 58.0 MPa. Mesh: tools/mesh/make.py compression --size 0.0075 --out runs/meshes/compression-7.5mm.msh
+///
+/// cargo test --release --test verification strength::a_finer_prism -- --ignored --nocapture
+#[test]
+#[ignore = "needs a mesh of 7.5 mm; minutes"]
+fn a_finer_prism_is_crushed_at_the_uniaxial_strength() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("runs/meshes/compression-7.5mm.msh");
+    let found = crushed(&file, 2.0, true);
+    assert!((found / uniaxial() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
+}
+
+/// Beam of 320 x 40 x 20 mm on supports 314 mm apart, as Guo's mesh: cells of 24 tetrahedra, so many over the height. Half
+/// of the width, y = 0 is a plane of symmetry.
+fn beam(cells: usize) -> PreparedMesh {
+    let (length, height, span) = (0.32, 0.04, 0.314);
+    let mut mesh = block(DVec3::new(length, 0.01, height), [8 * cells, cells / 4, cells], Pattern::Centred);
+    let cell = height / cells as f64;
+    let overhang = 0.5 * (length - span);
+    for node in &mut mesh.nodes {
+        // The supports stand on nodes.
+        let inner = overhang + (node.x - cell) * span / (length - 2.0 * cell);
+        let end = if node.x < 0.5 * length { node.x } else { length - node.x };
+        let x = if end >= cell { inner } else { end * overhang / cell };
+        node.x = if end < cell && node.x > 0.5 * length { length - x } else { x } - 0.5 * length;
+    }
+    mesh.sets.clear();
+    prepare(mesh).unwrap()
+}
+
+/// Force and stiffness of three-point bending of the whole width [N, N/m].
+fn bent(cells: usize, penalty: f64, tied: bool) -> [f64; 2] {
+    let mesh = beam(cells);
+    let strength = Strength {
+        tensile: 3e6,
+        cohesion: 10.5e6,
+        friction: STRENGTH.friction,
+        opening_energy: 30.0,
+        sliding_energy: 30.0,
+    };
+    let mut setup = material(strength, penalty, tied, &mesh);
+    setup.bodies[0].contact_penalty *= 0.05;
+    // The velocity rises over one period of the beam, so that it does not swing on.
+    let velocity = downwards(0.05, 1.6e-3);
+    let near = 1e-7;
+    let is_support = |x: DVec3| (x.x.abs() - 0.157).abs() < near && x.z.abs() < near;
+    let is_load = |x: DVec3| x.x.abs() < near && (x.z - 0.04).abs() < near;
+    let on_plane = |x: DVec3| x.y < near;
+    let hold = |is_there: &dyn Fn(DVec3) -> bool, velocity: [Option<History<1>>; 3]| {
+        let split = |plane: bool| Constraint {
+            nodes: nodes_where(&mesh, |x| is_there(x) && on_plane(x) == plane),
+            velocity: [velocity[0].clone(), plane.then(|| 0.0.into()), velocity[2].clone()],
+        };
+        [split(true), split(false)]
+    };
+    let plane = nodes_where(&mesh, |x| on_plane(x) && !is_support(x) && !is_load(x));
+    setup.constraints = [
+        hold(&is_support, [None, None, Some(0.0.into())]),
+        hold(&is_load, [Some(0.0.into()), None, Some(velocity.clone())]),
+    ]
+    .concat();
+    setup.constraints.push(Constraint::constant(plane, [None, Some(0.0), None]));
+    // Deflection of the axis: of nodes in the middle of the height, without the dents under load and supports.
+    let axis: Vec<usize> = [0.0, -0.157, 0.157]
+        .map(|x| {
+            let found = nodes_where(&mesh, |at| (at - DVec3::new(x, 0.0, 0.02)).length() < near);
+            found[0]
+        })
+        .map(|node| mesh.mesh.tets.iter().position(|tet| tet.contains(&node)).map(|t| (t, node)).unwrap())
+        .map(|(t, node)| 4 * t + mesh.mesh.tets[t].iter().position(|n| *n == node).unwrap())
+        .to_vec();
+    let deflection = |world: &World| {
+        let z = |copy: usize| world.nodes.place[world.tets.nodes[copy / 4][copy % 4] as usize].z;
+        0.5 * (z(axis[1]) + z(axis[2])) - z(axis[0])
+    };
+    let curve = load(setup, 0.8, &velocity, 4e-5, deflection);
+    let (peak, stiffness) = (2.0 * curve.peak(), 2.0 * curve.slope(0.3, 0.75));
+    println!(
+        "{cells} cells, tied {tied}: {peak:.1} N, {:.3} MN/m, {} faces failed, kinetic over strain energy {:.1e}, residual {:.1e}",
+        stiffness / 1e6,
+        curve.world.failures.len(),
+        curve.swing,
+        curve.residual
+    );
+    [peak, stiffness]
+}
+
+/// Does not hold yet. With tied faces a beam of cells of 5 mm breaks at 360 N and one of 10 mm at 419 N: the mean stress of
+/// two elements reaches the strength later than the section between them does. With joints in the middle section alone, it
+/// is 310 N on cells of 10 mm.
+///
+/// cargo test --release --test verification strength::a_beam -- --ignored --nocapture
+#[test]
+#[ignore = "ten minutes; does not hold yet with tied faces"]
+fn a_beam_breaks_at_the_load_and_bends_with_the_stiffness_of_a_beam() {
+    let [peak, stiffness] = bent(8, 2.0, true);
+    // Guo's 279.3 N for elements of 5 mm and Timoshenko's 4.07 MN/m; 15 % and 3 %: asked for.
+    assert!((stiffness / 4.07e6 - 1.0).abs() < 0.03, "{:.3} MN/m", stiffness / 1e6);
+    assert!((peak / 279.3 - 1.0).abs() < 0.15, "{peak:.1} N");
+}
+
+/// Largest force on a disc of 40 mm, 15 mm thick, between strips of 10 degrees [N].
+fn split(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
+    let mesh = mesh::read(&coarse("disc"), 1.0).unwrap();
+    let strength = Strength {
+        tensile: 3e6,
+        cohesion: 15e6,
+        friction: STRENGTH.friction,
+        opening_energy,
+        sliding_energy: opening_energy,
+    };
+    let mut setup = material(strength, penalty, tied, &mesh);
+    setup.bodies[0].contact_penalty *= 0.1;
+    let velocity = downwards(0.1, 1e-4);
+    let set = |name: &str| -> Vec<u32> {
+        let set = mesh.faces.boundaries.iter().find(|set| set.name == name).unwrap();
+        let corners = set.faces.iter().flat_map(|face| {
+            let exterior = &mesh.faces.exteriors[*face as usize];
+            exterior.nodes.map(|k| mesh.mesh.tets[exterior.tet as usize][usize::from(k)])
+        });
+        let nodes: std::collections::BTreeSet<u32> = corners.collect();
+        nodes.into_iter().collect()
+    };
+    setup.constraints = vec![
+        Constraint::constant(set("bottom"), [None, None, Some(0.0)]),
+        Constraint { nodes: set("top"), velocity: [None, None, Some(velocity.clone())] },
+    ];
+    let curve = load(setup, 0.8, &velocity, 5e-6, |world| world.time);
+    println!(
+        "G_f {opening_energy}, tied {tied}: {:.0} N, {} faces failed, kinetic over strain energy {:.1e}, residual {:.1e}",
+        curve.peak(),
+        curve.world.failures.len(),
+        curve.swing,
+        curve.residual
+    );
+    curve.peak()
+}
+
+/// Does not hold yet, and need not: E G_f / f_t^2 is 144 mm, the disc is too small to split at its tensile strength. With
+/// G_f = 5 J/m2 and joints in the middle plane alone, the load is 1.1 times that of the strength.
+///
+/// cargo test --release --test verification strength::a_disc -- --ignored --nocapture
+#[test]
+#[ignore = "some minutes; does not hold: the disc is small against E G_f / f_t^2"]
+fn a_disc_splits_at_its_tensile_strength() {
+    let found = split(2.0, true, 50.0);
+    // 2 P / (pi D L) = f_t; 15 %: asked for.
+    assert!((found / 2827.0 - 1.0).abs() < 0.15, "{found:.0} N");
+}
