@@ -188,13 +188,18 @@ fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) 
             check.warn(warning);
         }
         let Some(cohesion) = &body.cohesion else { continue };
-        let largest = 0.25 * cohesion.strength.characteristic_length(body.elastic.young_modulus);
-        if quality.edge_mean > largest {
+        let [opening, sliding] = cohesion.strength.characteristic_lengths(body.elastic.young_modulus).map(|l| 0.25 * l);
+        let metres = |length: f64| show((length * 1e4).round() * 1e-4);
+        let edges = format!("{}: edges of {} m on average", quality.body, metres(quality.edge_mean));
+        if quality.edge_mean > opening {
+            let most = metres(opening);
+            check.warn(format!("{edges}; cracks are resolved by edges of up to {most} m, a quarter of E G_f / f_t^2"));
+        }
+        if quality.edge_mean > sliding && sliding < 0.5 * opening {
+            let most = metres(sliding);
             check.warn(format!(
-                "{}: edges of {} m on average; cracks are resolved by edges of up to {} m, a quarter of E G_f / f_t^2",
-                quality.body,
-                show((quality.edge_mean * 1e4).round() * 1e-4),
-                show((largest * 1e4).round() * 1e-4)
+                "{edges}; faces that slide are resolved by edges of up to {most} m, a quarter of E G_fII / c^2: what is crushed \
+                 shatters; sliding_energy_j_m2 of concrete is some 25 times fracture_energy_j_m2"
             ));
         }
         if quality.edge_max > cohesion.longest_edge() {

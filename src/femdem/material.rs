@@ -63,8 +63,10 @@ impl Strength {
         self.tensile.min(self.shear(self.tensile))
     }
 
-    /// Hillerborg's characteristic length E G_f / f_t^2 [m]; a crack is resolved by elements of a quarter of it.
-    pub fn characteristic_length(&self, young_modulus: f64) -> f64 {
-        young_modulus * self.opening_energy / (self.tensile * self.tensile)
+    /// Hillerborg's characteristic length E G_f / f_t^2 [m] and that of sliding, E G_fII / c^2; a crack is resolved by
+    /// elements of a quarter of it.
+    pub fn characteristic_lengths(&self, young_modulus: f64) -> [f64; 2] {
+        let length = |energy: f64, strength: f64| young_modulus * energy / (strength * strength);
+        [length(self.opening_energy, self.tensile), length(self.sliding_energy, self.cohesion)]
     }
 }
