@@ -94,5 +94,5 @@ pub(super) fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64
         .into_par_iter()
         .map(|piece| (piece * PIECE..((piece + 1) * PIECE).min(count)).map(&of).sum())
         .collect();
-    pieces.iter().sum()
+    pieces.iter().fold(0.0, |sum, piece| sum + piece)
 }

@@ -142,7 +142,7 @@ impl Joints {
 
     /// Energy that joints with a past have lost so far, but for those that have broken [J].
     pub fn dissipated(&self) -> f64 {
-        self.worn.iter().map(|joint| joint.dissipated).sum()
+        self.worn.iter().fold(0.0, |sum, joint| sum + joint.dissipated)
     }
 
     /// Energy that a joint with a past would give back [J].

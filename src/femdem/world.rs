@@ -221,6 +221,12 @@ impl World {
         contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
     }
 
+    /// Undeformed area of the faces that have failed [m2].
+    pub fn crack_area(&self) -> f64 {
+        // From zero on: the sum of nothing is -0.
+        self.failures.iter().map(|failure| failure.area).fold(0.0, |sum, area| sum + area)
+    }
+
     /// Undeformed place of a node [m].
     pub fn place_at_start(&self, node: usize) -> DVec3 {
         let copy = self.nodes.ties.of(node)[0] as usize;

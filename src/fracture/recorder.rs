@@ -83,7 +83,7 @@ impl FractureRecorder {
     /// If the file cannot be written.
     pub fn record_energy(&mut self, world: &World, time: f64, book: &Ledger, residual: f64) -> Result<(), OutputError> {
         self.detail.record_cracks(world)?;
-        let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
+        let area = world.crack_area();
         self.energy.append(&[
             time,
             book.kinetic,

@@ -133,7 +133,7 @@ pub struct Watched {
 impl FractureSummary {
     /// The summary of a run that ended with these fragments.
     pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched, fragments: &[Fragment]) -> Self {
-        let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
+        let area = world.crack_area();
         let taken: f64 = world.failures.iter().map(|failure| failure.dissipated - failure.freed).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
         let g_f = energies.fold(f64::MAX, f64::min);
