@@ -1,0 +1,55 @@
+//! Steps of a block of tetrahedra on one thread, without joints, with joints everywhere and tied: `cargo bench --bench
+//! tetrahedra`. The block spins and nothing breaks.
+
+use breakwater::femdem::{
+    cohesive_law::{Cohesion, Range},
+    material::{Elastic, Strength},
+    mesh::{
+        block::{Pattern, block},
+        prepare,
+    },
+    setup::{Body, Setup},
+    world::World,
+};
+use divan::{Bencher, counter::ItemsCount};
+use glam::DVec3;
+
+const CONCRETE: Elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisson_ratio: 0.2, viscosity: 2e4 };
+const STRENGTH: Strength =
+    Strength { tensile: 3.3e6, cohesion: 16.5e6, friction: 0.577, opening_energy: 50.0, sliding_energy: 1250.0 };
+
+/// Cells along an edge: 16,464, 131,712 and 998,250 tetrahedra.
+const CELLS: [usize; 3] = [14, 28, 55];
+
+fn main() {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("one thread can be started");
+    divan::main();
+}
+
+fn steps(bencher: Bencher, cells: usize, cohesion: Option<Cohesion>) {
+    let mesh = prepare(block(DVec3::splat(0.3), [cells; 3], Pattern::Diagonal)).expect("a block is a good mesh");
+    let count = mesh.mesh.tets.len();
+    let body = Body { cohesion, angular_velocity: DVec3::Z * 10.0, ..Body::at_rest(0..count, CONCRETE) };
+    let mut world = World::new(Setup::of_mesh(&mesh, vec![body]), 0.9);
+    bencher.counter(ItemsCount::new(count)).bench_local(|| world.step());
+}
+
+fn cohesion(tied: bool) -> Cohesion {
+    let penalty = if tied { 2.0 } else { 50.0 } * CONCRETE.young_modulus;
+    Cohesion { strength: STRENGTH, penalty, range: Range::Exact, tied }
+}
+
+#[divan::bench(args = CELLS)]
+fn without_joints(bencher: Bencher, cells: usize) {
+    steps(bencher, cells, None);
+}
+
+#[divan::bench(args = CELLS)]
+fn joints_everywhere(bencher: Bencher, cells: usize) {
+    steps(bencher, cells, Some(cohesion(false)));
+}
+
+#[divan::bench(args = CELLS)]
+fn tied(bencher: Bencher, cells: usize) {
+    steps(bencher, cells, Some(cohesion(true)));
+}
