@@ -56,7 +56,7 @@ pub struct MethodFile {
     /// How tetrahedra hold together before they crack.
     #[serde(default)]
     pub joints: Joints,
-    /// Stiffness of the joints p_0 over Young's modulus [-]; 50 for `intrinsic`, 2 for `tied` joints.
+    /// Stiffness of the joints p_0 over Young's modulus [-]; 50 for `intrinsic`, 10 for `tied` joints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_penalty: Option<f64>,
     /// Range over which a joint softens.
