@@ -37,14 +37,6 @@ impl Bounds {
     }
 }
 
-/// Whether a point has gone further than the skin [m] since the boxes were made: pairs may be missing then.
-///
-/// Each box is larger by the skin on each side, so that two tetrahedra that touch were at most two skins apart.
-pub fn outdated(then: &[DVec3], now: &[DVec3], skin: f64) -> bool {
-    // Points that are not numbers have gone too far.
-    !then.par_iter().zip(now).with_min_len(CHUNK).all(|(then, now)| then.distance_squared(*now) <= skin * skin)
-}
-
 /// Boxes that one thread takes at a time.
 const CHUNK: usize = 1024;
 /// Levels, each with cells twice as large as those of the one before.
@@ -285,18 +277,6 @@ mod tests {
         let one = with(1);
         assert!(one.len() > 20_000);
         assert!(with(2) == one && with(5) == one);
-    }
-
-    #[test]
-    fn boxes_are_outdated_when_a_point_has_gone_further_than_the_skin() {
-        let then = vec![DVec3::ZERO; 5000];
-        let mut now = then.clone();
-        now[4321].x = 0.009;
-        assert!(!outdated(&then, &now, 0.01));
-        now[4321].y = 0.009;
-        assert!(outdated(&then, &now, 0.01));
-        now[4321].y = f64::NAN;
-        assert!(outdated(&then, &now, 0.01));
     }
 
     /// cargo test --release detection -- --ignored --nocapture
