@@ -4,6 +4,7 @@ mod bodies;
 mod boundary;
 mod loads;
 mod output;
+mod places;
 
 use std::path::Path;
 
@@ -12,12 +13,12 @@ use glam::DVec3;
 use super::check::{Checker, above, from, show};
 use super::error::CaseErrors;
 use super::file::FractureFile;
-use super::fracture_places::{self, Landmark, Plane};
 use super::hash::fingerprint;
 use super::parse::parse;
 use super::validate::read;
 use crate::femdem::mesh::{self, PreparedMesh};
 use crate::femdem::setup::Setup;
+pub use places::{Landmark, Plane};
 
 /// Steps of a run at most [-]: more take years.
 const MOST_STEPS: f64 = 1e10;
@@ -110,7 +111,7 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     // Writing to memory cannot fail: every key is a string.
     let kept_text =
         if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
-    let section = fracture_places::section(file, &setup, &mesh, check);
+    let section = places::section(file, &setup, &mesh, check);
     Some(FractureCase {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -123,7 +124,7 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
         setup,
         step_share: file.fracture.step_share,
         dt: file.fracture.dt_s,
-        landmarks: fracture_places::landmarks(file, check),
+        landmarks: places::landmarks(file, check),
         section,
         surfaces_interval,
         tets_interval,

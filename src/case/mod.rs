@@ -12,7 +12,6 @@ mod estimate;
 pub mod file;
 mod flume;
 mod fracture;
-mod fracture_places;
 mod gauges;
 mod given_wave;
 mod hash;
@@ -48,8 +47,7 @@ pub use file::{
     SolitaryTheory, Viscosity, WallSlip,
 };
 pub use flume::{Flume, Mound};
-pub use fracture::FractureCase;
-pub use fracture_places::{Landmark, Plane};
+pub use fracture::{FractureCase, Landmark, Plane};
 pub use gauges::{Gauge, Motion, Quantity};
 pub use given_wave::{GivenWave, ROWS_FILE};
 pub use materials::{FrictionPair, Material};

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::check::{Checker, above, from};
-use super::file::{FractureFile, LandmarkFile};
+use super::super::check::{Checker, above, from};
+use super::super::file::{FractureFile, LandmarkFile};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Setup;
 
