@@ -1,8 +1,11 @@
 //! Groups and datasets of VTKHDF files, and how rows are put into them.
 
+use std::path::Path;
+
 use hdf5_metno::types::FixedAscii;
 use hdf5_metno::{Dataset, File, Group, H5Type};
 
+use super::super::OutputError;
 use super::{FieldKind, FieldValues};
 
 pub(super) type Hdf5Result<T> = hdf5_metno::Result<T>;
@@ -19,6 +22,32 @@ pub(super) fn unlocked() -> hdf5_metno::FileBuilder {
     let mut builder = File::with_options();
     builder.with_fapl(|access| access.file_locking(false));
     builder
+}
+
+/// Opens a file with at least so many steps whose fields are in a group of the root.
+///
+/// # Errors
+/// If the file cannot be opened, lacks a field, or has fewer steps.
+pub(super) fn open_with_steps(
+    path: &Path,
+    group: &str,
+    fields: &[(&str, FieldKind)],
+    steps: usize,
+) -> Result<File, OutputError> {
+    let open = || -> Hdf5Result<(File, usize)> {
+        let file = unlocked().open_rw(path)?;
+        let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
+        for (name, _) in fields {
+            file.dataset(&format!("VTKHDF/{group}/{name}"))?;
+        }
+        Ok((file, usize::try_from(present).unwrap_or(0)))
+    };
+    let (file, present) = open().map_err(OutputError::hdf5(path))?;
+    if present < steps {
+        let what = format!("holds {present} steps, fewer than the {steps} at the checkpoint");
+        return Err(OutputError::content(path, what));
+    }
+    Ok(file)
 }
 
 /// The two groups of a file that grows step by step, with what says of which type it is. VTK wants the name of the type

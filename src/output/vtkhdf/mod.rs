@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use hdf5_metno::{Dataset, File, Group};
 
 use self::layout::{
-    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, cut_field, set_row, set_row_of_4, unlocked,
-    write_skeleton,
+    Hdf5Result, TOPOLOGIES, append_rows, append_rows_of, append_values, cut_field, open_with_steps, set_row,
+    set_row_of_4, unlocked, write_skeleton,
 };
 use super::OutputError;
 
@@ -145,19 +145,7 @@ impl PolyDataSeries {
         fields: &[(&str, FieldKind)],
         steps: usize,
     ) -> Result<Self, OutputError> {
-        let open = || -> Hdf5Result<(File, usize)> {
-            let file = unlocked().open_rw(path)?;
-            let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
-            for (name, _) in fields {
-                file.dataset(&format!("VTKHDF/PointData/{name}"))?;
-            }
-            Ok((file, usize::try_from(present).unwrap_or(0)))
-        };
-        let (file, present) = open().map_err(OutputError::hdf5(path))?;
-        if present < steps {
-            let what = format!("holds {present} steps, fewer than the {steps} at the checkpoint");
-            return Err(OutputError::content(path, what));
-        }
+        let file = open_with_steps(path, "PointData", fields, steps)?;
         let mut series = Self {
             path: path.to_owned(),
             file,

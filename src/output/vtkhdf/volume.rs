@@ -11,7 +11,7 @@ use hdf5_metno::{Dataset, File};
 use super::super::OutputError;
 use super::layout::{
     Hdf5Result, LONG_CHUNK, STEP_CHUNK, append_rows, append_rows_of, append_values, cut_field, new_field, new_list,
-    new_root, new_rows, set_row, unlocked,
+    new_root, new_rows, open_with_steps, set_row, unlocked,
 };
 use super::{FieldKind, FieldValues};
 
@@ -68,19 +68,7 @@ impl TetSeries {
     /// # Errors
     /// If the file cannot be opened, is no file of such fields, or has fewer steps.
     pub fn open_and_truncate(path: &Path, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
-        let open = || -> Hdf5Result<(File, usize)> {
-            let file = unlocked().open_rw(path)?;
-            let present = file.group("VTKHDF/Steps")?.attr("NSteps")?.read_scalar::<i64>()?;
-            for (name, _) in fields {
-                file.dataset(&format!("VTKHDF/CellData/{name}"))?;
-            }
-            Ok((file, usize::try_from(present).unwrap_or(0)))
-        };
-        let (file, present) = open().map_err(OutputError::hdf5(path))?;
-        if present < steps {
-            let what = format!("holds {present} steps, fewer than the {steps} at the checkpoint");
-            return Err(OutputError::content(path, what));
-        }
+        let file = open_with_steps(path, "CellData", fields, steps)?;
         let mut series = Self::new(path, file, fields, steps);
         series.truncate().map_err(OutputError::hdf5(path))?;
         Ok(series)
