@@ -112,7 +112,7 @@ fn coarse(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/fracture/meshes/{name}-coarse.msh"))
 }
 
-/// On elements of 12.5 mm: 58.6 MPa with tied faces, 54.6 MPa with joints of p_0 = 50 E; with 20 E it is 47.7 MPa.
+/// On elements of 12.5 mm: 58.6 MPa with tied faces, 55.1 MPa with joints of p_0 = 50 E; with 20 E it is 47.7 MPa.
 ///
 /// cargo test --release --test verification strength::a_prism -- --ignored --nocapture
 #[test]
