@@ -13,7 +13,8 @@ use breakwater::fracture::run::world;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
+    "bodies.csv",
     "case.json",
     "checkpoint.h5",
     "cracks.csv",
@@ -133,8 +134,10 @@ fn lasting_summary(dir: &Path) -> Value {
 }
 
 fn assert_same_results(a: &Path, b: &Path) {
-    let [one, other] = [a, b].map(|dir| std::fs::read(dir.join("energy.csv")).unwrap());
-    assert!(one == other, "energy.csv: {} and {} differ", a.display(), b.display());
+    for file in ["energy.csv", "bodies.csv"] {
+        let [one, other] = [a, b].map(|dir| std::fs::read(dir.join(file)).unwrap());
+        assert!(one == other, "{file}: {} and {} differ", a.display(), b.display());
+    }
     for file in ["surfaces.vtkhdf", "cracks.vtkhdf"] {
         let [one, other] = [a, b].map(|dir| datasets(&dir.join(file)));
         assert!(one.len() > 10, "{file}");

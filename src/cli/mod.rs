@@ -165,7 +165,8 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 30] = [
+const RESULT_FILES: [&str; 31] = [
+    "bodies.csv",
     "case.json",
     "checkpoint.h5",
     "checkpoint.json",

@@ -32,7 +32,7 @@ pub const FILE: &str = "checkpoint.h5";
 pub const FAILED_FILE: &str = "failed.h5";
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Where a run stands besides its world.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -47,8 +47,8 @@ pub struct RunState {
     pub frames: u64,
     /// Checkpoints.
     pub checkpoints: u64,
-    /// Length of the energy book [bytes].
-    pub bytes: u64,
+    /// Lengths of the energy books of all and of each body [bytes].
+    pub bytes: [u64; 2],
     /// Lengths of the other files.
     pub detail: DetailLengths,
 }

@@ -7,12 +7,14 @@ use glam::{DMat3, DVec3};
 use super::checkpoint::RunState;
 use super::detail::DetailRecorder;
 use crate::case::FractureCase;
+use crate::femdem::book::BodyEnergy;
 use crate::femdem::element::{self, Moduli};
 use crate::femdem::energy::Ledger;
 use crate::femdem::world::World;
 use crate::output::{Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, columns, write_atomically};
 
 const ENERGY_FILE: &str = "energy.csv";
+const BODIES_FILE: &str = "bodies.csv";
 const SURFACES_FILE: &str = "surfaces.vtkhdf";
 const CRACKS_FILE: &str = "cracks.vtkhdf";
 
@@ -28,6 +30,7 @@ const CRACK_FIELDS: [(&str, FieldKind); 3] =
 /// Open output files of a fracture run.
 pub struct FractureRecorder {
     energy: CsvSeries,
+    bodies: CsvSeries,
     surfaces: Option<[PolyDataSeries; 2]>,
     /// Failed faces, cut plane, tetrahedra.
     pub detail: DetailRecorder,
@@ -49,6 +52,7 @@ impl FractureRecorder {
         };
         Ok(Self {
             energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::FRACTURE_ENERGY)?,
+            bodies: CsvSeries::create(&dir.join(BODIES_FILE), &columns::FRACTURE_BODIES)?,
             surfaces: case.surfaces_interval.map(series).transpose()?,
             detail: DetailRecorder::create(case, dir)?,
         })
@@ -65,22 +69,35 @@ impl FractureRecorder {
                 |file, fields| PolyDataSeries::open_and_truncate(&dir.join(file), Cells::Triangles, fields, steps);
             Ok([open(SURFACES_FILE, &SURFACE_FIELDS[..])?, open(CRACKS_FILE, &CRACK_FIELDS[..])?])
         };
+        let [energy, bodies] = state.bytes;
         Ok(Self {
-            energy: CsvSeries::open_truncated(&dir.join(ENERGY_FILE), state.bytes)?,
+            energy: CsvSeries::open_truncated(&dir.join(ENERGY_FILE), energy)?,
+            bodies: CsvSeries::open_truncated(&dir.join(BODIES_FILE), bodies)?,
             surfaces: case.surfaces_interval.map(series).transpose()?,
             detail: DetailRecorder::reopen(case, dir, &state.detail)?,
         })
     }
 
-    /// Length of the energy book [bytes].
-    pub fn bytes(&self) -> u64 {
-        self.energy.bytes()
+    /// Lengths of the energy books of all and of each body [bytes].
+    pub fn bytes(&self) -> [u64; 2] {
+        [&self.energy, &self.bodies].map(CsvSeries::bytes)
+    }
+
+    /// Append a row for each body at a moment [s].
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record_bodies(&mut self, time: f64, bodies: &[BodyEnergy]) -> Result<(), OutputError> {
+        bodies.iter().enumerate().try_for_each(|(number, body)| {
+            let BodyEnergy { kinetic, strain, joint, gravity, fracture } = *body;
+            self.bodies.append(&[time, number as f64, kinetic, strain, joint, gravity, fracture])
+        })
     }
 
     /// Append a row of the energy book of a moment [s], and the faces that have failed since the row before.
     ///
     /// # Errors
-    /// If the file cannot be written.
+    /// If a file cannot be written.
     pub fn record_energy(&mut self, world: &World, time: f64, book: &Ledger, residual: f64) -> Result<(), OutputError> {
         self.detail.record_cracks(world)?;
         let area = world.crack_area();

@@ -109,11 +109,12 @@ fn drive(
         }
         recorder.detail.record_tets_if_due(&world, over)?;
         let time = world.time;
-        let stepped = if row_due { world.step_with_ledger().map(Some) } else { world.step().map(|()| None) };
+        let stepped = if row_due { world.step_with_books().map(Some) } else { world.step().map(|()| None) };
         let book = stepped.map_err(|error| failed(case, &world, &state, dir, error))?;
-        if let Some(book) = book {
+        if let Some((book, bodies)) = book {
             let residual = state.note(&book);
             recorder.record_energy(&world, time, &book, residual)?;
+            recorder.record_bodies(time, &bodies)?;
             (state.rows, state.bytes) = (state.rows + 1, recorder.bytes());
             if over {
                 progress.finish();

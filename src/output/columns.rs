@@ -71,9 +71,9 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
-/// `energy.csv` of a fracture run: what there is, what was lost and given since the start (`freed_j`: what the springs of tied joints had when they
-/// came free), what is left unexplained; area
-/// of the faces that have failed, and pairs of tetrahedra that press each other.
+/// `energy.csv` of a fracture run: what there is, what was lost and given since the start (`freed_j`: what the springs of
+/// tied joints had when they came free), what is left unexplained; area of the faces that have failed, and pairs of
+/// tetrahedra that press each other.
 pub const FRACTURE_ENERGY: [&str; 14] = [
     "time_s",
     "kinetic_j",
@@ -90,6 +90,11 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
     "crack_area_m2",
     "pairs_touching",
 ];
+
+/// `bodies.csv` of a fracture run, a row for each body at the times of the energy book: what the body has, and what its
+/// joints have lost since the start; `body` counts from 0 in the order of the mesh.
+pub const FRACTURE_BODIES: [&str; 7] =
+    ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j"];
 
 /// `cracks.csv` of a fracture run, a row for each face that has failed, in order of time: middle of the undeformed face, its
 /// area; `mode` 1 is opening, 2 sliding; `body` counts from 0 in the order of the mesh, as in the VTKHDF files.

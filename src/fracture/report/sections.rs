@@ -189,10 +189,11 @@ fn list(heading: &str, words: &str, items: &[String]) -> String {
 }
 
 /// What the files of a run folder hold, in the order of the list.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 11] = [
     ("cracks.csv", "every face that failed: time, place, area, mode (1 opening, 2 sliding)"),
     ("fragments.csv", "the pieces at the end: mass, centre, velocity"),
     ("energy.csv", "the energy book, crack area, pairs of tetrahedra that press each other"),
+    ("bodies.csv", "the energies of each body at the times of the energy book"),
     ("surfaces.vtkhdf", "outsides of the bodies with velocity and stress: open in ParaView 5.12 or later"),
     ("cracks.vtkhdf", "crack faces with time and mode: open in ParaView together with the surfaces"),
     ("section.vtkhdf", "the cut plane with velocity and stress"),
