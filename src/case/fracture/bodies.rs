@@ -22,6 +22,10 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
     let before = check.count();
     let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
     for (index, material) in file.materials.iter().enumerate() {
+        if file.materials[..index].iter().any(|other| other.name == material.name) {
+            let path = format!("materials[{index}].name");
+            check.refuse(&path, format!("{:?}", material.name), "different from the others", "rename one");
+        }
         validate_material(index, material, check);
     }
     for (index, body) in file.bodies.iter().enumerate() {
