@@ -1,13 +1,15 @@
 //! Record of contacts: when they began and ended, how fast the surfaces met, how hard they were pressed.
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::contact::{ContactKey, Feature};
+use super::contact::Feature;
+use super::motion::BodyState;
 
-/// A contact that has ended.
+/// A contact that has ended, or what is known of it so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactEvent {
+    /// Contacts of the world are counted in the order in which they begin, from 0.
+    pub number: u64,
     /// First overlap [s].
     pub start: f64,
     /// End of the overlap [s].
@@ -18,29 +20,31 @@ pub struct ContactEvent {
     pub partner: Feature,
     /// Where it began [m].
     pub point: [f64; 3],
+    /// The same in the body's axes, from its centre of mass [m].
+    pub point_in_body: [f64; 3],
+    /// Unit vector at the start from the partner into the body: that is where the body is pushed.
+    pub normal: [f64; 3],
+    /// Body at the start, before any force of this contact has acted on it.
+    pub before: BodyState,
+    /// The partner then, in the image that the body touched; none for bed and walls.
+    pub partner_before: Option<BodyState>,
     /// Normal velocity at the start [m/s], positive when approaching.
     pub approach_normal: f64,
     /// Tangential velocity at the start [m/s].
     pub approach_tangential: f64,
+    /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2 with the mass of the unit, or half of it between
+    /// two units; 0 when they did not approach.
+    pub approach_energy: f64,
+    /// Normal velocity at the last moment in contact [m/s], positive when parting.
+    pub rebound: f64,
     /// Largest force [N].
     pub peak_force: f64,
+    /// That force on the body, as a vector [N].
+    pub peak: [f64; 3],
+    /// When it acted [s].
+    pub peak_time: f64,
     /// Integral of the force on the body [N s].
     pub impulse: [f64; 3],
-}
-
-/// Begins the record of a contact.
-pub fn begin(key: ContactKey, time: f64, point: DVec3, v_n: f64, v_t: DVec3) -> ContactEvent {
-    ContactEvent {
-        start: time,
-        end: time,
-        body: key.body,
-        partner: key.feature,
-        point: point.to_array(),
-        approach_normal: -v_n,
-        approach_tangential: v_t.length(),
-        peak_force: 0.0,
-        impulse: [0.0; 3],
-    }
 }
 
 impl ContactEvent {
@@ -52,11 +56,10 @@ impl ContactEvent {
         }
     }
 
-    /// Adds the force [N] of a step `dt` [s] that ends at `time`.
-    pub fn add(&mut self, force: DVec3, dt: f64, time: f64) {
-        self.peak_force = self.peak_force.max(force.length());
-        self.impulse = (DVec3::from_array(self.impulse) + force * dt).to_array();
-        self.end = time;
+    /// The same on another clock, which shows `offset` [s] more.
+    pub fn on_clock(&self, offset: f64) -> Self {
+        let Self { start, end, peak_time, .. } = *self;
+        Self { start: start + offset, end: end + offset, peak_time: peak_time + offset, ..*self }
     }
 }
 

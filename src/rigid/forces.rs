@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::contact::{ContactKey, Feature, Touch};
+use super::contact::{ContactKey, Feature, Placements, Touch};
 use super::contact_law::ContactLaw;
-use super::event::{self, ContactEvent, EventLog};
 use super::hertz_mindlin::Material;
-use super::motion::Load;
+use super::motion::{BodyState, Load};
+use super::record::{Beginning, ContactBook, Push};
 use super::setup::RigidSetup;
 
 /// Energy of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping - load_work keeps
@@ -51,15 +51,13 @@ pub struct Contact {
     pub dashpot: f64,
     /// Energy stored in overlap, tangential and rolling spring [J].
     pub elastic: [f64; 3],
-    /// The record so far.
-    pub event: ContactEvent,
 }
 
 impl Contact {
     /// The same contact with its springs gone: it is not pressed in deeper than it began.
     fn idle(self, touch: &Touch, step: Step) -> Self {
-        let Self { key, sunk, event, .. } = self;
-        Self { key, sunk, ..Self::begun(touch, event, step) }
+        let Self { key, sunk, .. } = self;
+        Self { key, sunk, ..Self::begun(touch, step) }
     }
 
     /// The same contact now; at another place, it is pressed in no deeper than it was.
@@ -74,7 +72,7 @@ impl Contact {
     /// On a triangle surface a part can come to lie over another ridge while it is pressed into its neighbours, and then
     /// starts there with an overlap. That does not count, lest energy come from nothing; an overlap that the bodies
     /// were given at the start of the world does.
-    fn begun(touch: &Touch, event: ContactEvent, step: Step) -> Self {
+    fn begun(touch: &Touch, step: Step) -> Self {
         let on_terrain = matches!(touch.key.feature, Feature::Terrain { .. });
         let sunk = if on_terrain && step.dt > 0.0 { touch.overlap } else { 0.0 };
         Self {
@@ -88,7 +86,6 @@ impl Contact {
             force: DVec3::ZERO,
             dashpot: 0.0,
             elastic: [0.0; 3],
-            event,
         }
     }
 }
@@ -170,23 +167,25 @@ impl Laws {
         }
     }
 
-    /// Forces at the given places; `before` holds the contacts of the previous evaluation, `now` the velocities at this
-    /// instant, `over` those over the step (they move the tangential springs and do the work).
+    /// Forces at the given places; `before` holds the contacts of the previous evaluation and `book` their records, `now`
+    /// the velocities at this instant, `over` those over the step (they move the tangential springs and do the work).
     #[allow(clippy::too_many_arguments)]
     pub fn evaluate(
         &self,
         touches: &[Touch],
         before: &[Contact],
-        position: &[DVec3],
+        placements: Placements<'_>,
         now: Velocities<'_>,
         over: Velocities<'_>,
         step: Step,
         energy: &mut Energy,
-        log: &mut EventLog,
+        book: &mut ContactBook,
     ) -> Evaluation {
+        let Placements { rotation, position } = placements;
         let mut out = Evaluation { loads: vec![Load::default(); position.len()], ..Default::default() };
         let mut stiffness = vec![0.0; position.len()];
         let mut used = vec![false; before.len()];
+        let mut records: Vec<_> = std::mem::take(&mut book.running).into_iter().map(Some).collect();
         energy.elastic = 0.0;
         for touch in touches {
             let law = self.of(touch.key.feature);
@@ -215,19 +214,27 @@ impl Laws {
             }
 
             let memory = find(before, &mut used, touches, touch, self.least_radius);
-            let (mut contact, known) = match memory {
-                Some(old) => (old.moved_on_to(touch), true),
-                None => {
-                    let event = event::begin(touch.key, step.time, touch.point, v_n, v_t);
-                    (Contact::begun(touch, event, step), false)
-                }
-            };
+            let known = memory.is_some();
+            let mut contact = memory.map_or_else(|| Contact::begun(touch, step), |i| before[i].moved_on_to(touch));
+            let mut record = memory.and_then(|index| records[index].take()).unwrap_or_else(|| {
+                let state = |body: usize, shift: DVec3| BodyState {
+                    position: position[body] + shift,
+                    rotation: rotation[body],
+                    velocity: now.linear[body],
+                    angular_velocity: now.angular[body],
+                };
+                let (body, partner) = (state(a, DVec3::ZERO), b.map(|b| state(b, touch.shift)));
+                let mass = if b.is_some() { 0.5 } else { 1.0 } * self.mass;
+                book.begin(touch, Beginning { time: step.time, body, partner, v_n, v_t, mass })
+            });
             let moved = if known { v_t_over * step.dt } else { DVec3::ZERO };
             let kept = if law.remembers() { turned(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
             contact.sunk = contact.sunk.min(touch.overlap);
             let overlap = touch.overlap - contact.sunk;
             if overlap <= 0.0 {
                 energy.friction += contact.elastic[1] + contact.elastic[2];
+                record.add(Push { step, before: contact.force, now: DVec3::ZERO, v_n });
+                book.running.push(record);
                 out.contacts.push(contact.idle(touch, step));
                 continue;
             }
@@ -271,6 +278,8 @@ impl Laws {
             *(if response.sliding { &mut energy.friction } else { &mut energy.damping }) += lost - damped;
             energy.elastic += stored.iter().sum::<f64>();
 
+            record.add(Push { step, before: contact.force, now: force, v_n });
+            book.running.push(record);
             contact.normal = touch.normal;
             contact.overlap = touch.overlap;
             contact.core = touch.core;
@@ -278,24 +287,24 @@ impl Laws {
             contact.force = force;
             contact.dashpot = dashpot;
             contact.elastic = stored;
-            contact.event.add(force, step.dt, step.time);
             out.contacts.push(contact);
         }
-        for (old, _) in before.iter().zip(&used).filter(|(_, used)| !**used) {
+        for (old, record) in before.iter().zip(records).filter_map(|(old, record)| Some((old, record?))) {
             energy.friction += old.elastic[1] + old.elastic[2];
             if let Feature::Terrain { .. } = old.key.feature {
                 // A part can leave a ridge while it is pressed into it.
                 energy.damping += old.elastic[0];
             }
-            log.push(old.event);
+            book.end(record, old.force, step);
         }
         out.frequency_squared = stiffness.iter().fold(0.0, |most: f64, k| most.max(k / self.mass));
         out
     }
 }
 
-/// Memory of a contact: its own, or that of the same part at the neighbouring place of the ground, which it has left.
-fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch, least_radius: f64) -> Option<Contact> {
+/// Where the memory of a contact is: its own, or that of the same part at the neighbouring place of the ground, which it
+/// has left.
+fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch, least_radius: f64) -> Option<usize> {
     let key = touch.key;
     let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
         let touching =
@@ -310,7 +319,7 @@ fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch,
         ways.filter_map(|(index, way)| Some((index, way?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     })?;
     used[index] = true;
-    Some(before[index])
+    Some(index)
 }
 
 /// Whether a part can go from one place of the ground to the other in a step.

@@ -15,6 +15,9 @@
 //! | `contact` | touching places of all bodies |
 //! | `forces` | forces of all contacts, their history and energy |
 //! | `event` | start, peak and end of each contact |
+//! | `history` | the force of a contact against time |
+//! | `record` | what is recorded of the contacts while they last |
+//! | `impact_log` | the hardest impacts of each unit |
 //! | `motion` | motion of a rigid body |
 //! | `setup` | what a world is made of |
 //! | `world` | substeps: the entry to this module |
@@ -31,9 +34,12 @@ mod gap;
 mod ground;
 mod growth;
 pub mod hertz_mindlin;
+pub mod history;
+mod impact_log;
 pub mod linear;
 pub mod motion;
 mod polyhedron_contact;
+mod record;
 mod setup;
 mod snapshot;
 mod terrain_contact;
@@ -44,6 +50,8 @@ pub use error::RigidError;
 pub use event::ContactEvent;
 pub use forces::Energy;
 pub use hertz_mindlin::Material;
+pub use history::{ForceHistory, ForceSample};
+pub use impact_log::RecordedContact;
 pub use motion::{BodyState, Load};
 pub use setup::{BodyShape, ContactModel, Friction, Ground, Resistance, RigidSetup, Sides};
 pub use snapshot::RigidSnapshot;

@@ -8,9 +8,11 @@
 //! a second (see the test), so the poses are integrated here and rapier serves as the reference in the test only.
 
 use glam::{DMat3, DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// Place and motion of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "BodyNumbers", into = "BodyNumbers")]
 pub struct BodyState {
     /// Centre of mass [m]; y is not wrapped at periodic sides.
     pub position: DVec3,
@@ -26,6 +28,38 @@ impl BodyState {
     /// A body at rest.
     pub fn at_rest(position: DVec3, rotation: DQuat) -> Self {
         Self { position, rotation, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO }
+    }
+}
+
+/// A body's state as it is written down.
+#[derive(Serialize, Deserialize)]
+struct BodyNumbers {
+    position: [f64; 3],
+    /// x, y, z, w.
+    rotation: [f64; 4],
+    velocity: [f64; 3],
+    angular_velocity: [f64; 3],
+}
+
+impl From<BodyState> for BodyNumbers {
+    fn from(state: BodyState) -> Self {
+        Self {
+            position: state.position.to_array(),
+            rotation: state.rotation.to_array(),
+            velocity: state.velocity.to_array(),
+            angular_velocity: state.angular_velocity.to_array(),
+        }
+    }
+}
+
+impl From<BodyNumbers> for BodyState {
+    fn from(numbers: BodyNumbers) -> Self {
+        Self {
+            position: DVec3::from_array(numbers.position),
+            rotation: DQuat::from_array(numbers.rotation),
+            velocity: DVec3::from_array(numbers.velocity),
+            angular_velocity: DVec3::from_array(numbers.angular_velocity),
+        }
     }
 }
 

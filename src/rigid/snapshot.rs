@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::ContactKey;
 use super::error::RigidError;
-use super::event::{ContactEvent, EventLog};
+use super::event::EventLog;
 use super::forces::{Contact, Energy};
+use super::impact_log::{ImpactLog, RecordedContact};
 use super::motion::Load;
+use super::record::ContactBook;
 use super::world::{RigidWorld, UNSEEN};
 
 /// State of all bodies and contacts. Angular momentum and the contact forces of the last instant are kept as they are:
@@ -20,7 +22,9 @@ pub struct RigidSnapshot {
     bodies: Vec<BodySnapshot>,
     contacts: Vec<ContactSnapshot>,
     energy: Energy,
-    log: EventLog,
+    ended: EventLog,
+    impacts: ImpactLog,
+    begun: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -35,7 +39,7 @@ struct BodySnapshot {
     contact_mean: [[f64; 3]; 2],
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct ContactSnapshot {
     key: ContactKey,
     normal: [f64; 3],
@@ -47,7 +51,7 @@ struct ContactSnapshot {
     force: [f64; 3],
     dashpot: f64,
     elastic: [f64; 3],
-    event: ContactEvent,
+    record: RecordedContact,
 }
 
 fn pack(load: &Load) -> [[f64; 3]; 2] {
@@ -69,7 +73,7 @@ impl RigidWorld {
             contact_now: pack(&self.contact_now[b]),
             contact_mean: pack(&self.contact_mean[b]),
         };
-        let contact = |c: &Contact| ContactSnapshot {
+        let contact = |(c, record): (&Contact, &Box<RecordedContact>)| ContactSnapshot {
             key: c.key,
             normal: c.normal.to_array(),
             spring: c.spring.to_array(),
@@ -80,16 +84,18 @@ impl RigidWorld {
             overlap: c.overlap,
             sunk: c.sunk,
             elastic: c.elastic,
-            event: c.event,
+            record: (**record).clone(),
         };
         RigidSnapshot {
             time_s: self.time,
             substeps: self.substeps,
             frequency_squared: self.frequency_squared,
             bodies: (0..self.position.len()).map(body).collect(),
-            contacts: self.contacts.iter().map(contact).collect(),
+            contacts: self.contacts.iter().zip(&self.book.running).map(contact).collect(),
             energy: self.energy,
-            log: self.log.clone(),
+            ended: self.book.ended.clone(),
+            impacts: self.book.impacts.clone(),
+            begun: self.book.begun,
         }
     }
 
@@ -117,14 +123,18 @@ impl RigidWorld {
             overlap: c.overlap,
             sunk: c.sunk,
             elastic: c.elastic,
-            event: c.event,
         };
         self.contacts = snapshot.contacts.iter().map(contact).collect();
         self.time = snapshot.time_s;
         self.substeps = snapshot.substeps;
         self.frequency_squared = snapshot.frequency_squared;
         self.energy = snapshot.energy;
-        self.log = snapshot.log.clone();
+        self.book = ContactBook {
+            running: snapshot.contacts.iter().map(|contact| Box::new(contact.record.clone())).collect(),
+            ended: snapshot.ended.clone(),
+            impacts: snapshot.impacts.clone(),
+            begun: snapshot.begun,
+        };
         self.seen = UNSEEN;
         self.publish();
         Ok(())

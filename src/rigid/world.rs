@@ -9,9 +9,11 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::contact::{PartPair, Placements, Surfaces};
 use super::error::RigidError;
-use super::event::{ContactEvent, EventLog};
+use super::event::ContactEvent;
 use super::forces::{Contact, Energy, Laws, Step, Velocities};
+use super::impact_log::RecordedContact;
 use super::motion::{self, BodyState, Load};
+use super::record::ContactBook;
 use super::setup::{RigidSetup, Sides};
 
 /// Steps in the shortest period of a body on its contacts. At 80 the restitution of an impact is right to 1e-3 (see
@@ -50,7 +52,7 @@ pub struct RigidWorld {
     pub(super) contacts: Vec<Contact>,
     pub(super) frequency_squared: f64,
     pub(super) energy: Energy,
-    pub(super) log: EventLog,
+    pub(super) book: ContactBook,
     // What callers see.
     pub(super) states: Vec<BodyState>,
     pub(super) contact_mean: Vec<Load>,
@@ -93,7 +95,7 @@ impl RigidWorld {
             contacts: Vec::new(),
             frequency_squared: 0.0,
             energy: Energy::default(),
-            log: EventLog::default(),
+            book: ContactBook::default(),
             states: setup.bodies.clone(),
             contact_mean: vec![Load::default(); count],
             substeps: 0,
@@ -146,17 +148,35 @@ impl RigidWorld {
 
     /// Contacts that have ended since the last call, in the order of their ends.
     pub fn take_events(&mut self) -> Vec<ContactEvent> {
-        std::mem::take(&mut self.log.ended)
+        std::mem::take(&mut self.book.ended.ended)
     }
 
     /// Contacts that exist now, as recorded so far.
     pub fn running_events(&self) -> impl Iterator<Item = &ContactEvent> {
-        self.contacts.iter().map(|c| &c.event)
+        self.book.running.iter().map(|contact| &contact.event)
     }
 
     /// Ended contacts that were dropped because nobody took them.
     pub fn dropped_events(&self) -> u64 {
-        self.log.dropped
+        self.book.ended.dropped
+    }
+
+    /// The hardest impacts of each unit since the start, with the contacts that still exist; the hardest first.
+    pub fn impacts(&self) -> Vec<RecordedContact> {
+        self.book.impacts_so_far().into_hardest_first()
+    }
+
+    /// Contacts whose force has had its peak so far after `time` [s], and that would be among [`Self::impacts`] if the
+    /// world ended now.
+    pub fn impacts_with_peak_after(&self, time: f64) -> impl Iterator<Item = &ContactEvent> {
+        let impacts = &self.book.impacts;
+        let running = self.running_events().filter(|event| impacts.would_keep(event));
+        impacts.impacts().map(|impact| &impact.event).chain(running).filter(move |event| event.peak_time > time)
+    }
+
+    /// Whether a contact exists or is among the hardest impacts, by its [number](ContactEvent::number).
+    pub fn remembers(&self, contact: u64) -> bool {
+        self.book.impacts.has(contact) || self.running_events().any(|event| event.number == contact)
     }
 
     /// Changes gravity [m/s2], to tilt the ground.
@@ -276,12 +296,12 @@ impl RigidWorld {
         let evaluation = self.laws.evaluate(
             &touches,
             &self.contacts,
-            &self.position,
+            placements,
             Velocities { linear: &self.velocity, angular: &self.angular_velocity },
             Velocities { linear, angular },
             Step { dt: h, time: self.time, horizon },
             &mut self.energy,
-            &mut self.log,
+            &mut self.book,
         );
         self.contact_now = evaluation.loads;
         self.contacts = evaluation.contacts;

@@ -1,0 +1,192 @@
+//! Force of a contact against time in bounded memory.
+//!
+//! The force is kept as bins, each with its impulse. When they are too many, neighbours are merged, those first whose
+//! merging changes the force least in the sense of least squares: int (f - f_merged)^2 dt =
+//! |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2) for the mean forces f and durations d of the two. Impulses add up, so the
+//! impulse stays what it was.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Most bins that a history keeps.
+pub const KEPT: usize = 64;
+
+/// Bins at which it is brought back to those.
+const GROWN: usize = 128;
+
+/// A force that differs from that of the last bin by less than this share of the peak joins it: a body at rest does not
+/// fill the history. A line of bins cannot show less.
+const SAME: f64 = 1e-3;
+
+/// The bin of the peak takes in a neighbour only as long as it keeps this share of the peak.
+const PEAK_KEPT: f64 = 0.98;
+
+/// A piece of a force history.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[f64; 5]", into = "[f64; 5]")]
+pub struct ForceSample {
+    /// Its start [s].
+    pub start: f64,
+    /// Its length [s].
+    pub duration: f64,
+    /// Integral of the force over it [N s].
+    pub impulse: DVec3,
+}
+
+impl ForceSample {
+    /// Mean force [N].
+    pub fn force(&self) -> DVec3 {
+        self.impulse / self.duration
+    }
+
+    /// The sample and its successor as one.
+    fn with(&self, next: &Self) -> Self {
+        let duration = self.duration + next.duration;
+        Self { start: self.start, duration, impulse: self.impulse + next.impulse }
+    }
+
+    /// What merging with the successor changes [N2 s].
+    fn cost(&self, next: &Self) -> f64 {
+        let shared = self.duration * next.duration / (self.duration + next.duration);
+        (self.force() - next.force()).length_squared() * shared
+    }
+}
+
+impl From<[f64; 5]> for ForceSample {
+    fn from([start, duration, x, y, z]: [f64; 5]) -> Self {
+        Self { start, duration, impulse: DVec3::new(x, y, z) }
+    }
+}
+
+impl From<ForceSample> for [f64; 5] {
+    fn from(sample: ForceSample) -> Self {
+        let [x, y, z] = sample.impulse.to_array();
+        [sample.start, sample.duration, x, y, z]
+    }
+}
+
+/// Force on a body against time.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ForceHistory {
+    /// One after the other without gaps.
+    samples: Vec<ForceSample>,
+    /// Largest mean force of a step [N].
+    peak: f64,
+    /// Bin that holds it.
+    peak_bin: usize,
+}
+
+impl ForceHistory {
+    /// The history so far, without gaps, in the order of time; at most 128 samples, 64 after [`Self::shorten`].
+    pub fn samples(&self) -> &[ForceSample] {
+        &self.samples
+    }
+
+    /// Adds a step from `start` of length `duration` [s] with its impulse [N s].
+    pub fn add(&mut self, start: f64, duration: f64, impulse: DVec3) {
+        if duration <= 0.0 {
+            return;
+        }
+        let new = ForceSample { start, duration, impulse };
+        let force = new.force();
+        let largest = force.length() > self.peak;
+        self.peak = self.peak.max(force.length());
+        match self.samples.last_mut() {
+            Some(last) if (force - last.force()).length() <= SAME * self.peak => *last = last.with(&new),
+            _ => self.samples.push(new),
+        }
+        if largest {
+            self.peak_bin = self.samples.len() - 1;
+        }
+        if self.samples.len() >= GROWN {
+            self.shorten();
+        }
+    }
+
+    /// Merges neighbours until at most [`KEPT`] are left.
+    pub fn shorten(&mut self) {
+        let mut costs: Vec<f64> = (1..self.samples.len()).map(|next| self.cost(next)).collect();
+        while self.samples.len() > KEPT {
+            let cheapest = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(index, _)| index);
+            self.samples[cheapest] = self.samples[cheapest].with(&self.samples[cheapest + 1]);
+            self.samples.remove(cheapest + 1);
+            costs.remove(cheapest);
+            if self.peak_bin > cheapest {
+                self.peak_bin -= 1;
+            }
+            // Also beside the bin of the peak, which may have become another one.
+            for next in cheapest.max(1)..=(cheapest + 1).min(self.samples.len() - 1) {
+                costs[next - 1] = self.cost(next);
+            }
+        }
+    }
+
+    /// What merging the sample `next` with the one before it changes [N2 s]; infinite if the peak would be lost.
+    fn cost(&self, next: usize) -> f64 {
+        let [before, after] = [&self.samples[next - 1], &self.samples[next]];
+        let holds_peak = self.peak_bin == next || self.peak_bin + 1 == next;
+        if holds_peak && before.with(after).force().length() < PEAK_KEPT * self.peak {
+            return f64::INFINITY;
+        }
+        before.cost(after)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Half a sine of 1 ms and 1000 N between stretches of 5 s with some newtons.
+    fn force(time: f64) -> DVec3 {
+        let weak = DVec3::new(0.1 * (3.0 * time).sin(), 0.0, 2.0 + (40.0 * time).sin());
+        let phase = (time - 5.0) / 1e-3;
+        let spike = if (0.0..1.0).contains(&phase) { 1000.0 * (PI * phase).sin() } else { 0.0 };
+        weak + DVec3::Z * spike
+    }
+
+    #[test]
+    fn a_spike_between_long_weak_stretches_keeps_impulse_peak_and_shape() {
+        let (mut history, mut impulse) = (ForceHistory::default(), DVec3::ZERO);
+        let dt = 2e-5;
+        for step in 0..500_000 {
+            let start = f64::from(step) * dt;
+            let part = force(start + 0.5 * dt) * dt;
+            history.add(start, dt, part);
+            impulse += part;
+            assert!(history.samples().len() < GROWN);
+        }
+        history.shorten();
+        let samples = history.samples();
+        assert!(samples.len() <= KEPT);
+        let kept: DVec3 = samples.iter().map(|s| s.impulse).sum();
+        // Rounding of half a million sums.
+        assert!((kept - impulse).length() < 1e-9 * impulse.length(), "{kept} {impulse}");
+        let hardest = samples.iter().map(|s| s.force().length()).fold(0.0, f64::max);
+        assert!((PEAK_KEPT * 1000.0..1004.0).contains(&hardest), "{hardest}");
+        // The spike is followed within a twentieth of its height; the bins are some 30 us long.
+        let spike = samples.iter().filter(|s| s.start > 4.9999 && s.start + s.duration < 5.0011);
+        let (mut count, mut error) = (0, 0.0_f64);
+        for sample in spike {
+            count += 1;
+            let steps = (sample.duration / dt).round() as usize;
+            let at = |k: usize| sample.start + (k as f64 + 0.5) * dt;
+            error = (0..steps).map(|k| (force(at(k)) - sample.force()).length()).fold(error, f64::max);
+        }
+        println!("{count} samples of the spike, error {error:.1} N");
+        assert!(count > 20 && error < 100.0, "{count} {error}");
+        for pair in samples.windows(2) {
+            assert!((pair[0].start + pair[0].duration - pair[1].start).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_constant_force_takes_one_sample() {
+        let mut history = ForceHistory::default();
+        for step in 0..10_000 {
+            history.add(1e-3 * f64::from(step), 1e-3, DVec3::Z * 1e-3);
+        }
+        assert_eq!(history.samples().len(), 1);
+        assert!((history.samples()[0].impulse.z - 10.0).abs() < 1e-9);
+    }
+}
