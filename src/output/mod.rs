@@ -17,6 +17,7 @@ mod atomic;
 pub mod columns;
 mod compare;
 mod error;
+mod impacts;
 pub mod plot;
 pub mod raster;
 mod report;
@@ -32,6 +33,7 @@ mod writer;
 pub use atomic::write_atomically;
 pub use compare::{Comparison, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare};
 pub use error::OutputError;
+pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
 pub use report::{clock, grouped, page, section, write_report};
 pub use series::CsvSeries;
 pub use summary::{

@@ -1,0 +1,357 @@
+//! The hardest impacts of a run: `impacts.h5`, from which a fracture computation can go on.
+//!
+//! | group | holds, a row an impact |
+//! | --- | --- |
+//! | `impacts` | bodies, place, speeds, peak, impulse, the bodies' states before, load of the water; NaN where there is none |
+//! | `history` | the samples of all impacts, one impact after the other: those of impact k are `offset[k]..offset[k + 1]` |
+//! | `pressure` | pressure at the places of the boundary particles, NaN where it is not known |
+//!
+//! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the triangle
+//! surface, 3 for a wall; `partner_number` is the number of that unit, segment, face or wall.
+
+use std::path::Path;
+
+use glam::{DQuat, DVec3};
+use hdf5_metno::{File, Group};
+use serde::{Deserialize, Serialize};
+
+use super::OutputError;
+use super::state_file::{
+    Hdf5Result, read_rows, read_state, read_vectors, write_column, write_rows, write_state, write_vectors,
+};
+use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load};
+
+/// Layout of the file; raised when it changes.
+const VERSION: u32 = 1;
+
+/// Where the water's pressure at a unit is known, in the unit's axes from its centre of mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressurePlace {
+    /// Boundary particle, inside the unit [m].
+    pub particle: DVec3,
+    /// From there to the nearest point of the surface [m].
+    pub to_surface: DVec3,
+}
+
+/// The water at the unit `event.body` in the step in which the force of an impact had its peak.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FluidAtPeak {
+    /// Force and torque about the centre of mass, world axes, as means over the step.
+    pub load: Load,
+    /// Pressure at each of [`Impacts::places`] [Pa].
+    pub pressure: Vec<f32>,
+}
+
+/// An impact of a unit on another, the bed or a wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impact {
+    /// Bodies, place and strength; times are those of the flume.
+    pub event: ContactEvent,
+    /// Force on `event.body` against flume time, without gaps; on a partner the opposite acts.
+    pub history: Vec<ForceSample>,
+    /// The water then; none in dry runs.
+    pub fluid: Option<FluidAtPeak>,
+}
+
+/// The impacts of a run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Impacts {
+    /// Where pressures are known, the same for all units; empty in dry runs.
+    pub places: Vec<PressurePlace>,
+    /// The hardest first.
+    pub impacts: Vec<Impact>,
+}
+
+/// What the text of the file says.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    version: u32,
+}
+
+type Scalar = (&'static str, fn(&mut ContactEvent) -> &mut f64);
+type Vector = (&'static str, fn(&mut ContactEvent) -> &mut [f64; 3]);
+
+const SCALARS: [Scalar; 8] = [
+    ("start_s", |event| &mut event.start),
+    ("end_s", |event| &mut event.end),
+    ("approach_normal_m_s", |event| &mut event.approach_normal),
+    ("approach_tangential_m_s", |event| &mut event.approach_tangential),
+    ("approach_energy_j", |event| &mut event.approach_energy),
+    ("rebound_m_s", |event| &mut event.rebound),
+    ("peak_force_n", |event| &mut event.peak_force),
+    ("peak_time_s", |event| &mut event.peak_time),
+];
+
+const VECTORS: [Vector; 5] = [
+    ("point_m", |event| &mut event.point),
+    ("point_in_body_m", |event| &mut event.point_in_body),
+    ("normal", |event| &mut event.normal),
+    ("peak_force_vector_n", |event| &mut event.peak),
+    ("impulse_n_s", |event| &mut event.impulse),
+];
+
+impl Impacts {
+    /// Name of the file in a run folder.
+    pub const FILE: &str = "impacts.h5";
+
+    /// Writes the file: to a temporary name first, synced, then renamed.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        let text = serde_json::to_string(&Header { version: VERSION }).map_err(OutputError::json(path))?;
+        write_state(path, &text, |file| {
+            self.write_events(&file.create_group("impacts")?)?;
+            self.write_histories(&file.create_group("history")?)?;
+            self.write_pressures(&file.create_group("pressure")?)
+        })
+    }
+
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// If there is none, or it is damaged or not one of impacts.
+    pub fn read(path: &Path) -> Result<Self, OutputError> {
+        std::fs::metadata(path).map_err(OutputError::io(path))?;
+        let (text, columns) = read_state(path, Columns::read)?;
+        let header: Header = serde_json::from_str(&text).map_err(OutputError::json(path))?;
+        if header.version != VERSION {
+            let what = format!("was written by another version of breakwater (layout {})", header.version);
+            return Err(OutputError::content(path, what));
+        }
+        let damaged = |name: &str| {
+            let what = format!("is damaged: `{name}` does not fit the number of impacts; make the run again");
+            OutputError::content(path, what)
+        };
+        columns.into_impacts().map_err(damaged)
+    }
+
+    fn events(&self) -> impl Iterator<Item = ContactEvent> {
+        self.impacts.iter().map(|impact| impact.event)
+    }
+
+    fn write_events(&self, group: &Group) -> Hdf5Result<()> {
+        let numbers: Vec<u64> = self.events().map(|event| event.number).collect();
+        write_column(group, "number", &numbers)?;
+        let units: Vec<u32> = self.events().map(|event| event.body + 1).collect();
+        write_column(group, "unit", &units)?;
+        let partners: Vec<PartnerNumbers> = self.events().map(|event| partner_numbers(event.partner)).collect();
+        for (k, name) in PARTNER.into_iter().enumerate() {
+            write_column(group, name, &partners.iter().map(|numbers| numbers[k]).collect::<Vec<i64>>())?;
+        }
+        for (name, of) in SCALARS {
+            write_column(group, name, &self.events().map(|mut event| *of(&mut event)).collect::<Vec<f64>>())?;
+        }
+        for (name, of) in VECTORS {
+            write_rows(group, name, &self.events().map(|mut event| *of(&mut event)).collect::<Vec<_>>())?;
+        }
+        write_bodies(group, "", self.events().map(|event| event.before))?;
+        write_bodies(group, "partner_", self.events().map(|event| event.partner_before.unwrap_or(NO_BODY)))?;
+        let loads: Vec<Load> =
+            self.impacts.iter().map(|impact| impact.fluid.as_ref().map_or(NO_LOAD, |fluid| fluid.load)).collect();
+        write_vectors(group, "fluid_force_n", &loads.iter().map(|load| load.force).collect::<Vec<_>>())?;
+        write_vectors(group, "fluid_torque_n_m", &loads.iter().map(|load| load.torque).collect::<Vec<_>>())
+    }
+
+    fn write_histories(&self, group: &Group) -> Hdf5Result<()> {
+        let mut offsets = vec![0_u64];
+        offsets.extend(self.impacts.iter().scan(0, |end, impact| {
+            *end += impact.history.len() as u64;
+            Some(*end)
+        }));
+        let samples = || self.impacts.iter().flat_map(|impact| &impact.history);
+        write_column(group, "offset", &offsets)?;
+        write_column(group, "start_s", &samples().map(|sample| sample.start).collect::<Vec<_>>())?;
+        write_column(group, "duration_s", &samples().map(|sample| sample.duration).collect::<Vec<_>>())?;
+        write_vectors(group, "impulse_n_s", &samples().map(|sample| sample.impulse).collect::<Vec<_>>())
+    }
+
+    fn write_pressures(&self, group: &Group) -> Hdf5Result<()> {
+        write_vectors(group, "particle_m", &self.places.iter().map(|place| place.particle).collect::<Vec<_>>())?;
+        write_vectors(group, "to_surface_m", &self.places.iter().map(|place| place.to_surface).collect::<Vec<_>>())?;
+        let unknown = vec![f32::NAN; self.places.len()];
+        let rows = self.impacts.iter().map(|impact| impact.fluid.as_ref().map_or(&unknown, |fluid| &fluid.pressure));
+        let flat: Vec<f32> = rows.flatten().copied().collect();
+        let shape = (self.impacts.len(), self.places.len());
+        group.new_dataset::<f32>().shape(shape).create("pressure_pa")?.write_raw(&flat)
+    }
+}
+
+const NO_LOAD: Load = Load { force: DVec3::NAN, torque: DVec3::NAN };
+const NO_BODY: BodyState = BodyState {
+    position: DVec3::NAN,
+    rotation: DQuat::from_xyzw(f64::NAN, f64::NAN, f64::NAN, f64::NAN),
+    velocity: DVec3::NAN,
+    angular_velocity: DVec3::NAN,
+};
+
+/// An event to be filled in.
+const NO_EVENT: ContactEvent = ContactEvent {
+    number: 0,
+    start: 0.0,
+    end: 0.0,
+    body: 0,
+    partner: Feature::Ground { place: 0, end: 0 },
+    point: [0.0; 3],
+    point_in_body: [0.0; 3],
+    normal: [0.0; 3],
+    before: NO_BODY,
+    partner_before: None,
+    approach_normal: 0.0,
+    approach_tangential: 0.0,
+    approach_energy: 0.0,
+    rebound: 0.0,
+    peak_force: 0.0,
+    peak: [0.0; 3],
+    peak_time: 0.0,
+    impulse: [0.0; 3],
+};
+
+/// Kind, number, image and part or end of what was touched, in the columns of these names.
+type PartnerNumbers = [i64; 4];
+const PARTNER: [&str; 4] = ["partner_kind", "partner_number", "partner_image", "partner_part"];
+
+fn partner_numbers(partner: Feature) -> PartnerNumbers {
+    match partner {
+        Feature::Unit { body, image, part } => [0, i64::from(body) + 1, image.into(), part.into()],
+        Feature::Ground { place, end } => [1, place.into(), 0, end.into()],
+        Feature::Terrain { place, end } => [2, place.into(), 0, end.into()],
+        Feature::Wall { wall, end } => [3, wall.into(), 0, end.into()],
+    }
+}
+
+/// What was touched; none if the numbers are not those of [`partner_numbers`].
+fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
+    let end = part.try_into().ok()?;
+    Some(match kind {
+        0 => Feature::Unit { body: number.checked_sub(1)?.try_into().ok()?, image: image.try_into().ok()?, part: end },
+        1 => Feature::Ground { place: number.try_into().ok()?, end },
+        2 => Feature::Terrain { place: number.try_into().ok()?, end },
+        3 => Feature::Wall { wall: number.try_into().ok()?, end },
+        _ => return None,
+    })
+}
+
+fn write_bodies(group: &Group, prefix: &str, bodies: impl Iterator<Item = BodyState>) -> Hdf5Result<()> {
+    let bodies: Vec<BodyState> = bodies.collect();
+    let vectors = |of: fn(&BodyState) -> DVec3| bodies.iter().map(of).collect::<Vec<_>>();
+    write_vectors(group, &format!("{prefix}position_m"), &vectors(|body| body.position))?;
+    let rotations: Vec<[f64; 4]> = bodies.iter().map(|body| body.rotation.to_array()).collect();
+    write_rows(group, &format!("{prefix}rotation_xyzw"), &rotations)?;
+    write_vectors(group, &format!("{prefix}velocity_m_s"), &vectors(|body| body.velocity))?;
+    write_vectors(group, &format!("{prefix}angular_velocity_rad_s"), &vectors(|body| body.angular_velocity))
+}
+
+/// States of the bodies; as many as there are rows in the shortest of their datasets.
+fn read_bodies(group: &Group, prefix: &str) -> Hdf5Result<Vec<BodyState>> {
+    let positions = read_vectors(group, &format!("{prefix}position_m"))?;
+    let rotations = read_rows(group, &format!("{prefix}rotation_xyzw"))?.into_iter().map(DQuat::from_array);
+    let velocities = read_vectors(group, &format!("{prefix}velocity_m_s"))?;
+    let turns = read_vectors(group, &format!("{prefix}angular_velocity_rad_s"))?;
+    let bodies = positions.into_iter().zip(rotations).zip(velocities.into_iter().zip(turns));
+    let state = |((position, rotation), (velocity, angular_velocity))| BodyState {
+        position,
+        rotation,
+        velocity,
+        angular_velocity,
+    };
+    Ok(bodies.map(state).collect())
+}
+
+/// The datasets of a file as they are.
+struct Columns {
+    numbers: Vec<u64>,
+    units: Vec<u32>,
+    partners: [Vec<i64>; 4],
+    scalars: Vec<Vec<f64>>,
+    vectors: Vec<Vec<[f64; 3]>>,
+    bodies: Vec<BodyState>,
+    partner_bodies: Vec<BodyState>,
+    loads: [Vec<DVec3>; 2],
+    offsets: Vec<u64>,
+    samples: Vec<ForceSample>,
+    places: [Vec<DVec3>; 2],
+    pressures: Vec<f32>,
+}
+
+impl Columns {
+    fn read(file: &File) -> Hdf5Result<Self> {
+        let (impacts, history, pressure) = (file.group("impacts")?, file.group("history")?, file.group("pressure")?);
+        let mut partners = [const { Vec::new() }; 4];
+        for (column, name) in partners.iter_mut().zip(PARTNER) {
+            *column = impacts.dataset(name)?.read_raw()?;
+        }
+        let starts: Vec<f64> = history.dataset("start_s")?.read_raw()?;
+        let durations: Vec<f64> = history.dataset("duration_s")?.read_raw()?;
+        let samples = starts.into_iter().zip(durations).zip(read_vectors(&history, "impulse_n_s")?);
+        Ok(Self {
+            numbers: impacts.dataset("number")?.read_raw()?,
+            units: impacts.dataset("unit")?.read_raw()?,
+            partners,
+            scalars: SCALARS.iter().map(|(name, _)| impacts.dataset(name)?.read_raw()).collect::<Hdf5Result<_>>()?,
+            vectors: VECTORS.iter().map(|(name, _)| read_rows(&impacts, name)).collect::<Hdf5Result<_>>()?,
+            bodies: read_bodies(&impacts, "")?,
+            partner_bodies: read_bodies(&impacts, "partner_")?,
+            loads: [read_vectors(&impacts, "fluid_force_n")?, read_vectors(&impacts, "fluid_torque_n_m")?],
+            offsets: history.dataset("offset")?.read_raw()?,
+            samples: samples.map(|((start, duration), impulse)| ForceSample { start, duration, impulse }).collect(),
+            places: [read_vectors(&pressure, "particle_m")?, read_vectors(&pressure, "to_surface_m")?],
+            pressures: pressure.dataset("pressure_pa")?.read_raw()?,
+        })
+    }
+
+    /// The impacts, or the name of a dataset that does not fit the others.
+    fn into_impacts(self) -> Result<Impacts, &'static str> {
+        let [particles, to_surface] = &self.places;
+        if particles.len() != to_surface.len() {
+            return Err("to_surface_m");
+        }
+        let place = |(&particle, &to_surface)| PressurePlace { particle, to_surface };
+        let places: Vec<PressurePlace> = particles.iter().zip(to_surface).map(place).collect();
+        let count = self.numbers.len();
+        if self.pressures.len() != count * places.len() {
+            return Err("pressure_pa");
+        }
+        if self.offsets.len() != count + 1 {
+            return Err("offset");
+        }
+        let impacts = (0..count).map(|row| self.impact(row, places.len())).collect::<Result<_, _>>()?;
+        Ok(Impacts { places, impacts })
+    }
+
+    fn impact(&self, row: usize, places: usize) -> Result<Impact, &'static str> {
+        let mut event = ContactEvent {
+            number: self.numbers[row],
+            body: self.units.get(row).and_then(|unit| unit.checked_sub(1)).ok_or("unit")?,
+            partner: self.partner(row).ok_or("partner_number")?,
+            before: *self.bodies.get(row).ok_or("position_m")?,
+            partner_before: Some(*self.partner_bodies.get(row).ok_or("partner_position_m")?)
+                .filter(|body| !body.position.is_nan()),
+            ..NO_EVENT
+        };
+        for ((name, of), column) in SCALARS.iter().zip(&self.scalars) {
+            *of(&mut event) = *column.get(row).ok_or(*name)?;
+        }
+        for ((name, of), column) in VECTORS.iter().zip(&self.vectors) {
+            *of(&mut event) = *column.get(row).ok_or(*name)?;
+        }
+        let [start, end] = [row, row + 1].map(|row| self.offsets[row] as usize);
+        let history = self.samples.get(start..end).ok_or("offset")?.to_vec();
+        let [force, torque] = [&self.loads[0], &self.loads[1]];
+        let force = *force.get(row).ok_or("fluid_force_n")?;
+        let torque = *torque.get(row).ok_or("fluid_torque_n_m")?;
+        let fluid = (!force.is_nan()).then(|| FluidAtPeak {
+            load: Load { force, torque },
+            pressure: self.pressures[row * places..(row + 1) * places].to_vec(),
+        });
+        Ok(Impact { event, history, fluid })
+    }
+
+    fn partner(&self, row: usize) -> Option<Feature> {
+        let mut numbers = PartnerNumbers::default();
+        for (number, column) in numbers.iter_mut().zip(&self.partners) {
+            *number = *column.get(row)?;
+        }
+        partner(numbers)
+    }
+}
