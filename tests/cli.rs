@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use breakwater::output::Impacts;
 use serde_json::{Value, json};
 
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
     "case.json",
     "checkpoint.h5",
     "contacts.csv",
@@ -14,6 +15,7 @@ const FILES: [&str; 12] = [
     "energy.csv",
     "fluid.vtkhdf",
     "gauges.csv",
+    "impacts.h5",
     "profile.csv",
     "report.html",
     "summary.json",
@@ -100,6 +102,8 @@ fn assert_same_tables(a: &Path, b: &Path) {
         assert!(bytes_a == bytes_b, "{table}: {} and {} differ", a.display(), b.display());
     }
     assert_eq!(lasting_summary(a), lasting_summary(b));
+    let [of_a, of_b] = [a, b].map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
+    assert!(of_a == of_b, "{}: {} and {} differ", Impacts::FILE, a.display(), b.display());
 }
 
 /// The bits of a dataset, as they are in the file.
@@ -216,10 +220,26 @@ fn a_run_writes_what_it_promises() {
     let mach = summary["largest_mach"].as_f64().unwrap();
     assert!((0.03..0.3).contains(&mach), "{mach}");
     assert_eq!(summary["warnings"].as_array().map(Vec::is_empty), Some(mach <= 0.1));
+    impacts_come_with_the_water(&out);
     files_are_about_as_large_as_estimated(&case, &out);
     refuse_to_overwrite(&case, &out);
     compare_needs_a_published_wave(&out);
     report_is_made_anew(&out);
+}
+
+fn impacts_come_with_the_water(out: &Path) {
+    let Impacts { places, impacts } = Impacts::read(&out.join(Impacts::FILE)).unwrap();
+    assert!(!impacts.is_empty() && impacts.len() <= 16 && !places.is_empty());
+    assert!(impacts.is_sorted_by(|a, b| a.event.peak_force >= b.event.peak_force));
+    for impact in &impacts {
+        let (event, water) = (&impact.event, impact.fluid.as_ref().unwrap());
+        // Let go on the bed after a moment, in a tank 0.3 m deep at most.
+        assert!(event.start >= 0.0 && event.start <= event.peak_time && event.peak_time <= event.end);
+        assert!(event.end < 0.31 && event.before.position.is_finite());
+        assert!(water.load.force.is_finite() && water.pressure.len() == places.len());
+        assert!(water.pressure.iter().all(|pressure| pressure.is_finite() && pressure.abs() < 1e5));
+    }
+    assert!(impacts.iter().any(|impact| impact.fluid.as_ref().is_some_and(|f| f.pressure.iter().any(|p| *p > 100.0))));
 }
 
 /// Within a factor of two: a file this small has large parts that are reserved and empty.

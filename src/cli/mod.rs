@@ -165,7 +165,7 @@ fn stem(path: &std::path::Path) -> String {
 }
 
 /// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 31] = [
+const RESULT_FILES: [&str; 32] = [
     "bodies.csv",
     "case.json",
     "checkpoint.h5",
@@ -184,6 +184,7 @@ const RESULT_FILES: [&str; 31] = [
     "flume_piston.csv",
     "fragments.csv",
     "gauges.csv",
+    "impacts.h5",
     "mesh.msh",
     "ml_piston_velx.csv",
     "picture.svg",

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{DryRun, Measured};
 use crate::{
     case::SiteTerrain,
-    output::{Cells, CsvSeries, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically},
+    output::{Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically},
     rigid::{ContactEvent, RigidSnapshot},
     simulation::{
         recorder::{contact_row, is_due},
@@ -36,7 +36,7 @@ struct Checkpoint {
 }
 
 /// Layout of the checkpoint; raised when it changes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 const UNITS_FILE: &str = "units.csv";
 const CONTACTS_FILE: &str = "contacts.csv";
@@ -153,7 +153,9 @@ impl DryRecorder {
             self.record_surfaces(run)?;
         }
         let running: Vec<ContactEvent> = run.world.running_events().copied().collect();
-        self.record_contacts(run, &running)
+        self.record_contacts(run, &running)?;
+        let impacts = run.world.impacts().iter().map(|contact| Impact::new(contact, 0.0, None)).collect();
+        Impacts { places: Vec::new(), impacts }.write(&self.dir.join(Impacts::FILE))
     }
 
     /// Keep the state of the run in `file` of its folder.

@@ -35,8 +35,10 @@ pub const UNITS: [&str; 27] = [
     "contact_tz_nm",
 ];
 
-/// `contacts.csv`: one row for each contact event. `partner` is the other unit, counted from 1, or 0 for the bed.
-pub const CONTACTS: [&str; 11] = [
+/// `contacts.csv`: one row for each contact event. `partner` is the other unit, counted from 1, or 0 for the bed;
+/// `bx_m`, `by_m`, `bz_m` is the place in the axes of the unit, from its centre of mass; `rebound_m_s` the normal velocity
+/// at the end, positive when parting.
+pub const CONTACTS: [&str; 15] = [
     "start_s",
     "end_s",
     "unit",
@@ -48,6 +50,10 @@ pub const CONTACTS: [&str; 11] = [
     "tangential_velocity_m_s",
     "peak_force_n",
     "impulse_n_s",
+    "bx_m",
+    "by_m",
+    "bz_m",
+    "rebound_m_s",
 ];
 
 /// `energy.csv` of a dry run: slope of the bed; energy of the units and of their contacts; what friction and dashpots

@@ -19,7 +19,7 @@ use super::OutputError;
 use super::state_file::{
     Hdf5Result, read_rows, read_state, read_vectors, write_column, write_rows, write_state, write_vectors,
 };
-use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load};
+use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load, RecordedContact};
 
 /// Layout of the file; raised when it changes.
 const VERSION: u32 = 1;
@@ -89,6 +89,15 @@ const VECTORS: [Vector; 5] = [
     ("peak_force_vector_n", |event| &mut event.peak),
     ("impulse_n_s", |event| &mut event.impulse),
 ];
+
+impl Impact {
+    /// A contact with the water at its peak; `offset` [s] leads from the clock of the contacts to that of the flume.
+    pub fn new(contact: &RecordedContact, offset: f64, fluid: Option<FluidAtPeak>) -> Self {
+        let on_clock = |sample: &ForceSample| ForceSample { start: sample.start + offset, ..*sample };
+        let history = contact.history.samples().iter().map(on_clock).collect();
+        Self { event: contact.event.on_clock(offset), history, fluid }
+    }
+}
 
 impl Impacts {
     /// Name of the file in a run folder.
@@ -353,5 +362,87 @@ impl Columns {
             *number = *column.get(row)?;
         }
         partner(numbers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn body(x: f64) -> BodyState {
+        BodyState {
+            position: DVec3::new(x, 0.1, 0.2),
+            rotation: DQuat::from_rotation_x(x),
+            velocity: DVec3::new(0.0, x, -1.0),
+            angular_velocity: DVec3::Y * x,
+        }
+    }
+
+    fn impact(number: u64, partner: Feature, with_water: bool) -> Impact {
+        let x = number as f64 / 3.0;
+        let mut event = ContactEvent { number, body: 2, partner, before: body(x), ..NO_EVENT };
+        event.partner_before = event.partner_unit().map(|_| body(x + 1.0));
+        SCALARS.iter().enumerate().for_each(|(k, (_, of))| *of(&mut event) = x + k as f64);
+        VECTORS.iter().enumerate().for_each(|(k, (_, of))| *of(&mut event) = [x, k as f64, -x]);
+        let sample = |k| ForceSample { start: f64::from(k), duration: 1.0, impulse: DVec3::new(x, 1.0, f64::from(k)) };
+        let load = Load { force: DVec3::X * x, torque: DVec3::Z };
+        let fluid = with_water.then(|| FluidAtPeak { load, pressure: vec![1.5, -x as f32] });
+        Impact { event, history: (0..number as i32).map(sample).collect(), fluid }
+    }
+
+    fn some_impacts() -> Impacts {
+        let place = |x| PressurePlace { particle: DVec3::X * x, to_surface: DVec3::Y * x };
+        let partners = [
+            Feature::Unit { body: 7, image: -1, part: 1023 },
+            Feature::Ground { place: 3, end: 1 },
+            Feature::Terrain { place: 70_000, end: 2 },
+            Feature::Wall { wall: 3, end: 5 },
+        ];
+        let impacts = partners.into_iter().zip(0..).map(|(partner, k)| impact(k, partner, k != 2)).collect();
+        Impacts { places: vec![place(0.1), place(0.2)], impacts }
+    }
+
+    #[test]
+    fn what_was_written_is_read_back_to_the_last_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(Impacts::FILE);
+        let dry = Impacts { places: Vec::new(), impacts: vec![impact(5, Feature::Ground { place: 0, end: 0 }, false)] };
+        for impacts in [some_impacts(), dry, Impacts::default()] {
+            impacts.write(&path).unwrap();
+            assert_eq!(Impacts::read(&path).unwrap(), impacts);
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn missing_and_damaged_files_are_refused_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(Impacts::FILE);
+        let refused = || {
+            let message = Impacts::read(&path).unwrap_err().to_string();
+            assert!(message.contains(Impacts::FILE), "{message}");
+            message
+        };
+        assert!(refused().contains("No such file"));
+        std::fs::write(&path, b"not an HDF5 file").unwrap();
+        refused();
+        some_impacts().write(&path).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+        refused();
+        for name in ["impacts/unit", "impacts/partner_kind", "impacts/peak_force_n", "impacts/rotation_xyzw"] {
+            some_impacts().write(&path).unwrap();
+            let file = File::open_rw(&path).unwrap();
+            file.unlink(name).unwrap();
+            drop(file);
+            assert!(refused().contains("HDF5"));
+        }
+        for offsets in [[0_u64, 1, 3, 99, 6], [0, 3, 1, 3, 6]] {
+            some_impacts().write(&path).unwrap();
+            let file = File::open_rw(&path).unwrap();
+            file.dataset("history/offset").unwrap().write_raw(&offsets).unwrap();
+            drop(file);
+            assert!(refused().contains("offset"));
+        }
     }
 }

@@ -6,6 +6,7 @@
 //! | `profile.csv` | [`CsvSeries`] | bed with mound: `x_m`, `z_m` |
 //! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | water at the gauges, by the particles and by the flume model |
 //! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | motion and forces of the units, contact events, energy |
+//! | `impacts.h5` | [`Impacts`] | the hardest impacts of the units with their forces against time |
 //! | `diagnostics.csv` | [`CsvSeries`] | whether the run is sound: volume, Mach number, densities, steps |
 //! | `unit_surface.json` | [`UnitSurface`] | the unit's surface about its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |

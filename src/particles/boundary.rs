@@ -108,6 +108,12 @@ impl Boundary {
         &self.units
     }
 
+    /// Place of each particle of a unit in the unit's axes, and the way from there to the surface [m]; the same for all.
+    pub fn places_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let unit = self.units.first().cloned().unwrap_or_default();
+        unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
+    }
+
     /// Put the piston where its rows are: displacement [m] and velocity [m/s] along x of each.
     pub fn move_piston(&mut self, rows: &[[f64; 2]]) {
         for (particle, &row) in self.piston.clone().zip(&self.piston_row) {

@@ -1,4 +1,6 @@
 //! The impacts of each unit that a fracture computation may want to take over: the hardest and the fastest.
+//!
+//! An impact takes about 0.5 kB and its history at most 2.5 kB, so a unit takes at most 48 kB however long the run is.
 
 use std::collections::BTreeMap;
 
@@ -76,11 +78,6 @@ impl ImpactLog {
         self.impacts.values()
     }
 
-    /// Whether a contact is kept.
-    pub fn has(&self, number: u64) -> bool {
-        self.impacts.contains_key(&number)
-    }
-
     /// The impacts kept, the hardest first.
     pub fn into_hardest_first(self) -> Vec<RecordedContact> {
         let mut impacts: Vec<RecordedContact> = self.impacts.into_values().collect();
@@ -135,5 +132,61 @@ impl ImpactLog {
         if no_longer {
             self.impacts.remove(&number);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::Feature;
+    use crate::rigid::event::event_for_tests;
+
+    /// Contact of unit `number % 3` with the next one or a wall; forces and energies are spread like random numbers.
+    fn contact(number: u64) -> RecordedContact {
+        let spread = |factor: f64| (number as f64 * factor).fract();
+        let body = (number % 3) as u32;
+        let partner = match number % 2 {
+            0 => Feature::Unit { body: (body + 1) % 3, image: 0, part: 0 },
+            _ => Feature::Wall { wall: 0, end: 0 },
+        };
+        let (peak_force, approach_energy) = (1.0 + spread(0.618_033_988_7), spread(0.414_213_562_4));
+        let event = ContactEvent { number, body, partner, peak_force, approach_energy, ..event_for_tests() };
+        RecordedContact { event, history: ForceHistory::default() }
+    }
+
+    /// What of all contacts the log should keep, found with all of them at hand.
+    fn expected(contacts: &[RecordedContact]) -> Vec<u64> {
+        let mut kept: Vec<u64> = Vec::new();
+        for unit in 0..3 {
+            let mut own: Vec<&ContactEvent> =
+                contacts.iter().map(|c| &c.event).filter(|e| units_of(e).any(|u| u == unit)).collect();
+            own.sort_by(|a, b| b.peak_force.total_cmp(&a.peak_force));
+            let mut rest = own.split_off(HARDEST.min(own.len()));
+            rest.sort_by(|a, b| b.approach_energy.total_cmp(&a.approach_energy));
+            kept.extend(own.iter().chain(rest.iter().take(MOST_ENERGETIC)).map(|event| event.number));
+        }
+        kept.sort_unstable();
+        kept.dedup();
+        kept
+    }
+
+    #[test]
+    fn the_log_keeps_the_hardest_and_the_fastest_of_each_unit_and_nothing_else() {
+        let mut log = ImpactLog::default();
+        let contacts: Vec<RecordedContact> = (0..2000).map(contact).collect();
+        for (count, contact) in contacts.iter().enumerate() {
+            let would = log.would_keep(&contact.event);
+            log.take(contact.clone());
+            let kept: Vec<u64> = log.impacts().map(|impact| impact.event.number).collect();
+            assert!(kept.len() <= 3 * (HARDEST + MOST_ENERGETIC));
+            assert_eq!(would, kept.contains(&contact.event.number));
+            if count % 100 == 7 {
+                assert_eq!(kept, expected(&contacts[..=count]));
+            }
+        }
+        let text = serde_json::to_string(&log).unwrap();
+        assert_eq!(serde_json::from_str::<ImpactLog>(&text).unwrap(), log);
+        let forces: Vec<f64> = log.into_hardest_first().iter().map(|c| c.event.peak_force).collect();
+        assert!(forces.is_sorted_by(|a, b| a >= b));
     }
 }

@@ -174,9 +174,9 @@ impl RigidWorld {
         impacts.impacts().map(|impact| &impact.event).chain(running).filter(move |event| event.peak_time > time)
     }
 
-    /// Whether a contact exists or is among the hardest impacts, by its [number](ContactEvent::number).
-    pub fn remembers(&self, contact: u64) -> bool {
-        self.book.impacts.has(contact) || self.running_events().any(|event| event.number == contact)
+    /// [Numbers](ContactEvent::number) of the contacts that exist or are among the hardest impacts, in no order.
+    pub fn remembered_contacts(&self) -> impl Iterator<Item = u64> {
+        self.book.impacts.impacts().map(|impact| &impact.event).chain(self.running_events()).map(|event| event.number)
     }
 
     /// Changes gravity [m/s2], to tilt the ground.

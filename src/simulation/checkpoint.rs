@@ -6,22 +6,25 @@
 use std::path::Path;
 
 use glam::DVec3;
-use hdf5_metno::File;
+use hdf5_metno::{File, Group};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use super::{Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics};
+use super::{
+    Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics,
+    water_at_impacts::WaterAtImpacts,
+};
 use crate::{
     output::{
-        OutputError,
+        FluidAtPeak, OutputError,
         state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
     },
     particles::water::Water,
-    rigid::RigidSnapshot,
+    rigid::{Load, RigidSnapshot},
     waves::absorption::AbsorptionState,
 };
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]
@@ -43,6 +46,7 @@ pub struct Checkpoint {
     scalars: Scalars,
     water: Water,
     boundary_density: Vec<f64>,
+    water_at_impacts: WaterAtImpacts,
 }
 
 impl Checkpoint {
@@ -69,7 +73,12 @@ impl Checkpoint {
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
             absorbed: simulation.absorbed,
         };
-        Self { scalars, water: simulation.water.clone(), boundary_density: simulation.boundary.density.clone() }
+        Self {
+            scalars,
+            water: simulation.water.clone(),
+            boundary_density: simulation.boundary.density.clone(),
+            water_at_impacts: units.map_or_else(WaterAtImpacts::default, |units| units.water_at_impacts.clone()),
+        }
     }
 
     /// Write the state to `file` in the run folder: to a temporary name first, synced, then renamed.
@@ -86,7 +95,8 @@ impl Checkpoint {
             write_column(&group, "density_kg_m3", &self.water.density)?;
             write_column(&group, "mass_kg", &self.water.mass)?;
             write_column(&group, "id", &self.water.id)?;
-            write_column(&file.create_group("boundary")?, "density_kg_m3", &self.boundary_density)
+            write_column(&file.create_group("boundary")?, "density_kg_m3", &self.boundary_density)?;
+            write_impacts(&file.create_group("impacts")?, &self.water_at_impacts)
         })
     }
 }
@@ -126,6 +136,11 @@ pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, Ou
             load.torque = DVec3::from_array(torque);
         }
         units.mean_loads = scalars.mean_loads;
+        let places = simulation.boundary.places_in_unit().count();
+        if arrays.water_at_impacts.0.values().any(|water| water.pressure.len() != places) {
+            return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
+        }
+        units.water_at_impacts = arrays.water_at_impacts;
     }
     simulation.place_boundary();
     Ok(scalars.recorder)
@@ -143,6 +158,28 @@ struct Arrays {
     mass: Vec<f64>,
     id: Vec<u32>,
     boundary_density: Vec<f64>,
+    water_at_impacts: WaterAtImpacts,
+}
+
+fn write_impacts(group: &Group, water: &WaterAtImpacts) -> Hdf5Result<()> {
+    let of = |load: fn(&FluidAtPeak) -> DVec3| water.0.values().map(load).collect::<Vec<_>>();
+    let pressures: Vec<f32> = water.0.values().flat_map(|water| &water.pressure).copied().collect();
+    write_column(group, "contact", &water.0.keys().copied().collect::<Vec<u64>>())?;
+    write_vectors(group, "force_n", &of(|water| water.load.force))?;
+    write_vectors(group, "torque_n_m", &of(|water| water.load.torque))?;
+    write_column(group, "pressure_pa", &pressures)
+}
+
+fn read_impacts(group: &Group) -> Hdf5Result<WaterAtImpacts> {
+    let contacts: Vec<u64> = group.dataset("contact")?.read_raw()?;
+    let (forces, torques) = (read_vectors(group, "force_n")?, read_vectors(group, "torque_n_m")?);
+    let pressures: Vec<f32> = group.dataset("pressure_pa")?.read_raw()?;
+    let places = pressures.len() / contacts.len().max(1);
+    let loads = forces.into_iter().zip(torques).map(|(force, torque)| Load { force, torque });
+    // Without particles at the units there is no pressure either.
+    let pressures = pressures.chunks(places.max(1)).map(<[f32]>::to_vec).chain(std::iter::repeat(Vec::new()));
+    let water = loads.zip(pressures).map(|(load, pressure)| FluidAtPeak { load, pressure });
+    Ok(WaterAtImpacts(contacts.into_iter().zip(water).collect()))
 }
 
 fn read_arrays(file: &File) -> Hdf5Result<Arrays> {
@@ -154,5 +191,6 @@ fn read_arrays(file: &File) -> Hdf5Result<Arrays> {
         mass: water.dataset("mass_kg")?.read_raw()?,
         id: water.dataset("id")?.read_raw()?,
         boundary_density: file.dataset("boundary/density_kg_m3")?.read_raw()?,
+        water_at_impacts: read_impacts(&file.group("impacts")?)?,
     })
 }

@@ -13,6 +13,7 @@
 //! | [`extremes`] | the fastest, the lightest and the densest water |
 //! | `diagnostics` | whether the run is sound |
 //! | [`mean_loads`] | loads on the units as the series show them |
+//! | [`water_at_impacts`] | the water at the units when their impacts are hardest |
 //! | [`statistics`] | what is kept of a run besides its series |
 //! | [`recorder`] | writes the series and snapshots |
 //! | [`snapshots`] | moments of water and units for ParaView |
@@ -39,6 +40,7 @@ pub mod setup;
 pub mod snapshots;
 pub mod statistics;
 pub mod summary;
+pub mod water_at_impacts;
 mod zones;
 
 use std::sync::Arc;
@@ -57,6 +59,7 @@ use absorb::move_wavemaker;
 use failure::Failure;
 use mean_loads::MeanLoads;
 use statistics::Statistics;
+use water_at_impacts::WaterAtImpacts;
 
 /// A case in motion.
 pub struct Simulation {
@@ -100,6 +103,8 @@ pub struct Units {
     pub fluid_loads: Vec<Load>,
     /// What the next row of the series will show of the loads.
     pub mean_loads: MeanLoads,
+    /// The water when their impacts were hardest.
+    pub water_at_impacts: WaterAtImpacts,
 }
 
 impl Simulation {
@@ -169,9 +174,12 @@ impl Simulation {
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
-            if let Err(error) = units.world.advance(dt, &units.fluid_loads) {
+            let Units { world, fluid_loads, water_at_impacts, .. } = units;
+            let since = world.time();
+            if let Err(error) = world.advance(dt, fluid_loads) {
                 return Err(failure::of_units(self, error));
             }
+            water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters.tait);
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
         }

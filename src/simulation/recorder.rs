@@ -14,11 +14,14 @@ use super::{
     Simulation, Units,
     checkpoint::Checkpoint,
     snapshots::{Frame, SnapshotFiles},
+    water_at_impacts::pressure_places,
 };
 use crate::{
     case::{Case, Gauge, Quantity, ROWS_FILE, Wave},
-    output::{CsvSeries, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges},
-    rigid::ContactEvent,
+    output::{
+        CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
+    },
+    rigid::{ContactEvent, RecordedContact},
 };
 
 /// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
@@ -161,6 +164,7 @@ impl Recorder {
             for event in &running {
                 self.contacts.append(&contact_row(event, offset))?;
             }
+            impacts_of(simulation, units, offset).write(&self.dir.join(Impacts::FILE))?;
             running.iter().for_each(|event| count_contact(simulation, event));
         }
         self.record_checkpoint(simulation)?;
@@ -295,9 +299,17 @@ fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
     simulation.flume_time() - units.world.time()
 }
 
+/// The hardest impacts so far; `offset` leads from their clock to that of the file [s].
+fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
+    let water = &units.water_at_impacts.0;
+    let contacts = units.world.impacts();
+    let impact = |contact: &RecordedContact| Impact::new(contact, offset, water.get(&contact.event.number).cloned());
+    Impacts { places: pressure_places(&simulation.boundary), impacts: contacts.iter().map(impact).collect() }
+}
+
 /// A row of the contacts; `offset` leads from their clock to that of the table [s].
-pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 11] {
-    let [x, y, z] = event.point;
+pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 15] {
+    let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
     [
         event.start + offset,
         event.end + offset,
@@ -310,6 +322,10 @@ pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 11] {
         event.approach_tangential,
         event.peak_force,
         glam::DVec3::from_array(event.impulse).length(),
+        bx,
+        by,
+        bz,
+        event.rebound,
     ]
 }
 

@@ -12,6 +12,7 @@ use super::{
     mean_loads::MeanLoads,
     scheme::{parameters, tait},
     statistics::Statistics,
+    water_at_impacts::WaterAtImpacts,
 };
 use crate::{
     case::{self, Case},
@@ -269,7 +270,7 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     let start = setup.bodies.clone();
     let world = RigidWorld::new(setup)?;
     let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
-    Ok(Units { shape, world, start, fluid_loads, mean_loads })
+    Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
 }
 
 /// Particles of one unit of the case in its own axes: in two dimensions those of its slice in the layer; and where a

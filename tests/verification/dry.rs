@@ -5,6 +5,7 @@ use std::{path::Path, sync::Arc};
 use breakwater::{
     case::{DryCase, PlacementJob},
     dry::{DryRun, run::run},
+    output::Impacts,
     placement::place,
 };
 use serde_json::{Value, json};
@@ -52,6 +53,11 @@ fn a_broken_dry_run_goes_on_with_the_same_bits() {
         let [whole, broken] = dirs.each_ref().map(|dir| std::fs::read(dir.join(file)).unwrap());
         assert_eq!(whole, broken, "{file}");
     }
+    let [whole, broken] = dirs.map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
+    // Up to 16 of the one unit; it is dropped, so some approach fast.
+    assert!((4..=16).contains(&whole.impacts.len()) && whole.places.is_empty());
+    assert!(whole.impacts.iter().any(|impact| impact.event.approach_normal > 0.1 && impact.history.len() > 10));
+    assert_eq!(whole, broken);
 }
 
 /// A layer of Tetrapods on a slope, a handful.

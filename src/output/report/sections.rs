@@ -312,7 +312,7 @@ fn facts(summary: &Summary) -> String {
 }
 
 /// What the files of a run folder hold, in the order of the list.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     (RunFolder::PICTURE, "one moment of the wave at the units as a picture of its own"),
     (
         RunFolder::WATER,
@@ -321,6 +321,7 @@ const FILES: [(&str, &str); 12] = [
     ("units.vtkhdf", "moving surfaces of the units: open in ParaView together with the water"),
     ("units.csv", "place, orientation, velocity, force of the water and contact force of each unit against time"),
     ("contacts.csv", "every contact event with its place, velocity, peak force and impulse"),
+    ("impacts.h5", "the hardest impacts of each unit with their forces against time: HDF5, for other programs"),
     ("gauges.csv", "water at the gauges, by the particles"),
     ("flume_gauges.csv", "water at the gauges, by the flume model"),
     ("energy.csv", "energy of water and units"),

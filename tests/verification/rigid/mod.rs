@@ -7,6 +7,7 @@ mod friction;
 mod impact;
 mod linear;
 mod pile;
+mod records;
 mod rolling;
 mod rows;
 mod sliding;
