@@ -186,6 +186,8 @@ impl Laws {
         let mut stiffness = vec![0.0; position.len()];
         let mut used = vec![false; before.len()];
         let mut records: Vec<_> = std::mem::take(&mut book.running).into_iter().map(Some).collect();
+        book.running.reserve(touches.len());
+        out.contacts.reserve(touches.len());
         energy.elastic = 0.0;
         for touch in touches {
             let law = self.of(touch.key.feature);

@@ -39,6 +39,11 @@ impl ForceSample {
         self.impulse / self.duration
     }
 
+    /// Whether its mean force differs from another one by at most `tolerance` [N].
+    fn is_about(&self, force: DVec3, tolerance: f64) -> bool {
+        (force * self.duration - self.impulse).length_squared() <= (tolerance * self.duration).powi(2)
+    }
+
     /// The sample and its successor as one.
     fn with(&self, next: &Self) -> Self {
         let duration = self.duration + next.duration;
@@ -82,17 +87,19 @@ impl ForceHistory {
         &self.samples
     }
 
-    /// Adds a step from `start` of length `duration` [s] with its impulse [N s].
-    pub fn add(&mut self, start: f64, duration: f64, impulse: DVec3) {
+    /// Adds a step from `start` of length `duration` [s] with its mean force [N].
+    pub fn add(&mut self, start: f64, duration: f64, force: DVec3) {
         if duration <= 0.0 {
             return;
         }
-        let new = ForceSample { start, duration, impulse };
-        let force = new.force();
-        let largest = force.length() > self.peak;
-        self.peak = self.peak.max(force.length());
+        let new = ForceSample { start, duration, impulse: force * duration };
+        // Every contact comes here in every substep: no roots and divisions.
+        let largest = force.length_squared() > self.peak * self.peak;
+        if largest {
+            self.peak = force.length();
+        }
         match self.samples.last_mut() {
-            Some(last) if (force - last.force()).length() <= SAME * self.peak => *last = last.with(&new),
+            Some(last) if last.is_about(force, SAME * self.peak) => *last = last.with(&new),
             _ => self.samples.push(new),
         }
         if largest {
@@ -107,7 +114,8 @@ impl ForceHistory {
     pub fn shorten(&mut self) {
         let mut costs: Vec<f64> = (1..self.samples.len()).map(|next| self.cost(next)).collect();
         while self.samples.len() > KEPT {
-            let cheapest = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(index, _)| index);
+            let cheapest =
+                (1..costs.len()).fold(0, |least, index| if costs[index] < costs[least] { index } else { least });
             self.samples[cheapest] = self.samples[cheapest].with(&self.samples[cheapest + 1]);
             self.samples.remove(cheapest + 1);
             costs.remove(cheapest);
@@ -151,9 +159,9 @@ mod tests {
         let dt = 2e-5;
         for step in 0..500_000 {
             let start = f64::from(step) * dt;
-            let part = force(start + 0.5 * dt) * dt;
-            history.add(start, dt, part);
-            impulse += part;
+            let now = force(start + 0.5 * dt);
+            history.add(start, dt, now);
+            impulse += now * dt;
             assert!(history.samples().len() < GROWN);
         }
         history.shorten();
@@ -184,7 +192,7 @@ mod tests {
     fn a_constant_force_takes_one_sample() {
         let mut history = ForceHistory::default();
         for step in 0..10_000 {
-            history.add(1e-3 * f64::from(step), 1e-3, DVec3::Z * 1e-3);
+            history.add(1e-3 * f64::from(step), 1e-3, DVec3::Z);
         }
         assert_eq!(history.samples().len(), 1);
         assert!((history.samples()[0].impulse.z - 10.0).abs() < 1e-9);

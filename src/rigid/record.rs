@@ -102,7 +102,7 @@ impl RecordedContact {
         let Push { step, before, now, v_n } = push;
         self.push(before, now, step);
         let event = &mut self.event;
-        if now.length() > event.peak_force {
+        if now.length_squared() > event.peak_force * event.peak_force {
             event.peak_force = now.length();
             event.peak = now.to_array();
             event.peak_time = step.time;
@@ -114,8 +114,8 @@ impl RecordedContact {
     /// The body felt the mean of the forces at both ends of the step.
     fn push(&mut self, before: DVec3, now: DVec3, step: Step) {
         let Step { dt, time, .. } = step;
-        let impulse = 0.5 * (before + now) * dt;
-        self.event.impulse = (DVec3::from_array(self.event.impulse) + impulse).to_array();
-        self.history.add(time - dt, dt, impulse);
+        let force = 0.5 * (before + now);
+        self.event.impulse = (DVec3::from_array(self.event.impulse) + force * dt).to_array();
+        self.history.add(time - dt, dt, force);
     }
 }
