@@ -13,6 +13,7 @@ use super::motion::BodyState;
 #[derive(Debug, Clone, Default)]
 pub struct ContactBook {
     /// Of the contacts that exist, in their order.
+    #[allow(clippy::vec_box, reason = "records go from list to list in every substep; a pointer is all that moves")]
     pub running: Vec<Box<RecordedContact>>,
     /// Those that have ended and were not taken yet.
     pub ended: EventLog,

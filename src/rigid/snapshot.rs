@@ -73,7 +73,7 @@ impl RigidWorld {
             contact_now: pack(&self.contact_now[b]),
             contact_mean: pack(&self.contact_mean[b]),
         };
-        let contact = |(c, record): (&Contact, &Box<RecordedContact>)| ContactSnapshot {
+        let contact = |(c, record): (&Contact, &RecordedContact)| ContactSnapshot {
             key: c.key,
             normal: c.normal.to_array(),
             spring: c.spring.to_array(),
@@ -84,14 +84,14 @@ impl RigidWorld {
             overlap: c.overlap,
             sunk: c.sunk,
             elastic: c.elastic,
-            record: (**record).clone(),
+            record: record.clone(),
         };
         RigidSnapshot {
             time_s: self.time,
             substeps: self.substeps,
             frequency_squared: self.frequency_squared,
             bodies: (0..self.position.len()).map(body).collect(),
-            contacts: self.contacts.iter().zip(&self.book.running).map(contact).collect(),
+            contacts: self.contacts.iter().zip(self.book.running.iter().map(Box::as_ref)).map(contact).collect(),
             energy: self.energy,
             ended: self.book.ended.clone(),
             impacts: self.book.impacts.clone(),

@@ -9,17 +9,18 @@
 //! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the triangle
 //! surface, 3 for a wall; `partner_number` is the number of that unit, segment, face or wall.
 
+mod columns;
+
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use hdf5_metno::{File, Group};
+use hdf5_metno::Group;
 use serde::{Deserialize, Serialize};
 
 use super::OutputError;
-use super::state_file::{
-    Hdf5Result, read_rows, read_state, read_vectors, write_column, write_rows, write_state, write_vectors,
-};
+use super::state_file::{Hdf5Result, read_state, write_column, write_rows, write_state, write_vectors};
 use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load, RecordedContact};
+use columns::Columns;
 
 /// Layout of the file; raised when it changes.
 const VERSION: u32 = 1;
@@ -194,28 +195,6 @@ const NO_BODY: BodyState = BodyState {
     angular_velocity: DVec3::NAN,
 };
 
-/// An event to be filled in.
-const NO_EVENT: ContactEvent = ContactEvent {
-    number: 0,
-    start: 0.0,
-    end: 0.0,
-    body: 0,
-    partner: Feature::Ground { place: 0, end: 0 },
-    point: [0.0; 3],
-    point_in_body: [0.0; 3],
-    normal: [0.0; 3],
-    before: NO_BODY,
-    partner_before: None,
-    approach_normal: 0.0,
-    approach_tangential: 0.0,
-    approach_energy: 0.0,
-    rebound: 0.0,
-    peak_force: 0.0,
-    peak: [0.0; 3],
-    peak_time: 0.0,
-    impulse: [0.0; 3],
-};
-
 /// Kind, number, image and part or end of what was touched, in the columns of these names.
 type PartnerNumbers = [i64; 4];
 const PARTNER: [&str; 4] = ["partner_kind", "partner_number", "partner_image", "partner_part"];
@@ -229,18 +208,6 @@ fn partner_numbers(partner: Feature) -> PartnerNumbers {
     }
 }
 
-/// What was touched; none if the numbers are not those of [`partner_numbers`].
-fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
-    let end = part.try_into().ok()?;
-    Some(match kind {
-        0 => Feature::Unit { body: number.checked_sub(1)?.try_into().ok()?, image: image.try_into().ok()?, part: end },
-        1 => Feature::Ground { place: number.try_into().ok()?, end },
-        2 => Feature::Terrain { place: number.try_into().ok()?, end },
-        3 => Feature::Wall { wall: number.try_into().ok()?, end },
-        _ => return None,
-    })
-}
-
 fn write_bodies(group: &Group, prefix: &str, bodies: impl Iterator<Item = BodyState>) -> Hdf5Result<()> {
     let bodies: Vec<BodyState> = bodies.collect();
     let vectors = |of: fn(&BodyState) -> DVec3| bodies.iter().map(of).collect::<Vec<_>>();
@@ -251,122 +218,11 @@ fn write_bodies(group: &Group, prefix: &str, bodies: impl Iterator<Item = BodySt
     write_vectors(group, &format!("{prefix}angular_velocity_rad_s"), &vectors(|body| body.angular_velocity))
 }
 
-/// States of the bodies; as many as there are rows in the shortest of their datasets.
-fn read_bodies(group: &Group, prefix: &str) -> Hdf5Result<Vec<BodyState>> {
-    let positions = read_vectors(group, &format!("{prefix}position_m"))?;
-    let rotations = read_rows(group, &format!("{prefix}rotation_xyzw"))?.into_iter().map(DQuat::from_array);
-    let velocities = read_vectors(group, &format!("{prefix}velocity_m_s"))?;
-    let turns = read_vectors(group, &format!("{prefix}angular_velocity_rad_s"))?;
-    let bodies = positions.into_iter().zip(rotations).zip(velocities.into_iter().zip(turns));
-    let state = |((position, rotation), (velocity, angular_velocity))| BodyState {
-        position,
-        rotation,
-        velocity,
-        angular_velocity,
-    };
-    Ok(bodies.map(state).collect())
-}
-
-/// The datasets of a file as they are.
-struct Columns {
-    numbers: Vec<u64>,
-    units: Vec<u32>,
-    partners: [Vec<i64>; 4],
-    scalars: Vec<Vec<f64>>,
-    vectors: Vec<Vec<[f64; 3]>>,
-    bodies: Vec<BodyState>,
-    partner_bodies: Vec<BodyState>,
-    loads: [Vec<DVec3>; 2],
-    offsets: Vec<u64>,
-    samples: Vec<ForceSample>,
-    places: [Vec<DVec3>; 2],
-    pressures: Vec<f32>,
-}
-
-impl Columns {
-    fn read(file: &File) -> Hdf5Result<Self> {
-        let (impacts, history, pressure) = (file.group("impacts")?, file.group("history")?, file.group("pressure")?);
-        let mut partners = [const { Vec::new() }; 4];
-        for (column, name) in partners.iter_mut().zip(PARTNER) {
-            *column = impacts.dataset(name)?.read_raw()?;
-        }
-        let starts: Vec<f64> = history.dataset("start_s")?.read_raw()?;
-        let durations: Vec<f64> = history.dataset("duration_s")?.read_raw()?;
-        let samples = starts.into_iter().zip(durations).zip(read_vectors(&history, "impulse_n_s")?);
-        Ok(Self {
-            numbers: impacts.dataset("number")?.read_raw()?,
-            units: impacts.dataset("unit")?.read_raw()?,
-            partners,
-            scalars: SCALARS.iter().map(|(name, _)| impacts.dataset(name)?.read_raw()).collect::<Hdf5Result<_>>()?,
-            vectors: VECTORS.iter().map(|(name, _)| read_rows(&impacts, name)).collect::<Hdf5Result<_>>()?,
-            bodies: read_bodies(&impacts, "")?,
-            partner_bodies: read_bodies(&impacts, "partner_")?,
-            loads: [read_vectors(&impacts, "fluid_force_n")?, read_vectors(&impacts, "fluid_torque_n_m")?],
-            offsets: history.dataset("offset")?.read_raw()?,
-            samples: samples.map(|((start, duration), impulse)| ForceSample { start, duration, impulse }).collect(),
-            places: [read_vectors(&pressure, "particle_m")?, read_vectors(&pressure, "to_surface_m")?],
-            pressures: pressure.dataset("pressure_pa")?.read_raw()?,
-        })
-    }
-
-    /// The impacts, or the name of a dataset that does not fit the others.
-    fn into_impacts(self) -> Result<Impacts, &'static str> {
-        let [particles, to_surface] = &self.places;
-        if particles.len() != to_surface.len() {
-            return Err("to_surface_m");
-        }
-        let place = |(&particle, &to_surface)| PressurePlace { particle, to_surface };
-        let places: Vec<PressurePlace> = particles.iter().zip(to_surface).map(place).collect();
-        let count = self.numbers.len();
-        if self.pressures.len() != count * places.len() {
-            return Err("pressure_pa");
-        }
-        if self.offsets.len() != count + 1 {
-            return Err("offset");
-        }
-        let impacts = (0..count).map(|row| self.impact(row, places.len())).collect::<Result<_, _>>()?;
-        Ok(Impacts { places, impacts })
-    }
-
-    fn impact(&self, row: usize, places: usize) -> Result<Impact, &'static str> {
-        let mut event = ContactEvent {
-            number: self.numbers[row],
-            body: self.units.get(row).and_then(|unit| unit.checked_sub(1)).ok_or("unit")?,
-            partner: self.partner(row).ok_or("partner_number")?,
-            before: *self.bodies.get(row).ok_or("position_m")?,
-            partner_before: Some(*self.partner_bodies.get(row).ok_or("partner_position_m")?)
-                .filter(|body| !body.position.is_nan()),
-            ..NO_EVENT
-        };
-        for ((name, of), column) in SCALARS.iter().zip(&self.scalars) {
-            *of(&mut event) = *column.get(row).ok_or(*name)?;
-        }
-        for ((name, of), column) in VECTORS.iter().zip(&self.vectors) {
-            *of(&mut event) = *column.get(row).ok_or(*name)?;
-        }
-        let [start, end] = [row, row + 1].map(|row| self.offsets[row] as usize);
-        let history = self.samples.get(start..end).ok_or("offset")?.to_vec();
-        let [force, torque] = [&self.loads[0], &self.loads[1]];
-        let force = *force.get(row).ok_or("fluid_force_n")?;
-        let torque = *torque.get(row).ok_or("fluid_torque_n_m")?;
-        let fluid = (!force.is_nan()).then(|| FluidAtPeak {
-            load: Load { force, torque },
-            pressure: self.pressures[row * places..(row + 1) * places].to_vec(),
-        });
-        Ok(Impact { event, history, fluid })
-    }
-
-    fn partner(&self, row: usize) -> Option<Feature> {
-        let mut numbers = PartnerNumbers::default();
-        for (number, column) in numbers.iter_mut().zip(&self.partners) {
-            *number = *column.get(row)?;
-        }
-        partner(numbers)
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use hdf5_metno::File;
+
+    use super::columns::NO_EVENT;
     use super::*;
 
     fn body(x: f64) -> BodyState {
