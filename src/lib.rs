@@ -12,6 +12,7 @@
 //! | [`rigid`] | rigid armour units and their contact |
 //! | [`femdem`] | deformable units that crack |
 //! | [`fracture`] | fracture runs: cases, outputs, summary |
+//! | [`handover`] | impacts of a run, computed again with units that break |
 //! | [`simulation`] | the coupled loop: water, units, outputs |
 //! | [`dry`] | units without water: settling, drops, slope tests |
 //! | [`placement`] | armour layers: units placed one by one and settled |
@@ -31,6 +32,7 @@ pub mod dry;
 pub mod femdem;
 pub mod fracture;
 pub mod geometry;
+pub mod handover;
 pub mod output;
 pub mod particles;
 pub mod placement;

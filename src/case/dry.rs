@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::check::{Checker, above, from};
 use super::error::CaseErrors;
 use super::file::{DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
+use super::handover::{self, Handover};
 use super::hash::fingerprint;
 use super::materials::{self, Material};
 use super::parse::parse;
@@ -65,6 +66,8 @@ pub struct DryCase {
     pub materials: Vec<Material>,
     /// Contact.
     pub contact: Contact,
+    /// What is done with the hardest impacts.
+    pub fracture: Option<Handover>,
     /// What is written, and how often.
     pub output: DryOutput,
     /// When the run ends.
@@ -121,8 +124,17 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
         law: contact.law,
     };
     let mut units = units::validate(&file.units, &around, check)?;
+    let fracture = file.fracture.as_ref().map(|entry| handover::validate(entry, &units.shape, name, check));
+    let fracture = match fracture {
+        None => None,
+        Some(found) => Some(found?),
+    };
     let (mut kept, mut read) = (file.clone(), Vec::new());
     units.make_self_contained(&mut kept.units, &mut read);
+    if let Some(handover) = &fracture {
+        kept.fracture = kept.fracture.as_ref().map(Handover::entry);
+        read.extend(&handover.mesh_file);
+    }
     if let Some(terrain) = site.as_ref().and_then(|site| site.terrain.as_ref()) {
         kept.flume.terrain = Some(terrain.entry());
         read.extend(terrain.content.iter());
@@ -146,6 +158,7 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
         units,
         materials,
         contact,
+        fracture,
         output: validate_output(&file.output, stop.duration, check),
         stop,
     })

@@ -6,6 +6,7 @@
 mod dry;
 mod fracture;
 mod fracture_places;
+mod handover;
 mod numerics;
 mod objects;
 mod wave_source;
@@ -17,6 +18,7 @@ pub use fracture::{
     FractureStopFile, Joints, LoadAxes, LoadFile, LoadedFaces, MethodFile, Softening, StrengthFile, VelocityFile,
 };
 pub use fracture_places::{LandmarkFile, SectionFile};
+pub use handover::{BaseFile, HandoverFile, HandoverMaterialFile, HandoverWay, Hardness, SelectFile};
 pub use numerics::{Boundary, DensityDiffusion, NumericsFile, Viscosity, WallSlip};
 pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
@@ -70,6 +72,10 @@ pub struct CaseFile {
     /// Contact between units and with the bed.
     #[serde(default)]
     pub contact: ContactFile,
+    /// What is done with the hardest impacts of the units: are they broken?
+    // Left out where it is not used, so that such cases keep their hash.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fracture: Option<HandoverFile>,
     /// Points at which the water is measured.
     #[serde(default)]
     pub gauges: Vec<GaugeFile>,

@@ -18,6 +18,7 @@ use super::parse::parse;
 use super::validate::read;
 use crate::femdem::mesh::{self, PreparedMesh};
 use crate::femdem::setup::Setup;
+pub(super) use bodies::validate_concrete;
 pub use places::{Landmark, Plane};
 
 /// Steps of a run at most [-]: more take years.

@@ -6,10 +6,11 @@ use std::path::Path;
 use super::check::{Checker, show};
 use super::domain::{self, Domain};
 use super::error::{CaseError, CaseErrors};
-use super::file::{CaseFile, GivenWaveFile, VelxFile, WaveFile, WaveSourceFile};
+use super::file::{CaseFile, GivenWaveFile, HandoverFile, Sides, VelxFile, WaveFile, WaveSourceFile};
 use super::flume::{self, Flume};
 use super::gauges::{self, Gauge};
 use super::given_wave::ROWS_FILE;
+use super::handover::{self, Handover};
 use super::hash::fingerprint;
 use super::materials::{self, FrictionPair, Material};
 use super::numerics::{self, Fluid, Numerics};
@@ -64,6 +65,8 @@ pub struct Case {
     pub friction: Vec<FrictionPair>,
     /// Contact between units and with the bed.
     pub contact: Contact,
+    /// What is done with the hardest impacts.
+    pub fracture: Option<Handover>,
     /// Points at which the water is measured.
     pub gauges: Vec<Gauge>,
     /// What is written, and how often.
@@ -165,10 +168,14 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         None => None,
         Some(row) => Some(row?),
     };
+    let fracture = match &file.fracture {
+        None => None,
+        Some(entry) => Some(validate_fracture(entry, file, units.as_ref(), name, check)?),
+    };
     let wave = wave?;
     let relaxation = domain.as_ref().and_then(|domain| domain.relaxation_zone.as_ref());
     zones::validate_wave(relaxation, &wave, wavemaker, check);
-    let (file, text, read) = self_contained(file, text, &wave, units.as_ref());
+    let (file, text, read) = self_contained(file, text, &wave, units.as_ref(), fracture.as_ref());
     let case = Case {
         title: file.title.clone(),
         assumptions: file.assumptions.clone(),
@@ -186,6 +193,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         materials,
         friction,
         contact,
+        fracture,
         gauges,
         output,
         stop,
@@ -194,10 +202,36 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     Some(case)
 }
 
+/// Impacts are those of units in three dimensions.
+fn validate_fracture(
+    entry: &HandoverFile,
+    file: &CaseFile,
+    units: Option<&Units>,
+    name: &str,
+    check: &mut Checker,
+) -> Option<Handover> {
+    let Some(units) = units else {
+        check.refuse("fracture", "{...}", "left out without units", "impacts are those of units");
+        return None;
+    };
+    if file.domain.sides == Sides::TwoDimensional {
+        let advice = "units of a two-dimensional domain are slices";
+        check.refuse("fracture", "{...}", "left out in two dimensions", advice);
+        return None;
+    }
+    handover::validate(entry, &units.shape, name, check)
+}
+
 /// The case as a run keeps it: file, text, and what it has read besides. A wave from other programs' files becomes one
 /// from the file that the run writes beside its case, STL files those that it copies there, and a placement file becomes
 /// poses in the case, so that the folder can be moved and resumed.
-fn self_contained(file: &CaseFile, text: &str, wave: &Wave, units: Option<&Units>) -> (CaseFile, String, Vec<u8>) {
+fn self_contained(
+    file: &CaseFile,
+    text: &str,
+    wave: &Wave,
+    units: Option<&Units>,
+    fracture: Option<&Handover>,
+) -> (CaseFile, String, Vec<u8>) {
     let (mut kept, mut read) = (file.clone(), Vec::new());
     if let Wave::Given(given) = wave {
         let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into() });
@@ -206,6 +240,10 @@ fn self_contained(file: &CaseFile, text: &str, wave: &Wave, units: Option<&Units
     }
     if let (Some(file), Some(units)) = (&mut kept.units, units) {
         units.make_self_contained(file, &mut read);
+    }
+    if let Some(handover) = fracture {
+        kept.fracture = kept.fracture.as_ref().map(Handover::entry);
+        read.extend(&handover.mesh_file);
     }
     // Writing to memory cannot fail: every key is a string.
     let text = if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };

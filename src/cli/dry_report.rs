@@ -34,7 +34,7 @@ pub(super) fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
 }
 
 /// Say how a dry run ended.
-pub(super) fn finish(ended: Result<DrySummary, DryError>, dir: &Path) -> Result<(), Trouble> {
+pub(super) fn finish(ended: Result<DrySummary, DryError>, dir: &Path) -> Result<DrySummary, Trouble> {
     let summary = match ended {
         Ok(summary) => summary,
         Err(error @ DryError::Setup(_)) => return Err(Trouble::refused(error)),
@@ -68,5 +68,5 @@ pub(super) fn finish(ended: Result<DrySummary, DryError>, dir: &Path) -> Result<
         summary.kinetic_j
     );
     println!("summary: {}; units.vtkhdf opens in ParaView", dir.join(DrySummary::FILE).display());
-    Ok(())
+    Ok(summary)
 }

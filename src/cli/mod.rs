@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod dry_report;
 mod fracture;
+mod hand_over;
 mod init;
 mod place;
 mod report;
@@ -25,6 +26,7 @@ use std::{
 use clap::{Parser, Subcommand};
 
 use crate::case::{Case, DryCase, FractureCase, PlacementFile};
+use crate::handover;
 
 /// Will this wave move the armour units, and will the units break?
 ///
@@ -54,6 +56,7 @@ enum Command {
     Resume(run::ResumeArguments),
     Check(check::CheckArguments),
     Fracture(fracture::FractureArguments),
+    HandOver(hand_over::HandOverArguments),
     Place(place::PlaceArguments),
     Unit(unit::UnitArguments),
     Wave(wave::WaveArguments),
@@ -89,6 +92,7 @@ pub fn main() -> ExitCode {
         Command::Resume(arguments) => arguments.execute(),
         Command::Check(arguments) => arguments.execute(),
         Command::Fracture(arguments) => arguments.execute(),
+        Command::HandOver(arguments) => arguments.execute(),
         Command::Place(arguments) => arguments.execute(),
         Command::Unit(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
@@ -164,9 +168,12 @@ fn stem(path: &std::path::Path) -> String {
     path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Files that a run or the flume model leaves in its folder; --overwrite takes these away and nothing else.
-const RESULT_FILES: [&str; 32] = [
+/// Files that a run or the flume model leaves in its folder; --overwrite takes these and the folder of impacts away and
+/// nothing else.
+const RESULT_FILES: [&str; 35] = [
     "bodies.csv",
+    "breakage.csv",
+    "breakage.json",
     "case.json",
     "checkpoint.h5",
     "checkpoint.json",
@@ -194,6 +201,7 @@ const RESULT_FILES: [&str; 32] = [
     "summary.json",
     "surfaces.vtkhdf",
     "tets.vtkhdf",
+    "unit_mesh.msh",
     "unit_surface.json",
     "units.csv",
     "units.vtkhdf",
@@ -215,6 +223,10 @@ fn fresh_folder(dir: &PathBuf, overwrite: bool) -> Result<(), Trouble> {
     std::fs::create_dir_all(dir).map_err(cannot)?;
     for file in RESULT_FILES.map(|name| dir.join(name)).iter().filter(|file| file.exists()) {
         std::fs::remove_file(file).map_err(cannot)?;
+    }
+    let impacts = dir.join(handover::run::FOLDER);
+    if impacts.exists() {
+        std::fs::remove_dir_all(&impacts).map_err(cannot)?;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, dry_report, fracture, fresh_folder, is_fracture, load_any, stem};
+use super::{AnyCase, Trouble, dry_report, fracture, fresh_folder, hand_over, is_fracture, load_any, stem};
 use crate::{
     case::Case,
     dry::{self, recorder::DryRecorder},
@@ -60,11 +60,13 @@ impl RunArguments {
         match case {
             AnyCase::Wet(case) => {
                 introduce(&case, &dir, options.quiet);
-                finish(run(case, &dir, &options), &dir)
+                let summary = finish(run(case.clone(), &dir, &options), &dir)?;
+                hand_over::of_run(&case, &summary, &dir, options.quiet)
             }
             AnyCase::Dry(case) => {
                 dry_report::introduce(&case, &dir, options.quiet);
-                dry_report::finish(dry::run::run(case, &dir, options.quiet), &dir)
+                let summary = dry_report::finish(dry::run::run(case.clone(), &dir, options.quiet), &dir)?;
+                hand_over::of_dry_run(&case, &summary, &dir, options.quiet)
             }
         }
     }
@@ -91,11 +93,13 @@ impl ResumeArguments {
         match case {
             AnyCase::Wet(case) => {
                 introduce(&case, &self.dir, options.quiet);
-                finish(resume(case, &self.dir, &options), &self.dir)
+                let summary = finish(resume(case.clone(), &self.dir, &options), &self.dir)?;
+                hand_over::of_run(&case, &summary, &self.dir, options.quiet)
             }
             AnyCase::Dry(case) => {
                 dry_report::introduce(&case, &self.dir, options.quiet);
-                dry_report::finish(dry::run::resume(case, &self.dir, options.quiet), &self.dir)
+                let summary = dry_report::finish(dry::run::resume(case.clone(), &self.dir, options.quiet), &self.dir)?;
+                hand_over::of_dry_run(&case, &summary, &self.dir, options.quiet)
             }
         }
     }
@@ -134,7 +138,7 @@ fn introduce(case: &Case, dir: &Path, quiet: bool) {
 }
 
 /// Say how a run ended.
-fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<(), Trouble> {
+fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
     let summary = match ended {
         Ok(summary) => summary,
         Err(error @ RunError::Setup(_)) => return Err(Trouble::refused(error)),
@@ -161,5 +165,5 @@ fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<(), Trouble> {
     if summary.wave.is_some() && !summary.units.is_empty() {
         println!("beside the Fudo experiment: breakwater compare {}", dir.display());
     }
-    Ok(())
+    Ok(summary)
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{DryRun, Measured};
 use crate::{
-    case::SiteTerrain,
+    case::{Handover, SiteTerrain},
     output::{Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically},
     rigid::{ContactEvent, RigidSnapshot},
     simulation::{
@@ -69,6 +69,9 @@ impl DryRecorder {
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
         for (name, content) in case.units.files() {
             write_atomically(&dir.join(name), content)?;
+        }
+        if let Some(handover) = &case.fracture {
+            write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
         }
         if let Some(terrain) = &case.site.terrain {
             write_atomically(&dir.join(SiteTerrain::FILE), &terrain.content)?;

@@ -132,6 +132,16 @@ impl DrySummary {
         }
     }
 
+    /// Read `summary.json` of a run folder.
+    ///
+    /// # Errors
+    /// If the file is missing or is not that of a dry run.
+    pub fn read(dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join(Self::FILE);
+        let text = std::fs::read_to_string(&path).map_err(OutputError::io(&path))?;
+        serde_json::from_str(&text).map_err(OutputError::json(&path))
+    }
+
     /// Write `summary.json` into the run folder.
     ///
     /// # Errors

@@ -35,7 +35,7 @@ pub const FAILED_FILE: &str = "failed.h5";
 const VERSION: u32 = 2;
 
 /// Where a run stands besides its world.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RunState {
     /// What the loop has watched.
     pub watched: Watched,
@@ -82,7 +82,7 @@ struct Header {
 /// If the file cannot be written; one of before is then untouched.
 pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) -> Result<(), OutputError> {
     let state = world.snapshot();
-    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: *run, world: state.scalars() };
+    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars() };
     let text = serde_json::to_string(&header).map_err(OutputError::json(path))?;
     write_state(path, &text, |file| write_arrays(file, &state))
 }

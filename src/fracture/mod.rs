@@ -18,6 +18,7 @@ pub mod detail;
 pub mod failure;
 pub mod fragments;
 pub mod initiation;
+pub mod peak_stress;
 pub mod recorder;
 pub mod report;
 pub mod run;

@@ -83,14 +83,19 @@ impl FractureRecorder {
         [&self.energy, &self.bodies].map(CsvSeries::bytes)
     }
 
-    /// Append a row for each body at a moment [s].
+    /// Append a row for each body at a moment [s], with its energies and its largest stress.
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn record_bodies(&mut self, time: f64, bodies: &[BodyEnergy]) -> Result<(), OutputError> {
-        bodies.iter().enumerate().try_for_each(|(number, body)| {
+    pub fn record_bodies(
+        &mut self,
+        time: f64,
+        bodies: &[BodyEnergy],
+        stresses: &[(f64, usize)],
+    ) -> Result<(), OutputError> {
+        bodies.iter().zip(stresses).enumerate().try_for_each(|(number, (body, (sigma_1, _)))| {
             let BodyEnergy { kinetic, strain, joint, gravity, fracture } = *body;
-            self.bodies.append(&[time, number as f64, kinetic, strain, joint, gravity, fracture])
+            self.bodies.append(&[time, number as f64, kinetic, strain, joint, gravity, fracture, *sigma_1])
         })
     }
 

@@ -8,6 +8,7 @@ use super::{
     checkpoint::{self, RunState},
     failure::Failure,
     fragments::{pieces, write_fragments},
+    peak_stress::{carry_on, largest_stresses},
     recorder::FractureRecorder,
     summary::FractureSummary,
 };
@@ -114,13 +115,15 @@ fn drive(
         if let Some((book, bodies)) = book {
             let residual = state.note(&book);
             recorder.record_energy(&world, time, &book, residual)?;
-            recorder.record_bodies(time, &bodies)?;
+            let stresses = largest_stresses(&world);
+            carry_on(&mut state.watched.peaks, &world, &stresses, time);
+            recorder.record_bodies(time, &bodies, &stresses)?;
             (state.rows, state.bytes) = (state.rows + 1, recorder.bytes());
             if over {
                 progress.finish();
                 let fragments = pieces(&world).fragments;
                 write_fragments(&fragments, dir)?;
-                let summary = FractureSummary::of(case, &world, &book, state.watched, &fragments);
+                let summary = FractureSummary::of(case, &world, &book, &state.watched, &fragments);
                 summary.write(dir)?;
                 return Ok(summary);
             }

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{fragments::Fragment, initiation::initiations};
+use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress};
 use crate::case::FractureCase;
 use crate::femdem::energy::Ledger;
-use crate::femdem::world::World;
+use crate::femdem::world::{Failure, World};
 use crate::output::{Execution, OutputError, write_atomically};
 
 const SUMMARY_FILE: &str = "summary.json";
@@ -46,6 +46,8 @@ pub struct FractureSummary {
     pub energy_over_g_f: Option<f64>,
     /// Energies at the end [J].
     pub energy_j: EnergyAtEnd,
+    /// The bodies, in the order of the mesh.
+    pub bodies: Vec<BodySummary>,
     /// Pieces of the bodies that can crack, the heaviest first.
     pub fragments: Vec<FragmentSummary>,
     /// Where cracks began, in order of time.
@@ -77,6 +79,19 @@ pub struct EnergyAtEnd {
     pub work: f64,
     /// What the springs of tied joints had when they came free.
     pub freed: f64,
+}
+
+/// A body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodySummary {
+    /// Its name.
+    pub name: String,
+    /// Its mass [kg].
+    pub mass_kg: f64,
+    /// Where and when the tension was largest.
+    pub peak: PeakStress,
+    /// Area of its faces that failed [m2].
+    pub crack_area_m2: f64,
 }
 
 /// A piece of a body.
@@ -116,7 +131,7 @@ pub struct InitiationSummary {
 }
 
 /// What the loop has watched.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Watched {
     /// Steps.
     pub steps: u64,
@@ -126,13 +141,15 @@ pub struct Watched {
     pub kinetic: [f64; 2],
     /// When two bodies first touched [s].
     pub impact: Option<f64>,
+    /// Largest tension in each body.
+    pub peaks: Vec<PeakStress>,
     /// Wall clock, before an interruption and after it [s].
     pub wall: f64,
 }
 
 impl FractureSummary {
     /// The summary of a run that ended with these fragments.
-    pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: Watched, fragments: &[Fragment]) -> Self {
+    pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: &Watched, fragments: &[Fragment]) -> Self {
         let area = world.crack_area();
         let taken: f64 = world.failures.iter().map(|failure| failure.dissipated - failure.freed).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
@@ -158,6 +175,18 @@ impl FractureSummary {
                 mode: if i.first.by_sliding { "sliding" } else { "opening" }.to_owned(),
                 area_m2: i.area,
             }
+        };
+        let failed_in = |body: usize| {
+            let within = |f: &&Failure| {
+                case.setup.bodies[body].tets.contains(&(case.setup.interfaces[f.interface as usize].tets[0] as usize))
+            };
+            world.failures.iter().filter(within).map(|failure| failure.area).sum()
+        };
+        let body = |(number, peak): (usize, &PeakStress)| BodySummary {
+            name: name(number),
+            mass_kg: case.setup.bodies[number].elastic.density * case.mesh.quality[number].volume,
+            peak: *peak,
+            crack_area_m2: failed_in(number),
         };
         let ratio = |kinetic: f64| (kinetic > 0.0).then_some(watched.residual / kinetic);
         let tets = world.tets.nodes.len();
@@ -186,6 +215,7 @@ impl FractureSummary {
                 work: book.work,
                 freed: book.freed,
             },
+            bodies: watched.peaks.iter().enumerate().map(body).collect(),
             fragments: fragments.iter().map(fragment).collect(),
             initiation: initiations(world).into_iter().map(initiation).collect(),
             assumptions: case.assumptions.clone(),

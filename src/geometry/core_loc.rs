@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::member::Member;
 use super::polyhedron::{Polyhedron, PolyhedronError};
+use super::section::Section;
 
 /// Width of a member over C in its middle and at its ends [-].
 const WIDTH: [f64; 2] = [0.362, 0.181];
@@ -18,11 +19,8 @@ const CHAMFER: f64 = 0.1146;
 /// Volume over C^3 [-].
 pub const VOLUME_RATIO: f64 = 0.2206;
 
-/// Convex blocks of a Core-Loc of size C [m]: the two parallel members upright at both sides along y, the third along x.
-///
-/// # Errors
-/// If the dimensions leave nothing.
-pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
+/// The member along x, then the two upright ones at both sides along y, of a Core-Loc of size C [m].
+fn members(size_m: f64) -> [Member; 3] {
     let width = WIDTH.map(|w| w * size_m);
     let member = |y: f64, axis: DVec3| Member {
         centre: DVec3::Y * y,
@@ -33,9 +31,22 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
         chamfer: width.map(|w| CHAMFER * w),
     };
     let aside = 0.5 * (size_m - width[0]);
+    [member(0.0, DVec3::X), member(aside, DVec3::Z), member(-aside, DVec3::Z)]
+}
+
+/// Convex blocks of a Core-Loc of size C [m]: the two parallel members upright at both sides along y, the third along x.
+///
+/// # Errors
+/// If the dimensions leave nothing.
+pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
     let mut blocks = Vec::new();
-    for member in [member(0.0, DVec3::X), member(aside, DVec3::Z), member(-aside, DVec3::Z)] {
+    for member in members(size_m) {
         blocks.extend(member.blocks()?);
     }
     Ok(blocks)
+}
+
+/// Sections of a Core-Loc of size C [m] where its members leave the block in the middle.
+pub fn sections(size_m: f64) -> Vec<Section> {
+    members(size_m).iter().flat_map(|member| member.sections(0.5 * WIDTH[0] * size_m)).collect()
 }

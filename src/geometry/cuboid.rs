@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::polyhedron::{Polyhedron, PolyhedronError};
+use super::section::Section;
 
 /// Corner `number` of a box of half-edges `half` [m] about its centre.
 fn corner(half: DVec3, number: usize) -> DVec3 {
@@ -25,4 +26,13 @@ pub fn surface(edges: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
 /// If an edge is nothing beside the others.
 pub fn block(edges: DVec3) -> Result<Polyhedron, PolyhedronError> {
     Polyhedron::hull(&surface(edges).0)
+}
+
+/// Sections through the middle of a cuboid with the given edges [m], across each of its axes, towards both ends.
+pub fn sections(edges: DVec3) -> Vec<Section> {
+    let across = |axis: usize| [edges[(axis + 1) % 3], edges[(axis + 2) % 3]];
+    let of = |axis: usize| {
+        [1.0, -1.0].map(|side| Section::chamfered(DVec3::ZERO, DVec3::AXES[axis] * side, across(axis), 0.0))
+    };
+    (0..3).flat_map(of).collect()
 }

@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use super::member::Member;
 use super::polyhedron::{Polyhedron, PolyhedronError};
+use super::section::Section;
 
 /// Width of a fluke at its ends over the height [-].
 const END_WIDTH: f64 = 0.20;
@@ -24,11 +25,8 @@ pub fn volume_ratio(waist: f64) -> f64 {
     0.675 * waist.powf(1.285)
 }
 
-/// Convex blocks of a Dolos of height H [m] with its stem along x, the fluke at -x upright, that at +x across.
-///
-/// # Errors
-/// If the dimensions leave nothing.
-pub fn blocks(height_m: f64, waist: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
+/// Stem along x, the fluke at -x upright, that at +x across, of a Dolos of height H [m].
+fn members(height_m: f64, waist: f64) -> [Member; 3] {
     let [half, width] = [0.5 * height_m, waist * height_m];
     let stem = Member {
         centre: DVec3::ZERO,
@@ -46,8 +44,25 @@ pub fn blocks(height_m: f64, waist: f64) -> Result<Vec<Polyhedron>, PolyhedronEr
         width: [width, END_WIDTH * height_m],
         chamfer: [CHAMFER / END_WIDTH * width, CHAMFER * height_m],
     };
-    let mut blocks = stem.blocks()?;
-    blocks.extend(fluke(-1.0, DVec3::Z).blocks()?);
-    blocks.extend(fluke(1.0, DVec3::Y).blocks()?);
+    [stem, fluke(-1.0, DVec3::Z), fluke(1.0, DVec3::Y)]
+}
+
+/// Convex blocks of a Dolos of height H [m] with its stem along x, the fluke at -x upright, that at +x across.
+///
+/// # Errors
+/// If the dimensions leave nothing.
+pub fn blocks(height_m: f64, waist: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
+    let mut blocks = Vec::new();
+    for member in members(height_m, waist) {
+        blocks.extend(member.blocks()?);
+    }
     Ok(blocks)
+}
+
+/// Sections of a Dolos of height H [m]: of the stem where it meets the flukes, and of the flukes where they leave it.
+pub fn sections(height_m: f64, waist: f64) -> Vec<Section> {
+    let [stem, flukes @ ..] = members(height_m, waist);
+    let width = waist * height_m;
+    let of_stem = stem.sections(0.5 * height_m - width);
+    of_stem.into_iter().chain(flukes.iter().flat_map(|fluke| fluke.sections(0.5 * width))).collect()
 }

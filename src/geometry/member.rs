@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::polyhedron::{Polyhedron, PolyhedronError};
+use super::section::Section;
 
 /// A bar about its middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +38,17 @@ impl Member {
             Polyhedron::between(&at(&middle, 0.0), &at(&end, l))?,
             Polyhedron::between(&at(&end, -l), &at(&middle, 0.0))?,
         ])
+    }
+
+    /// Its sections at a distance [m] from its middle, one towards each end.
+    pub fn sections(&self, distance: f64) -> [Section; 2] {
+        let share = distance / self.half_length;
+        let at = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * share;
+        let (width, chamfer) = (at(self.width), at(self.chamfer));
+        [1.0, -1.0].map(|side| {
+            let outwards = self.axis * side;
+            Section::chamfered(self.centre + outwards * distance, outwards, [width; 2], chamfer)
+        })
     }
 
     fn place(&self, section: DVec2, along: f64) -> DVec3 {

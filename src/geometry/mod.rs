@@ -13,6 +13,7 @@ pub mod half_space;
 pub mod member;
 pub mod polyhedron;
 pub mod profile;
+pub mod section;
 pub mod solid;
 pub mod stl;
 pub mod terrain;

@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::convex_part::{ConvexPart, TruncatedCone};
+use super::section::Section;
 
 /// Radius of the tip over the height H [-].
 const TIP_RADIUS: f64 = 0.151;
@@ -35,6 +36,15 @@ pub fn leg_axes() -> [DVec3; 4] {
 /// Radii [m] of a leg's cone at the centre and at the tip, and its length from one to the other [m].
 pub fn cone(height_m: f64) -> ([f64; 2], f64) {
     ([centre_radius() * height_m, TIP_RADIUS * height_m], CENTRE_TO_TIP * height_m)
+}
+
+/// Sections at the roots of the legs of a Tetrapod of height H [m].
+pub fn sections(height_m: f64) -> Vec<Section> {
+    let at = |axis: DVec3| {
+        let root = (CENTRE_TO_TIP - LEG_LENGTH) * height_m;
+        Section::round(axis * root, axis, BASE_RADIUS * height_m)
+    };
+    leg_axes().map(at).to_vec()
 }
 
 /// Decrease of the leg's radius per unit of length, tan of the half-angle [-].

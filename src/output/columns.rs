@@ -97,10 +97,11 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
     "pairs_touching",
 ];
 
-/// `bodies.csv` of a fracture run, a row for each body at the times of the energy book: what the body has, and what its
-/// joints have lost since the start; `body` counts from 0 in the order of the mesh.
-pub const FRACTURE_BODIES: [&str; 7] =
-    ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j"];
+/// `bodies.csv` of a fracture run, a row for each body at the times of the energy book: what the body has, what its
+/// joints have lost since the start, its largest first principal stress now; `body` counts from 0 in the order of the
+/// mesh.
+pub const FRACTURE_BODIES: [&str; 8] =
+    ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j", "sigma_1_pa"];
 
 /// `cracks.csv` of a fracture run, a row for each face that has failed, in order of time: middle of the undeformed face, its
 /// area; `mode` 1 is opening, 2 sliding; `body` counts from 0 in the order of the mesh, as in the VTKHDF files.
@@ -109,6 +110,21 @@ pub const CRACKS: [&str; 7] = ["time_s", "x_m", "y_m", "z_m", "area_m2", "mode",
 /// `fragments.csv` of a fracture run: the pieces at its end, the heaviest first; centre of mass and its velocity.
 pub const FRAGMENTS: [&str; 10] =
     ["fragment", "body", "tets", "mass_kg", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"];
+
+/// `breakage.csv`, a row for each unit: how far it moved, and what the impacts that were handed over did to it in the
+/// prototype; fields are empty where none was.
+pub const BREAKAGE: [&str; 10] = [
+    "unit",
+    "displacement_m",
+    "damaged",
+    "peak_force_n",
+    "nominal_stress_pa",
+    "sigma_1_pa",
+    "crack_area_m2",
+    "pieces",
+    "heaviest_share",
+    "broken",
+];
 
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3`
 /// its change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all

@@ -49,7 +49,7 @@ pub use contact::Feature;
 pub use error::RigidError;
 pub use event::ContactEvent;
 pub use forces::Energy;
-pub use hertz_mindlin::Material;
+pub use hertz_mindlin::{Material, effective_young_modulus, impact_overlap};
 pub use history::{ForceHistory, ForceSample};
 pub use impact_log::RecordedContact;
 pub use motion::{BodyState, Load};

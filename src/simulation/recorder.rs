@@ -17,7 +17,7 @@ use super::{
     water_at_impacts::pressure_places,
 };
 use crate::{
-    case::{Case, Gauge, Quantity, ROWS_FILE, Wave},
+    case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Wave},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
@@ -65,6 +65,9 @@ impl Recorder {
     pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
         let case = &simulation.case;
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        if let Some(handover) = &case.fracture {
+            write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
+        }
         if let Wave::Given(wave) = &case.wave {
             write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;
         }

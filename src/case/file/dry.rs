@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ContactFile, FrictionFile, MaterialFile, MoundFile, Sides, StopFile, UnitsFile};
+use super::{ContactFile, FrictionFile, HandoverFile, MaterialFile, MoundFile, Sides, StopFile, UnitsFile};
 
 /// A dry case: units on a bed, a test of their contact, no water.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -35,6 +35,10 @@ pub struct DryFile {
     /// Contact between units and with the bed.
     #[serde(default)]
     pub contact: ContactFile,
+    /// What is done with the hardest impacts of the units: are they broken?
+    // Left out where it is not used, so that such cases keep their hash.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fracture: Option<HandoverFile>,
     /// What is written, and how often.
     #[serde(default)]
     pub output: DryOutputFile,

@@ -5,7 +5,9 @@ use std::ops::Range as TetRange;
 use glam::DVec3;
 
 use super::super::check::{Checker, above, from};
-use super::super::file::{FractureBodyFile, FractureFile, FractureMaterialFile, Joints, Softening, StrengthFile};
+use super::super::file::{
+    FractureBodyFile, FractureFile, FractureMaterialFile, HandoverMaterialFile, Joints, Softening, StrengthFile,
+};
 use crate::femdem::cohesive_law::{Cohesion, Range};
 use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
@@ -26,7 +28,7 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
             let path = format!("materials[{index}].name");
             check.refuse(&path, format!("{:?}", material.name), "different from the others", "rename one");
         }
-        validate_material(index, material, check);
+        validate_material(&format!("materials[{index}]"), material, check);
     }
     for (index, body) in file.bodies.iter().enumerate() {
         if !names.contains(&body.name.as_str()) {
@@ -55,8 +57,22 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
     (check.count() == before).then_some(bodies)
 }
 
-fn validate_material(index: usize, material: &FractureMaterialFile, check: &mut Checker) {
-    let path = |key: &str| format!("materials[{index}].{key}");
+/// Concrete of units whose density follows from their mass.
+pub(in super::super) fn validate_concrete(path: &str, material: &HandoverMaterialFile, check: &mut Checker) {
+    let material = FractureMaterialFile {
+        name: String::new(),
+        // Sound: it comes from elsewhere.
+        density_kg_m3: 1.0,
+        young_modulus_pa: material.young_modulus_pa,
+        poisson_ratio: material.poisson_ratio,
+        viscosity_pa_s: material.viscosity_pa_s,
+        strength: Some(material.strength),
+    };
+    validate_material(path, &material, check);
+}
+
+fn validate_material(of: &str, material: &FractureMaterialFile, check: &mut Checker) {
+    let path = |key: &str| format!("{of}.{key}");
     check.number(&path("density_kg_m3"), material.density_kg_m3, from(1.0).up_to(1e5), "kg/m3", "concrete has 2340");
     check.number(
         &path("young_modulus_pa"),
@@ -68,7 +84,7 @@ fn validate_material(index: usize, material: &FractureMaterialFile, check: &mut 
     check.number(&path("poisson_ratio"), material.poisson_ratio, from(0.0).up_to(0.45), "", "concrete has 0.2");
     check.number(&path("viscosity_pa_s"), material.viscosity_pa_s, from(0.0).up_to(1e9), "Pa s", "0 for none");
     let Some(strength) = &material.strength else { return };
-    let path = |key: &str| format!("materials[{index}].strength.{key}");
+    let path = |key: &str| format!("{of}.strength.{key}");
     let StrengthFile { tensile_pa, cohesion_pa, friction_angle_deg, fracture_energy_j_m2, sliding_energy_j_m2 } =
         *strength;
     check.number(&path("tensile_pa"), tensile_pa, above(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
@@ -144,18 +160,25 @@ fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> 
     let tied = file.fracture.joints == Joints::Tied;
     let penalty = file.fracture.joint_penalty.unwrap_or(PENALTY[usize::from(tied)]);
     Cohesion {
-        strength: Strength {
-            tensile: strength.tensile_pa,
-            cohesion: strength.cohesion_pa,
-            friction: strength.friction_angle_deg.to_radians().tan(),
-            opening_energy: strength.fracture_energy_j_m2,
-            sliding_energy: strength.sliding_energy_j_m2.unwrap_or(strength.fracture_energy_j_m2),
-        },
+        strength: strength.of_material(),
         penalty: penalty * elastic.young_modulus,
         range: match file.fracture.softening {
             Softening::Exact => Range::Exact,
             Softening::Published => Range::Published,
         },
         tied,
+    }
+}
+
+impl StrengthFile {
+    /// The strength as the solver has it.
+    pub(in super::super) fn of_material(&self) -> Strength {
+        Strength {
+            tensile: self.tensile_pa,
+            cohesion: self.cohesion_pa,
+            friction: self.friction_angle_deg.to_radians().tan(),
+            opening_energy: self.fracture_energy_j_m2,
+            sliding_energy: self.sliding_energy_j_m2.unwrap_or(self.fracture_energy_j_m2),
+        }
     }
 }

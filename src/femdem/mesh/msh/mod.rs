@@ -9,10 +9,10 @@ mod sections;
 mod source;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-pub(super) mod write;
+mod write;
 
 pub use error::{MshError, Place};
+pub use write::write;
 
 use super::Mesh;
 use sections::Sections;

@@ -15,7 +15,7 @@ fn cracked() -> Mesh {
 
 /// The same mesh as text.
 fn text() -> String {
-    String::from_utf8(write::msh(&cracked(), false)).unwrap()
+    String::from_utf8(write(&cracked(), false)).unwrap()
 }
 
 /// What the reader says of a text.
@@ -41,13 +41,13 @@ fn text_and_binary_read_back_as_written() {
         let mut mesh = block(DVec3::new(0.3, 0.2, 0.1), [3, 2, 1], pattern);
         mesh.node_sets = vec![super::super::NodeSet { name: "support".to_owned(), nodes: vec![0, 2, 5] }];
         for binary in [false, true] {
-            assert_eq!(parse(&write::msh(&mesh, binary), 1.0).unwrap(), mesh);
+            assert_eq!(parse(&write(&mesh, binary), 1.0).unwrap(), mesh);
         }
         // Tags with gaps, out of order and too long for 32 bits.
         mesh.node_tags.iter_mut().for_each(|tag| *tag = 5_000_000_000 - 7 * *tag);
         mesh.tet_tags.reverse();
         for binary in [false, true] {
-            assert_eq!(parse(&write::msh(&mesh, binary), 1.0).unwrap(), mesh);
+            assert_eq!(parse(&write(&mesh, binary), 1.0).unwrap(), mesh);
         }
     }
 }
@@ -70,16 +70,16 @@ fn physical_curves_are_sets_of_nodes() {
 fn sets_of_nodes_must_belong_to_a_body_and_have_names_of_their_own() {
     let mut mesh = cracked();
     mesh.node_sets = vec![super::super::NodeSet { name: "xmin".to_owned(), nodes: vec![0] }];
-    let same = refusal(&String::from_utf8(write::msh(&mesh, false)).unwrap());
+    let same = refusal(&String::from_utf8(write(&mesh, false)).unwrap());
     assert!(same.contains("two physical sets are named \"xmin\""), "{same}");
     mesh.node_sets[0].name = "support".to_owned();
     mesh.nodes.push(DVec3::splat(9.0));
     mesh.node_tags.push(1000);
     mesh.node_sets[0].nodes = vec![mesh.nodes.len() as u32 - 1];
-    let loose = refusal(&String::from_utf8(write::msh(&mesh, false)).unwrap());
+    let loose = refusal(&String::from_utf8(write(&mesh, false)).unwrap());
     assert!(loose.contains("physical Point \"support\": 1 of its nodes belong to no tetrahedron"), "{loose}");
     mesh.node_sets[0].nodes.clear();
-    let empty = refusal(&String::from_utf8(write::msh(&mesh, false)).unwrap());
+    let empty = refusal(&String::from_utf8(write(&mesh, false)).unwrap());
     assert!(empty.contains("physical Point \"support\" has no elements"), "{empty}");
 }
 
@@ -99,7 +99,7 @@ fn lengths_are_scaled_and_unused_nodes_left_out() {
     for node in mesh.sets.iter_mut().flat_map(|set| set.triangles.iter_mut().flatten()) {
         *node += 1;
     }
-    let read = parse(&write::msh(&mesh, false), 1e-3).unwrap();
+    let read = parse(&write(&mesh, false), 1e-3).unwrap();
     assert_eq!(read.tets, cracked().tets);
     assert_eq!(read.nodes, cracked().nodes.iter().map(|node| *node * 1e-3).collect::<Vec<_>>());
 }
@@ -144,7 +144,7 @@ fn other_files_are_refused_with_the_way_out() {
 #[test]
 fn files_cut_short_say_so() {
     for binary in [false, true] {
-        let whole = write::msh(&cracked(), binary);
+        let whole = write(&cracked(), binary);
         let end = whole.len() - "$EndElements\n".len();
         for length in 0..end {
             assert!(parse(&whole[..length], 1.0).is_err(), "{length} of {end} bytes");
@@ -212,12 +212,12 @@ fn only_linear_tetrahedra_make_bodies() {
 fn nodes_must_be_there_once_and_finite() {
     let mut mesh = cracked();
     mesh.node_tags[3] = mesh.node_tags[4];
-    assert_eq!(parse(&write::msh(&mesh, true), 1.0), Err(MshError::DuplicateNode(5)));
+    assert_eq!(parse(&write(&mesh, true), 1.0), Err(MshError::DuplicateNode(5)));
     let mut mesh = cracked();
     for bad in [f64::NAN, f64::INFINITY] {
         mesh.nodes[2].y = bad;
         for binary in [false, true] {
-            let error = parse(&write::msh(&mesh, binary), 1.0).unwrap_err();
+            let error = parse(&write(&mesh, binary), 1.0).unwrap_err();
             assert!(matches!(error, MshError::NotFinite { tag: 3, .. }), "{error}");
         }
     }
@@ -287,7 +287,7 @@ proptest! {
     /// A spoilt file is read or refused, without panic, and what is read has valid indices.
     #[test]
     fn spoilt_files_do_no_harm(binary: bool, damages in prop::collection::vec(damage(), 1..5)) {
-        let mut bytes = write::msh(&cracked(), binary);
+        let mut bytes = write(&cracked(), binary);
         for damage in &damages {
             spoil(&mut bytes, damage, binary);
         }

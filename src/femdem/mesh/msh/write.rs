@@ -1,4 +1,4 @@
-//! Writing meshes in MSH 4.1, for tests: one entity for each body and set, as small as the format allows. Sets of nodes
+//! Writing meshes in MSH 4.1: one entity for each body and set, as small as the format allows. Sets of nodes
 //! are points.
 
 use super::super::Mesh;
@@ -45,8 +45,9 @@ impl Sink {
     }
 }
 
-/// The mesh as a file: bodies are the volumes 1, 2, ..., sets the surfaces 1, 2, ..., those of nodes the points 1, 2, ...
-pub(in super::super) fn msh(mesh: &Mesh, binary: bool) -> Vec<u8> {
+/// The mesh as the content of a file, text or binary: bodies are the volumes 1, 2, ..., sets the surfaces 1, 2, ..., those of
+/// nodes the points 1, 2, ...
+pub fn write(mesh: &Mesh, binary: bool) -> Vec<u8> {
     let mut sink = Sink { bytes: Vec::new(), binary };
     sink.text(if binary { "$MeshFormat\n4.1 1 8\n" } else { "$MeshFormat\n4.1 0 8\n" });
     if binary {

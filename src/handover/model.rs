@@ -1,0 +1,130 @@
+//! What the impacts come from: the units of a run, as far as the hand-over needs them.
+
+use glam::{DMat3, DVec3};
+
+use super::blow::Blow;
+use crate::case::{Case, DryCase, Handover, UnitKind, UnitShape, Units};
+use crate::case::{ContactLawName, Material as CaseMaterial};
+use crate::geometry::section::Section;
+use crate::output::{Impact, Impacts};
+use crate::rigid::Material;
+
+/// The units of a run; SI units.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Shape of a unit.
+    pub shape: UnitShape,
+    /// Its mass [kg].
+    pub mass: f64,
+    /// Inertia tensor in body axes over the mass [m2].
+    pub gyration: DMat3,
+    /// How many units there are.
+    pub count: usize,
+    /// Material of the units in contact.
+    pub material: Material,
+    /// Material of the bed in contact.
+    pub ground: Material,
+    /// Law of contact.
+    pub law: ContactLawName,
+    /// Acceleration of gravity [m/s2].
+    pub gravity: f64,
+}
+
+impl Model {
+    /// The units of a case with water; none if it has none.
+    pub fn of_case(case: &Case) -> Option<Self> {
+        let units = case.units.as_ref()?;
+        Some(Self::of_units(units, &case.materials, case.contact.law, case.fluid.gravity))
+    }
+
+    /// The units of a dry case.
+    pub fn of_dry(case: &DryCase) -> Self {
+        Self::of_units(&case.units, &case.materials, case.contact.law, case.gravity)
+    }
+
+    fn of_units(units: &Units, materials: &[CaseMaterial], law: ContactLawName, gravity: f64) -> Self {
+        let material = |index: usize| {
+            let CaseMaterial { young_modulus, poisson_ratio, restitution, .. } = materials[index];
+            Material { young_modulus, poisson_ratio, restitution }
+        };
+        Self {
+            gyration: units.shape.unit().inertia(1.0),
+            shape: units.shape.clone(),
+            mass: units.mass,
+            count: units.placements.len(),
+            material: material(units.material),
+            ground: material(units.ground_material),
+            law,
+            gravity,
+        }
+    }
+
+    /// Sections at which a unit breaks; none are known of units from STL.
+    pub fn sections(&self) -> Vec<Section> {
+        self.shape.kind.sections()
+    }
+
+    /// Largest nominal stress [Pa] that recorded impacts mean to each unit of the prototype: peak force of a blow by Hertz's
+    /// law, in the sections of the unit by the theory of bars, its inertia left out; 0 for units without impacts.
+    pub fn nominal_stresses(&self, handover: &Handover, impacts: &Impacts) -> Vec<f64> {
+        let mut stresses = vec![0.0f64; self.count];
+        let sections = self.sections();
+        for impact in &impacts.impacts {
+            for role in Role::of(impact) {
+                let force = role.to_body * (role.sign * DVec3::from_array(impact.event.peak));
+                let found = sections.iter().filter_map(|section| section.stress(role.place, force)).fold(0.0, f64::max);
+                let blow = Blow::new(self, handover, impact);
+                let scaled = found * blow.scale.force / handover.scale.powi(2);
+                stresses[role.unit] = stresses[role.unit].max(scaled);
+            }
+        }
+        stresses
+    }
+}
+
+/// A unit's part in an impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Role {
+    /// Number of the unit from 0.
+    pub unit: usize,
+    /// Place of contact in its body axes [m].
+    pub place: DVec3,
+    /// From axes of space to its own.
+    pub to_body: glam::DQuat,
+    /// Factor on the recorded force: 1, or -1 for the partner.
+    pub sign: f64,
+}
+
+impl Role {
+    /// Parts of the one or two units in an impact.
+    pub fn of(impact: &Impact) -> impl Iterator<Item = Self> {
+        let event = &impact.event;
+        let body = Self {
+            unit: event.body as usize,
+            place: DVec3::from_array(event.point_in_body),
+            to_body: event.before.rotation.inverse(),
+            sign: 1.0,
+        };
+        let partner = event.partner_unit().zip(event.partner_before).map(|(unit, before)| {
+            let to_body = before.rotation.inverse();
+            let place = to_body * (DVec3::from_array(event.point) - before.position);
+            Self { unit: unit as usize, place, to_body, sign: -1.0 }
+        });
+        std::iter::once(body).chain(partner)
+    }
+}
+
+impl UnitKind {
+    /// Sections at which a unit breaks; none are known of units from STL.
+    pub fn sections(&self) -> Vec<Section> {
+        use crate::geometry::{core_loc, cuboid, dolos, tetrapod};
+        match self {
+            Self::Tetrapod { height } => tetrapod::sections(*height),
+            Self::Dolos { height, waist } => dolos::sections(*height, *waist),
+            Self::CoreLoc { size } => core_loc::sections(*size),
+            Self::Cuboid { edges } => cuboid::sections(DVec3::from_array(*edges)),
+            Self::GroovedCube { height } => cuboid::sections(DVec3::splat(*height)),
+            Self::Stl(_) => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! An impact computed again: both bodies collide from the poses and velocities that they had just before.
+
+use glam::DVec3;
+
+use super::base;
+use super::blow::{Blow, Mover};
+use super::fracture_case::{Part, Scene};
+use super::unit_mesh::{UnitMesh, together};
+use crate::femdem::mesh::Mesh;
+
+/// Gap between the bodies at the start over the height of the unit [-].
+const GAP: f64 = 1e-4;
+
+/// Width of the block of the bed over the height of the unit [-], where it has room.
+const BASE_WIDTH: f64 = 1.5;
+/// And where it has not, beside steps and other legs.
+const LEAST_WIDTH: f64 = 0.2;
+
+/// Sharp edges of the unit reach so far below the place where its rounded edges touched, over its height [-].
+const ROUNDED_OFF: f64 = 0.05;
+
+/// Cells of the bed over the mean edge of the unit's mesh [-]; each is cut into 24 tetrahedra.
+const BASE_CELL: f64 = 2.0;
+
+/// Nodes about the place of contact within this distance over the height of the unit [-] say how far two units are apart.
+const ABOUT: f64 = 0.25;
+
+/// Name of the other unit.
+pub const PARTNER: &str = "partner";
+
+/// Scene of the collision, at the place of contact.
+pub fn scene(blow: &Blow) -> Scene {
+    let height = blow.model.shape.height() * blow.froude.length();
+    let normal = DVec3::from_array(blow.impact.event.normal).normalize_or(DVec3::Z);
+    let (mover, partner) = blow.movers();
+    let mesh = blow.handover.mesh.posed(&mover.pose, UnitMesh::NAME);
+    let unit = part(blow, UnitMesh::NAME, &mover);
+    let (mesh, parts, gap) = match partner {
+        Some(partner) => {
+            let other = blow.handover.mesh.posed(&partner.pose, PARTNER);
+            let near = |mesh: &Mesh| -> Vec<f64> {
+                let within = mesh.nodes.iter().filter(|node| node.length() < ABOUT * height);
+                within.map(|node| node.dot(normal)).collect()
+            };
+            let lowest = near(&mesh).into_iter().fold(f64::INFINITY, f64::min);
+            let highest = near(&other).into_iter().fold(f64::NEG_INFINITY, f64::max);
+            // Without nodes about the place of contact, the bodies stay where they are.
+            let overlap = if (highest - lowest).is_finite() { highest - lowest } else { 0.0 };
+            let back = (overlap + GAP * height).clamp(0.0, ROUNDED_OFF * height);
+            let other_part = part(blow, PARTNER, &partner);
+            (together(shifted(mesh, normal * back), other), vec![shifted_part(unit, normal * back), other_part], back)
+        }
+        None => {
+            let (block, gap) = bed(blow, &mesh, normal, height);
+            let base = Part::held(base::NAME, base::BOTTOM);
+            (together(mesh, block), vec![unit, base], gap)
+        }
+    };
+    let approach = blow.impact.event.approach_normal.max(0.0) * blow.froude.velocity();
+    // A body that hardly approaches need not touch within the time of a blow.
+    let before = if approach > 0.0 { (gap / approach).min(blow.time_after()) } else { 0.0 };
+    Scene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
+}
+
+/// A block of the bed just below the unit, and how far below [m]. It is as wide as the room that legs leave which reach
+/// below the plane of contact: bed and mound need not be plane there.
+fn bed(blow: &Blow, mesh: &Mesh, normal: DVec3, height: f64) -> (Mesh, f64) {
+    let below = |node: &DVec3| -node.dot(normal) > ROUNDED_OFF * height;
+    let beside = |node: &DVec3| (*node - normal * node.dot(normal)).length();
+    let room = mesh.nodes.iter().filter(|node| below(node)).map(beside).fold(f64::INFINITY, f64::min);
+    // Half the diagonal of the block lies within the room.
+    let width = (0.9 * std::f64::consts::SQRT_2 * room).clamp(LEAST_WIDTH * height, BASE_WIDTH * height);
+    let half_diagonal = width * std::f64::consts::FRAC_1_SQRT_2;
+    let over = mesh.nodes.iter().filter(|node| beside(node) <= half_diagonal && !below(node));
+    let lowest = over.map(|node| node.dot(normal)).fold(f64::INFINITY, f64::min);
+    let level = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
+    let cell = BASE_CELL * blow.handover.mesh.edge() * blow.froude.length();
+    (base::under(normal, level, width, cell), GAP * height)
+}
+
+/// A unit that moves as it was recorded.
+pub fn part(blow: &Blow, name: &'static str, mover: &Mover) -> Part {
+    Part {
+        name,
+        velocity: mover.velocity,
+        angular_velocity: blow.angular_velocity(mover),
+        pivot: blow.handover.mesh.centre(&mover.pose),
+        held: None,
+    }
+}
+
+fn shifted(mut mesh: Mesh, shift: DVec3) -> Mesh {
+    mesh.nodes.iter_mut().for_each(|node| *node += shift);
+    mesh
+}
+
+fn shifted_part(part: Part, shift: DVec3) -> Part {
+    Part { pivot: part.pivot + shift, ..part }
+}

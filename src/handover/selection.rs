@@ -1,0 +1,93 @@
+//! Which impacts are handed over.
+
+use crate::case::{Hardness, Selection};
+use crate::output::{Impact, Impacts};
+
+/// How hard an impact is.
+pub fn hardness(impact: &Impact, by: Hardness) -> f64 {
+    match by {
+        Hardness::PeakForce => impact.event.peak_force,
+        Hardness::ApproachVelocity => impact.event.approach_normal,
+        Hardness::KineticEnergy => impact.event.approach_energy,
+    }
+}
+
+/// The impacts to hand over, the hardest first, as indices into the list. Of contacts of the same bodies at the same time,
+/// as when a unit lands on three feet, the hardest stands for all: the collision computed again has them all.
+pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
+    let all = &impacts.impacts;
+    let score = |index: &usize| hardness(&all[*index], selection.by);
+    let mut order: Vec<usize> = (0..all.len()).filter(|index| score(index) >= selection.at_least).collect();
+    // Of equally hard ones the first in the file, the one with the larger force.
+    order.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    let mut chosen: Vec<usize> = Vec::new();
+    for index in order {
+        if chosen.len() == selection.worst.unwrap_or(usize::MAX) {
+            break;
+        }
+        if !chosen.iter().any(|other| same_collision(&all[*other], &all[index])) {
+            chosen.push(index);
+        }
+    }
+    chosen
+}
+
+/// Whether two contacts of the same bodies begin within the duration of one another.
+fn same_collision(a: &Impact, b: &Impact) -> bool {
+    let bodies = |impact: &Impact| {
+        let (body, partner) = (Some(impact.event.body), impact.event.partner_unit());
+        [body.max(partner), body.min(partner)]
+    };
+    let blow = |impact: &Impact| impact.event.peak_time - impact.event.start;
+    let together = 2.0 * blow(a).max(blow(b));
+    bodies(a) == bodies(b) && (a.event.start - b.event.start).abs() <= together
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::{BodyState, ContactEvent, Feature};
+    use glam::{DQuat, DVec3};
+
+    fn impact(body: u32, start: f64, peak_force: f64, approach: f64) -> Impact {
+        let before = BodyState::at_rest(DVec3::ZERO, DQuat::IDENTITY);
+        let event = ContactEvent {
+            number: 0,
+            start,
+            end: start + 2e-3,
+            body,
+            partner: Feature::Ground { place: 0, end: 0 },
+            point: [0.0; 3],
+            point_in_body: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            before,
+            partner_before: None,
+            approach_normal: approach,
+            approach_tangential: 0.0,
+            approach_energy: 0.5 * approach * approach,
+            rebound: 0.0,
+            peak_force,
+            peak: [0.0, 0.0, peak_force],
+            peak_time: start + 1e-3,
+            impulse: [0.0; 3],
+        };
+        Impact { event, history: Vec::new(), fluid: None }
+    }
+
+    #[test]
+    fn the_hardest_come_first_and_a_landing_on_three_feet_counts_once() {
+        let list = vec![
+            impact(0, 1.0, 50.0, 0.3),
+            impact(0, 1.0005, 49.0, 0.3),
+            impact(1, 1.0, 40.0, 0.2),
+            impact(0, 2.0, 30.0, 0.6),
+        ];
+        let impacts = Impacts { places: Vec::new(), impacts: list };
+        let chosen = |by, worst, at_least| select(&impacts, &Selection { by, worst, at_least });
+        assert_eq!(chosen(Hardness::PeakForce, None, 0.0), [0, 2, 3]);
+        assert_eq!(chosen(Hardness::PeakForce, Some(2), 0.0), [0, 2]);
+        assert_eq!(chosen(Hardness::PeakForce, None, 35.0), [0, 2]);
+        assert_eq!(chosen(Hardness::ApproachVelocity, Some(1), 0.0), [3]);
+        assert_eq!(chosen(Hardness::KineticEnergy, None, 0.1), [3]);
+    }
+}
