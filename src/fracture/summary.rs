@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress};
@@ -88,6 +89,8 @@ pub struct BodySummary {
     pub name: String,
     /// Its mass [kg].
     pub mass_kg: f64,
+    /// Velocity of its centre of mass at the end [m/s].
+    pub velocity_m_s: [f64; 3],
     /// Where and when the tension was largest.
     pub peak: PeakStress,
     /// Area of its faces that failed [m2].
@@ -180,10 +183,11 @@ impl FractureSummary {
             let within = |f: &&Failure| {
                 case.setup.bodies[body].tets.contains(&(case.setup.interfaces[f.interface as usize].tets[0] as usize))
             };
-            world.failures.iter().filter(within).map(|failure| failure.area).sum()
+            world.failures.iter().filter(within).fold(0.0, |area, failure| area + failure.area)
         };
         let body = |(number, peak): (usize, &PeakStress)| BodySummary {
             name: name(number),
+            velocity_m_s: mean_velocity(world, number).to_array(),
             mass_kg: case.setup.bodies[number].elastic.density * case.mesh.quality[number].volume,
             peak: *peak,
             crack_area_m2: failed_in(number),
@@ -229,6 +233,11 @@ impl FractureSummary {
         }
     }
 
+    /// The body of a name.
+    pub fn body(&self, name: &str) -> Option<&BodySummary> {
+        self.bodies.iter().find(|body| body.name == name)
+    }
+
     /// Read `summary.json` of a run folder.
     ///
     /// # Errors
@@ -249,4 +258,16 @@ impl FractureSummary {
         text.push('\n');
         write_atomically(&path, text.as_bytes())
     }
+}
+
+/// Velocity of the centre of mass of a body [m/s]: its density is the same everywhere.
+fn mean_velocity(world: &World, body: usize) -> DVec3 {
+    let (mut flow, mut volume) = (DVec3::ZERO, 0.0);
+    for tet in world.setup().bodies[body].tets.clone() {
+        let own = world.tets.shape[tet].volume;
+        let velocities = world.tets.nodes[tet].map(|node| world.nodes.velocity[node as usize]);
+        flow += velocities.iter().sum::<DVec3>() * (0.25 * own);
+        volume += own;
+    }
+    flow / volume
 }

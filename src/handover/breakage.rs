@@ -134,9 +134,6 @@ impl Outcome {
                 let heaviest = pieces.iter().map(|piece| piece.mass_kg).fold(0.0, f64::max);
                 let before =
                     if is_partner { other.map_or(mover.velocity, |other| other.velocity) } else { mover.velocity };
-                let momentum = |axis: usize| -> f64 {
-                    pieces.iter().map(|piece| piece.mass_kg * piece.velocity_m_s[axis]).sum::<f64>()
-                };
                 Found {
                     unit: if is_partner { partner.unwrap_or(unit) } else { unit },
                     sigma_1_pa: body.peak.sigma_1_pa,
@@ -144,7 +141,7 @@ impl Outcome {
                     // Where nothing can crack there are no pieces.
                     pieces: pieces.len().max(1),
                     heaviest_share: if pieces.is_empty() { 1.0 } else { heaviest / body.mass_kg },
-                    impulse_n_s: std::array::from_fn(|axis| momentum(axis) - body.mass_kg * before[axis]),
+                    impulse_n_s: std::array::from_fn(|axis| body.mass_kg * (body.velocity_m_s[axis] - before[axis])),
                 }
             };
             bodies.map(of).collect()

@@ -32,8 +32,8 @@ pub struct HandoverFile {
     /// How tetrahedra hold together before they crack.
     #[serde(default)]
     pub joints: Joints,
-    /// Time after the blow, in the prototype [s]; without it, three times as long as the blow lasts by Hertz, and at least
-    /// 20 heights of the unit over the speed of sound.
+    /// Time after the blow, in the prototype [s]; without it, 1.5 times as long as the blow lasts by Hertz, and at least
+    /// 10 heights of the unit over the speed of sound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
     /// Impacts computed at the same time; without it, as many as there are threads.
