@@ -11,10 +11,17 @@ use crate::femdem::mesh::Mesh;
 /// Gap between the bodies at the start over the height of the unit [-].
 const GAP: f64 = 1e-4;
 
-/// Width of the block of the bed over the height of the unit [-], where it has room.
+/// Width of the block of the bed over the height of the unit [-] beside steps and legs that reach below it, at most and at
+/// least.
 const BASE_WIDTH: f64 = 1.5;
-/// And where it has not, beside steps and other legs.
+/// See above.
 const LEAST_WIDTH: f64 = 0.2;
+
+/// Nodes so near the plane of contact belong to feet, over the height of the unit [-]; the block reaches under all of them
+/// and a little further.
+const FOOT: f64 = 0.25;
+/// See above.
+const MARGIN: f64 = 1.1;
 
 /// Sharp edges of the unit reach so far below the place where its rounded edges touched, over its height [-].
 const ROUNDED_OFF: f64 = 0.05;
@@ -62,20 +69,30 @@ pub fn scene(blow: &Blow) -> Scene {
     Scene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
 }
 
-/// A block of the bed just below the unit, and how far below [m]. It is as wide as the room that legs leave which reach
-/// below the plane of contact: bed and mound need not be plane there.
+/// A block of the bed just below the unit, and how far below [m]: under all feet where the bed is plane, else, where legs
+/// reach below the plane of contact, about the place of contact and as wide as they leave room.
 fn bed(blow: &Blow, mesh: &Mesh, normal: DVec3, height: f64) -> (Mesh, f64) {
-    let below = |node: &DVec3| -node.dot(normal) > ROUNDED_OFF * height;
-    let beside = |node: &DVec3| (*node - normal * node.dot(normal)).length();
-    let room = mesh.nodes.iter().filter(|node| below(node)).map(beside).fold(f64::INFINITY, f64::min);
-    // Half the diagonal of the block lies within the room.
-    let width = (0.9 * std::f64::consts::SQRT_2 * room).clamp(LEAST_WIDTH * height, BASE_WIDTH * height);
+    let level = |node: &DVec3| node.dot(normal);
+    let flat = |place: DVec3| place - normal * place.dot(normal);
+    let below = |node: &DVec3| level(node) < -ROUNDED_OFF * height;
+    let (middle, width) = if mesh.nodes.iter().any(below) {
+        let room = mesh.nodes.iter().filter(|node| below(node)).map(|node| flat(*node).length());
+        // Half the diagonal of the block lies within the room.
+        let width = 0.9 * std::f64::consts::SQRT_2 * room.fold(f64::INFINITY, f64::min);
+        (DVec3::ZERO, width.clamp(LEAST_WIDTH * height, BASE_WIDTH * height))
+    } else {
+        let (mover, _) = blow.movers();
+        let middle = flat(mover.pose.position);
+        let feet = mesh.nodes.iter().filter(|node| level(node) < FOOT * height);
+        let reach = feet.map(|node| flat(*node - middle).length()).fold(0.0, f64::max);
+        (middle, 2.0 * MARGIN * reach)
+    };
     let half_diagonal = width * std::f64::consts::FRAC_1_SQRT_2;
-    let over = mesh.nodes.iter().filter(|node| beside(node) <= half_diagonal && !below(node));
-    let lowest = over.map(|node| node.dot(normal)).fold(f64::INFINITY, f64::min);
-    let level = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
+    let over = mesh.nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal && !below(node));
+    let lowest = over.map(level).fold(f64::INFINITY, f64::min);
+    let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
     let cell = BASE_CELL * blow.handover.mesh.edge() * blow.froude.length();
-    (base::under(normal, level, width, cell), GAP * height)
+    (base::under(middle, normal, top, width, cell), GAP * height)
 }
 
 /// A unit that moves as it was recorded.

@@ -13,6 +13,7 @@ mod flume_order;
 mod flume_shore;
 mod fudo_waves;
 mod given_waves;
+mod handover;
 mod incoming_waves;
 mod lattice;
 mod operators;
