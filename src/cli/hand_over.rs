@@ -13,7 +13,7 @@ use crate::{
         model::Model,
         run::{FOLDER, hand_over},
     },
-    output::{Summary, write_report},
+    output::{BreakageSummary, OutputError, Summary, write_report},
 };
 
 /// Do the units break? Computes the hardest impacts of a finished run again, at the scale of the prototype, with units that
@@ -59,8 +59,15 @@ pub(super) fn of_run(case: &Case, summary: &Summary, dir: &Path, quiet: bool) ->
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     let ended = go(&model, handover, &moved, dir, quiet);
     // With what there is.
-    write_report(dir).map_err(Trouble::failed)?;
-    ended
+    let told = tell_in_files(summary, dir).map_err(Trouble::failed);
+    ended.and(told)
+}
+
+/// Take what came of the impacts into summary and report of a run with water.
+fn tell_in_files(summary: &Summary, dir: &Path) -> Result<(), OutputError> {
+    let breakage = Breakage::read_if_present(dir)?;
+    Summary { breakage: breakage.as_ref().map(BreakageSummary::from), ..summary.clone() }.write(dir)?;
+    write_report(dir).map(drop)
 }
 
 /// Hand the impacts of a finished dry run over, if its case says so.

@@ -38,8 +38,8 @@ pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
 pub use report::{clock, grouped, page, section, write_report};
 pub use series::CsvSeries;
 pub use summary::{
-    ContactSummary, EnergySummary, Execution, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
-    UnitSummary, WaveSummary,
+    BreakageSummary, ContactSummary, EnergySummary, Execution, GaugeSummary, ParticleCounts, Stopped, Summary,
+    TimeStepSummary, UnitSummary, WaveSummary,
 };
 pub use table::Table;
 pub use unit_surface::UnitSurface;

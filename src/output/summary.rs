@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{OutputError, write_atomically};
+use crate::handover::breakage::Breakage;
 
 /// `summary.json`: damage and displacements first, then what they rest on.
 ///
@@ -23,6 +24,9 @@ pub struct Summary {
     pub mean_displacement_m: Option<f64>,
     /// A unit is damaged when it has moved further than this [m]; none without units.
     pub damage_distance_m: Option<f64>,
+    /// Which share of the units broke; none if no impacts were handed over.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub breakage: Option<BreakageSummary>,
     /// The units from the first to the last across the flume.
     pub units: Vec<UnitSummary>,
     /// The wave; none for still water or a dam break.
@@ -122,6 +126,24 @@ impl UnitSummary {
             rotation_deg,
             ..Self::default()
         }
+    }
+}
+
+/// Damage by movement and by breakage, from `breakage.json`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BreakageSummary {
+    /// Lengths of the prototype over those of the run [-].
+    pub scale: f64,
+    /// Share of the units that moved further than the damage distance [-].
+    pub damaged_ratio: f64,
+    /// Share of the units that broke [-].
+    pub broken_ratio: f64,
+}
+
+impl From<&Breakage> for BreakageSummary {
+    fn from(breakage: &Breakage) -> Self {
+        let Breakage { scale, damaged_ratio, broken_ratio, .. } = *breakage;
+        Self { scale, damaged_ratio, broken_ratio }
     }
 }
 
@@ -299,6 +321,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut summary = two_units();
         summary.execution = Execution { wall_s: 12.5, steps_per_s: 3.0, threads: 4, created: None };
+        summary.breakage = Some(BreakageSummary { scale: 50.0, damaged_ratio: 0.5, broken_ratio: 0.0 });
         summary.write(folder.path()).unwrap();
         assert_eq!(Summary::read(folder.path()).unwrap(), summary);
         let text = std::fs::read_to_string(folder.path().join(Summary::FILE)).unwrap();
@@ -307,7 +330,9 @@ mod tests {
             assert!(json[key].is_number(), "{key}");
         }
         assert!(json["units"][1]["displacement_m"].is_number() && json["units"][1]["damaged"].is_boolean());
+        assert_eq!(json["breakage"]["scale"], 50.0);
         assert_ne!(summary, two_units());
+        summary.breakage = None;
         assert_eq!(summary.without_execution(), two_units());
     }
 
@@ -316,6 +341,7 @@ mod tests {
         let mut summary = Summary::default();
         summary.set_units(Vec::new(), 0.077);
         let json = serde_json::to_value(&summary).unwrap();
+        assert!(json.get("breakage").is_none());
         assert!(json["damage_ratio"].is_null() && json["mean_displacement_m"].is_null());
         assert_eq!(json["units"].as_array().map(Vec::len), Some(0));
     }

@@ -36,3 +36,12 @@ pub fn write_fracture_report(dir: &Path) -> Result<PathBuf, OutputError> {
     write_atomically(&path, page(&run.summary.title, &sections::body(&run)?).as_bytes())?;
     Ok(path)
 }
+
+/// Pictures of the impact and of the end of the fracture run in a folder, for a page about many impacts; none where the
+/// run wrote no surfaces.
+///
+/// # Errors
+/// If case, mesh or summary are missing, or a file cannot be understood.
+pub(crate) fn pictures_of_impact_and_end(dir: &Path) -> Result<Option<String>, OutputError> {
+    pictures::of_impact_and_end(&FractureFolder::read(dir)?)
+}

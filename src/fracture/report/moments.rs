@@ -42,14 +42,12 @@ pub fn main_cracks(initiations: &[InitiationSummary]) -> Vec<usize> {
 
 /// Moments just after the impact, at the beginning of each main crack and at the end; some between them if there are few.
 pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
-    let Some(last) = times_s.len().checked_sub(1) else { return Vec::new() };
-    let first_after = |time: f64| times_s.iter().position(|t| *t >= time).unwrap_or(last);
-    let mut shown = vec![(first_after(impact_s.unwrap_or(0.0)), Why::Impact)];
+    let mut shown = ends(times_s, impact_s);
     for crack in main_cracks(initiations) {
-        shown.push((first_after(initiations[crack - 1].t_s), Why::Crack));
+        shown.extend(first_after(times_s, initiations[crack - 1].t_s).map(|frame| (frame, Why::Crack)));
     }
-    shown.push((last, Why::End));
-    shown.sort_by_key(|(frame, _)| *frame);
+    // The end stays behind a crack that begins in the last moment.
+    shown.sort_by_key(|(frame, why)| (*frame, *why == Why::End));
     shown.dedup_by_key(|(frame, _)| *frame);
     while shown.len() < LEAST {
         let widest = (1..shown.len()).max_by_key(|k| shown[*k].0 - shown[*k - 1].0);
@@ -58,6 +56,30 @@ pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[Initiation
             None => break,
         }
     }
+    with_cracks(shown, times_s, initiations)
+}
+
+/// Moments just after the impact and at the end alone.
+pub fn impact_and_end(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
+    with_cracks(ends(times_s, impact_s), times_s, initiations)
+}
+
+/// The first moment after the impact, and the last one if that is another.
+fn ends(times_s: &[f64], impact_s: Option<f64>) -> Vec<(usize, Why)> {
+    let impact = first_after(times_s, impact_s.unwrap_or(0.0)).map(|frame| (frame, Why::Impact));
+    let end = times_s.len().checked_sub(1).map(|last| (last, Why::End));
+    let mut ends: Vec<(usize, Why)> = impact.into_iter().chain(end).collect();
+    ends.dedup_by_key(|(frame, _)| *frame);
+    ends
+}
+
+/// The first moment that is not before a time, or else the last one; none if there are no moments.
+fn first_after(times_s: &[f64], time_s: f64) -> Option<usize> {
+    times_s.iter().position(|t| *t >= time_s).or(times_s.len().checked_sub(1))
+}
+
+/// The moments with the cracks that begin between them.
+fn with_cracks(shown: Vec<(usize, Why)>, times_s: &[f64], initiations: &[InitiationSummary]) -> Vec<Moment> {
     let mut told = 0;
     let begun_by = |frame: usize| initiations.iter().filter(|i| i.t_s <= times_s[frame]).count();
     shown
@@ -100,5 +122,15 @@ mod tests {
         assert_eq!(shown.iter().map(|m| m.frame).collect::<Vec<_>>(), [0, 5, 10, 15, 17, 20]);
         assert_eq!(moments(&[0.0], None, &[]).len(), 1);
         assert!(moments(&[], None, &[]).is_empty());
+    }
+
+    #[test]
+    fn impact_and_end_can_be_shown_alone() {
+        let times: Vec<f64> = (0..=20).map(f64::from).collect();
+        let shown = impact_and_end(&times, Some(2.5), &[crack(5.5, 2.0), crack(12.0, 1.0)]);
+        assert_eq!(shown.iter().map(|m| (m.frame, m.why)).collect::<Vec<_>>(), [(3, Why::Impact), (20, Why::End)]);
+        assert_eq!(shown[1].begun, [1, 2]);
+        assert_eq!(impact_and_end(&times, Some(50.0), &[]).len(), 1);
+        assert!(impact_and_end(&[], None, &[]).is_empty());
     }
 }

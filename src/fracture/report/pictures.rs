@@ -1,7 +1,8 @@
 //! The pictures of the run: units with their cracks, and the stress in the cut plane, at the same moments.
 
+use super::super::summary::InitiationSummary;
 use super::folder::{FractureFolder, place_in_words};
-use super::moments::{Moment, Why, main_cracks, moments};
+use super::moments::{Moment, Why, impact_and_end, main_cracks, moments};
 use super::stress_picture::{StressScene, css};
 use super::unit_picture::{OLD, OPENED, SIZE, SLID, UNIT, UnitScene};
 use crate::output::OutputError;
@@ -12,17 +13,31 @@ use crate::output::plot::{escape, short};
 /// # Errors
 /// If a file cannot be read.
 pub fn pictures(run: &FractureFolder) -> Result<String, OutputError> {
-    let Some([surfaces, cracks, section]) = &run.pictures else {
-        let words = "<p>The run wrote no surfaces: give the case an <code>output.surfaces_interval_s</code> above 0 for \
-                     pictures.</p>\n";
-        return Ok(words.to_owned());
-    };
+    let words = "<p>The run wrote no surfaces: give the case an <code>output.surfaces_interval_s</code> above 0 for \
+                 pictures.</p>\n";
+    Ok(figures(run, moments, "in the table above")?.unwrap_or_else(|| words.to_owned()))
+}
+
+/// The impact and the end alone, for a page about many impacts; none where the run has no pictures.
+///
+/// # Errors
+/// If a file cannot be read.
+pub fn of_impact_and_end(run: &FractureFolder) -> Result<Option<String>, OutputError> {
+    figures(run, impact_and_end, "in the report of the impact")
+}
+
+/// Chooses moments from the times of a run, when bodies first touched, and where its cracks began.
+type Choice = fn(&[f64], Option<f64>, &[InitiationSummary]) -> Vec<Moment>;
+
+/// Pictures of the chosen moments under their legend; `listed` says where the cracks are, which the pictures number.
+fn figures(run: &FractureFolder, choose: Choice, listed: &str) -> Result<Option<String>, OutputError> {
+    let Some([surfaces, cracks, section]) = &run.pictures else { return Ok(None) };
     let whole = [surfaces, cracks, section].map(|file| file.times_s().len()).into_iter().min().unwrap_or(0);
     let times = &surfaces.times_s()[..whole];
-    let shown = moments(times, run.summary.impact_s, &run.summary.initiation);
+    let shown = choose(times, run.summary.impact_s, &run.summary.initiation);
     let units = UnitScene::new(run);
     let stress = StressScene::new(run, &shown.iter().map(|moment| moment.frame).collect::<Vec<_>>())?;
-    let mut html = legend(run, &stress);
+    let mut html = legend(run, &stress, listed);
     for moment in &shown {
         let time = times[moment.frame];
         let heading = format!("<strong>{}</strong>{}", run.time_in_words(time), why(run, moment));
@@ -32,7 +47,7 @@ pub fn pictures(run: &FractureFolder) -> Result<String, OutputError> {
             picture("First principal stress in the cut plane", &stress.picture(run, moment.frame)?, ""),
         );
     }
-    Ok(html)
+    Ok(Some(html))
 }
 
 fn picture(title: &str, uri: &str, over: &str) -> String {
@@ -85,7 +100,7 @@ fn why(run: &FractureFolder, moment: &Moment) -> String {
     if words.is_empty() { String::new() } else { escape(&format!(": {}", words.join("; "))) }
 }
 
-fn legend(run: &FractureFolder, stress: &StressScene) -> String {
+fn legend(run: &FractureFolder, stress: &StressScene, listed: &str) -> String {
     let setup = &run.case.setup;
     let slid = run.summary.initiation.iter().any(|i| i.mode == "sliding");
     let mut entries = vec![("outside of the units, transparent", UNIT)];
@@ -104,8 +119,8 @@ fn legend(run: &FractureFolder, stress: &StressScene) -> String {
     let plane = &run.case.section;
     let [x, y, z] = plane.point.to_array().map(|c| short(c, 3));
     format!(
-        "<p>Left: the units as glass, seen from the front, the left and above; numbers are those of the cracks in the table \
-         above. Right: \u{3c3}\u{2081} in the plane through ({x}, {y}, {z}) m {}, which moves with the bodies; black lines are \
+        "<p>Left: the units as glass, seen from the front, the left and above; numbers are those of the cracks {listed}. \
+         Right: \u{3c3}\u{2081} in the plane through ({x}, {y}, {z}) m {}, which moves with the bodies; black lines are \
          outlines, thick ones cracks. {} Movements are drawn at true scale: openings of cracks are too small to \
          be seen.</p>\n<div class=\"swatches\">{entries}</div>\n{}",
         normal_in_words(plane.normal),

@@ -1,5 +1,6 @@
 //! Runs beside the published experiment: displacement of each unit, damage ratio, deviation of the mean.
 
+mod broken;
 mod page;
 mod published;
 mod terminal;
@@ -10,6 +11,7 @@ use std::path::{Path, PathBuf};
 pub use published::{Fudo, PublishedWave, Resolution};
 
 use super::{CsvSeries, OutputError, Summary, write_atomically};
+use crate::handover::breakage::Breakage;
 use published::{DAMAGE_DISTANCE_M, SERIES, mean};
 
 /// Runs beside the published experiment; printed as a table for the terminal.
@@ -43,6 +45,8 @@ pub struct RunResult {
     pub inner_deviation_percent: f64,
     /// Share of the units that moved further than 0.077 m, whatever the case's own damage distance [-].
     pub damage_ratio: f64,
+    /// What came of the impacts; none if the run handed none over.
+    pub breakage: Option<Breakage>,
 }
 
 /// Compares runs with the published experiment; each run's wave height says with which of its waves.
@@ -55,7 +59,7 @@ pub fn compare<P: AsRef<Path>>(run_dirs: &[P], reference: &Fudo) -> Result<Compa
         let dir = dir.as_ref();
         let summary = Summary::read(dir)?;
         let published = published_wave(dir, &summary, reference)?;
-        let run = RunResult::new(dir, summary, published);
+        let run = RunResult::new(dir, summary, Breakage::read_if_present(dir)?, published);
         match waves.iter_mut().find(|wave| wave.published.height_m == published.height_m) {
             Some(wave) => wave.runs.push(run),
             None => waves.push(WaveComparison { published: published.clone(), runs: vec![run] }),
@@ -85,7 +89,7 @@ fn published_wave<'a>(dir: &Path, summary: &Summary, reference: &'a Fudo) -> Res
 }
 
 impl RunResult {
-    fn new(dir: &Path, summary: Summary, published: &PublishedWave) -> Self {
+    fn new(dir: &Path, summary: Summary, breakage: Option<Breakage>, published: &PublishedWave) -> Self {
         let displacements: Vec<f64> = summary.units.iter().map(|unit| unit.displacement_m).collect();
         let mean_m = mean(&displacements);
         let deviation = |measured: f64| 100.0 * (mean_m / measured - 1.0);
@@ -98,6 +102,7 @@ impl RunResult {
             damage_ratio: displacements.iter().filter(|d| **d > DAMAGE_DISTANCE_M).count() as f64
                 / displacements.len() as f64,
             summary,
+            breakage,
         }
     }
 
@@ -151,7 +156,12 @@ impl WaveComparison {
         run.summary.units.get(index).map(|unit| unit.displacement_m)
     }
 
-    /// Sentences that belong to the numbers: slices, other numbers of units, assumptions.
+    /// Whether the units of a run were asked to break.
+    fn tells_breakage(&self) -> bool {
+        self.runs.iter().any(|run| run.breakage.is_some())
+    }
+
+    /// Sentences that belong to the numbers: slices, other numbers of units, breakage, assumptions.
     fn remarks(&self) -> Vec<String> {
         let mut remarks = Vec::new();
         for run in &self.runs {
@@ -167,6 +177,8 @@ impl WaveComparison {
             } else if units > all {
                 remarks.push(format!("{}: {units} units, the experiment has {all}; the mean is over all.", run.name));
             }
+            let broken = run.breakage.as_ref().map(|breakage| format!("{}: {}", run.name, broken::in_words(breakage)));
+            remarks.extend(broken);
             remarks.extend(run.summary.assumptions.iter().map(|a| format!("{}: assumed: {a}", run.name)));
         }
         remarks
@@ -238,6 +250,9 @@ mod tests {
         let sph1 = run(folder.path(), "sph1", 0.045, &fudo.waves[1].displacement_m[3]);
         let slice = run(folder.path(), "slice", 0.045, &[0.05, 0.24]);
         let low = run(folder.path(), "low", 0.026, &[0.1, 0.12]);
+        let (units, impacts) = (Vec::new(), Vec::new());
+        let breakage = Breakage { scale: 50.0, damaged_ratio: 0.5, broken_ratio: 0.25, units, impacts };
+        breakage.write(&slice).unwrap();
         let comparison = compare(&[&sph1, &slice, &low], &fudo).unwrap();
         assert_eq!(comparison.waves.iter().map(|w| w.runs.len()).collect::<Vec<_>>(), [1, 2]);
         let [full, slice] = &comparison.waves[1].runs[..] else { panic!("two runs") };
@@ -248,8 +263,14 @@ mod tests {
         for words in ["H = 2.6 cm", "H = 4.5 cm", "sph1", "stands for the inner units", "assumed: crest width 0.32 m"] {
             assert!(text.contains(words), "{words} in\n{text}");
         }
+        // Only one of the runs was asked.
+        let broken: Vec<&str> = text.lines().filter(|line| line.starts_with("broken [%]")).collect();
+        let [line] = broken[..] else { panic!("one line in\n{text}") };
+        assert_eq!(line.split_whitespace().collect::<Vec<_>>(), ["broken", "[%]", "-", "25"]);
         let [html, csv] = comparison.write(&sph1).unwrap();
-        assert!(std::fs::read_to_string(html).unwrap().contains("EXP2"));
+        let html = std::fs::read_to_string(html).unwrap();
+        assert!(html.contains("EXP2") && html.contains("<td>25</td>"));
+        assert_eq!(html.matches("<th>Broken [%]</th>").count(), 1);
         let table = super::super::Table::read(&csv).unwrap();
         assert_eq!(table.rows(), 15 + 2 + 15 + 2);
         let in_slice = table.column("slice_displacement_m").unwrap();

@@ -41,10 +41,17 @@ fn section(wave: &WaveComparison) -> String {
 fn means(wave: &WaveComparison) -> String {
     let published = &wave.published;
     let deviation = |percent: f64| format!("{percent:+.1}").replace('-', "\u{2212}");
-    let row = |name: &str, dp: String, units: usize, mean: f64, damage: f64, deviation: String| {
+    // Nothing was published about breakage: units of the flume do not break.
+    let has_broken = wave.tells_breakage();
+    let row = |name: &str, dp: String, units: usize, mean: f64, damage: f64, broken: Option<f64>, deviation: String| {
         let name = escape(name);
+        let broken = match broken {
+            Some(ratio) => format!("<td>{:.0}</td>", 100.0 * ratio),
+            None if has_broken => "<td></td>".to_owned(),
+            None => String::new(),
+        };
         format!(
-            "<tr><td>{name}</td><td>{units}</td><td>{dp}</td><td>{mean:.3}</td><td>{:.0}</td><td>{deviation}</td></tr>\n",
+            "<tr><td>{name}</td><td>{units}</td><td>{dp}</td><td>{mean:.3}</td><td>{:.0}</td>{broken}<td>{deviation}</td></tr>\n",
             100.0 * damage
         )
     };
@@ -55,20 +62,23 @@ fn means(wave: &WaveComparison) -> String {
         } else {
             ("5".to_owned(), deviation(100.0 * (published.mean_m(series) / published.measured_mean_m() - 1.0)))
         };
-        rows += &row(name, dp, published.units(), published.mean_m(series), published.damage_ratio(series), percent);
+        let damage = published.damage_ratio(series);
+        rows += &row(name, dp, published.units(), published.mean_m(series), damage, None, percent);
     }
     let ratio = (0..MEASURED).map(|series| published.damage_ratio(series)).sum::<f64>() / MEASURED as f64;
     let exp = "EXP, mean of the repetitions";
-    rows += &row(exp, String::new(), published.units(), published.measured_mean_m(), ratio, String::new());
+    rows += &row(exp, String::new(), published.units(), published.measured_mean_m(), ratio, None, String::new());
     for run in &wave.runs {
         let dp = short(1000.0 * run.summary.dp_m, 2);
         let percent = deviation(run.deviation_percent);
-        let line = row(&run.name, dp, run.summary.units.len(), run.mean_m, run.damage_ratio, percent);
+        let broken = run.breakage.as_ref().map(|breakage| breakage.broken_ratio);
+        let line = row(&run.name, dp, run.summary.units.len(), run.mean_m, run.damage_ratio, broken, percent);
         rows += &line.replacen("<tr>", "<tr class=\"sum\">", 1);
     }
+    let broken = if has_broken { "<th>Broken [%]</th>" } else { "" };
     format!(
         "<table>\n<thead><tr><th>Series</th><th>Units</th><th>Distance between particles [mm]</th><th>Mean displacement [m]</th>\
-         <th>Damaged [%]</th><th>Deviation from EXP [%]</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\n"
+         <th>Damaged [%]</th>{broken}<th>Deviation from EXP [%]</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\n"
     )
 }
 

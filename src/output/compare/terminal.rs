@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::published::{MEASURED, SERIES};
-use super::{Comparison, WaveComparison};
+use super::{Comparison, RunResult, WaveComparison};
 
 /// Width of a column.
 const COLUMN: usize = 9;
@@ -38,6 +38,15 @@ fn write_wave(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result 
     write!(f, "\n{:12}", "damaged [%]")?;
     (0..SERIES.len()).try_for_each(|series| write!(f, "{:>COLUMN$.0}", 100.0 * published.damage_ratio(series)))?;
     wave.runs.iter().try_for_each(|run| write!(f, "{:>width$.0}", 100.0 * run.damage_ratio))?;
+    if wave.tells_breakage() {
+        // Nothing was published about breakage: units of the flume do not break.
+        write!(f, "\n{:12}{:>2$}", "broken [%]", "", SERIES.len() * COLUMN)?;
+        let ratio = |run: &RunResult| run.breakage.as_ref().map(|breakage| 100.0 * breakage.broken_ratio);
+        wave.runs.iter().try_for_each(|run| match ratio(run) {
+            Some(percent) => write!(f, "{percent:>width$.0}"),
+            None => write!(f, "{:>width$}", "-"),
+        })?;
+    }
     write!(f, "\n{:12}", "vs EXP [%]")?;
     for series in 0..SERIES.len() {
         let deviation = 100.0 * (published.mean_m(series) / published.measured_mean_m() - 1.0);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::super::{OutputError, Summary, Table, UnitSurface};
 use super::motion::{UnitMotion, motions};
+use crate::handover::breakage::Breakage;
 
 /// The contents of a run folder; what a run does not write is absent.
 #[derive(Debug)]
@@ -24,6 +25,8 @@ pub struct RunFolder {
     pub energy: Option<Table>,
     /// Surface of a unit about its centre of mass.
     pub surface: Option<UnitSurface>,
+    /// What came of the impacts that were handed over.
+    pub breakage: Option<Breakage>,
 }
 
 impl RunFolder {
@@ -53,6 +56,7 @@ impl RunFolder {
             motions: table("units.csv")?.map_or(Ok(Vec::new()), |units| motions(&units))?,
             energy: table("energy.csv")?,
             surface,
+            breakage: Breakage::read_if_present(run_dir)?,
             dir: run_dir.to_owned(),
         })
     }

@@ -3,6 +3,7 @@
 //! Everything is in the one file `report.html`: style sheet and charts are inline, there are no scripts. Beside it lies
 //! `picture.svg`, one moment of the run as a picture of its own.
 
+mod breakage;
 mod charts;
 mod cover;
 mod folder;

@@ -4,7 +4,7 @@ use super::super::plot::{escape, short};
 use super::super::{Stopped, Summary, UnitSummary};
 use super::folder::RunFolder;
 use super::moments::Moments;
-use super::{charts, views};
+use super::{breakage, charts, views};
 
 /// What stands between `<main>` and `</main>`.
 pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
@@ -15,6 +15,7 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     html += &displacement(run);
     html += &water(run);
     html += &forces(run);
+    html += &section("Which units break", &breakage::breakage(run));
     html += &energy(run);
     html += &warnings(&run.summary);
     html += &assumptions(&run.summary);
@@ -312,7 +313,7 @@ fn facts(summary: &Summary) -> String {
 }
 
 /// What the files of a run folder hold, in the order of the list.
-const FILES: [(&str, &str); 13] = [
+const FILES: [(&str, &str); 16] = [
     (RunFolder::PICTURE, "one moment of the wave at the units as a picture of its own"),
     (
         RunFolder::WATER,
@@ -322,6 +323,12 @@ const FILES: [(&str, &str); 13] = [
     ("units.csv", "place, orientation, velocity, force of the water and contact force of each unit against time"),
     ("contacts.csv", "every contact event with its place, velocity, peak force and impulse"),
     ("impacts.h5", "the hardest impacts of each unit with their forces against time: HDF5, for other programs"),
+    (
+        "breakage.csv",
+        "displacement, hardest hit, stresses, cracks and pieces of each unit, forces and stresses of the prototype",
+    ),
+    ("breakage.json", "the same with the impacts that were computed again"),
+    ("impacts", "folder with a fracture case and its results for each of these impacts"),
     ("gauges.csv", "water at the gauges, by the particles"),
     ("flume_gauges.csv", "water at the gauges, by the flume model"),
     ("energy.csv", "energy of water and units"),

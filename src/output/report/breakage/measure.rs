@@ -1,0 +1,51 @@
+//! Forces and areas in the unit that suits the largest of a table: a unit of 40 t is hit with meganewtons, one of the flume
+//! with newtons.
+
+/// A unit of measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Its name.
+    pub name: &'static str,
+    /// Its size in SI units.
+    size: f64,
+}
+
+impl Measure {
+    /// For forces up to the largest of these [N].
+    pub fn of_forces(forces: impl Iterator<Item = f64>) -> Self {
+        Self::holding(forces, [("N", 1.0), ("kN", 1e3), ("MN", 1e6)])
+    }
+
+    /// For areas up to the largest of these [m2].
+    pub fn of_areas(areas: impl Iterator<Item = f64>) -> Self {
+        // Square centimetres up to 0.1 m2.
+        Self::holding(areas.map(|area| 10.0 * area), [("cm\u{b2}", 1e-4), ("m\u{b2}", 1.0)])
+    }
+
+    /// The largest of some units that is no larger than the largest value, else the smallest of them.
+    fn holding<const N: usize>(values: impl Iterator<Item = f64>, units: [(&'static str, f64); N]) -> Self {
+        let largest = values.fold(0.0, f64::max);
+        let fitting = units.iter().rev().find(|(_, size)| *size <= largest).unwrap_or(&units[0]);
+        Self { name: fitting.0, size: fitting.1 }
+    }
+
+    /// A value in this unit, without a minus sign before zero.
+    pub fn show(self, value: f64) -> String {
+        format!("{:.3}", value / self.size + 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_suits_the_largest_value() {
+        let forces = Measure::of_forces([3.0, 2.5e6].into_iter());
+        assert_eq!((forces.name, forces.show(2.5e6).as_str()), ("MN", "2.500"));
+        assert_eq!(Measure::of_forces([970.0].into_iter()).name, "N");
+        let areas = Measure::of_areas([-0.0].into_iter());
+        assert_eq!((areas.name, areas.show(-0.0).as_str()), ("cm\u{b2}", "0.000"));
+        assert_eq!(Measure::of_areas([0.2].into_iter()).name, "m\u{b2}");
+    }
+}
