@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{AnyCase, Trouble, is_fracture, load_any, placement};
 use crate::{
-    case::{Case, DryCase, DryTest, Sides, Units, Wave},
+    case::{Case, DryCase, DryTest, Handover, Hardness, Sides, Units, Wave},
     dry::DryRun,
     rigid::{RigidError, RigidSetup, RigidWorld},
     simulation::{bodies::rigid_setup, incoming::particle_start, progress::readable, setup::check_times},
@@ -122,6 +122,7 @@ fn print(case: &Case) {
     if let Some(units) = &case.units {
         print_units(units);
     }
+    case.fracture.iter().for_each(print_handover);
     println!(
         "  particles   about {:.0} thousand: water {:.0}, bed and walls {:.0}, units {:.1}; dp = {} m",
         estimate.particles() / 1e3,
@@ -193,7 +194,27 @@ fn print_dry(case: &DryCase) {
     println!("  dry test    {test}");
     println!("  place       x = {} to {} m, {} m wide", case.site.x[0], case.site.x[1], case.site.width);
     print_units(&case.units);
+    case.fracture.iter().for_each(print_handover);
     println!("  duration    at most {} s", case.stop.duration);
+}
+
+/// What is computed again with units that break.
+fn print_handover(handover: &Handover) {
+    let by = match handover.select.by {
+        Hardness::PeakForce => "force",
+        Hardness::ApproachVelocity => "velocity of approach",
+        Hardness::KineticEnergy => "kinetic energy",
+    };
+    let which = match handover.select.worst {
+        Some(worst) => format!("the {worst} hardest impacts by {by}"),
+        None => format!("all impacts kept, the hardest by {by} first"),
+    };
+    println!(
+        "  fracture    {which}, {} times as long; {} tetrahedra a unit, edges of {:.3} m",
+        handover.scale,
+        handover.mesh.tets(),
+        handover.mesh.edge() * handover.scale
+    );
 }
 
 /// A number of bytes as people say it.

@@ -1,7 +1,7 @@
 //! Impacts of a finished run written as fracture cases, and computed.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::blow::Blow;
 use super::breakage::{Breakage, Moved, Outcome};
 use super::fracture_case::{self, Scene};
-use super::model::Model;
+use super::model::{Model, Role};
 use super::selection::select;
 use super::{load_history, reenact};
 use crate::case::{FractureCase, Handover, HandoverWay};
@@ -53,7 +53,13 @@ pub fn hand_over(
     dir: &Path,
     quiet: bool,
 ) -> Result<Breakage, HandoverError> {
-    let impacts = Impacts::read(&dir.join(Impacts::FILE))?;
+    let file = dir.join(Impacts::FILE);
+    let impacts = Impacts::read(&file)?;
+    if impacts.impacts.iter().flat_map(Role::of).any(|role| role.unit >= model.count) {
+        return Err(
+            OutputError::content(&file, "has impacts of units that the case has not; make the run again").into()
+        );
+    }
     let folder = dir.join(FOLDER);
     fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;
     let jobs = jobs(model, handover, &impacts);
@@ -142,7 +148,7 @@ impl Job<'_> {
 }
 
 /// An empty folder.
-fn fresh(dir: &PathBuf) -> Result<(), OutputError> {
+fn fresh(dir: &Path) -> Result<(), OutputError> {
     if dir.exists() {
         fs::remove_dir_all(dir).map_err(OutputError::io(dir))?;
     }

@@ -89,14 +89,12 @@ fn stress_grows_with_the_scale_as_hertz_has_it() {
         case["fracture"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
         handed_over(&case, &dir).impacts[0].found[0].sigma_1_pa
     };
-    let [one, ten, fifty] = [1.0, 10.0, 50.0].map(stress);
-    for (scale, found) in [(10.0f64, ten), (50.0, fifty)] {
-        let exponent = (found / one).ln() / scale.ln();
-        println!("scale {scale}: {:.2} MPa, {:.2} at 1: exponent {exponent:.3}", found * 1e-6, one * 1e-6);
-        // By Hertz the force goes as R^(1/5) m^(3/5) v^(6/5), v with the root of the scale: the stress with the exponent
-        // 0.6. 0.05: the contact is an element or two wide; a bar, whose stress is sqrt(E rho) v, would have 0.5.
-        assert!((exponent - 0.6).abs() < 0.05);
-    }
+    let [one, fifty] = [1.0, 50.0].map(stress);
+    let exponent = (fifty / one).ln() / 50f64.ln();
+    println!("{:.2} MPa at 50, {:.2} at 1: exponent {exponent:.3}", fifty * 1e-6, one * 1e-6);
+    // By Hertz the force goes as R^(1/5) m^(3/5) v^(6/5), v with the root of the scale: the stress with the exponent 0.6.
+    // 0.05: the contact is an element or two wide; a bar, whose stress is sqrt(E rho) v, would have 0.5.
+    assert!((exponent - 0.6).abs() < 0.05);
 }
 
 #[test]
@@ -109,7 +107,7 @@ fn the_prototype_breaks_and_the_model_does_not() {
         case["dry"]["height_m"] = json!(DROP);
         case["fracture"]["scale"] = json!(scale);
         case["fracture"]["way"] = json!("re_enact");
-        case["fracture"]["duration_s"] = json!(2.4e-4 * scale);
+        case["fracture"]["duration_s"] = json!(1.4e-4 * scale);
         let breakage = handed_over(&case, &dir);
         let unit = &breakage.units[0];
         println!(
