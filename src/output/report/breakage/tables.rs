@@ -69,7 +69,9 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
         let results = if impact.failure.is_some() {
             "<td colspan=\"4\">not computed</td>".to_owned()
         } else {
-            let of = |show: &dyn Fn(&Found) -> String| impact.found.iter().map(show).collect::<Vec<_>>().join(" | ");
+            let of = |show: &dyn Fn(&Found) -> String| {
+                impact.found.iter().map(show).collect::<Vec<_>>().join("&nbsp;|&nbsp;")
+            };
             format!(
                 "<td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
                 of(&|found| megapascals(found.sigma_1_pa)),
@@ -81,7 +83,7 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
         format!(
             "<tr><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td><td class=\"words\">{}</td>{results}<td>{}</td></tr>\n",
             impact.unit,
-            partner(impact),
+            partner(impact).replace(' ', "&nbsp;"),
             impact.t_s,
             impact.approach_m_s,
             impact.approach_m_s * prototype,
@@ -122,7 +124,7 @@ fn percent(ratio: f64) -> String {
 }
 
 /// The report of an impact, if it has one.
-pub fn link(impact: &Outcome, run: &RunFolder) -> String {
+fn link(impact: &Outcome, run: &RunFolder) -> String {
     let path = format!("{FOLDER}/{}/report.html", impact.name);
     if run.has(&path) { format!("<a href=\"{}\">report</a>", escape(&path)) } else { "\u{2013}".to_owned() }
 }
