@@ -25,7 +25,7 @@ pub fn units(breakage: &Breakage) -> String {
         let nominal = unit.nominal_stress_pa.map_or("\u{2013}".to_owned(), megapascals);
         let found = match (unit.sigma_1_pa, unit.crack_area_m2, unit.pieces, unit.broken) {
             (Some(sigma_1), Some(cracks), Some(pieces), Some(broken)) => {
-                let broken = if broken { "<td class=\"yes\">broken</td>" } else { "<td>whole</td>" };
+                let broken = if broken { "<td class=\"yes\">yes</td>" } else { "<td>no</td>" };
                 format!("<td>{}</td><td>{}</td><td>{pieces}</td>{broken}", megapascals(sigma_1), area.show(cracks))
             }
             _ => "<td colspan=\"4\">not handed over</td>".to_owned(),
