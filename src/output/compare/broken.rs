@@ -3,7 +3,7 @@
 use super::super::plot::short;
 use crate::handover::breakage::{Breakage, UnitBreakage};
 
-/// Broken, whole and other units of a run by their numbers.
+/// Broken, unbroken and other units of a run by their numbers.
 pub fn in_words(breakage: &Breakage) -> String {
     let those = |broken: Option<bool>| -> Vec<&UnitBreakage> {
         breakage.units.iter().filter(|unit| unit.broken == broken).collect()
@@ -17,14 +17,14 @@ pub fn in_words(breakage: &Breakage) -> String {
         }
     };
     let mut words =
-        format!("in a prototype {} times as large {}", short(breakage.scale, 3), told("broke", those(Some(true))));
-    let whole = those(Some(false));
-    if !whole.is_empty() {
-        words += &format!("; {} whole", told("stayed", whole));
+        format!("in a prototype {} times as large, {}", short(breakage.scale, 3), told("broke", those(Some(true))));
+    let unbroken = those(Some(false));
+    if !unbroken.is_empty() {
+        words += &format!("; {}", told("did not break", unbroken));
     }
     let others = those(None).len();
     if others > 0 {
-        words += &format!("; {others} of {} not handed over, counted as whole", breakage.units.len());
+        words += &format!("; {others} of {} not handed over, counted as not broken", breakage.units.len());
     }
     words + "."
 }
@@ -53,9 +53,9 @@ mod tests {
         };
         assert_eq!(
             told(&[Some(true), None, Some(false), Some(true)]),
-            "in a prototype 50 times as large units 1, 4 broke; unit 3 stayed whole; 1 of 4 not handed over, \
-             counted as whole."
+            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 not handed over, \
+             counted as not broken."
         );
-        assert_eq!(told(&[Some(false)]), "in a prototype 50 times as large no unit broke; unit 1 stayed whole.");
+        assert_eq!(told(&[Some(false)]), "in a prototype 50 times as large, no unit broke; unit 1 did not break.");
     }
 }

@@ -33,15 +33,22 @@ fn in_words(breakage: &Breakage) -> String {
     } else {
         format!("In a prototype {} times as large as the run", short(breakage.scale, 3))
     };
+    // A deep crack may need longer than the computed time to part a unit.
+    let cracked = count(|unit| unit.broken == Some(false) && unit.crack_area_m2 > Some(0.0));
+    let cracked = match cracked {
+        0 => String::new(),
+        1 => " One more unit has cracks without being broken.".to_owned(),
+        more => format!(" {more} more units have cracks without being broken."),
+    };
     let rest = if told < units {
         format!(
-            " Impacts of {told} of the {units} units were handed over to the fracture computation; the others count as whole."
+            " Impacts of {told} of the {units} units were handed over to the fracture computation; the others count as not broken."
         )
     } else {
         String::new()
     };
     format!(
-        "<p>{size}, {} % of the units are damaged by movement ({} of {units}) and {} % by breakage ({} of {units}).{rest}</p>\n\
+        "<p>{size}, {} % of the units are damaged by movement ({} of {units}) and {} % by breakage ({} of {units}).{cracked}{rest}</p>\n\
          <p>The hardest impacts were computed again with units that deform and crack. Displacements are those of the run; \
          forces, stresses and cracks are those of the prototype. A unit is broken when its heaviest piece has less than {} % \
          of its mass.</p>\n",
@@ -125,9 +132,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let breakage = Breakage {
             scale: 25.0,
-            damaged_ratio: 0.5,
-            broken_ratio: 0.5,
-            units: vec![unit(1, Some(true)), unit(2, None)],
+            damaged_ratio: 1.0 / 3.0,
+            broken_ratio: 1.0 / 3.0,
+            units: vec![unit(1, Some(true)), unit(2, None), unit(3, Some(false))],
             impacts: vec![impact("impact-01-unit-01", None), impact("impact-02-unit-01", Some("a tetrahedron < 0"))],
         };
         breakage.write(folder.path()).unwrap();
@@ -137,9 +144,9 @@ mod tests {
         let html = page(folder.path());
         let told = [
             "<h2>Which units break</h2>",
-            "In a prototype 25 times as large as the run, 50 % of the units are damaged by movement (1 of 2) and 50 % by \
-             breakage (1 of 2). Impacts of 1 of the 2 units",
-            "<td class=\"yes\">broken</td>",
+            "In a prototype 25 times as large as the run, 33 % of the units are damaged by movement (1 of 3) and 33 % by \
+             breakage (1 of 3). One more unit has cracks without being broken. Impacts of 2 of the 3 units",
+            "<td>3</td><td class=\"yes\">yes</td></tr>",
             "not handed over",
             "Hardest hit [MN]",
             "<td>0.500</td><td>2.500</td>",

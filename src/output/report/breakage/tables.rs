@@ -25,7 +25,7 @@ pub fn units(breakage: &Breakage) -> String {
         let nominal = unit.nominal_stress_pa.map_or("\u{2013}".to_owned(), megapascals);
         let found = match (unit.sigma_1_pa, unit.crack_area_m2, unit.pieces, unit.broken) {
             (Some(sigma_1), Some(cracks), Some(pieces), Some(broken)) => {
-                let broken = if broken { "<td class=\"yes\">broken</td>" } else { "<td>whole</td>" };
+                let broken = if broken { "<td class=\"yes\">yes</td>" } else { "<td>no</td>" };
                 format!("<td>{}</td><td>{}</td><td>{pieces}</td>{broken}", megapascals(sigma_1), area.show(cracks))
             }
             _ => "<td colspan=\"4\">not handed over</td>".to_owned(),
@@ -69,7 +69,9 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
         let results = if impact.failure.is_some() {
             "<td colspan=\"4\">not computed</td>".to_owned()
         } else {
-            let of = |show: &dyn Fn(&Found) -> String| impact.found.iter().map(show).collect::<Vec<_>>().join(" | ");
+            let of = |show: &dyn Fn(&Found) -> String| {
+                impact.found.iter().map(show).collect::<Vec<_>>().join("&nbsp;|&nbsp;")
+            };
             format!(
                 "<td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
                 of(&|found| megapascals(found.sigma_1_pa)),
@@ -81,7 +83,7 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
         format!(
             "<tr><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td><td class=\"words\">{}</td>{results}<td>{}</td></tr>\n",
             impact.unit,
-            partner(impact),
+            partner(impact).replace(' ', "&nbsp;"),
             impact.t_s,
             impact.approach_m_s,
             impact.approach_m_s * prototype,
@@ -122,7 +124,7 @@ fn percent(ratio: f64) -> String {
 }
 
 /// The report of an impact, if it has one.
-pub fn link(impact: &Outcome, run: &RunFolder) -> String {
+fn link(impact: &Outcome, run: &RunFolder) -> String {
     let path = format!("{FOLDER}/{}/report.html", impact.name);
     if run.has(&path) { format!("<a href=\"{}\">report</a>", escape(&path)) } else { "\u{2013}".to_owned() }
 }
