@@ -9,7 +9,7 @@ use crate::{
     case::{Case, DryCase, Handover},
     dry::summary::DrySummary,
     handover::{
-        breakage::{Breakage, Moved},
+        breakage::{Breakage, Moved, state_in_words},
         model::Model,
         run::{FOLDER, hand_over},
     },
@@ -106,7 +106,7 @@ fn tell(breakage: &Breakage, dir: &Path) {
         }
         match (unit.sigma_1_pa, unit.crack_area_m2, unit.broken) {
             (Some(sigma_1), Some(area), Some(broken)) => {
-                let state = if broken { "broken" } else { "whole" };
+                let state = state_in_words(broken, area);
                 println!(", sigma_1 {:.2} MPa, {area:.3} m2 of cracks, {state}", sigma_1 * 1e-6);
             }
             _ => println!(", not handed over"),

@@ -90,7 +90,7 @@ pub struct Outcome {
     pub balance: Balance,
     /// What was found for the unit and its partner.
     pub found: Vec<Found>,
-    /// Largest residual of the energy book over the kinetic energy at the impact [-].
+    /// Largest residual of the energy book over the largest kinetic energy [-].
     pub energy_residual_ratio: Option<f64>,
     /// Why the computation went astray, if it did.
     pub failure: Option<String>,
@@ -169,7 +169,7 @@ impl Outcome {
             return format!("not computed: {failure}");
         }
         let of = |found: &Found| {
-            let state = if found.heaviest_share < BROKEN { "broken" } else { "whole" };
+            let state = state_in_words(found.heaviest_share < BROKEN, found.crack_area_m2);
             format!(
                 "unit {} {state}, sigma_1 {:.2} MPa, {:.3} m2 of cracks, {} pieces",
                 found.unit,
@@ -179,6 +179,15 @@ impl Outcome {
             )
         };
         self.found.iter().map(of).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Broken, cracked or whole.
+pub fn state_in_words(broken: bool, crack_area: f64) -> &'static str {
+    match (broken, crack_area > 0.0) {
+        (true, _) => "broken",
+        (false, true) => "cracked, not broken",
+        (false, false) => "whole",
     }
 }
 
