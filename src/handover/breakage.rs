@@ -82,9 +82,9 @@ pub struct Outcome {
     pub approach_m_s: f64,
     /// Largest force in the run [N].
     pub peak_force_n: f64,
-    /// What it becomes in the prototype by Hertz's law [N], and how long the blow lasts by it [s].
+    /// What it becomes in the prototype by Hertz's law [N].
     pub prototype_force_n: f64,
-    /// See above.
+    /// How long the blow lasts there by that law [s].
     pub blow_s: f64,
     /// Mass, momentum and energy of the unit as the run and as the fracture computation have them, at the prototype's scale.
     pub balance: Balance,

@@ -13,8 +13,10 @@ use crate::case::file::{
 use crate::femdem::mesh::{Mesh, msh};
 use crate::output::{OutputError, write_atomically};
 
-/// Pictures of a run, and rows of its energy book.
+/// Moments of a run at which its surfaces are written.
 const PICTURES: f64 = 20.0;
+
+/// Rows of its energy book.
 const ROWS: f64 = 400.0;
 
 /// Bodies, loads and duration of an impact that is computed again; lengths from the place of contact.

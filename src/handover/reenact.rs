@@ -11,16 +11,13 @@ use crate::femdem::mesh::Mesh;
 /// Gap between the bodies at the start over the height of the unit [-].
 const GAP: f64 = 1e-4;
 
-/// Width of the block of the bed over the height of the unit [-] beside steps and legs that reach below it, at most and at
-/// least.
-const BASE_WIDTH: f64 = 1.5;
-/// See above.
-const LEAST_WIDTH: f64 = 0.2;
+/// Least and largest width of the block of the bed over the height of the unit [-], where legs reach below the plane of contact.
+const WIDTHS: [f64; 2] = [0.2, 1.5];
 
-/// Nodes so near the plane of contact belong to feet, over the height of the unit [-]; the block reaches under all of them
-/// and a little further.
+/// Nodes so near the plane of contact belong to feet, over the height of the unit [-].
 const FOOT: f64 = 0.25;
-/// See above.
+
+/// The block of a plane bed reaches so much further than the feet [-].
 const MARGIN: f64 = 1.1;
 
 /// Sharp edges of the unit reach so far below the place where its rounded edges touched, over its height [-].
@@ -79,7 +76,7 @@ fn bed(blow: &Blow, mesh: &Mesh, normal: DVec3, height: f64) -> (Mesh, f64) {
         let room = mesh.nodes.iter().filter(|node| below(node)).map(|node| flat(*node).length());
         // Half the diagonal of the block lies within the room.
         let width = 0.9 * std::f64::consts::SQRT_2 * room.fold(f64::INFINITY, f64::min);
-        (DVec3::ZERO, width.clamp(LEAST_WIDTH * height, BASE_WIDTH * height))
+        (DVec3::ZERO, width.clamp(WIDTHS[0] * height, WIDTHS[1] * height))
     } else {
         let (mover, _) = blow.movers();
         let middle = flat(mover.pose.position);
