@@ -48,5 +48,8 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
 
 /// Sections of a Core-Loc of size C [m] where its members leave the block in the middle.
 pub fn sections(size_m: f64) -> Vec<Section> {
-    members(size_m).iter().flat_map(|member| member.sections(0.5 * WIDTH[0] * size_m)).collect()
+    let width = WIDTH[0] * size_m;
+    // Half a diagonal: the upright members have their sections in the same planes.
+    let of = |member: &Member| member.sections(0.5 * width).map(|section| section.reaching(0.75 * width));
+    members(size_m).iter().flat_map(of).collect()
 }

@@ -15,12 +15,15 @@ pub struct Section {
     pub area: f64,
     /// Section modulus W [m3].
     pub modulus: f64,
+    /// What hangs on it lies within this distance of the line along `outwards` through its centre [m].
+    pub reach: f64,
 }
 
 impl Section {
     /// Of a round bar with the given radius [m].
     pub fn round(centre: DVec3, outwards: DVec3, radius: f64) -> Self {
-        Self { centre, outwards, area: PI * radius * radius, modulus: 0.25 * PI * radius.powi(3) }
+        let (area, modulus) = (PI * radius * radius, 0.25 * PI * radius.powi(3));
+        Self { centre, outwards, area, modulus, reach: f64::INFINITY }
     }
 
     /// Of a bar with a rectangle of the given sides [m] whose corners are cut by triangles with the legs `chamfer` [m].
@@ -32,14 +35,20 @@ impl Section {
         let arm = 0.5 * height - chamfer / 3.0;
         let triangles = 4.0 * (chamfer.powi(4) / 36.0 + 0.5 * chamfer * chamfer * arm * arm);
         let moment = width * height.powi(3) / 12.0 - triangles;
-        Self { centre, outwards, area, modulus: moment / (0.5 * height) }
+        Self { centre, outwards, area, modulus: moment / (0.5 * height), reach: f64::INFINITY }
     }
 
-    /// Largest normal stress [Pa] of a force [N] at a place [m] beyond the section: |N| / A + |M| / W; none if the place
-    /// lies on the other side.
+    /// The same of a bar of which nothing lies further from its axis than this [m].
+    pub fn reaching(self, reach: f64) -> Self {
+        Self { reach, ..self }
+    }
+
+    /// Nominal stress [Pa] of a force [N] at a place [m] on what hangs on the section: |N| / A + |M| / W; none if the place
+    /// is elsewhere. Bending of a rectangle about an oblique axis gives up to 41 % more at its corner.
     pub fn stress(&self, place: DVec3, force: DVec3) -> Option<f64> {
         let arm = place - self.centre;
-        if arm.dot(self.outwards) <= 0.0 {
+        let along = arm.dot(self.outwards);
+        if along <= 0.0 || (arm - self.outwards * along).length() > self.reach {
             return None;
         }
         let moment = arm.cross(force);
@@ -62,6 +71,8 @@ mod tests {
         let pulled = root.stress(DVec3::X * l, DVec3::X * f).unwrap();
         assert!((pulled / (f / (b * b)) - 1.0).abs() < 1e-12);
         assert_eq!(root.stress(DVec3::NEG_X, DVec3::Z), None);
+        // Of the bar beside it.
+        assert_eq!(root.reaching(b).stress(DVec3::new(l, 2.0 * b, 0.0), DVec3::Z), None);
     }
 
     #[test]

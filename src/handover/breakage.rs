@@ -122,6 +122,11 @@ impl Outcome {
         balance: Balance,
         ended: Result<FractureSummary, String>,
     ) -> Self {
+        let touched = |summary: &FractureSummary| way == HandoverWay::LoadHistory || summary.impact_s.is_some();
+        let ended = match ended {
+            Ok(summary) if !touched(&summary) => Err("the bodies did not touch; give a longer duration_s".to_owned()),
+            ended => ended,
+        };
         let event = &blow.impact.event;
         let unit = event.body as usize + 1;
         let partner = event.partner_unit().map(|unit| unit as usize + 1);

@@ -7,6 +7,7 @@ use super::fracture_case::Scene;
 use super::froude::BlowScale;
 use super::model::Role;
 use super::reenact::part;
+use super::selection::same_collision;
 use super::unit_mesh::UnitMesh;
 use crate::case::file::{LoadAxes, LoadFile};
 use crate::output::{Impact, Impacts};
@@ -57,43 +58,45 @@ pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
     Scene { mesh, parts: vec![part(blow, UnitMesh::NAME, &mover)], loads, duration }
 }
 
-/// When a contact begins on the clock of the prototype's blow [s], and its scale: blows change by Hertz's law; what lasted
-/// already when the blow began is pressed by other loads, and follows Froude's law.
+/// When a contact begins on the clock of the prototype's blow [s], and its scale: blows change by Hertz's law, those of one
+/// collision together; what lasted already when the blow began is pressed by other loads, and follows Froude's law.
 fn clock(blow: &Blow, other: &Impact) -> (f64, BlowScale) {
-    let since = (other.event.start - blow.impact.event.start) * blow.froude.velocity();
-    let slow = BlowScale { force: blow.froude.mass(), time: blow.froude.velocity() };
+    let since = other.event.start - blow.impact.event.start;
     let own = Blow::new(blow.model, blow.handover, other).scale;
-    (since, if since < 0.0 { slow } else { own })
+    let slow = BlowScale { force: blow.froude.mass(), time: blow.froude.velocity() };
+    if same_collision(blow.impact, other) {
+        (since * own.time, own)
+    } else {
+        (since * slow.time, if since < 0.0 { slow } else { own })
+    }
 }
 
 /// Rows of time [s] and force [N] of the samples of a contact that begins at `since` [s]: each sample's mean force, with
-/// ramps about their ends that keep its impulse. Nothing before time 0 and after `until`.
+/// ramps about their ends that keep its impulse. Nothing before time 0, and nothing that begins after `until`.
 fn rows(samples: &[ForceSample], start: f64, since: f64, scale: BlowScale, sign: f64, until: f64) -> Vec<Vec<f64>> {
     let of = |sample: &ForceSample| {
         let from = since + (sample.start - start) * scale.time;
-        (from, from + sample.duration * scale.time, sample.force() * (sign * scale.force))
+        (from.max(0.0), from + sample.duration * scale.time, sample.force() * (sign * scale.force))
     };
+    // What is shorter than rows can be apart is left out.
     let pieces: Vec<(f64, f64, DVec3)> =
-        samples.iter().filter(|s| s.duration > 0.0).map(of).filter(|p| p.1 > 0.0 && p.0 < until).collect();
+        samples.iter().map(of).filter(|(from, to, _)| to - from > APART * until && *from < until).collect();
     let mut knots: Vec<(f64, DVec3)> = Vec::new();
-    let mut push = |time: f64, force: DVec3| {
-        // Ramps of what began before do not reach below time 0.
-        let earliest = knots.last().map_or(0.0, |knot| knot.0 + APART * until);
-        knots.push((time.max(earliest), force));
-    };
     for (index, (from, to, force)) in pieces.iter().enumerate() {
         let half = |other: Option<&(f64, f64, DVec3)>| {
             0.5 * RAMP * (to - from).min(other.map_or(f64::INFINITY, |(from, to, _)| to - from))
         };
         let before = half(index.checked_sub(1).and_then(|index| pieces.get(index)));
-        if index == 0 && *from > 0.0 {
-            push(from - before, DVec3::ZERO);
-        }
-        push(from + before, *force);
         let after = half(pieces.get(index + 1));
-        push(to - after, *force);
+        // The force is constant before the first row: one that begins at time 0 has no ramp.
+        let before = if index == 0 { before.min(*from) } else { before };
+        if index == 0 && before > 0.0 {
+            knots.push((from - before, DVec3::ZERO));
+        }
+        knots.push((from + before, *force));
+        knots.push((to - after, *force));
         if index + 1 == pieces.len() {
-            push(to + after, DVec3::ZERO);
+            knots.push((to + after, DVec3::ZERO));
         }
     }
     knots.into_iter().map(|(time, force)| [[time].as_slice(), &force.to_array()].concat()).collect()
@@ -113,7 +116,10 @@ mod tests {
         let impulse: f64 = rows.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();
         // Sign, force and time; rounding.
         assert!((impulse / (-31.0 * 21.0) - 1.0).abs() < 1e-9, "{impulse}");
+        // Begun before: 0.9 of the 1.2 s of the second sample are left.
         let late = super::rows(&samples, 5.0, -0.6, scale, 1.0, 100.0);
         assert!(late[0][0] == 0.0 && late.windows(2).all(|pair| pair[0][0] < pair[1][0]), "{late:?}");
+        let impulse: f64 = late.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();
+        assert!((impulse / ((0.75 * 30.0 - 1.0) * 21.0) - 1.0).abs() < 1e-9, "{impulse}");
     }
 }

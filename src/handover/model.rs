@@ -7,7 +7,7 @@ use crate::case::{Case, DryCase, Handover, UnitKind, UnitShape, Units};
 use crate::case::{ContactLawName, Material as CaseMaterial};
 use crate::geometry::section::Section;
 use crate::output::{Impact, Impacts};
-use crate::rigid::Material;
+use crate::rigid::{BodyState, Material};
 
 /// The units of a run; SI units.
 #[derive(Debug, Clone)]
@@ -57,6 +57,25 @@ impl Model {
             law,
             gravity,
         }
+    }
+
+    /// Whether an impact can be one of these units: its numbers are finite, and its place is on the units.
+    pub fn can_have(&self, impact: &Impact) -> bool {
+        let event = &impact.event;
+        let mut states = [Some(event.before), event.partner_before].into_iter().flatten();
+        let on_unit = |state: BodyState| {
+            let moves = state.velocity.is_finite() && state.angular_velocity.is_finite();
+            // NaN is not less than anything.
+            let near = (DVec3::from_array(event.point) - state.position).length() < 2.0 * self.shape.height();
+            moves && near && state.rotation.is_normalized()
+        };
+        let numbers = [event.start, event.peak_time, event.peak_force, event.approach_normal, event.approach_energy];
+        let vectors = [event.normal, event.peak, event.point_in_body];
+        let samples = impact.history.iter().all(|s| (s.start + s.duration).is_finite() && s.impulse.is_finite());
+        Role::of(impact).all(|role| role.unit < self.count)
+            && states.all(on_unit)
+            && numbers.iter().chain(vectors.as_flattened()).all(|number| number.is_finite())
+            && samples
     }
 
     /// Sections at which a unit breaks; none are known of units from STL.
@@ -123,6 +142,7 @@ impl UnitKind {
             Self::Dolos { height, waist } => dolos::sections(*height, *waist),
             Self::CoreLoc { size } => core_loc::sections(*size),
             Self::Cuboid { edges } => cuboid::sections(DVec3::from_array(*edges)),
+            // The grooves, which take a twentieth of the section, left out.
             Self::GroovedCube { height } => cuboid::sections(DVec3::splat(*height)),
             Self::Stl(_) => Vec::new(),
         }

@@ -11,8 +11,11 @@ use crate::femdem::mesh::Mesh;
 /// Gap between the bodies at the start over the height of the unit [-].
 const GAP: f64 = 1e-4;
 
-/// Least and largest width of the block of the bed over the height of the unit [-], where legs reach below the plane of contact.
-const WIDTHS: [f64; 2] = [0.2, 1.5];
+/// Largest width of the block of the bed over the height of the unit [-], where legs reach below the plane of contact.
+const WIDEST: f64 = 1.5;
+
+/// Least one [-]: where there is less room between them, the block lies below them all.
+const NARROWEST: f64 = 0.2;
 
 /// Nodes so near the plane of contact belong to feet, over the height of the unit [-].
 const FOOT: f64 = 0.25;
@@ -27,7 +30,10 @@ const ROUNDED_OFF: f64 = 0.05;
 const BASE_CELL: f64 = 2.0;
 
 /// Nodes about the place of contact within this distance over the height of the unit [-] say how far two units are apart.
-const ABOUT: f64 = 0.25;
+const ABOUT: f64 = 0.12;
+
+/// Longest wait for the bodies to touch over the time that is computed after it [-].
+const LONGEST_WAIT: f64 = 3.0;
 
 /// Name of the other unit.
 pub const PARTNER: &str = "partner";
@@ -50,9 +56,10 @@ pub fn scene(blow: &Blow) -> Scene {
             let highest = near(&other).into_iter().fold(f64::NEG_INFINITY, f64::max);
             // Without nodes about the place of contact, the bodies stay where they are.
             let overlap = if (highest - lowest).is_finite() { highest - lowest } else { 0.0 };
-            let back = (overlap + GAP * height).clamp(0.0, ROUNDED_OFF * height);
-            let other_part = part(blow, PARTNER, &partner);
-            (together(shifted(mesh, normal * back), other), vec![shifted_part(unit, normal * back), other_part], back)
+            let most = ROUNDED_OFF * height;
+            let back = (overlap + GAP * height).clamp(-most, most);
+            let parts = vec![shifted_part(unit, normal * back), part(blow, PARTNER, &partner)];
+            (together(shifted(mesh, normal * back), other), parts, most)
         }
         None => {
             let (block, gap) = bed(blow, &mesh, normal, height);
@@ -61,8 +68,8 @@ pub fn scene(blow: &Blow) -> Scene {
         }
     };
     let approach = blow.impact.event.approach_normal.max(0.0) * blow.froude.velocity();
-    // A body that hardly approaches need not touch within the time of a blow.
-    let before = if approach > 0.0 { (gap / approach).min(blow.time_after()) } else { 0.0 };
+    // A body that hardly approaches is not waited for.
+    let before = if approach > 0.0 { (gap / approach).min(LONGEST_WAIT * blow.time_after()) } else { 0.0 };
     Scene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
 }
 
@@ -72,20 +79,20 @@ fn bed(blow: &Blow, mesh: &Mesh, normal: DVec3, height: f64) -> (Mesh, f64) {
     let level = |node: &DVec3| node.dot(normal);
     let flat = |place: DVec3| place - normal * place.dot(normal);
     let below = |node: &DVec3| level(node) < -ROUNDED_OFF * height;
-    let (middle, width) = if mesh.nodes.iter().any(below) {
-        let room = mesh.nodes.iter().filter(|node| below(node)).map(|node| flat(*node).length());
-        // Half the diagonal of the block lies within the room.
-        let width = 0.9 * std::f64::consts::SQRT_2 * room.fold(f64::INFINITY, f64::min);
-        (DVec3::ZERO, width.clamp(WIDTHS[0] * height, WIDTHS[1] * height))
+    let room = mesh.nodes.iter().filter(|node| below(node)).map(|node| flat(*node).length());
+    // Half the diagonal of the block lies within the room.
+    let room = 0.9 * std::f64::consts::SQRT_2 * room.fold(f64::INFINITY, f64::min);
+    let (middle, width) = if (NARROWEST * height..f64::INFINITY).contains(&room) {
+        (DVec3::ZERO, room.min(WIDEST * height))
     } else {
         let (mover, _) = blow.movers();
         let middle = flat(mover.pose.position);
         let feet = mesh.nodes.iter().filter(|node| level(node) < FOOT * height);
-        let reach = feet.map(|node| flat(*node - middle).length()).fold(0.0, f64::max);
+        let reach = feet.map(|node| flat(*node - middle).length()).fold(NARROWEST * height, f64::max);
         (middle, 2.0 * MARGIN * reach)
     };
     let half_diagonal = width * std::f64::consts::FRAC_1_SQRT_2;
-    let over = mesh.nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal && !below(node));
+    let over = mesh.nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal);
     let lowest = over.map(level).fold(f64::INFINITY, f64::min);
     let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
     let cell = BASE_CELL * blow.handover.mesh.edge() * blow.froude.length();

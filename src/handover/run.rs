@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::blow::Blow;
 use super::breakage::{Breakage, Moved, Outcome};
 use super::fracture_case::{self, Scene};
-use super::model::{Model, Role};
+use super::model::Model;
 use super::selection::select;
 use super::{load_history, reenact};
 use crate::case::{FractureCase, Handover, HandoverWay};
@@ -55,10 +55,13 @@ pub fn hand_over(
 ) -> Result<Breakage, HandoverError> {
     let file = dir.join(Impacts::FILE);
     let impacts = Impacts::read(&file)?;
-    if impacts.impacts.iter().flat_map(Role::of).any(|role| role.unit >= model.count) {
-        return Err(
-            OutputError::content(&file, "has impacts of units that the case has not; make the run again").into()
-        );
+    if moved.len() != model.count {
+        let what = format!("tells of {} units and the case of {}; make the run again", moved.len(), model.count);
+        return Err(OutputError::content(&dir.join("summary.json"), what).into());
+    }
+    if !impacts.impacts.iter().all(|impact| model.can_have(impact)) {
+        let what = "has impacts that units of this case cannot have; make the run again";
+        return Err(OutputError::content(&file, what).into());
     }
     let folder = dir.join(FOLDER);
     fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;

@@ -2,6 +2,7 @@
 
 use crate::case::{Hardness, Selection};
 use crate::output::{Impact, Impacts};
+use crate::rigid::Feature;
 
 /// How hard an impact is.
 pub fn hardness(impact: &Impact, by: Hardness) -> f64 {
@@ -33,10 +34,11 @@ pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
 }
 
 /// Whether two contacts of the same bodies begin within the duration of one another.
-fn same_collision(a: &Impact, b: &Impact) -> bool {
+pub fn same_collision(a: &Impact, b: &Impact) -> bool {
     let bodies = |impact: &Impact| {
         let (body, partner) = (Some(impact.event.body), impact.event.partner_unit());
-        [body.max(partner), body.min(partner)]
+        let wall = if let Feature::Wall { wall, .. } = impact.event.partner { Some(wall) } else { None };
+        ([body.max(partner), body.min(partner)], wall)
     };
     let blow = |impact: &Impact| impact.event.peak_time - impact.event.start;
     let together = 2.0 * blow(a).max(blow(b));
@@ -46,7 +48,7 @@ fn same_collision(a: &Impact, b: &Impact) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rigid::{BodyState, ContactEvent, Feature};
+    use crate::rigid::{BodyState, ContactEvent};
     use glam::{DQuat, DVec3};
 
     fn impact(body: u32, start: f64, peak_force: f64, approach: f64) -> Impact {
