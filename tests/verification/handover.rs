@@ -107,7 +107,7 @@ fn the_prototype_breaks_and_the_model_does_not() {
         case["dry"]["height_m"] = json!(DROP);
         case["fracture"]["scale"] = json!(scale);
         case["fracture"]["way"] = json!("re_enact");
-        case["fracture"]["duration_s"] = json!(1.4e-4 * scale);
+        case["fracture"]["duration_s"] = json!(2.4e-4 * scale);
         let breakage = handed_over(&case, &dir);
         let unit = &breakage.units[0];
         println!(
