@@ -48,6 +48,7 @@ Examples:
   breakwater wave cases/fudo/H4.5-slice.json       the wave alone, in seconds
   breakwater run cases/contact/tilt-tetrapod.json  units without water: a slope test
   breakwater fracture cases/fracture/dolos-drop.json  a Dolos dropped on concrete: where does it crack?
+  breakwater run cases/breakage/tetrapod-drop.json  a dropped model: does the prototype break?
   breakwater init my-case.json                     a case to start from";
 
 #[derive(Subcommand)]
