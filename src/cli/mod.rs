@@ -5,6 +5,7 @@
 mod bench;
 mod check;
 mod compare;
+mod devices;
 mod dry_report;
 mod fracture;
 mod hand_over;
@@ -66,6 +67,7 @@ enum Command {
     Init(init::InitArguments),
     Schema(schema::SchemaArguments),
     Bench(bench::BenchArguments),
+    Devices(devices::DevicesArguments),
 }
 
 /// Why a command ended without its result.
@@ -102,6 +104,7 @@ pub fn main() -> ExitCode {
         Command::Init(arguments) => arguments.execute(),
         Command::Schema(arguments) => arguments.execute(),
         Command::Bench(arguments) => arguments.execute(),
+        Command::Devices(arguments) => arguments.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

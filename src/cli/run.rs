@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, dry_report, fracture, fresh_folder, hand_over, is_fracture, load_any, stem};
+use super::{AnyCase, Trouble, devices, dry_report, fracture, fresh_folder, hand_over, is_fracture, load_any, stem};
 use crate::{
     case::Case,
     dry::{self, recorder::DryRecorder},
@@ -29,6 +29,8 @@ pub struct RunArguments {
     overwrite: bool,
     #[command(flatten)]
     machine: MachineArguments,
+    #[command(flatten)]
+    device: devices::DeviceArgument,
 }
 
 /// Go on with an interrupted run from its last checkpoint; the end has the same bits as that of an unbroken run.
@@ -38,6 +40,8 @@ pub struct ResumeArguments {
     dir: PathBuf,
     #[command(flatten)]
     machine: MachineArguments,
+    #[command(flatten)]
+    device: devices::DeviceArgument,
 }
 
 /// What a run takes of the machine.
@@ -55,11 +59,14 @@ impl RunArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let case = load_any(&self.case)?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
-        let options = self.machine.prepare()?;
+        let mut options = self.machine.prepare()?;
+        if let AnyCase::Wet(case) = &case {
+            options.device = self.device.open(case, options.quiet)?;
+        }
         fresh_folder(&dir, self.overwrite)?;
         match case {
             AnyCase::Wet(case) => {
-                introduce(&case, &dir, options.quiet);
+                introduce(&case, &dir, &options);
                 let summary = finish(run(case.clone(), &dir, &options), &dir)?;
                 hand_over::of_run(&case, &summary, &dir, options.quiet)
             }
@@ -89,10 +96,11 @@ impl ResumeArguments {
                 checkpoint.display()
             )));
         }
-        let options = self.machine.prepare()?;
+        let mut options = self.machine.prepare()?;
         match case {
             AnyCase::Wet(case) => {
-                introduce(&case, &self.dir, options.quiet);
+                options.device = self.device.open(&case, options.quiet)?;
+                introduce(&case, &self.dir, &options);
                 let summary = finish(resume(case.clone(), &self.dir, &options), &self.dir)?;
                 hand_over::of_run(&case, &summary, &self.dir, options.quiet)
             }
@@ -113,22 +121,23 @@ impl MachineArguments {
             return Err(Trouble::refused(format!("--threads {threads}: must be between 1 and 1024")));
         }
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Trouble::failed)?;
-        Ok(RunOptions { quiet: self.quiet })
+        Ok(RunOptions { quiet: self.quiet, ..RunOptions::default() })
     }
 }
 
-fn introduce(case: &Case, dir: &Path, quiet: bool) {
-    if quiet {
+fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
+    if options.quiet {
         return;
     }
     let estimate = case.estimate();
     eprintln!("{}", case.title);
     eprintln!(
-        "  about {:.0} thousand particles, dp = {} m, {} s in about {:.0} steps on {} threads",
+        "  about {:.0} thousand particles, dp = {} m, {} s in about {:.0} steps on {}, {} threads",
         estimate.particles() / 1e3,
         case.domain.dp,
         case.stop.duration,
         estimate.steps,
+        options.device.name(),
         rayon::current_num_threads()
     );
     for assumption in &case.assumptions {

@@ -61,7 +61,7 @@ impl DetailRecorder {
     /// If a file cannot be written.
     pub fn create(case: &FractureCase, dir: &Path) -> Result<Self, OutputError> {
         let section = |_| PolyDataSeries::create(&dir.join(SECTION_FILE), Cells::Triangles, &SECTION_FIELDS);
-        let tets = |interval| Ok((interval, TetSeries::create(&dir.join(TETS_FILE), &TET_FIELDS)?));
+        let tets = |interval| Ok::<_, OutputError>((interval, TetSeries::create(&dir.join(TETS_FILE), &TET_FIELDS)?));
         Ok(Self {
             cracks: CsvSeries::create(&dir.join(CRACKS_FILE), &columns::CRACKS)?,
             told: 0,
@@ -79,7 +79,7 @@ impl DetailRecorder {
         let section = |_| PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &SECTION_FIELDS, steps);
         let tets = |interval| {
             let series = TetSeries::open_and_truncate(&dir.join(TETS_FILE), &TET_FIELDS, lengths.tets_steps)?;
-            Ok((interval, series))
+            Ok::<_, OutputError>((interval, series))
         };
         Ok(Self {
             cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), lengths.cracks_bytes)?,

@@ -2,9 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::sph::backend::DeviceError;
+
 /// A file of a run folder could not be written, read or understood.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
+    /// What is to be written cannot be had from the device any more.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
     /// The operating system refused.
     #[error("{}: {source}", path.display())]
     Io {

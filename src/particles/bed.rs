@@ -40,6 +40,11 @@ impl Outline {
         Self { points }
     }
 
+    /// Its straight pieces, from end to end.
+    pub fn pieces(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+        self.points.windows(2).map(|piece| [piece[0], piece[1]])
+    }
+
     /// Nearest point of the outline.
     pub fn nearest(&self, point: DVec2) -> DVec2 {
         let candidates = self.points.windows(2).map(|piece| {

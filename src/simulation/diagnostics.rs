@@ -5,8 +5,9 @@ use glam::DVec3;
 use super::{
     Simulation,
     extremes::Extremes,
-    failure::{self, Failure, Particle},
+    failure::{self, Failure, LARGEST_COMPRESSION, Particle},
 };
+use crate::sph::backend::Watched;
 
 /// Mach number above which the water is no longer nearly incompressible: the density changes with its square, and one
 /// per cent is what weakly compressible SPH allows itself (Monaghan 1994).
@@ -18,6 +19,9 @@ impl Simulation {
     /// # Errors
     /// If a particle has left the domain, or its density is far off.
     pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
+        if let Some(watched) = self.solver.watch()? {
+            return self.judge(&watched);
+        }
         if let Some(failure) = failure::find_escape(self) {
             return Err(failure);
         }
@@ -30,6 +34,29 @@ impl Simulation {
             self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
         }
         self.statistics.count_water(mach, extremes.lightest.0, extremes.densest.0);
+        Ok(())
+    }
+
+    /// The same for water that a device has looked over; its particles are only brought here to be named.
+    fn judge(&mut self, watched: &Watched) -> Result<(), Failure> {
+        let mach = watched.fastest / self.case.fluid.sound_speed;
+        let rho0 = self.case.fluid.rho0;
+        let compressed = [watched.lightest, watched.densest].iter().any(|rho| (rho / rho0 - 1.0).abs() > LARGEST_COMPRESSION);
+        let fast = mach > LARGEST_MACH && self.statistics.largest_mach <= LARGEST_MACH;
+        if watched.astray || compressed || fast {
+            self.fetch()?;
+            if let Some(failure) = failure::find_escape(self) {
+                return Err(failure);
+            }
+            let Some(extremes) = Extremes::of(&self.water) else { return Ok(()) };
+            if let Some(failure) = failure::find_wrong_density(self, &extremes) {
+                return Err(failure);
+            }
+            if fast {
+                self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
+            }
+        }
+        self.statistics.count_water(mach, watched.lightest, watched.densest);
         Ok(())
     }
 

@@ -27,7 +27,7 @@ impl EnergyOf {
 impl Simulation {
     /// Energy of water and units.
     pub fn energy(&self) -> EnergyOf {
-        let (water, parameters) = (&self.water, &self.solver().parameters);
+        let (water, parameters) = (&self.water, self.solver().parameters());
         let mut energy =
             EnergyOf { kinetic: 0.0, potential: 0.0, internal: 0.0, units_kinetic: 0.0, units_potential: 0.0 };
         for i in 0..water.len() {

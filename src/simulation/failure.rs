@@ -6,11 +6,11 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::{Simulation, extremes::Extremes};
-use crate::{particles::water::Water, rigid::RigidError};
+use crate::{particles::water::Water, rigid::RigidError, sph::backend::DeviceError};
 
 /// Change of density at which the water is no longer water [-]: particles outside 700 to 1300 kg/m3 are what
 /// DualSPHysics drops from a run by default. A coarse dam break that struck a unit at Mach 0.17 stayed within 5 %.
-const LARGEST_COMPRESSION: f64 = 0.3;
+pub(super) const LARGEST_COMPRESSION: f64 = 0.3;
 
 /// What is usually behind water that has become unstable.
 const UNSTABLE_ADVICE: &str = "likely causes: a time step too long (lower numerics.cfl), a speed of sound too low for the \
@@ -93,6 +93,9 @@ pub enum Failure {
         place.x, place.y, place.z
     )]
     UnitNotFinite { time: f64, step: u64, unit: usize, place: DVec3, speed: f64 },
+    /// The device that computes the water is of no use any more.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
     /// The units cannot go on for another reason.
     #[error("after {time:.4} s (step {step}): {source}")]
     Units { time: f64, step: u64, source: RigidError },

@@ -16,7 +16,10 @@ use crate::{
     geometry::{axis_box::AxisBox, convex_part::ConvexPart},
     particles::{bed::Outline, water::Water},
     rigid::{BodyState, Load},
-    sph::grid::{Bins, Grid},
+    sph::{
+        backend::{DeviceError, Surfaces},
+        grid::{Bins, Grid},
+    },
     waves::wavemaker::Wavemaker,
 };
 
@@ -27,27 +30,70 @@ pub const NEAREST: f64 = 0.25;
 impl Simulation {
     /// Take away the velocities into bed, walls, wavemaker and units at the end of a step of length `dt` [s]; the
     /// units' share is added to their loads.
-    pub(super) fn keep_water_out(&mut self, dt: f64) {
-        let nearest = NEAREST * self.case.domain.dp;
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub(super) fn keep_water_out(&mut self, dt: f64) -> Result<(), DeviceError> {
         let flume_time = self.flume_time() + dt;
-        keep_out_of_walls(&mut self.water, &self.outline, nearest);
-        if self.case.domain.sides == Sides::Walls {
-            keep_out_of_sides(&mut self.water, self.case.domain.width, nearest);
+        let rows = self.wavemaker.as_ref().map(|wavemaker| rows(wavemaker, &self.absorbed, flume_time, 0.0));
+        let rows = rows.unwrap_or_default();
+        let surfaces = self.surfaces(&rows);
+        let near = self.solver.take_near(&surfaces)?;
+        let Self { case, outline, wavemaker, units, solver, water, .. } = self;
+        let (nearest, dp) = (surfaces.nearest, case.domain.dp);
+        // What a device has taken out is near to something already; all the water is looked through by its bins.
+        let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
+            keep_out_of_walls(water, outline, nearest);
+            if case.domain.sides == Sides::Walls {
+                keep_out_of_sides(water, case.domain.width, nearest);
+            }
+            for obstacle in &case.domain.obstacles {
+                keep_out_of_obstacle(water, obstacle, nearest);
+            }
+            if let Some(wavemaker) = wavemaker {
+                keep_out_of_wavemaker(water, wavemaker, &rows, dp, nearest);
+            }
+            let Some(units) = units else { return };
+            let impulses = keep_out_of_units(water, units, solver.grid(), bins, nearest);
+            let slices = case.units.as_ref().map_or(1.0, |units| units.slices);
+            for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
+                load.force += slices * impulse.force / dt;
+                load.torque += slices * impulse.torque / dt;
+            }
+        };
+        match near {
+            None => keep_out(water, Some(solver.water_bins())),
+            Some(mut near) => {
+                keep_out(&mut near.water, None);
+                self.solver.put_near(&near);
+            }
         }
-        for obstacle in &self.case.domain.obstacles {
-            keep_out_of_obstacle(&mut self.water, obstacle, nearest);
-        }
-        if let Some(wavemaker) = &self.wavemaker {
-            let rows = rows(wavemaker, &self.absorbed, flume_time, 0.0);
-            keep_out_of_wavemaker(&mut self.water, wavemaker, &rows, self.case.domain.dp, nearest);
-        }
-        let Some(units) = &mut self.units else { return };
-        let (grid, bins) = (&self.solver.grid, self.solver.water_bins());
-        let impulses = keep_out_of_units(&mut self.water, units, grid, bins, nearest);
-        let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
-        for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
-            load.force += slices * impulse.force / dt;
-            load.torque += slices * impulse.torque / dt;
+        Ok(())
+    }
+
+    /// What water does not go through, the wavemaker's rows being displaced as given.
+    fn surfaces(&self, rows: &[[f64; 2]]) -> Surfaces {
+        let (case, dp) = (&self.case, self.case.domain.dp);
+        let nearest = NEAREST * dp;
+        let balls = self.units.iter().flat_map(|units| {
+            let of_unit = move |state: &BodyState| {
+                let ball = |part: &ConvexPart| {
+                    let (centre, radius) = part.bounding_sphere();
+                    (state.position + state.rotation * centre, radius + nearest)
+                };
+                units.shape.parts().iter().map(ball).collect::<Vec<_>>()
+            };
+            units.states().iter().flat_map(of_unit).collect::<Vec<_>>()
+        });
+        Surfaces {
+            nearest,
+            outline: self.outline.pieces().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
+            boxes: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
+            balls: balls.collect(),
+            wavemaker: self.wavemaker.as_ref().map(|wavemaker| {
+                (wavemaker.place_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
+            }),
+            sides: (case.domain.sides == Sides::Walls).then_some(case.domain.width),
         }
     }
 }
@@ -108,14 +154,27 @@ fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64;
 }
 
 /// Returns the impulse on each unit [N s] and its moment about the centre of mass [N m s].
-fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: &Bins, nearest: f64) -> Vec<Load> {
+fn keep_out_of_units(
+    water: &mut Water,
+    units: &Units,
+    grid: &Grid,
+    bins: Option<&Bins>,
+    nearest: f64,
+) -> Vec<Load> {
     let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
     let keep_out = |state: &BodyState| {
         let mut impulse = Load::default();
-        for particle in candidates(grid, bins, state.position, reach) {
+        let near: Vec<usize> = match bins {
+            Some(bins) => candidates(grid, bins, state.position, reach).collect(),
+            None => (0..water.len()).collect(),
+        };
+        for particle in near {
             let mut arm = water.position[particle] - state.position;
             if let Some(width) = grid.periodic_width {
                 arm.y -= width * (arm.y / width).round();
+            }
+            if arm.length_squared() > reach * reach {
+                continue;
             }
             let Some(normal) = normal_within(units.shape.parts(), state, arm, nearest) else { continue };
             let surface = state.velocity + state.angular_velocity.cross(arm);

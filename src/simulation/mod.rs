@@ -52,7 +52,11 @@ use crate::{
     geometry::armour_unit::ArmourUnit,
     particles::{bed::Outline, boundary::Boundary, water::Water},
     rigid::{BodyState, Load, RigidWorld},
-    sph::{sampling::Sampler, step::Solver},
+    sph::{
+        backend::{Backend, DeviceError},
+        rates::Rate,
+        sampling::Sampler,
+    },
     waves::{absorption::AbsorptionState, record::FlumeRecord, wavemaker::Wavemaker},
 };
 use absorb::move_wavemaker;
@@ -81,7 +85,7 @@ pub struct Simulation {
     pub start: f64,
     /// What is kept of the run.
     pub statistics: Statistics,
-    solver: Solver,
+    solver: Box<dyn Backend>,
     pub wavemaker: Option<Wavemaker>,
     /// Where absorption has carried it.
     pub absorbed: AbsorptionState,
@@ -118,14 +122,15 @@ impl Simulation {
         self.solver.list(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
-        let limits = self.solver.limits();
-        let dt = limits.time_step(&self.solver.parameters);
+        let limits = self.solver.limits()?;
+        let dt = limits.time_step(self.solver.parameters());
         if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
+            self.fetch()?;
             return Err(failure::not_finite(self));
         }
         if self.steps == 0 {
             // There is no half step yet that the first row of the series could show the loads of.
-            self.sum_unit_loads(0.0);
+            self.sum_unit_loads(0.0)?;
         }
         Ok(dt)
     }
@@ -140,7 +145,7 @@ impl Simulation {
         self.absorb(dt);
         let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);
         let half_time = self.flume_time() + 0.5 * dt;
-        self.solver.predict(dt, &self.water, &mut self.boundary, |boundary| {
+        self.solver.predict(dt, &self.water, &mut self.boundary, &mut |boundary| {
             move_wavemaker(boundary, wavemaker.as_ref(), absorbed, half_time, 0.5 * dt);
             if let Some(units) = units {
                 units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
@@ -149,8 +154,8 @@ impl Simulation {
         self.solver.rates();
         self.solver.correct(dt, &mut self.water, &mut self.boundary);
         self.relax_in_zones(dt);
-        self.sum_unit_loads(dt);
-        self.keep_water_out(dt);
+        self.sum_unit_loads(dt)?;
+        self.keep_water_out(dt)?;
         self.advance_units(dt)?;
         self.time += dt;
         self.steps += 1;
@@ -160,14 +165,15 @@ impl Simulation {
     }
 
     /// Forces and torques of the water on the units at the half step.
-    fn sum_unit_loads(&mut self, dt: f64) {
-        let Some(units) = &mut self.units else { return };
+    fn sum_unit_loads(&mut self, dt: f64) -> Result<(), Failure> {
+        let Some(units) = &mut self.units else { return Ok(()) };
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
-        let loads = self.solver.unit_loads(&self.boundary, &centres);
+        let loads = self.solver.unit_loads(&self.boundary, &centres)?;
         // In two dimensions the particles are a slice of each unit.
         let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
         let load = |(force, torque)| Load { force: slices * force, torque: slices * torque };
         units.fluid_loads = loads.into_iter().map(load).collect();
+        Ok(())
     }
 
     /// The units' bodies over a step under the loads of the water; at first they are held.
@@ -179,7 +185,7 @@ impl Simulation {
             if let Err(error) = world.advance(dt, fluid_loads) {
                 return Err(failure::of_units(self, error));
             }
-            water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters.tait);
+            water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters().tait);
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
         }
@@ -219,11 +225,11 @@ impl Simulation {
         }
     }
 
-    /// The water, to be measured; valid after [`Self::begin_step`].
+    /// The water, to be measured; valid after [`Self::begin_step`] and [`Self::fetch`].
     pub fn sampler(&self) -> Sampler<'_> {
-        let parameters = &self.solver.parameters;
+        let parameters = self.solver.parameters();
         Sampler {
-            grid: &self.solver.grid,
+            grid: self.solver.grid(),
             bins: self.solver.water_bins(),
             water: &self.water,
             kernel: parameters.kernel,
@@ -231,9 +237,33 @@ impl Simulation {
         }
     }
 
-    /// The solver.
-    pub fn solver(&self) -> &Solver {
-        &self.solver
+    /// What computes the water.
+    pub fn solver(&self) -> &dyn Backend {
+        &*self.solver
+    }
+
+    /// Rates of the water found last, in the order of its arrays once they are fetched.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {
+        self.solver.water_rates()
+    }
+
+    /// Bring water and boundary up to date in the host's arrays; between two steps and between their halves.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn fetch(&mut self) -> Result<(), DeviceError> {
+        self.solver.fetch(&mut self.water, &mut self.boundary)
+    }
+
+    /// Give water and boundary of the host's arrays to the device.
+    ///
+    /// # Errors
+    /// If it has not enough memory.
+    pub fn load(&mut self) -> Result<(), DeviceError> {
+        self.solver.load(&self.water, &self.boundary)
     }
 }
 

@@ -22,6 +22,7 @@ use crate::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
     rigid::{ContactEvent, RecordedContact},
+    sph::backend::DeviceError,
 };
 
 /// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
@@ -122,10 +123,13 @@ impl Recorder {
     /// Write what is due at the present time, between the two halves of a step of length `dt` [s].
     ///
     /// # Errors
-    /// If a file cannot be written, or a snapshot or checkpoint given before could not.
+    /// If a file cannot be written, a snapshot or checkpoint given before could not, or the device is lost.
     pub fn record_due(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         self.writer.check()?;
         let (time, case) = (simulation.time, simulation.case.clone());
+        if self.is_anything_due(&case, time) {
+            simulation.fetch()?;
+        }
         if is_due(self.state.series, Some(case.output.series_interval), time) {
             self.record_series(simulation, dt)?;
             self.state.series += 1;
@@ -154,6 +158,7 @@ impl Recorder {
     /// # Errors
     /// If a file cannot be written.
     pub fn record_end(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        simulation.fetch()?;
         self.record_series(simulation, dt)?;
         if simulation.case.output.units_interval.is_some() {
             self.record_surfaces(simulation)?;
@@ -182,6 +187,14 @@ impl Recorder {
         self.writer.drain()
     }
 
+    /// Whether something is due at a time [s] that shows the water.
+    fn is_anything_due(&self, case: &Case, time: f64) -> bool {
+        let (state, output) = (&self.state, &case.output);
+        is_due(state.series, Some(output.series_interval), time)
+            || is_due(state.water, output.fluid_interval, time)
+            || is_due(state.checkpoints + 1, output.checkpoint_interval, time)
+    }
+
     fn note_lengths(&mut self) {
         let tables = [&self.gauges, &self.units, &self.contacts, &self.energy, &self.diagnostics];
         self.state.bytes = tables.map(CsvSeries::bytes);
@@ -190,7 +203,7 @@ impl Recorder {
     fn record_series(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         let time = simulation.flume_time();
         self.gauges.append(&gauge_row(simulation))?;
-        self.energy.append(&energy_row(simulation))?;
+        self.energy.append(&energy_row(simulation)?)?;
         self.diagnostics.append(&simulation.diagnostics_row(dt))?;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
@@ -278,12 +291,12 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     row
 }
 
-fn energy_row(simulation: &mut Simulation) -> [f64; 10] {
-    let powers = simulation.solver.powers(&simulation.water);
+fn energy_row(simulation: &mut Simulation) -> Result<[f64; 10], DeviceError> {
+    let powers = simulation.solver.powers(&simulation.water)?;
     simulation.statistics.balance.add(simulation.time, powers);
     let balance = simulation.statistics.balance;
     let energy = simulation.energy();
-    [
+    Ok([
         simulation.flume_time(),
         energy.kinetic,
         energy.potential,
@@ -294,7 +307,7 @@ fn energy_row(simulation: &mut Simulation) -> [f64; 10] {
         balance.viscosity,
         balance.diffusion,
         balance.zones,
-    ]
+    ])
 }
 
 /// From the clock of the contacts, which starts when the units are let go, to that of the flume [s].

@@ -17,6 +17,7 @@ use crate::{
     case::Case,
     output::{OutputError, Stopped, Summary, write_report},
     rigid::BodyState,
+    sph::device::Device,
 };
 
 /// Why a run ended early.
@@ -43,6 +44,8 @@ pub enum RunError {
 pub struct RunOptions {
     /// No progress.
     pub quiet: bool,
+    /// What computes the water.
+    pub device: Device,
 }
 
 /// Run a case into an existing, empty folder.
@@ -50,7 +53,7 @@ pub struct RunOptions {
 /// # Errors
 /// If the case cannot be set up, a file cannot be written, or the computation goes astray.
 pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
-    let simulation = Simulation::new(case)?;
+    let simulation = Simulation::on(&options.device, case)?;
     let recorder = Recorder::create(&simulation, dir)?;
     drive(simulation, recorder, dir, options)
 }
@@ -60,8 +63,9 @@ pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary,
 /// # Errors
 /// As [`run`], and if the checkpoint is not one of the case.
 pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
-    let mut simulation = Simulation::new(case)?;
+    let mut simulation = Simulation::on(&options.device, case)?;
     let state = checkpoint::read(&mut simulation, dir)?;
+    simulation.load().map_err(SetupError::Device)?;
     let recorder = Recorder::reopen(&simulation, dir, state)?;
     drive(simulation, recorder, dir, options)
 }
@@ -81,7 +85,7 @@ fn drive(
     loop {
         let dt = match simulation.begin_step() {
             Ok(dt) => dt,
-            Err(failure) => return Err(keep_failed(&simulation, &mut recorder, dir, failure)),
+            Err(failure) => return Err(keep_failed(&mut simulation, &mut recorder, dir, failure)),
         };
         simulation.statistics.wall_s = wall_before + progress.wall();
         if let Some(stopped) = stop_rule(&mut simulation) {
@@ -94,7 +98,7 @@ fn drive(
         }
         recorder.record_due(&mut simulation, dt)?;
         if let Err(failure) = simulation.finish_step(dt) {
-            return Err(keep_failed(&simulation, &mut recorder, dir, failure));
+            return Err(keep_failed(&mut simulation, &mut recorder, dir, failure));
         }
         simulation.statistics.warnings[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
         warnings_shown = simulation.statistics.warnings.len();
@@ -113,8 +117,9 @@ fn details(simulation: &Simulation, dt: f64) -> String {
 }
 
 /// Keep the state of a failed run beside the last good checkpoint, and the outputs up to it.
-fn keep_failed(simulation: &Simulation, recorder: &mut Recorder, dir: &Path, failure: Failure) -> RunError {
-    let write = |recorder: &mut Recorder| {
+fn keep_failed(simulation: &mut Simulation, recorder: &mut Recorder, dir: &Path, failure: Failure) -> RunError {
+    let mut write = |recorder: &mut Recorder| {
+        simulation.fetch()?;
         recorder.drain()?;
         Checkpoint::of(simulation, recorder.state()).write(dir, Checkpoint::FAILED_FILE)
     };

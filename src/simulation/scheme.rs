@@ -4,6 +4,7 @@ use crate::{
     case::{self, Case},
     sph::{
         density_diffusion::{DensityDiffusion, Diffusion},
+        device,
         equation_of_state::Tait,
         kernel::Wendland,
         parameters::{BoundaryCondition, Parameters},
@@ -56,6 +57,17 @@ pub fn parameters(case: &Case) -> Parameters {
         },
         periodic_width: periodic.then_some(case.domain.width),
     }
+}
+
+/// What of the case graphics cards do not compute, if there is such a thing.
+pub fn not_on_cards(case: &Case) -> Option<&'static str> {
+    if case.domain.damping_zone.is_some() || case.domain.relaxation_zone.is_some() {
+        return Some("damping and relaxation zones (domain.damping_zone, domain.relaxation_zone)");
+    }
+    if case.wavemaker.absorption_gauge().is_some() {
+        return Some("wavemakers that absorb (wavemaker.absorption)");
+    }
+    device::not_on_cards(&parameters(case))
 }
 
 /// Equation of state of the water.

@@ -26,7 +26,7 @@ use crate::{
         water::Water,
     },
     rigid::{Load, RigidError, RigidWorld},
-    sph::step::Solver,
+    sph::{backend::DeviceError, device::Device},
     waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
 
@@ -69,14 +69,25 @@ pub enum SetupError {
     /// The units cannot stand where the case puts them.
     #[error(transparent)]
     Rigid(#[from] RigidError),
+    /// The device cannot compute the case.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
 }
 
 impl Simulation {
-    /// The case at its start.
+    /// The case at its start, on the processor.
     ///
     /// # Errors
     /// If the flume model fails or the units cannot stand where they should.
     pub fn new(case: Arc<Case>) -> Result<Self, SetupError> {
+        Self::on(&Device::Cpu, case)
+    }
+
+    /// The case at its start, its water computed by a device.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and if the device does not know the scheme of the case or has not enough memory.
+    pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?;
         let start = particle_start(&case, flume.as_ref());
         check_times(&case, start)?;
@@ -107,7 +118,7 @@ impl Simulation {
 
         let [low, high] = bounds(&case, seaward_reach);
         let mut simulation = Self {
-            solver: Solver::new(parameters(&case), low, high),
+            solver: device.solver(parameters(&case), low, high)?,
             statistics: Statistics::new(count),
             bounds: [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)],
             case,
@@ -123,6 +134,7 @@ impl Simulation {
             outline,
         };
         simulation.place_boundary();
+        simulation.load()?;
         Ok(simulation)
     }
 }

@@ -121,7 +121,7 @@ impl Frame {
     /// The water of now: the fields and the box of the case's output.
     pub fn of_water(simulation: &Simulation) -> Self {
         let (water, output) = (&simulation.water, &simulation.case.output);
-        let tait = simulation.solver().parameters.tait;
+        let tait = simulation.solver().parameters().tait;
         let chosen = particles_in(water, output.fluid_box);
         let column = |field: &FluidField| match field {
             FluidField::Velocity => Column::Vector(pick(&chosen, |i| water.velocity[i].as_vec3().to_array())),

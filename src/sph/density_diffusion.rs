@@ -53,6 +53,12 @@ impl Diffusion {
         }
     }
 
+    /// rho0 g / c0^2 [kg/m4] and (gamma - 1) g / (2 c0^2) [1/m], by which the hydrostatic density is left alone.
+    #[cfg(feature = "gpu")]
+    pub(super) fn hydrostatic(&self) -> [f32; 2] {
+        [self.hydrostatic, self.curvature]
+    }
+
     /// No diffusion.
     pub fn none() -> Self {
         Self { kind: DensityDiffusion::None, strength: 0.0, hydrostatic: 0.0, curvature: 0.0 }

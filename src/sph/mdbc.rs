@@ -36,19 +36,19 @@ use crate::particles::boundary::Boundary;
 /// Smallest determinant of the scaled matrix, as a share of the determinant of a full neighbourhood with the same sum
 /// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles
 /// less than this.
-const LEAST_DETERMINANT: f64 = 0.01;
+pub(super) const LEAST_DETERMINANT: f64 = 0.01;
 
 /// How far the centroid of the water lies from the node towards the boundary, in h, where trust in the fitted gradient
 /// begins to fall and where none is left. It is 0.42 h for a node at the surface of deep water on a bed, and below
 /// nothing for one in the water or beside it, at a wall that stands in the surface. The two numbers are calibrated:
 /// with 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
-const TRUST: [f64; 2] = [0.1, 0.2];
+pub(super) const TRUST: [f64; 2] = [0.1, 0.2];
 
 /// Spread of the water along the wall's normal, sum g V r_n^2 / sum W V [h2], where trust in the fitted gradient begins
 /// and where it is full. Seen from the node nearest to the wall it is 0.2 to 0.3 for two layers of particles, 0.5 to
 /// 0.65 for three and 0.74 in deep water. Calibrated with still water on a beach: a gradient from two layers is mostly
 /// their noise, which the walls amplify.
-const SPREAD: [f64; 2] = [0.4, 0.7];
+pub(super) const SPREAD: [f64; 2] = [0.4, 0.7];
 
 /// Smallest piece of an array that is worth a task of the thread pool.
 pub(super) const PIECE: usize = 1024;

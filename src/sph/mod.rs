@@ -16,19 +16,24 @@
 //! | [`shifting`] | particle shifting |
 //! | `gap_pressure` | pressure on units through gaps without water particles |
 //! | [`time_step`] | variable time step |
+//! | [`backend`], [`device`] | what computes: the processor or a graphics card |
 //! | [`power`] | power of walls, viscosity, diffusion |
 //!
 //! Particles are sorted into [`grid`] bins each step; clusters of as many as there are SIMD [`lanes`] share one list of
 //! [`neighbours`], and `pair_sums` adds a neighbour to all members at once. Every sum is gathered by the particle that
 //! owns it, in a fixed order: the same bits for any number of threads.
 
+pub mod backend;
 pub mod continuity;
 pub mod density_diffusion;
+pub mod device;
 pub mod equation_of_state;
 mod gap_pressure;
 pub mod ghost_velocity;
 pub mod gradients;
 pub mod grid;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod group;
 pub mod kernel;
 pub mod lanes;

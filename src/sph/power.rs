@@ -9,7 +9,9 @@
 
 use glam::DVec3;
 
-use super::{density_diffusion::Diffusion, rates::Rate, step::Solver, viscosity::Viscosity};
+use super::{
+    density_diffusion::Diffusion, equation_of_state::Tait, rates::Rate, step::Solver, viscosity::Viscosity,
+};
 use crate::particles::water::Water;
 
 /// Power received by the water [W].
@@ -35,12 +37,19 @@ impl Solver {
             },
             Diffusion::none(),
         );
+        Powers::of(water, &parameters.tait, self.water_rates(), &pressure_only)
+    }
+}
+
+impl Powers {
+    /// Powers from the rates of the sorted water and those without viscosity and diffusion.
+    pub(super) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
-        let mut powers = Powers::default();
-        for (a, (all, pressure)) in self.water_rates().iter().zip(&pressure_only).enumerate() {
+        let mut powers = Self::default();
+        for (a, (all, pressure)) in all.iter().zip(pressure_only).enumerate() {
             let (mass, density) = (water.mass[a], water.density[a]);
             // p / rho^2 [J m3/kg2].
-            let per_rate = parameters.tait.pressure(density) / (density * density);
+            let per_rate = tait.pressure(density) / (density * density);
             let (of_all, of_pressure) = (f64::from(all.density), f64::from(pressure.density));
             powers.boundary += mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure);
             powers.viscosity += mass * water.velocity[a].dot(vector(all) - vector(pressure));

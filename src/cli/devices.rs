@@ -1,0 +1,68 @@
+//! `breakwater devices`, and the choice of a device.
+
+use clap::Args;
+
+use super::Trouble;
+use crate::{
+    case::Case,
+    simulation::scheme::not_on_cards,
+    sph::device::{Device, DeviceChoice},
+};
+
+/// What there is to compute the water on: the processor, graphics cards, and how many particles fit.
+#[derive(Args)]
+pub struct DevicesArguments {}
+
+/// Choice of a device.
+#[derive(Args)]
+pub(super) struct DeviceArgument {
+    /// What computes the water: auto (a graphics card if there is one for the case), cpu, gpu or gpu:N as in
+    /// `breakwater devices`.
+    #[arg(long, default_value = "auto", value_name = "DEVICE")]
+    device: DeviceChoice,
+}
+
+impl DeviceArgument {
+    /// The device for a case.
+    pub(super) fn open(&self, case: &Case, quiet: bool) -> Result<Device, Trouble> {
+        let (device, reason) = Device::open(self.device, not_on_cards(case)).map_err(Trouble::refused)?;
+        if let (Some(reason), false) = (reason, quiet) {
+            eprintln!("on the CPU: {reason}");
+        }
+        Ok(device)
+    }
+}
+
+impl DevicesArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        println!("cpu    the processor, {threads} threads");
+        list_cards();
+        Ok(())
+    }
+}
+
+#[cfg(feature = "gpu")]
+fn list_cards() {
+    use crate::sph::gpu::{card::Card, memory::most_particles};
+
+    let cards = Card::all();
+    for (number, card) in cards.iter().enumerate() {
+        let software = if card.is_software { "; a program on the processor, for tests" } else { "" };
+        println!("gpu:{number}  {} ({}){software}", card.name, card.interface);
+        let memory = card.memory.map_or_else(|| "memory unknown".to_owned(), |bytes| format!("{:.1} GB", bytes as f64 / 1e9));
+        println!(
+            "       {memory}, pieces of at most {:.2} GB: room for {:.1} million particles",
+            card.largest_binding.min(card.largest_buffer) as f64 / 1e9,
+            most_particles(card) as f64 / 1e6
+        );
+    }
+    if cards.is_empty() {
+        println!("no graphics card: neither Vulkan, Metal nor DirectX 12 shows one");
+    }
+}
+
+#[cfg(not(feature = "gpu"))]
+fn list_cards() {
+    println!("this breakwater was built without the feature `gpu`");
+}

@@ -1,0 +1,150 @@
+//! Constants of the scheme as `parameters.wgsl` has them.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+use crate::sph::{
+    density_diffusion::Diffusion,
+    equation_of_state::Tait,
+    grid::Grid,
+    mdbc::{DRY, LEAST_DETERMINANT, SPREAD, TRUST},
+    parameters::Parameters,
+    viscosity::Viscosity,
+};
+
+/// `Parameters` of the shaders; the same fields in the same order.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Constants {
+    count: [i32; 3],
+    water: u32,
+    size: [f32; 3],
+    boundary: u32,
+    walls: u32,
+    periodic: u32,
+    width: f32,
+    h: f32,
+    inv_2h: f32,
+    kernel_scale: f32,
+    gradient_scale: f32,
+    rho0: f32,
+    alpha: f32,
+    diffusion: f32,
+    hydrostatic: f32,
+    curvature: f32,
+    gravity: f32,
+    density_slope: f32,
+    trust_place: [f32; 2],
+    trust_spread: [f32; 2],
+    least_determinant: f32,
+    dry: f32,
+    bounds_low: [f32; 3],
+    padding_low: f32,
+    bounds_high: [f32; 3],
+    padding_high: f32,
+    pressure: [f32; 8],
+    sound: [f32; 8],
+}
+
+/// `Step` of the shaders.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct StepConstants {
+    /// Length of the step [s].
+    pub dt: f32,
+    /// Kernel support, and how far a particle can have gone since it was sorted [m].
+    pub reach: f32,
+}
+
+impl Constants {
+    /// Constants for numbers of particles: water, boundary, and bed, walls and wavemaker among that. No particle may
+    /// leave the box `bounds` [m].
+    pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 3]) -> Self {
+        let [water, boundary, walls] = particles.map(|n| n as u32);
+        let Parameters { kernel, tait, gravity, .. } = *parameters;
+        let alpha = if let Viscosity::Artificial { alpha } = parameters.viscosity { alpha as f32 } else { 0.0 };
+        let [hydrostatic, curvature] = parameters.diffusion.hydrostatic();
+        let [low, high] = bounds.map(|point| (point - grid.low).as_vec3().to_array());
+        Self {
+            count: grid.count.map(|n| n as i32),
+            water,
+            size: grid.size.as_vec3().to_array(),
+            boundary,
+            walls,
+            periodic: u32::from(grid.periodic_width.is_some()),
+            width: grid.periodic_width.unwrap_or(0.0) as f32,
+            h: kernel.h as f32,
+            inv_2h: (0.5 / kernel.h) as f32,
+            kernel_scale: kernel.scale(),
+            gradient_scale: kernel.gradient_scale(),
+            rho0: tait.rho0 as f32,
+            alpha,
+            diffusion: parameters.diffusion.factor(),
+            hydrostatic,
+            curvature,
+            gravity: gravity as f32,
+            density_slope: (-tait.rho0 * gravity / tait.c0.powi(2)) as f32,
+            trust_place: TRUST.map(|t| t as f32),
+            trust_spread: SPREAD.map(|t| t as f32),
+            least_determinant: LEAST_DETERMINANT as f32,
+            dry: DRY as f32,
+            bounds_low: low,
+            padding_low: 0.0,
+            bounds_high: high,
+            padding_high: 0.0,
+            pressure: pressure_series(&tait),
+            sound: sound_series(&tait),
+        }
+    }
+
+    /// The same without viscosity and diffusion: pressure alone.
+    pub fn of_pressure_alone(self) -> Self {
+        let [hydrostatic, curvature] = Diffusion::none().hydrostatic();
+        Self { alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
+    }
+}
+
+/// Coefficients of p in (rho - rho0) / rho0, from the first power on [Pa]. For gamma = 7 the series ends there; for
+/// other exponents what is left out is 1e-9 of p at a compression of 5 %.
+fn pressure_series(tait: &Tait) -> [f32; 8] {
+    let binomials = binomials(tait.gamma);
+    let stiffness = tait.c0 * tait.c0 * tait.rho0 / tait.gamma;
+    std::array::from_fn(|k| (stiffness * binomials[k + 1]) as f32)
+}
+
+/// Coefficients of c in (rho - rho0) / rho0, from the zeroth power on [m/s].
+fn sound_series(tait: &Tait) -> [f32; 8] {
+    let binomials = binomials(0.5 * (tait.gamma - 1.0));
+    std::array::from_fn(|k| (tait.c0 * binomials[k]) as f32)
+}
+
+/// (exponent over k) for k from 0 to 8.
+fn binomials(exponent: f64) -> [f64; 9] {
+    let mut all = [1.0; 9];
+    for k in 1..9 {
+        all[k] = all[k - 1] * (exponent - (k - 1) as f64) / k as f64;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn horner(series: &[f32; 8], e: f64) -> f64 {
+        series.iter().rev().fold(0.0, |sum, &a| sum * e + f64::from(a))
+    }
+
+    #[test]
+    fn series_are_the_equation_of_state() {
+        for gamma in [7.0, 6.3] {
+            let tait = Tait { rho0: 1000.0, c0: 15.0, gamma };
+            for e in [-0.05, -1e-3, 1e-6, 2e-3, 0.05] {
+                let rho = tait.rho0 * (1.0 + e);
+                // 1e-6: coefficients in single precision, and rounding of p near rho0 in double.
+                assert!((horner(&pressure_series(&tait), e) * e / tait.pressure(rho) - 1.0).abs() < 1e-6);
+                assert!((horner(&sound_series(&tait), e) / tait.sound_speed(rho) - 1.0).abs() < 1e-6);
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! What lies on a card, and the kernels that work on it.
+
+use super::{
+    card::{Card, CardInfo},
+    constants::{Constants, StepConstants},
+    shaders::{Bound, MDBC, RATES, RECORDS, STEP, Shader},
+    sort::Sort,
+    state::CardState,
+};
+use crate::sph::backend::DeviceError;
+
+/// Bytes of a record.
+const RECORD: usize = 48;
+
+/// Bytes of a water particle on the card: place, bin, velocity, half step, rates, record; sorting and its share of the
+/// bins, of which there are about as many as particles where half of the domain is air.
+const OF_PARTICLE: usize = 6 * 16 + RECORD + 3 * 4 + 2 * 2 * 4;
+
+/// Particles that fit on a card.
+pub fn most_particles(card: &CardInfo) -> u64 {
+    let in_a_piece = card.largest_binding.min(card.largest_buffer) / RECORD as u64;
+    // A tenth is left to the system.
+    card.memory.map_or(in_a_piece, |bytes| in_a_piece.min(bytes / 10 * 9 / OF_PARTICLE as u64))
+}
+
+/// Memory and bound kernels.
+pub(super) struct Memory {
+    pub water: usize,
+    pub boundary: usize,
+    /// All bytes on the card.
+    pub bytes: usize,
+    pub parameters: wgpu::Buffer,
+    pub step: wgpu::Buffer,
+    pub offset: wgpu::Buffer,
+    pub cell: wgpu::Buffer,
+    pub motion: wgpu::Buffer,
+    pub half_offset: wgpu::Buffer,
+    half_motion: wgpu::Buffer,
+    /// Of the water, then of the boundary in its own order.
+    pub rates: wgpu::Buffer,
+    pub limits: wgpu::Buffer,
+    pub extremes: wgpu::Buffer,
+    pub boundary_offset: wgpu::Buffer,
+    pub boundary_cell: wgpu::Buffer,
+    pub boundary_motion: wgpu::Buffer,
+    pub boundary_density: wgpu::Buffer,
+    pub to_surface: wgpu::Buffer,
+    pub sort: Sort,
+    pub boundary_sort: Sort,
+    permute: Bound,
+    pub water_records: Bound,
+    pub half_records: Bound,
+    pub boundary_records: Bound,
+    pub densities: Bound,
+    pub all_rates: Bound,
+    /// Rates of the water by pressure alone, into the memory of the half step.
+    pub pressure_rates: Bound,
+    pub predict: Bound,
+    pub correct: Bound,
+}
+
+impl Memory {
+    /// Memory for particles (water, boundary, bed and walls among it) and bins, filled with their state.
+    pub fn new(
+        card: &Card,
+        constants: &Constants,
+        state: &CardState,
+        (of_boundary, surfaces): &(CardState, Vec<[f32; 4]>),
+        excess_density: &[f32],
+        [water, boundary, _]: [usize; 3],
+        bins: usize,
+    ) -> Result<Self, DeviceError> {
+        let parameters = card.uniform("parameters", constants);
+        let pressure_alone = card.uniform("parameters of pressure alone", &constants.of_pressure_alone());
+        let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
+        // The largest piece first: if the card refuses one, it is this.
+        let records = card.buffer::<[f32; RECORD / 4]>("the particles' records", water + boundary)?;
+        let offset = card.filled("the water's places", &state.offset)?;
+        let cell = card.filled("the water's bins", &state.cell)?;
+        let motion = card.filled("the water's velocities", &state.motion)?;
+        let half_offset = card.buffer::<[f32; 4]>("the water's places at the half step", water)?;
+        let half_motion = card.buffer::<[f32; 4]>("the water's velocities at the half step", water)?;
+        let rates = card.buffer::<[f32; 4]>("the rates", water + boundary)?;
+        let limits = card.buffer::<u32>("limits", 2)?;
+        let unused_limits = card.buffer::<u32>("limits", 2)?;
+        let extremes = card.buffer::<u32>("extremes", 5)?;
+        let boundary_offset = card.filled("the boundary's places", &of_boundary.offset)?;
+        let boundary_cell = card.filled("the boundary's bins", &of_boundary.cell)?;
+        let boundary_motion = card.filled("the boundary's velocities", &of_boundary.motion)?;
+        let boundary_density = card.filled("the boundary's densities", excess_density)?;
+        let to_surface = card.filled("the ways to surfaces", surfaces)?;
+        let sort = Sort::new(card, &parameters, &cell, water, bins)?;
+        let boundary_sort = Sort::new(card, &parameters, &boundary_cell, boundary, bins)?;
+
+        let shader = Shader::new(card, RECORDS);
+        let bind = |name, buffers: &[(u32, &wgpu::Buffer)]| shader.kernel(name).bind(card, buffers);
+        // The rates' memory is free while the water is sorted.
+        let permute = bind(
+            "permute",
+            &[
+                (0, &parameters),
+                (1, &offset),
+                (2, &cell),
+                (3, &motion),
+                (4, &sort.order),
+                (6, &half_offset),
+                (7, &rates),
+                (8, &half_motion),
+            ],
+        );
+        let of = |offset, motion| bind("of_water", &[(0, &parameters), (1, offset), (2, &cell), (3, motion), (5, &records)]);
+        let water_records = of(&offset, &motion);
+        let half_records = of(&half_offset, &half_motion);
+        let boundary_records = bind(
+            "of_boundary",
+            &[
+                (0, &parameters),
+                (1, &boundary_offset),
+                (2, &boundary_cell),
+                (3, &boundary_motion),
+                (4, &boundary_sort.order),
+                (5, &records),
+                (9, &boundary_density),
+            ],
+        );
+        let densities = Shader::new(card, MDBC).kernel("densities").bind(
+            card,
+            &[
+                (0, &parameters),
+                (1, &records),
+                (2, &sort.start),
+                (3, &boundary_sort.order),
+                (4, &boundary_cell),
+                (5, &to_surface),
+                (6, &boundary_offset),
+                (7, &boundary_density),
+            ],
+        );
+        let rates_kernel = Shader::new(card, RATES).kernel("rates_of_all");
+        let rates_into = |parameters, rates, limits| {
+            let sources = [(2, &records), (3, &sort.start), (4, &boundary_sort.start), (5, &boundary_sort.order)];
+            let own = [(0, parameters), (1, &step), (6, rates), (7, limits)];
+            rates_kernel.bind(card, &[&own[..], &sources[..]].concat())
+        };
+        let all_rates = rates_into(&parameters, &rates, &limits);
+        let pressure_rates = rates_into(&pressure_alone, &half_offset, &unused_limits);
+        let shader = Shader::new(card, STEP);
+        let state_of_step = [(0, &parameters), (1, &step), (2, &offset), (4, &motion), (5, &rates), (6, &half_offset)];
+        let predict = shader.kernel("predict").bind(card, &[&state_of_step[..], &[(7, &half_motion)]].concat());
+        let correct = shader.kernel("correct").bind(card, &[&state_of_step[..], &[(3, &cell), (8, &extremes)]].concat());
+        card.check()?;
+
+        // Places, bins, velocities, half step, rates, record; the boundary's surfaces and densities.
+        let of_water = water * (6 * 16 + RECORD) + Sort::bytes(water, bins);
+        let of_boundary = boundary * (5 * 16 + 4 + RECORD) + Sort::bytes(boundary, bins);
+        Ok(Self {
+            water,
+            boundary,
+            bytes: of_water + of_boundary,
+            parameters,
+            step,
+            offset,
+            cell,
+            motion,
+            half_offset,
+            half_motion,
+            rates,
+            limits,
+            extremes,
+            boundary_offset,
+            boundary_cell,
+            boundary_motion,
+            boundary_density,
+            to_surface,
+            sort,
+            boundary_sort,
+            permute,
+            water_records,
+            half_records,
+            boundary_records,
+            densities,
+            all_rates,
+            pressure_rates,
+            predict,
+            correct,
+        })
+    }
+
+    /// Put the water's arrays in the order of the bins.
+    pub fn permute(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.permute.run(encoder, super::card::groups(self.water, 64));
+        let size = (self.water * 16) as u64;
+        let pairs = [(&self.half_offset, &self.offset), (&self.rates, &self.cell), (&self.half_motion, &self.motion)];
+        for (sorted, own) in pairs {
+            if size > 0 {
+                encoder.copy_buffer_to_buffer(sorted, 0, own, 0, size);
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The water near to surfaces: found on the card, kept out of the surfaces by the host, which knows their shapes.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3};
+
+use super::{
+    card::{Card, groups},
+    memory::Memory,
+    shaders::{Bound, IMPERMEABLE, Kernel, Shader},
+    state::CardState,
+};
+use crate::sph::{
+    backend::{DeviceError, NearWater, Surfaces},
+    grid::Grid,
+};
+
+/// Particles that there is room for at first.
+const ROOM: usize = 4096;
+
+/// Allowance for places in single precision over the length of a flume, in particle distances.
+const ALLOWANCE: f64 = 0.01;
+
+/// `Surfaces` of the shader.
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+#[repr(C)]
+struct SurfaceConstants {
+    pieces: u32,
+    boxes: u32,
+    balls: u32,
+    rows: u32,
+    nearest: f32,
+    place: f32,
+    lowest: f32,
+    dp: f32,
+    sides: f32,
+    low_side: f32,
+    room: u32,
+    padding: u32,
+}
+
+/// A particle as the shader gives it.
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct NearParticle {
+    cell: [i32; 4],
+    offset: [f32; 4],
+    motion: [f32; 4],
+}
+
+/// Search for water near to surfaces.
+pub(super) struct NearSearch {
+    find: Kernel,
+    put: Kernel,
+    constants: wgpu::Buffer,
+    /// Of the velocities that are put back: `room` is their number.
+    put_constants: wgpu::Buffer,
+    memory: SearchMemory,
+}
+
+/// The part of its memory that grows.
+struct SearchMemory {
+    shapes: wgpu::Buffer,
+    shapes_room: usize,
+    near: wgpu::Buffer,
+    changes: wgpu::Buffer,
+    room: usize,
+    find: Bound,
+    put: Bound,
+}
+
+impl NearSearch {
+    /// A search in the water of a memory.
+    pub fn new(card: &Card, memory: &Memory) -> Result<Self, DeviceError> {
+        let shader = Shader::new(card, IMPERMEABLE);
+        let [find, put] = ["find_near", "put_velocities"].map(|name| shader.kernel(name));
+        let constants = card.uniform("surfaces", &SurfaceConstants::default());
+        let put_constants = card.uniform("velocities", &SurfaceConstants::default());
+        let own = SearchMemory::new(card, memory, [&find, &put], [&constants, &put_constants], [64, ROOM])?;
+        Ok(Self { find, put, constants, put_constants, memory: own })
+    }
+
+    fn grow(&mut self, card: &Card, memory: &Memory, shapes: usize, room: usize) -> Result<(), DeviceError> {
+        let constants = [&self.constants, &self.put_constants];
+        self.memory = SearchMemory::new(card, memory, [&self.find, &self.put], constants, [shapes, room])?;
+        Ok(())
+    }
+
+    /// Do what `encoder` holds and find the water near to surfaces, in the order of its places; the extremes of the
+    /// step besides, see `step.wgsl`.
+    pub fn find(
+        &mut self,
+        card: &Card,
+        memory: &Memory,
+        grid: &Grid,
+        dp: f64,
+        surfaces: &Surfaces,
+        mut encoder: wgpu::CommandEncoder,
+    ) -> Result<([u32; 5], CardState), DeviceError> {
+        let (mut constants, shapes) = shapes_of(grid, dp, surfaces);
+        if shapes.len() > self.memory.shapes_room {
+            self.grow(card, memory, 2 * shapes.len(), self.memory.room)?;
+        }
+        loop {
+            constants.room = self.memory.room as u32;
+            card.write(&self.constants, 0, &[constants]);
+            card.write(&self.memory.shapes, 0, &shapes);
+            self.memory.find.run(&mut encoder, groups(memory.water, 64));
+            let extremes: Vec<u32> = card.read(encoder, &memory.extremes, 0, 5)?;
+            let extremes: [u32; 5] = std::array::from_fn(|k| extremes[k]);
+            let count = extremes[4] as usize;
+            if count <= self.memory.room {
+                let mut near: Vec<NearParticle> = card.read(card.encoder(), &self.memory.near, 0, count)?;
+                // They come in the order in which the card got to them.
+                near.sort_unstable_by_key(|particle| particle.cell[3]);
+                return Ok((
+                    extremes,
+                    CardState {
+                        offset: near.iter().map(|particle| particle.offset).collect(),
+                        cell: near.iter().map(|particle| particle.cell).collect(),
+                        motion: near.iter().map(|particle| particle.motion).collect(),
+                    },
+                ));
+            }
+            self.grow(card, memory, self.memory.shapes_room, 2 * count)?;
+            card.write(&memory.extremes, 4, &[0_u32]);
+            encoder = card.encoder();
+        }
+    }
+
+    /// Put commands into `encoder` that give back the velocities of the water near to surfaces.
+    pub fn put(
+        &mut self,
+        card: &Card,
+        _: &Memory,
+        near: &NearWater,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), DeviceError> {
+        let change = |(&place, velocity): (&u32, &DVec3)| velocity.as_vec3().extend(f32::from_bits(place)).to_array();
+        let changes: Vec<[f32; 4]> = near.places.iter().zip(&near.water.velocity).map(change).collect();
+        let constants = SurfaceConstants { room: changes.len() as u32, ..SurfaceConstants::default() };
+        card.write(&self.put_constants, 0, &[constants]);
+        card.write(&self.memory.changes, 0, &changes);
+        self.memory.put.run(encoder, groups(changes.len(), 64));
+        card.check()
+    }
+}
+
+impl SearchMemory {
+    fn new(
+        card: &Card,
+        memory: &Memory,
+        [find, put]: [&Kernel; 2],
+        [constants, put_constants]: [&wgpu::Buffer; 2],
+        [shapes_room, room]: [usize; 2],
+    ) -> Result<Self, DeviceError> {
+        let shapes = card.buffer::<[f32; 4]>("shapes", shapes_room)?;
+        let near = card.buffer::<NearParticle>("the water near to surfaces", room)?;
+        let changes = card.buffer::<[f32; 4]>("the velocities near to surfaces", room)?;
+        let water = [(0, &memory.parameters), (2, &memory.offset), (3, &memory.cell), (4, &memory.motion)];
+        let found = [(1, constants), (5, &shapes), (6, &near), (7, &memory.extremes)];
+        let find = find.bind(card, &[&water[..], &found[..]].concat());
+        let put = put.bind(card, &[(1, put_constants), (4, &memory.motion), (8, &changes)]);
+        Ok(Self { shapes, shapes_room, near, changes, room, find, put })
+    }
+}
+
+/// Surfaces as the shader has them, from the low corner of the grid.
+fn shapes_of(grid: &Grid, dp: f64, surfaces: &Surfaces) -> (SurfaceConstants, Vec<[f32; 4]>) {
+    let vector = |point: DVec3, w: f64| (point - grid.low).as_vec3().extend(w as f32).to_array();
+    let (low_x, low_z) = (grid.low.x, grid.low.z);
+    let nearest = surfaces.nearest + ALLOWANCE * dp;
+    let pieces = surfaces.outline.iter().map(|&[x0, z0, x1, z1]| {
+        [x0 - low_x, z0 - low_z, x1 - low_x, z1 - low_z].map(|value| value as f32)
+    });
+    let boxes = surfaces.boxes.iter().flatten().map(|&corner| vector(corner, 0.0));
+    let balls = surfaces.balls.iter().map(|&(centre, radius)| vector(centre, radius + ALLOWANCE * dp));
+    let nothing = (0.0, 0.0, Vec::new());
+    let (place, lowest, rows) = surfaces.wavemaker.as_ref().unwrap_or(&nothing);
+    let displacements = rows.iter().map(|&row| Vec3::new(row as f32, 0.0, 0.0).extend(0.0).to_array());
+    let constants = SurfaceConstants {
+        pieces: surfaces.outline.len() as u32,
+        boxes: surfaces.boxes.len() as u32,
+        balls: surfaces.balls.len() as u32,
+        rows: rows.len() as u32,
+        nearest: nearest as f32,
+        place: (place - low_x) as f32,
+        lowest: (lowest - low_z) as f32,
+        dp: dp as f32,
+        sides: surfaces.sides.unwrap_or(-1.0) as f32,
+        low_side: -grid.low.y as f32,
+        ..SurfaceConstants::default()
+    };
+    (constants, pieces.chain(boxes).chain(balls).chain(displacements).collect())
+}

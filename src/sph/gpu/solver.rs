@@ -1,0 +1,344 @@
+//! The verbs of a step on a card.
+//!
+//! Verbs put commands into a list; the card works it off when something is read back: after the first rates the limits
+//! of the time step, after the corrector the rates of the units and the water near to surfaces.
+
+use glam::DVec3;
+
+use super::{
+    card::{Card, groups},
+    constants::{Constants, StepConstants},
+    memory::Memory,
+    near::NearSearch,
+    state::CardState,
+};
+use crate::{
+    particles::{boundary::Boundary, water::Water},
+    sph::{
+        backend::{Backend, DeviceError, NearWater, Surfaces, Watched},
+        device::not_on_cards,
+        grid::{Bins, Grid},
+        parameters::Parameters,
+        power::Powers,
+        rates::Rate,
+        time_step::Limits,
+    },
+};
+
+/// Extremes before any water has been looked at; see `step.wgsl`.
+const NOTHING_SEEN: [u32; 5] = [0, u32::MAX, 0, 0, 0];
+
+/// Allowance for rounding in how far particles can have gone since they were sorted.
+const ROUNDING: f64 = 1.001;
+
+/// The solver on a card.
+pub struct GpuSolver {
+    card: Card,
+    parameters: Parameters,
+    grid: Grid,
+    /// Box that no particle may leave [m].
+    bounds: [DVec3; 2],
+    loaded: Option<Loaded>,
+    /// Where the water's bins begin, as last fetched.
+    bins: Bins,
+    /// Commands that the card has not got yet.
+    encoder: Option<wgpu::CommandEncoder>,
+    /// What a verb could not say, being without a result.
+    trouble: Option<DeviceError>,
+}
+
+/// What there is once the numbers of particles are known.
+struct Loaded {
+    memory: Memory,
+    near: NearSearch,
+    /// Largest speed of water and of boundary, at the start of the step [m/s].
+    fastest: [f64; 2],
+    /// As last read.
+    watched: Watched,
+}
+
+impl GpuSolver {
+    /// Solver for the box from `low` to `high` [m].
+    ///
+    /// # Errors
+    /// If cards do not compute the scheme.
+    pub fn new(card: Card, parameters: Parameters, low: DVec3, high: DVec3) -> Result<Self, DeviceError> {
+        if let Some(what) = not_on_cards(&parameters) {
+            return Err(DeviceError::Scheme(what));
+        }
+        let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
+        // As high again above the walls, as a run allows.
+        let bounds = [low, high + DVec3::Z * (high.z - low.z)];
+        Ok(Self { card, parameters, grid, bounds, loaded: None, bins: Bins::default(), encoder: None, trouble: None })
+    }
+
+    /// Wait until the card has done all that it was told, to measure it.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn finish(&mut self) -> Result<(), DeviceError> {
+        let encoder = self.take_encoder();
+        self.card.queue.submit([encoder.finish()]);
+        self.card.wait()
+    }
+
+    /// Bytes on the card.
+    pub fn bytes(&self) -> usize {
+        self.loaded.as_ref().map_or(0, |loaded| loaded.memory.bytes)
+    }
+
+    fn take_encoder(&mut self) -> wgpu::CommandEncoder {
+        self.encoder.take().unwrap_or_else(|| self.card.encoder())
+    }
+
+    fn loaded(&mut self) -> Result<&mut Loaded, DeviceError> {
+        if let Some(trouble) = self.trouble.clone() {
+            return Err(trouble);
+        }
+        self.loaded.as_mut().ok_or_else(|| DeviceError::Missing("the card has no water yet".to_owned()))
+    }
+
+    /// Put commands of a verb into the list.
+    fn tell(&mut self, commands: impl FnOnce(&Card, &mut Loaded, &mut wgpu::CommandEncoder)) {
+        let mut encoder = self.take_encoder();
+        if let Some(loaded) = &mut self.loaded {
+            commands(&self.card, loaded, &mut encoder);
+        }
+        self.encoder = Some(encoder);
+    }
+
+    /// Give the places of wavemaker and units, which the host moves, to the card.
+    fn upload_moving(&mut self, boundary: &Boundary) {
+        let moving = boundary.piston().start..boundary.len();
+        let first = moving.start;
+        let (state, surfaces) =
+            CardState::of_boundary(&self.grid, self.parameters.tait.rho0, boundary, moving);
+        let Some(loaded) = &mut self.loaded else { return };
+        let memory = &loaded.memory;
+        self.card.write(&memory.boundary_offset, first, &state.offset);
+        self.card.write(&memory.boundary_cell, first, &state.cell);
+        self.card.write(&memory.boundary_motion, first, &state.motion);
+        self.card.write(&memory.to_surface, first, &surfaces);
+        loaded.fastest[1] = largest(&boundary.velocity);
+    }
+}
+
+impl Backend for GpuSolver {
+    fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn water_bins(&self) -> &Bins {
+        &self.bins
+    }
+
+    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError> {
+        let particles = [water.len(), boundary.len(), boundary.walls().end];
+        let constants = Constants::new(&self.parameters, &self.grid, self.bounds, particles);
+        let rho0 = self.parameters.tait.rho0;
+        let state = CardState::of_water(&self.grid, rho0, water);
+        let of_boundary = CardState::of_boundary(&self.grid, rho0, boundary, 0..boundary.len());
+        let excess: Vec<f32> = boundary.density.iter().map(|density| (density - rho0) as f32).collect();
+        let memory = Memory::new(&self.card, &constants, &state, &of_boundary, &excess, particles, self.grid.bins())?;
+        self.loaded = Some(Loaded {
+            near: NearSearch::new(&self.card, &memory)?,
+            memory,
+            fastest: [largest(&water.velocity), largest(&boundary.velocity)],
+            watched: Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false },
+        });
+        self.encoder = None;
+        self.trouble = None;
+        Ok(())
+    }
+
+    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError> {
+        let encoder = self.take_encoder();
+        let bins = self.grid.bins() + 1;
+        let Loaded { memory, .. } = self.loaded()?;
+        let count = memory.water;
+        let buffers = [&memory.offset, &memory.cell, &memory.motion, &memory.sort.start, &memory.boundary_density];
+        let [offset, cell, motion, start, density] = buffers.map(Clone::clone);
+        let card = &self.card;
+        let offset = card.read(encoder, &offset, 0, count)?;
+        let cell = card.read(card.encoder(), &cell, 0, count)?;
+        let motion = card.read(card.encoder(), &motion, 0, count)?;
+        let rho0 = self.parameters.tait.rho0;
+        CardState { offset, cell, motion }.put_into(&self.grid, rho0, water);
+        self.bins.start = card.read(card.encoder(), &start, 0, bins)?;
+        let excess: Vec<f32> = card.read(card.encoder(), &density, 0, boundary.len())?;
+        boundary.density.iter_mut().zip(excess).for_each(|(density, excess)| *density = rho0 + f64::from(excess));
+        Ok(())
+    }
+
+    fn sort(&mut self, _: &mut Water, boundary: &Boundary) {
+        self.upload_moving(boundary);
+        let reach = self.parameters.kernel.support() as f32;
+        self.tell(|card, Loaded { memory, .. }, encoder| {
+            card.write(&memory.step, 0, &[StepConstants { dt: 0.0, reach }]);
+            memory.sort.run(encoder);
+            memory.permute(encoder);
+            memory.boundary_sort.run(encoder);
+            memory.water_records.run(encoder, groups(memory.water, 64));
+        });
+    }
+
+    /// Nothing to do: every particle finds its neighbours in the bins.
+    fn list(&mut self, _: &Water, _: &Boundary) {}
+
+    fn boundary_densities(&mut self, _: &mut Boundary) {
+        self.tell(|_, Loaded { memory, .. }, encoder| {
+            memory.densities.run(encoder, groups(memory.boundary, 64));
+            memory.boundary_records.run(encoder, groups(memory.boundary, 64));
+        });
+    }
+
+    fn rates(&mut self) {
+        self.tell(|_, Loaded { memory, .. }, encoder| {
+            encoder.clear_buffer(&memory.limits, 0, None);
+            memory.all_rates.run(encoder, groups(memory.water + memory.boundary, 64));
+        });
+    }
+
+    fn limits(&mut self) -> Result<Limits, DeviceError> {
+        let encoder = self.take_encoder();
+        let limits = self.loaded()?.memory.limits.clone();
+        let [acceleration, signal_speed] =
+            [0, 1].map(|k| move |bits: &[u32]| f64::from(f32::from_bits(bits[k])));
+        let bits = self.card.read(encoder, &limits, 0, 2)?;
+        Ok(Limits { acceleration: acceleration(&bits), signal_speed: signal_speed(&bits) })
+    }
+
+    fn predict(
+        &mut self,
+        dt: f64,
+        _: &Water,
+        boundary: &mut Boundary,
+        move_boundary: &mut dyn FnMut(&mut Boundary),
+    ) {
+        move_boundary(boundary);
+        self.upload_moving(boundary);
+        let support = self.parameters.kernel.support();
+        self.tell(|card, Loaded { memory, fastest, .. }, encoder| {
+            // After the approach to a surface has been taken away, water can have its own speed and the surface's.
+            let speed = fastest[0] + fastest[1];
+            let reach = (support + 0.5 * dt * speed) * ROUNDING;
+            card.write(&memory.step, 0, &[StepConstants { dt: dt as f32, reach: reach as f32 }]);
+            card.write(&memory.extremes, 0, &NOTHING_SEEN);
+            memory.predict.run(encoder, groups(memory.water, 64));
+            memory.half_records.run(encoder, groups(memory.water, 64));
+            memory.boundary_records.run(encoder, groups(memory.boundary, 64));
+        });
+    }
+
+    fn correct(&mut self, _: f64, _: &mut Water, _: &mut Boundary) {
+        self.tell(|_, Loaded { memory, .. }, encoder| memory.correct.run(encoder, groups(memory.water, 64)));
+    }
+
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError> {
+        let encoder = self.take_encoder();
+        let first_unit = boundary.walls().end;
+        let memory = &self.loaded()?.memory;
+        let (rates, first) = (memory.rates.clone(), memory.water + first_unit);
+        let rates: Vec<[f32; 4]> = self.card.read(encoder, &rates, first, boundary.len() - first_unit)?;
+        let rho0 = self.parameters.tait.rho0;
+        let load = |(unit, centre): (&std::ops::Range<usize>, &DVec3)| {
+            unit.clone().fold((DVec3::ZERO, DVec3::ZERO), |(force, torque), i| {
+                let [x, y, z, _] = rates[i - first_unit].map(f64::from);
+                let f = rho0 * boundary.volume[i] * DVec3::new(x, y, z);
+                (force + f, torque + (boundary.position[i] - *centre).cross(f))
+            })
+        };
+        Ok(boundary.units().iter().zip(centres).map(load).collect())
+    }
+
+    fn take_near(&mut self, surfaces: &Surfaces) -> Result<Option<NearWater>, DeviceError> {
+        let encoder = self.take_encoder();
+        self.loaded()?;
+        let rho0 = self.parameters.tait.rho0;
+        let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
+        let Some(Loaded { memory, near, fastest, watched }) = &mut self.loaded else { return Ok(None) };
+        let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
+        *watched = watched_from(extremes, rho0);
+        fastest[0] = watched.fastest;
+        let mut out = NearWater::default();
+        out.places = found.cell.iter().map(|cell| cell[3] as u32).collect();
+        found.put_into(grid, rho0, &mut out.water);
+        Ok(Some(out))
+    }
+
+    fn put_near(&mut self, near: &NearWater) {
+        let Some(Loaded { memory, near: search, .. }) = &mut self.loaded else { return };
+        let mut encoder = self.encoder.take().unwrap_or_else(|| self.card.encoder());
+        if let Err(trouble) = search.put(&self.card, memory, near, &mut encoder) {
+            self.trouble = Some(trouble);
+        }
+        self.encoder = Some(encoder);
+    }
+
+    fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
+        Ok(Some(self.loaded()?.watched))
+    }
+
+    fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {
+        let encoder = self.take_encoder();
+        let loaded = self.loaded()?;
+        let (rates, count) = (loaded.memory.rates.clone(), loaded.memory.water);
+        Ok(rates_of(&self.card.read(encoder, &rates, 0, count)?))
+    }
+
+    fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError> {
+        let all = self.water_rates()?;
+        self.tell(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
+        let encoder = self.take_encoder();
+        let memory = &self.loaded()?.memory;
+        // The half step's memory, which nothing needs now.
+        let (rates, count) = (memory.half_offset.clone(), memory.water);
+        let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
+        Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
+    }
+}
+
+fn rates_of(values: &[[f32; 4]]) -> Vec<Rate> {
+    let rate = |&[x, y, z, density]: &[f32; 4]| Rate { acceleration: [x, y, z], density, approach: 0.0 };
+    values.iter().map(rate).collect()
+}
+
+/// Largest of the lengths; not a number if one of them is.
+fn largest(vectors: &[DVec3]) -> f64 {
+    vectors.iter().map(|v| v.length_squared()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a }).sqrt()
+}
+
+/// From what `step.wgsl` collects.
+fn watched_from([fastest, lightest, densest, astray, _]: [u32; 5], rho0: f64) -> Watched {
+    let number = |ordered: u32| {
+        let bits = if ordered & 0x8000_0000 == 0 { !ordered } else { ordered & 0x7fff_ffff };
+        rho0 + f64::from(f32::from_bits(bits))
+    };
+    Watched {
+        fastest: f64::from(f32::from_bits(fastest)),
+        lightest: number(lightest),
+        densest: number(densest),
+        astray: astray != 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ordered_numbers_are_read_back() {
+        // As `ordered` in the shader makes them.
+        let ordered = |value: f32| {
+            let bits = value.to_bits();
+            if bits & 0x8000_0000 == 0 { bits | 0x8000_0000 } else { !bits }
+        };
+        assert!(ordered(-2.0) < ordered(-1.0) && ordered(-1.0) < ordered(0.0) && ordered(0.0) < ordered(0.5));
+        let watched = watched_from([1.5_f32.to_bits(), ordered(-3.0), ordered(4.25), 0, 9], 1000.0);
+        assert_eq!(watched, Watched { fastest: 1.5, lightest: 997.0, densest: 1004.25, astray: false });
+    }
+}

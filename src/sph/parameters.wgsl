@@ -1,0 +1,95 @@
+// Constants of the scheme (parameters.rs), and what is common to all stages.
+
+struct Parameters {
+    // Bins along x, y, z.
+    count: vec3<i32>,
+    // Water particles; in the records the boundary follows them.
+    water: u32,
+    // Size of a bin [m].
+    size: vec3<f32>,
+    // Boundary particles.
+    boundary: u32,
+    // Bed, walls and wavemaker among them; the others are those of units.
+    walls: u32,
+    // 1 if what leaves on one side enters on the other.
+    periodic: u32,
+    // Width of a periodic domain [m].
+    width: f32,
+    // Smoothing length [m].
+    h: f32,
+    inv_2h: f32,
+    // alpha_D [1/m3].
+    kernel_scale: f32,
+    // -5 alpha_D / h^2 [1/m5].
+    gradient_scale: f32,
+    // rho0 [kg/m3].
+    rho0: f32,
+    // alpha of equation 3 [-].
+    alpha: f32,
+    // -2 delta h c0 [m2/s].
+    diffusion: f32,
+    // rho0 g / c0^2 [kg/m4], zero where the whole density is diffused.
+    hydrostatic: f32,
+    // (gamma - 1) g / (2 c0^2) [1/m].
+    curvature: f32,
+    // g [m/s2].
+    gravity: f32,
+    // -rho0 g / c0^2 [kg/m4], by which mDBC carries densities.
+    density_slope: f32,
+    // Trust in a fitted gradient by the place of the water and by its spread, see mdbc.rs.
+    trust_place: vec2<f32>,
+    trust_spread: vec2<f32>,
+    // Smallest scaled determinant for which a gradient is fitted.
+    least_determinant: f32,
+    // Sum of W V below which a node is dry.
+    dry: f32,
+    // Box that no particle may leave, from the low corner of the grid [m].
+    bounds_low: vec3<f32>,
+    padding_low: f32,
+    bounds_high: vec3<f32>,
+    padding_high: f32,
+    // Binomial series of p in (rho - rho0) / rho0 from the first power on [Pa], and of c from the zeroth [m/s].
+    pressure: array<vec4<f32>, 2>,
+    sound: array<vec4<f32>, 2>,
+}
+
+// What changes from step to step.
+struct Step {
+    // Length of the step [s].
+    dt: f32,
+    // Kernel support, and how far a particle can have gone since it was sorted [m].
+    reach: f32,
+}
+
+// A particle as its neighbours see it (records.rs).
+struct Record {
+    // Bin along x, offset from its low end, y and z from the middle of the grid [m].
+    place: vec4<f32>,
+    // Velocity [m/s] and volume [m3].
+    motion: vec4<f32>,
+    // rho - rho0 [kg/m3], pressure [Pa], speed of sound [m/s], and what it is: WATER, WALL or UNIT.
+    state: vec4<f32>,
+}
+
+const WATER = 0.0;
+const WALL = 1.0;
+const UNIT = 2.0;
+
+@group(0) @binding(0) var<uniform> parameters: Parameters;
+
+// Number of a thread in a dispatch of groups of 64 that may lie in two dimensions.
+fn thread_number(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
+    return (group.y * groups.x + group.x) * 64u + local;
+}
+
+// Bin of the cell of a point; those outside the grid are counted into the nearest.
+fn bin_of_cell(cell: vec3<i32>) -> u32 {
+    let c = clamp(cell, vec3<i32>(0), parameters.count - 1);
+    return u32((c.z * parameters.count.y + c.y) * parameters.count.x + c.x);
+}
+
+// Place as in a Record from a cell and the offset in it.
+fn split(cell: vec3<i32>, offset: vec3<f32>) -> vec4<f32> {
+    let across = (vec2<f32>(cell.yz) - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz + offset.yz;
+    return vec4<f32>(f32(cell.x), offset.x, across);
+}
