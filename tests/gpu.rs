@@ -9,6 +9,8 @@ use std::{path::Path, sync::Arc};
 
 use breakwater::case::Case;
 use breakwater::simulation::Simulation;
+use breakwater::simulation::checkpoint::{self, Checkpoint};
+use breakwater::simulation::recorder::RecorderState;
 use breakwater::sph::device::{Device, DeviceChoice};
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -38,7 +40,7 @@ fn tank(column: Option<[f64; 2]>) -> Value {
     let mut tank = json!({
         "title": "Tank",
         "flume": { "bed_m": [[0.0, 0.0], [0.9, 0.0]], "still_water_level_m": 0.2, "material": "mortar" },
-        "domain": { "x_m": [0.0, 0.9], "width_m": 0.2, "sides": "periodic", "top_z_m": 0.5, "dp_m": 0.02 },
+        "domain": { "x_m": [0.0, 0.9], "width_m": 0.25, "sides": "periodic", "top_z_m": 0.5, "dp_m": 0.025 },
         "numerics": { "wall_slip": "original" },
         "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
         "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.5 }],
@@ -80,7 +82,8 @@ fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>,
 
 /// Root of the mean square of the differences over that of the values, of the vectors and of the fourth numbers.
 fn relative(values: &[[f64; 4]], others: &[[f64; 4]]) -> [f64; 2] {
-    let square = |parts: &dyn Fn(&[f64; 4], &[f64; 4]) -> f64| values.iter().zip(others).map(|(a, b)| parts(a, b)).sum::<f64>();
+    let square =
+        |parts: &dyn Fn(&[f64; 4], &[f64; 4]) -> f64| values.iter().zip(others).map(|(a, b)| parts(a, b)).sum::<f64>();
     let vectors = square(&|a, b| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum());
     let of_vectors = square(&|_, b| (0..3).map(|k| b[k] * b[k]).sum());
     let fourths = square(&|a, b| (a[3] - b[3]).powi(2));
@@ -122,8 +125,11 @@ fn a_dam_breaks_as_on_the_processor() {
         let tip = simulation.water.position.iter().map(|p| p.x).fold(0.0, f64::max);
         (simulation.time, tip, simulation.energy().total(), simulation.energy().kinetic)
     };
-    let ((gpu_time, gpu_tip, gpu_energy, gpu_kinetic), (time, tip, energy, kinetic)) = (end(&device), end(&Device::Cpu));
-    println!("after {time:.4} s: tip {gpu_tip:.5} and {tip:.5} m, energy {gpu_energy:.5} and {energy:.5} J, kinetic {gpu_kinetic:.5} and {kinetic:.5} J");
+    let ((gpu_time, gpu_tip, gpu_energy, gpu_kinetic), (time, tip, energy, kinetic)) =
+        (end(&device), end(&Device::Cpu));
+    println!(
+        "after {time:.4} s: tip {gpu_tip:.5} and {tip:.5} m, energy {gpu_energy:.5} and {energy:.5} J, kinetic {gpu_kinetic:.5} and {kinetic:.5} J"
+    );
     assert!((gpu_time / time - 1.0).abs() < 1e-3);
     // 1e-3: asked for.
     assert!((gpu_tip / tip - 1.0).abs() < 1e-3);
@@ -154,4 +160,34 @@ fn bits_repeat_and_the_sort_is_that_of_the_processor() {
             assert!(near(0.0) || near(1e-8) || near(-1e-8), "{place}");
         }
     }
+}
+
+#[test]
+fn a_checkpoint_goes_on_with_the_same_bits_and_on_the_other_device() {
+    let Some(device) = card() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let case = case(&tank(Some([0.3, 0.3])));
+    let mut unbroken = Simulation::on(&device, case.clone()).unwrap();
+    steps(&mut unbroken, 20);
+    unbroken.begin_step().unwrap();
+    unbroken.fetch().unwrap();
+    Checkpoint::of(&unbroken, &RecorderState::default()).write(folder.path(), Checkpoint::FILE).unwrap();
+    // As a run does when it has written one.
+    unbroken.load().unwrap();
+    let end = |mut simulation: Simulation| {
+        steps(&mut simulation, 20);
+        simulation.fetch().unwrap();
+        simulation
+    };
+    let resumed = |device: &Device| {
+        let mut simulation = Simulation::on(device, case.clone()).unwrap();
+        checkpoint::read(&mut simulation, folder.path()).unwrap();
+        simulation.load().unwrap();
+        simulation
+    };
+    let (unbroken, on_card, on_cpu) = (end(unbroken), end(resumed(&device)), end(resumed(&Device::Cpu)));
+    assert_eq!(on_card.water, unbroken.water);
+    assert_eq!((on_card.time, on_card.steps), (unbroken.time, unbroken.steps));
+    let energies = [&on_card, &on_cpu].map(|simulation| simulation.energy().total());
+    assert!((energies[0] / energies[1] - 1.0).abs() < 1e-5, "{energies:?}");
 }

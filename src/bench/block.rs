@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, DVec3};
 
 use super::{PHASES, tank::Tank};
+#[cfg(feature = "gpu")]
+use crate::particles::{boundary::Boundary, water::Water};
 use crate::sph::{lanes::InstructionSet, parameters::Parameters, step::Solver, wall_slip::WallSlip};
 
 const GRAVITY: f64 = 9.81;
@@ -37,6 +39,18 @@ impl Block {
             tank: Tank::new(instructions, parameters, [side; 3], &|_| side, &slosh, &[]),
             motion: if moving { "moving" } else { "still" },
         }
+    }
+
+    /// Constants of the scheme as cards compute it: with walls that show the water their own velocity.
+    #[cfg(feature = "gpu")]
+    pub(super) fn parameters_of_cards(&self) -> Parameters {
+        Parameters { slip: WallSlip::Original, ..self.tank.solver.parameters }
+    }
+
+    /// Water and boundary.
+    #[cfg(feature = "gpu")]
+    pub(super) fn state(&mut self) -> (&mut Water, &mut Boundary) {
+        (&mut self.tank.water, &mut self.tank.boundary)
     }
 
     /// Number of water particles.

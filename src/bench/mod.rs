@@ -1,6 +1,8 @@
 //! How fast the solver is on this machine: a block of water in a tank, whole steps, phase by phase.
 
 pub mod block;
+#[cfg(feature = "gpu")]
+pub mod card;
 pub mod machine;
 pub mod tank;
 
@@ -23,7 +25,7 @@ pub const FLOPS_PER_PAIR: f64 = 47.0;
 pub struct Measurement {
     /// Still or moving water.
     pub water: &'static str,
-    /// Number of threads.
+    /// Number of threads; 0 on a card.
     pub threads: usize,
     /// Water and boundary particles together.
     pub particles: usize,
@@ -31,7 +33,7 @@ pub struct Measurement {
     pub water_particles: usize,
     /// Mean number of neighbours of a water particle within the support of the kernel.
     pub neighbours_mean: f64,
-    /// Share of the lanes' work that is on pairs within the support.
+    /// Share of the lanes' work that is on pairs within the support; not a number on a card.
     pub useful_lanes: f64,
     /// Steps measured.
     pub steps: u32,
@@ -93,11 +95,6 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
     let pairs = 2.0 * f64::from(steps) * neighbours_mean * water_particles as f64;
     let evaluations = 2.0 * f64::from(steps) * particles as f64;
     let rates = times[3].as_secs_f64();
-    let phase = |(name, time): (&&'static str, &Duration)| Phase {
-        name,
-        share: time.as_secs_f64() / total,
-        ns_per_particle: 1e9 * time.as_secs_f64() / (f64::from(steps) * particles as f64),
-    };
     Measurement {
         water: block.motion,
         threads,
@@ -112,6 +109,17 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
         share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / rates / machine.flops(threads),
         share_of_bandwidth: block.least_traffic() * f64::from(steps) / total / machine.bandwidth(threads),
         bytes_per_particle: (block.solver().bytes() + block.state_bytes()) as f64 / particles as f64,
-        phases: PHASES.iter().zip(&times).map(phase).collect(),
+        phases: phases_of(&times, steps, particles),
     }
+}
+
+/// Times of the phases over a number of steps.
+fn phases_of(times: &[Duration; PHASES.len()], steps: u32, particles: usize) -> Vec<Phase> {
+    let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
+    let phase = |(name, time): (&&'static str, &Duration)| Phase {
+        name,
+        share: time.as_secs_f64() / total,
+        ns_per_particle: 1e9 * time.as_secs_f64() / (f64::from(steps) * particles as f64),
+    };
+    PHASES.iter().zip(times).map(phase).collect()
 }

@@ -1,6 +1,6 @@
 //! `breakwater bench`: how fast is the solver on this machine.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -9,7 +9,10 @@ use super::Trouble;
 use crate::{
     bench::{Measurement, block::Block, machine::Machine, measure},
     output::write_atomically,
-    sph::lanes::InstructionSet,
+    sph::{
+        device::{Device, DeviceChoice},
+        lanes::InstructionSet,
+    },
 };
 
 /// Time whole steps of a block of water: evaluations and pairs a second, by phase, for 1 to N threads.
@@ -33,6 +36,9 @@ pub struct BenchArguments {
     /// Instructions to compute with; the best that the processor has unless given.
     #[arg(long, value_enum)]
     instructions: Option<Instructions>,
+    /// Measure a graphics card instead: gpu or gpu:N as in `breakwater devices`.
+    #[arg(long, value_name = "DEVICE", default_value = "cpu")]
+    device: DeviceChoice,
     /// Write the measurements to this file too: moving water on all threads, and the list of all.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -66,6 +72,9 @@ impl BenchArguments {
         if !(0.1..=600.0).contains(&self.seconds) {
             return Err(Trouble::refused(format!("--seconds: {} is not between 0.1 and 600", self.seconds)));
         }
+        if self.device != DeviceChoice::Cpu {
+            return self.measure_card();
+        }
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = self.threads.map_or(cores, |threads| threads as usize);
         let instructions = self.instructions.map_or_else(InstructionSet::best, Instructions::set);
@@ -90,20 +99,47 @@ impl BenchArguments {
                 measurements.push(measured);
             }
         }
-        let Some(path) = self.json else { return Ok(()) };
-        // The moving water on all threads, which is what a run is like; every measurement in the list.
-        let mut text = json!(measurements.last());
-        text["instructions"] = json!(format!("{instructions:?}"));
-        text["measurements"] = json!(measurements);
-        write_atomically(&path, format!("{text:#}\n").as_bytes()).map_err(Trouble::refused)
+        write_json(self.json.as_deref(), &measurements, ("instructions", format!("{instructions:?}")))
+    }
+
+    #[cfg(feature = "gpu")]
+    fn measure_card(self) -> Result<(), Trouble> {
+        use crate::bench::card::{Peaks, measure_on_card};
+
+        let (device, reason) = Device::open(self.device, None).map_err(Trouble::refused)?;
+        let Device::Gpu(card) = device else { return Err(Trouble::refused(reason.unwrap_or_default())) };
+        let peaks = Peaks::measure(&card).map_err(Trouble::failed)?;
+        println!("{}: peak {:.0} GFLOP/s, memory {:.1} GB/s", card.name(), peaks.flops / 1e9, peaks.bandwidth / 1e9);
+        let mut measurements = Vec::new();
+        for moving in [false, true] {
+            let mut block = Block::new(InstructionSet::best(), self.particles as usize, self.support, moving);
+            let measured = measure_on_card(&mut block, &card, self.seconds, peaks).map_err(Trouble::failed)?;
+            print(&measured);
+            measurements.push(measured);
+        }
+        write_json(self.json.as_deref(), &measurements, ("device", card.name().to_owned()))
+    }
+
+    #[cfg(not(feature = "gpu"))]
+    fn measure_card(self) -> Result<(), Trouble> {
+        Device::open(self.device, None).map_err(Trouble::refused).map(|_| ())
     }
 }
 
+/// The moving water on all threads, which is what a run is like, and every measurement in the list.
+fn write_json(path: Option<&Path>, measurements: &[Measurement], (key, value): (&str, String)) -> Result<(), Trouble> {
+    let Some(path) = path else { return Ok(()) };
+    let mut text = json!(measurements.last());
+    text[key] = json!(value);
+    text["measurements"] = json!(measurements);
+    write_atomically(path, format!("{text:#}\n").as_bytes()).map_err(Trouble::refused)
+}
+
 fn print(measured: &Measurement) {
+    let on = if measured.threads == 0 { "the card".to_owned() } else { format!("{} threads", measured.threads) };
     println!(
-        "\n{} water, {} threads, {:.0} thousand particles ({:.0} water), {:.0} neighbours, {} steps",
+        "\n{} water, {on}, {:.0} thousand particles ({:.0} water), {:.0} neighbours, {} steps",
         measured.water,
-        measured.threads,
         measured.particles as f64 / 1e3,
         measured.water_particles as f64 / 1e3,
         measured.neighbours_mean,
@@ -115,9 +151,11 @@ fn print(measured: &Measurement) {
         measured.pairs_per_s / 1e6,
         measured.bytes_per_particle
     );
+    if measured.useful_lanes.is_finite() {
+        println!("  {:.0} % of the lanes useful", 100.0 * measured.useful_lanes);
+    }
     println!(
-        "  {:.0} % of the lanes useful; {:.0} % of the arithmetic peak ({:.0} % in the pair loop), at least {:.0} % of the memory bandwidth",
-        100.0 * measured.useful_lanes,
+        "  {:.0} % of the arithmetic peak ({:.0} % in the pair loop), at least {:.0} % of the memory bandwidth",
         100.0 * measured.share_of_peak,
         100.0 * measured.share_of_peak_in_rates,
         100.0 * measured.share_of_bandwidth

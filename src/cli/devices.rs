@@ -19,17 +19,33 @@ pub(super) struct DeviceArgument {
     /// What computes the water: auto (a graphics card if there is one for the case), cpu, gpu or gpu:N as in
     /// `breakwater devices`.
     #[arg(long, default_value = "auto", value_name = "DEVICE")]
-    device: DeviceChoice,
+    pub(super) device: DeviceChoice,
 }
 
 impl DeviceArgument {
     /// The device for a case.
     pub(super) fn open(&self, case: &Case, quiet: bool) -> Result<Device, Trouble> {
-        let (device, reason) = Device::open(self.device, not_on_cards(case)).map_err(Trouble::refused)?;
+        let (mut device, mut reason) = Device::open(self.device, not_on_cards(case)).map_err(Trouble::refused)?;
+        if self.device == DeviceChoice::Auto && !device.holds(case.estimate().particles()) {
+            reason = Some(format!("{} has not enough memory", device.name()));
+            device = Device::Cpu;
+        }
         if let (Some(reason), false) = (reason, quiet) {
             eprintln!("on the CPU: {reason}");
         }
         Ok(device)
+    }
+}
+
+impl DeviceArgument {
+    /// Without water there is nothing for a card.
+    pub(super) fn refuse_card(&self) -> Result<(), Trouble> {
+        match self.device {
+            DeviceChoice::Gpu(_) => {
+                Err(Trouble::refused("--device gpu: a case without water is computed on the processor"))
+            }
+            DeviceChoice::Auto | DeviceChoice::Cpu => Ok(()),
+        }
     }
 }
 
@@ -50,7 +66,8 @@ fn list_cards() {
     for (number, card) in cards.iter().enumerate() {
         let software = if card.is_software { "; a program on the processor, for tests" } else { "" };
         println!("gpu:{number}  {} ({}){software}", card.name, card.interface);
-        let memory = card.memory.map_or_else(|| "memory unknown".to_owned(), |bytes| format!("{:.1} GB", bytes as f64 / 1e9));
+        let memory =
+            card.memory.map_or_else(|| "memory unknown".to_owned(), |bytes| format!("{:.1} GB", bytes as f64 / 1e9));
         println!(
             "       {memory}, pieces of at most {:.2} GB: room for {:.1} million particles",
             card.largest_binding.min(card.largest_buffer) as f64 / 1e9,

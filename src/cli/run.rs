@@ -4,16 +4,20 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, devices, dry_report, fracture, fresh_folder, hand_over, is_fracture, load_any, stem};
+use super::{
+    AnyCase, Trouble, devices::DeviceArgument, dry_report, fracture, fresh_folder, hand_over, is_fracture, load_any,
+    stem,
+};
 use crate::{
     case::Case,
     dry::{self, recorder::DryRecorder},
     output::{Stopped, Summary},
     simulation::{
-        checkpoint::Checkpoint,
+        checkpoint::{Checkpoint, device_of},
         progress::readable,
         run::{RunError, RunOptions, resume, run},
     },
+    sph::device::DeviceChoice,
 };
 
 /// Run a case: wave, water, units, contact; tables, ParaView files, summary and report come into one folder.
@@ -30,7 +34,7 @@ pub struct RunArguments {
     #[command(flatten)]
     machine: MachineArguments,
     #[command(flatten)]
-    device: devices::DeviceArgument,
+    device: DeviceArgument,
 }
 
 /// Go on with an interrupted run from its last checkpoint; the end has the same bits as that of an unbroken run.
@@ -40,8 +44,9 @@ pub struct ResumeArguments {
     dir: PathBuf,
     #[command(flatten)]
     machine: MachineArguments,
-    #[command(flatten)]
-    device: devices::DeviceArgument,
+    /// What computes the water, as for run; without it, what has computed it so far.
+    #[arg(long, value_name = "DEVICE")]
+    device: Option<DeviceChoice>,
 }
 
 /// What a run takes of the machine.
@@ -71,6 +76,7 @@ impl RunArguments {
                 hand_over::of_run(&case, &summary, &dir, options.quiet)
             }
             AnyCase::Dry(case) => {
+                self.device.refuse_card()?;
                 dry_report::introduce(&case, &dir, options.quiet);
                 let summary = dry_report::finish(dry::run::run(case.clone(), &dir, options.quiet), &dir)?;
                 hand_over::of_dry_run(&case, &summary, &dir, options.quiet)
@@ -99,12 +105,15 @@ impl ResumeArguments {
         let mut options = self.machine.prepare()?;
         match case {
             AnyCase::Wet(case) => {
-                options.device = self.device.open(&case, options.quiet)?;
+                let before = || device_of(&self.dir).map_or(DeviceChoice::Auto, |name| DeviceChoice::named(&name));
+                let device = DeviceArgument { device: self.device.unwrap_or_else(before) };
+                options.device = device.open(&case, options.quiet)?;
                 introduce(&case, &self.dir, &options);
                 let summary = finish(resume(case.clone(), &self.dir, &options), &self.dir)?;
                 hand_over::of_run(&case, &summary, &self.dir, options.quiet)
             }
             AnyCase::Dry(case) => {
+                DeviceArgument { device: self.device.unwrap_or_default() }.refuse_card()?;
                 dry_report::introduce(&case, &self.dir, options.quiet);
                 let summary = dry_report::finish(dry::run::resume(case.clone(), &self.dir, options.quiet), &self.dir)?;
                 hand_over::of_dry_run(&case, &summary, &self.dir, options.quiet)

@@ -128,6 +128,7 @@ impl DrySummary {
                 steps_per_s: run.world.substeps() as f64 / wall_s.max(1e-9),
                 threads: rayon::current_num_threads(),
                 created: None,
+                device: None,
             },
         }
     }

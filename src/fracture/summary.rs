@@ -229,6 +229,7 @@ impl FractureSummary {
                 steps_per_s: watched.steps as f64 / watched.wall.max(1e-9),
                 threads: rayon::current_num_threads(),
                 created: None,
+                device: None,
             },
         }
     }

@@ -244,6 +244,9 @@ pub struct Execution {
     /// Date and time of the end (RFC 3339); none if not recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub created: Option<String>,
+    /// What computed the water.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device: Option<String>,
 }
 
 impl Summary {
@@ -320,7 +323,7 @@ mod tests {
     fn the_file_has_the_required_keys_and_reads_back() {
         let folder = tempfile::tempdir().unwrap();
         let mut summary = two_units();
-        summary.execution = Execution { wall_s: 12.5, steps_per_s: 3.0, threads: 4, created: None };
+        summary.execution = Execution { wall_s: 12.5, steps_per_s: 3.0, threads: 4, created: None, device: None };
         summary.breakage = Some(BreakageSummary { scale: 50.0, damaged_ratio: 0.5, broken_ratio: 0.0 });
         summary.write(folder.path()).unwrap();
         assert_eq!(Summary::read(folder.path()).unwrap(), summary);

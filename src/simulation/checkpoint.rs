@@ -24,13 +24,15 @@ use crate::{
 };
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 9;
+const VERSION: u32 = 10;
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]
 struct Scalars {
     version: u32,
     case_hash: String,
+    /// Name of the device that computed the water.
+    device: String,
     time: f64,
     steps: u64,
     statistics: Statistics,
@@ -62,6 +64,7 @@ impl Checkpoint {
         let scalars = Scalars {
             version: VERSION,
             case_hash: simulation.case.hash.clone(),
+            device: simulation.solver.name().to_owned(),
             time: simulation.time,
             steps: simulation.steps,
             statistics: simulation.statistics.clone(),
@@ -101,6 +104,13 @@ impl Checkpoint {
     }
 }
 
+/// Name of the device that computed the run of a folder, if it has a checkpoint that can be read.
+pub fn device_of(dir: &Path) -> Option<String> {
+    let path = dir.join(Checkpoint::FILE);
+    let (text, ()) = read_state(&path, |_| Ok(())).ok()?;
+    parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
+}
+
 /// Put a simulation of the same case into the state of the checkpoint; returns the state of the outputs.
 ///
 /// # Errors
@@ -128,6 +138,14 @@ pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, Ou
     simulation.time = scalars.time;
     simulation.steps = scalars.steps;
     simulation.statistics = scalars.statistics;
+    let now = simulation.solver.name();
+    if scalars.device != now {
+        simulation.statistics.warnings.push(format!(
+            "went on at {:.3} s on another device, {now} instead of {}: as exact, but not with the same bits",
+            simulation.flume_time(),
+            scalars.device
+        ));
+    }
     simulation.absorbed = scalars.absorbed;
     if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
         units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;

@@ -37,10 +37,13 @@ impl Simulation {
         let flume_time = self.flume_time() + dt;
         let rows = self.wavemaker.as_ref().map(|wavemaker| rows(wavemaker, &self.absorbed, flume_time, 0.0));
         let rows = rows.unwrap_or_default();
-        let surfaces = self.surfaces(&rows);
-        let near = self.solver.take_near(&surfaces)?;
+        let near = match self.solver.keeps_water() {
+            true => Some(self.solver.take_near(&self.surfaces(&rows))?),
+            false => None,
+        };
         let Self { case, outline, wavemaker, units, solver, water, .. } = self;
-        let (nearest, dp) = (surfaces.nearest, case.domain.dp);
+        let dp = case.domain.dp;
+        let nearest = NEAREST * dp;
         // What a device has taken out is near to something already; all the water is looked through by its bins.
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
             keep_out_of_walls(water, outline, nearest);
@@ -154,13 +157,7 @@ fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64;
 }
 
 /// Returns the impulse on each unit [N s] and its moment about the centre of mass [N m s].
-fn keep_out_of_units(
-    water: &mut Water,
-    units: &Units,
-    grid: &Grid,
-    bins: Option<&Bins>,
-    nearest: f64,
-) -> Vec<Load> {
+fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option<&Bins>, nearest: f64) -> Vec<Load> {
     let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
     let keep_out = |state: &BodyState| {
         let mut impulse = Load::default();

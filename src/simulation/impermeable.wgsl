@@ -41,8 +41,8 @@ struct Near {
 @group(0) @binding(6) var<storage, read_write> near: array<Near>;
 // The last one counts the near particles; for the others see step.wgsl.
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>, 5>;
-// Velocity, and the bits of the particle's place.
-@group(0) @binding(8) var<storage, read> changes: array<vec4<f32>>;
+// Bits of a velocity, and the particle's place. As whole numbers: small ones would be lost as bits of a number.
+@group(0) @binding(8) var<storage, read> changes: array<vec4<u32>>;
 
 // Within the distance of the outline or behind it.
 fn is_near_outline(at: vec2<f32>) -> bool {
@@ -117,7 +117,6 @@ fn put_velocities(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgrou
     let k = thread_number(group, groups, local);
     if k < surfaces.room {
         let change = changes[k];
-        let i = bitcast<u32>(change.w);
-        motion[i] = vec4<f32>(change.xyz, motion[i].w);
+        motion[change.w] = vec4<f32>(bitcast<vec3<f32>>(change.xyz), motion[change.w].w);
     }
 }

@@ -54,6 +54,7 @@ use crate::{
     rigid::{BodyState, Load, RigidWorld},
     sph::{
         backend::{Backend, DeviceError},
+        power::Powers,
         rates::Rate,
         sampling::Sampler,
     },
@@ -185,6 +186,9 @@ impl Simulation {
             if let Err(error) = world.advance(dt, fluid_loads) {
                 return Err(failure::of_units(self, error));
             }
+            if world.impacts_with_peak_after(since).next().is_some() {
+                self.solver.fetch_boundary_densities(&mut self.boundary)?;
+            }
             water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters().tait);
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
             self.statistics.count_still_loads(&units.fluid_loads);
@@ -242,6 +246,14 @@ impl Simulation {
         &*self.solver
     }
 
+    /// Who gives energy to the water and who takes it now; valid as [`Self::sampler`].
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn powers(&mut self) -> Result<Powers, DeviceError> {
+        self.solver.powers(&self.water)
+    }
+
     /// Rates of the water found last, in the order of its arrays once they are fetched.
     ///
     /// # Errors
@@ -256,6 +268,11 @@ impl Simulation {
     /// If the device is lost.
     pub fn fetch(&mut self) -> Result<(), DeviceError> {
         self.solver.fetch(&mut self.water, &mut self.boundary)
+    }
+
+    /// Whether the water lies with a device and not in the host's arrays.
+    pub fn is_on_card(&self) -> bool {
+        self.solver.keeps_water()
     }
 
     /// Give water and boundary of the host's arrays to the device.

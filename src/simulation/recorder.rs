@@ -292,7 +292,7 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
 }
 
 fn energy_row(simulation: &mut Simulation) -> Result<[f64; 10], DeviceError> {
-    let powers = simulation.solver.powers(&simulation.water)?;
+    let powers = simulation.powers()?;
     simulation.statistics.balance.add(simulation.time, powers);
     let balance = simulation.statistics.balance;
     let energy = simulation.energy();

@@ -83,7 +83,7 @@ fn drive(
     simulation.statistics.energy_start = Some(energy_start);
     let mut warnings_shown = simulation.statistics.warnings.len();
     loop {
-        let dt = match simulation.begin_step() {
+        let mut dt = match simulation.begin_step() {
             Ok(dt) => dt,
             Err(failure) => return Err(keep_failed(&mut simulation, &mut recorder, dir, failure)),
         };
@@ -96,7 +96,16 @@ fn drive(
             write_report(dir)?;
             return Ok(summary);
         }
+        let checkpoints = recorder.state().checkpoints;
         recorder.record_due(&mut simulation, dt)?;
+        if simulation.is_on_card() && recorder.state().checkpoints > checkpoints {
+            // Places in double precision are not to the last bit those of the card: go on as a resumed run will.
+            let begun = simulation.load().map_err(Failure::from).and_then(|()| simulation.begin_step());
+            dt = match begun {
+                Ok(dt) => dt,
+                Err(failure) => return Err(keep_failed(&mut simulation, &mut recorder, dir, failure)),
+            };
+        }
         if let Err(failure) = simulation.finish_step(dt) {
             return Err(keep_failed(&mut simulation, &mut recorder, dir, failure));
         }
@@ -118,6 +127,9 @@ fn details(simulation: &Simulation, dt: f64) -> String {
 
 /// Keep the state of a failed run beside the last good checkpoint, and the outputs up to it.
 fn keep_failed(simulation: &mut Simulation, recorder: &mut Recorder, dir: &Path, failure: Failure) -> RunError {
+    if matches!(failure, Failure::Device(_)) {
+        return RunError::Failed { failure, kept: "no file (it was on the device)".to_owned() };
+    }
     let mut write = |recorder: &mut Recorder| {
         simulation.fetch()?;
         recorder.drain()?;

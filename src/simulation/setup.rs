@@ -117,10 +117,11 @@ impl Simulation {
         }
 
         let [low, high] = bounds(&case, seaward_reach);
+        let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let mut simulation = Self {
-            solver: device.solver(parameters(&case), low, high)?,
+            solver: device.solver(parameters(&case), [low, high], allowed)?,
             statistics: Statistics::new(count),
-            bounds: [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)],
+            bounds: allowed,
             case,
             flume,
             water,

@@ -60,6 +60,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
             steps_per_s: steps_run / statistics.wall_s.max(1e-9),
             threads: rayon::current_num_threads(),
             created: None,
+            device: Some(simulation.solver().name().to_owned()),
         },
         ..Summary::default()
     };

@@ -16,6 +16,9 @@ use super::{
 };
 use crate::particles::{boundary::Boundary, water::Water};
 
+/// Name of the processor as a device.
+pub const PROCESSOR: &str = "CPU";
+
 /// A device that cannot be used, or no longer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DeviceError {
@@ -34,7 +37,9 @@ pub enum DeviceError {
     #[error("the GPU does not compute {0}; run with --device cpu")]
     Scheme(&'static str),
     /// It failed while it computed.
-    #[error("{device} was lost: {what}; the last checkpoint is not touched: go on from it with breakwater resume, on this or another device")]
+    #[error(
+        "{device} was lost: {what}; the last checkpoint is not touched: go on from it with breakwater resume, on this or another device"
+    )]
     Lost {
         /// Its name.
         device: String,
@@ -85,6 +90,9 @@ pub struct NearWater {
 
 /// The verbs of a step.
 pub trait Backend: Send {
+    /// Name of the device.
+    fn name(&self) -> &str;
+
     /// Constants of the scheme.
     fn parameters(&self) -> &Parameters;
 
@@ -94,7 +102,10 @@ pub trait Backend: Send {
     /// Where the bins of the water begin, as last sorted and fetched.
     fn water_bins(&self) -> &Bins;
 
-    /// Take over water and boundary: at the start and after a checkpoint has been read.
+    /// Whether the water lies with the device and not in the arrays of the host.
+    fn keeps_water(&self) -> bool;
+
+    /// Take over water and boundary: at the start and after a checkpoint has been read or written.
     ///
     /// # Errors
     /// If the device has not enough memory.
@@ -105,6 +116,12 @@ pub trait Backend: Send {
     /// # Errors
     /// If the device is lost.
     fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
+
+    /// Bring the boundary's densities alone up to date.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
     /// Sort the particles into bins, the water's arrays with them.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
@@ -142,11 +159,11 @@ pub trait Backend: Send {
     /// If the device is lost.
     fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError>;
 
-    /// The water near to surfaces, to be kept out of them; `None` if it lies in the arrays of the host.
+    /// The water near to surfaces, to be kept out of them, of a device that keeps the water.
     ///
     /// # Errors
     /// If the device is lost.
-    fn take_near(&mut self, surfaces: &Surfaces) -> Result<Option<NearWater>, DeviceError>;
+    fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
 
     /// Give back the velocities of the water near to surfaces.
     fn put_near(&mut self, near: &NearWater);
@@ -172,6 +189,10 @@ pub trait Backend: Send {
 }
 
 impl Backend for Solver {
+    fn name(&self) -> &str {
+        PROCESSOR
+    }
+
     fn parameters(&self) -> &Parameters {
         &self.parameters
     }
@@ -184,11 +205,19 @@ impl Backend for Solver {
         Self::water_bins(self)
     }
 
+    fn keeps_water(&self) -> bool {
+        false
+    }
+
     fn load(&mut self, _: &Water, _: &Boundary) -> Result<(), DeviceError> {
         Ok(())
     }
 
     fn fetch(&mut self, _: &mut Water, _: &mut Boundary) -> Result<(), DeviceError> {
+        Ok(())
+    }
+
+    fn fetch_boundary_densities(&mut self, _: &mut Boundary) -> Result<(), DeviceError> {
         Ok(())
     }
 
@@ -230,8 +259,8 @@ impl Backend for Solver {
         Ok(Self::unit_loads(self, boundary, centres))
     }
 
-    fn take_near(&mut self, _: &Surfaces) -> Result<Option<NearWater>, DeviceError> {
-        Ok(None)
+    fn take_near(&mut self, _: &Surfaces) -> Result<NearWater, DeviceError> {
+        Ok(NearWater::default())
     }
 
     fn put_near(&mut self, _: &NearWater) {}

@@ -4,13 +4,13 @@ use std::str::FromStr;
 
 use glam::DVec3;
 
+#[cfg(feature = "gpu")]
+use super::gpu::{card::Card, memory::most_particles, solver::GpuSolver};
 use super::{
-    backend::{Backend, DeviceError},
+    backend::{Backend, DeviceError, PROCESSOR},
     parameters::Parameters,
     step::Solver,
 };
-#[cfg(feature = "gpu")]
-use super::gpu::{card::Card, solver::GpuSolver};
 
 /// What the user asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,6 +36,20 @@ impl FromStr for DeviceChoice {
             Some(("gpu", index)) => number(index).map(Self::Gpu),
             _ => Err("must be auto, cpu, gpu or gpu:N with N as in breakwater devices".to_owned()),
         }
+    }
+}
+
+impl DeviceChoice {
+    /// The device of a name, as checkpoints keep it, if it is here; else what there is.
+    pub fn named(name: &str) -> Self {
+        if name == PROCESSOR {
+            return Self::Cpu;
+        }
+        #[cfg(feature = "gpu")]
+        if let Some(number) = Card::all().iter().position(|card| card.name == name) {
+            return Self::Gpu(number);
+        }
+        Self::Auto
     }
 }
 
@@ -80,7 +94,8 @@ impl Device {
     #[cfg(feature = "gpu")]
     fn best_card() -> Result<Self, DeviceError> {
         let number = Card::all().iter().position(|card| !card.is_software);
-        let missing = || DeviceError::Missing("there is no graphics card; breakwater devices shows what there is".to_owned());
+        let missing =
+            || DeviceError::Missing("there is no graphics card; breakwater devices shows what there is".to_owned());
         Self::card(number.ok_or_else(missing)?)
     }
 
@@ -99,31 +114,49 @@ impl Device {
         Err(DeviceError::Missing("this breakwater was built without the feature `gpu`".to_owned()))
     }
 
+    /// Whether so many particles fit.
+    pub fn holds(&self, particles: f64) -> bool {
+        #[cfg(feature = "gpu")]
+        if let Self::Gpu(card) = self {
+            return particles <= most_particles(card.info()) as f64;
+        }
+        particles.is_finite()
+    }
+
     /// Its name.
     pub fn name(&self) -> String {
         match self {
-            Self::Cpu => "CPU".to_owned(),
+            Self::Cpu => PROCESSOR.to_owned(),
             #[cfg(feature = "gpu")]
             Self::Gpu(card) => card.name().to_owned(),
         }
     }
 
-    /// What computes water in the box from `low` to `high` [m].
+    /// What computes water with bins in the box from `low` to `high` that may not leave the box `bounds` [m].
     ///
     /// # Errors
     /// If the device does not know the scheme.
-    pub fn solver(&self, parameters: Parameters, low: DVec3, high: DVec3) -> Result<Box<dyn Backend>, DeviceError> {
+    pub fn solver(
+        &self,
+        parameters: Parameters,
+        [low, high]: [DVec3; 2],
+        bounds: [DVec3; 2],
+    ) -> Result<Box<dyn Backend>, DeviceError> {
+        // The processor leaves it to the run to look at its arrays.
+        let _ = bounds;
         match self {
             Self::Cpu => Ok(Box::new(Solver::new(parameters, low, high))),
             #[cfg(feature = "gpu")]
-            Self::Gpu(card) => Ok(Box::new(GpuSolver::new(card.clone(), parameters, low, high)?)),
+            Self::Gpu(card) => Ok(Box::new(GpuSolver::new(card.clone(), parameters, [low, high], bounds)?)),
         }
     }
 }
 
 /// The part of a scheme that cards do not compute, if there is one.
 pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
-    use super::{density_diffusion::DensityDiffusion, parameters::BoundaryCondition, viscosity::Viscosity, wall_slip::WallSlip};
+    use super::{
+        density_diffusion::DensityDiffusion, parameters::BoundaryCondition, viscosity::Viscosity, wall_slip::WallSlip,
+    };
     if parameters.boundary == BoundaryCondition::Dynamic {
         return Some("the dynamic boundary condition (numerics.boundary = \"dbc\")");
     }
@@ -144,8 +177,31 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_cards_do_not_compute_is_named() {
+        use super::super::{density_diffusion::DensityDiffusion, parameters::BoundaryCondition, wall_slip::WallSlip};
+        let published = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
+        assert_eq!(not_on_cards(&published), None);
+        let free_slip = Parameters { slip: WallSlip::FreeSlip, ..published };
+        let dynamic = Parameters { boundary: BoundaryCondition::Dynamic, ..published };
+        let mut antuono = published;
+        antuono.diffusion.kind = DensityDiffusion::Antuono;
+        for (parameters, key) in
+            [(free_slip, "wall_slip"), (dynamic, "numerics.boundary"), (antuono, "density_diffusion")]
+        {
+            assert!(not_on_cards(&parameters).is_some_and(|what| what.contains(key)), "{key}");
+            // Asked for by name it is refused; by auto the processor computes it, and it is said why.
+            let refused = Device::open(DeviceChoice::Gpu(0), not_on_cards(&parameters)).unwrap_err().to_string();
+            assert!(refused.contains(key) && refused.contains("--device cpu"), "{refused}");
+            let (device, reason) = Device::open(DeviceChoice::Auto, not_on_cards(&parameters)).unwrap();
+            assert!(matches!(device, Device::Cpu) && reason.is_some_and(|reason| reason.contains(key)));
+        }
+    }
+
+    #[test]
     fn devices_are_read_as_they_are_written() {
         let read = |text: &str| text.parse::<DeviceChoice>();
+        assert_eq!(DeviceChoice::named(PROCESSOR), DeviceChoice::Cpu);
+        assert_eq!(DeviceChoice::named("a card of another machine"), DeviceChoice::Auto);
         assert_eq!(read("auto"), Ok(DeviceChoice::Auto));
         assert_eq!(read("cpu"), Ok(DeviceChoice::Cpu));
         assert_eq!(read("gpu"), Ok(DeviceChoice::Gpu(0)));

@@ -30,10 +30,10 @@ pub mod device;
 pub mod equation_of_state;
 mod gap_pressure;
 pub mod ghost_velocity;
-pub mod gradients;
-pub mod grid;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod gradients;
+pub mod grid;
 mod group;
 pub mod kernel;
 pub mod lanes;

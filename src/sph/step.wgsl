@@ -36,6 +36,11 @@ fn ordered(value: f32) -> u32 {
     return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
 }
 
+// By the bits: a compiler may take it that there is nothing but numbers.
+fn is_finite(values: vec4<f32>) -> bool {
+    return all((bitcast<vec4<u32>>(values) & vec4<u32>(0x7f800000u)) != vec4<u32>(0x7f800000u));
+}
+
 var<workgroup> fastest: array<u32, 64>;
 var<workgroup> lightest: array<u32, 64>;
 var<workgroup> densest: array<u32, 64>;
@@ -86,8 +91,7 @@ fn correct(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gro
         motion[i] = vec4<f32>(velocity, now.w);
         let at = vec3<f32>(place.xyz) * parameters.size + rest;
         let inside = all(at >= parameters.bounds_low) && all(at <= parameters.bounds_high);
-        // Comparisons with what is not a number are false.
-        let finite = abs(excess) < 1e30 && dot(velocity, velocity) < 1e30;
+        let finite = is_finite(vec4<f32>(rest, excess)) && is_finite(vec4<f32>(velocity, 0.0));
         if !(inside && finite) {
             atomicMax(&extremes[3], 1u);
         }

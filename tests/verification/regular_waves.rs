@@ -91,7 +91,7 @@ fn run(tank: &Tank) -> Seen {
     let (middle, top) = (5.0 * tank.dp, simulation.case.domain.top_z);
     run_until(&mut simulation, end, |now| {
         if now.steps.is_multiple_of(20) {
-            balance.add(now.time, now.solver().powers(&now.water));
+            balance.add(now.time, now.powers().unwrap());
             energies.push([now.energy().total(), now.statistics.balance.zones]);
         }
         if now.time >= first && now.steps.is_multiple_of(4) {

@@ -32,7 +32,7 @@ pub fn simulation(case: &Value) -> Simulation {
 }
 
 /// Step until a time [s]; between the two halves of each step, when gauges can be read, `look` sees the state.
-pub fn run_until(simulation: &mut Simulation, end: f64, mut look: impl FnMut(&Simulation)) {
+pub fn run_until(simulation: &mut Simulation, end: f64, mut look: impl FnMut(&mut Simulation)) {
     while simulation.time < end {
         let dt = simulation.begin_step().unwrap();
         look(simulation);

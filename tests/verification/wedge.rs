@@ -50,7 +50,7 @@ fn stillness(boundary: &str, dp: f64, duration: f64) -> Stillness {
     let points = points(10.0 * dp);
     let mut errors = vec![0.0; points.len()];
     let (mut square, mut count) = (0.0, 0.0);
-    run_until(&mut tank, duration, |now: &Simulation| {
+    run_until(&mut tank, duration, |now: &mut Simulation| {
         if now.time < 0.5 * duration || !now.steps.is_multiple_of(20) {
             return;
         }

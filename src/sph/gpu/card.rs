@@ -2,6 +2,7 @@
 
 use std::{
     fmt,
+    panic::{AssertUnwindSafe, catch_unwind},
     sync::{Arc, Mutex, PoisonError},
 };
 
@@ -56,8 +57,14 @@ fn adapters() -> Vec<wgpu::Adapter> {
     let instance = Instance::default();
     let mut adapters =
         pollster::block_on(instance.enumerate_adapters(Backends::VULKAN | Backends::METAL | Backends::DX12));
-    // Cards before programs that stand for one; the others keep the order of the system.
-    adapters.sort_by_key(|adapter| adapter.get_info().device_type == DeviceType::Cpu);
+    // Cards of their own before those in the processor, programs that stand for one last.
+    adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::VirtualGpu => 1,
+        DeviceType::IntegratedGpu => 2,
+        DeviceType::Other => 3,
+        DeviceType::Cpu => 4,
+    });
     adapters
 }
 
@@ -150,6 +157,11 @@ impl Card {
         &self.info.name
     }
 
+    /// What is known of it.
+    pub fn info(&self) -> &CardInfo {
+        &self.info
+    }
+
     /// What has gone wrong since it was opened.
     ///
     /// # Errors
@@ -189,7 +201,7 @@ impl Card {
     ///
     /// # Errors
     /// As [`Self::buffer`].
-    pub(super) fn filled<T: Pod>(&self, label: &'static str, values: &[T]) -> Result<wgpu::Buffer, DeviceError> {
+    pub(crate) fn filled<T: Pod>(&self, label: &'static str, values: &[T]) -> Result<wgpu::Buffer, DeviceError> {
         let buffer = self.buffer::<T>(label, values.len())?;
         self.write(&buffer, 0, values);
         Ok(buffer)
@@ -230,15 +242,17 @@ impl Card {
             return Ok(Vec::new());
         }
         let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
-        let copy =
-            self.device.create_buffer(&BufferDescriptor { label: Some("copy"), size, usage, mapped_at_creation: false });
+        let copy = self.device.create_buffer(&BufferDescriptor {
+            label: Some("copy"),
+            size,
+            usage,
+            mapped_at_creation: false,
+        });
         encoder.copy_buffer_to_buffer(buffer, (first * size_of::<T>()) as u64, &copy, 0, size);
         self.queue.submit([encoder.finish()]);
         copy.map_async(wgpu::MapMode::Read, .., |_| ());
-        let lost = |what: String| DeviceError::Lost { device: self.info.name.clone(), what };
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| lost(error.to_string()))?;
-        self.check()?;
-        let view = copy.get_mapped_range(..).map_err(|error| lost(error.to_string()))?;
+        self.wait()?;
+        let view = copy.get_mapped_range(..).map_err(|error| self.lost(error))?;
         let values = bytemuck::pod_collect_to_vec(&view);
         drop(view);
         copy.unmap();
@@ -246,23 +260,35 @@ impl Card {
     }
 
     /// A place for commands.
-    pub(super) fn encoder(&self) -> wgpu::CommandEncoder {
+    pub(crate) fn encoder(&self) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("step") })
+    }
+
+    /// Give commands to the card.
+    pub(crate) fn submit(&self, encoder: wgpu::CommandEncoder) {
+        self.queue.submit([encoder.finish()]);
     }
 
     /// Wait until everything that was submitted is done.
     ///
     /// # Errors
     /// If the device is lost.
-    pub(super) fn wait(&self) -> Result<(), DeviceError> {
-        let lost = |what: String| DeviceError::Lost { device: self.info.name.clone(), what };
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| lost(error.to_string()))?;
+    pub(crate) fn wait(&self) -> Result<(), DeviceError> {
+        self.check()?;
+        // wgpu panics where it finds a device lost while it waits.
+        let wait = AssertUnwindSafe(|| self.device.poll(wgpu::PollType::wait_indefinitely()));
+        let waited = catch_unwind(wait).map_err(|_| self.lost("while waiting for it"))?;
+        waited.map_err(|error| self.lost(error))?;
         self.check()
+    }
+
+    fn lost(&self, what: impl fmt::Display) -> DeviceError {
+        DeviceError::Lost { device: self.info.name.clone(), what: what.to_string() }
     }
 }
 
 /// Groups of a dispatch over `threads` in groups of `size`, in two dimensions where one is too short.
-pub(super) fn groups(threads: usize, size: usize) -> [u32; 2] {
+pub(crate) fn groups(threads: usize, size: usize) -> [u32; 2] {
     let all = (threads.div_ceil(size) as u64).max(1);
     let rows = all.div_ceil(MOST_GROUPS);
     [all.div_ceil(rows) as u32, rows as u32]
@@ -271,6 +297,22 @@ pub(super) fn groups(threads: usize, size: usize) -> [u32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn too_much_memory_is_refused_with_the_way_out() {
+        let Ok(card) = Card::open(0) else { return println!("skipped: no card") };
+        let numbers = (card.info.largest_binding / 16 + 1) as usize;
+        let message = card.buffer::<[f32; 4]>("the test", numbers).unwrap_err().to_string();
+        for part in [card.name(), "the test needs a piece of", "raise domain.dp_m"] {
+            assert!(message.contains(part), "{message}");
+        }
+    }
+
+    #[test]
+    fn a_card_that_is_not_there_is_refused() {
+        let message = Card::open(99).unwrap_err().to_string();
+        assert!(message.contains("--device gpu:99: there") && message.contains("breakwater devices"), "{message}");
+    }
 
     #[test]
     fn dispatches_hold_all_threads_within_the_limit() {

@@ -97,10 +97,10 @@ impl Constants {
         }
     }
 
-    /// The same without viscosity and diffusion: pressure alone.
+    /// The same without viscosity and diffusion, and with the water as the only target: pressure on the water alone.
     pub fn of_pressure_alone(self) -> Self {
         let [hydrostatic, curvature] = Diffusion::none().hydrostatic();
-        Self { alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
+        Self { boundary: 0, alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
     }
 }
 

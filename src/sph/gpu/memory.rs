@@ -27,6 +27,7 @@ pub fn most_particles(card: &CardInfo) -> u64 {
 pub(super) struct Memory {
     pub water: usize,
     pub boundary: usize,
+    walls: usize,
     /// All bytes on the card.
     pub bytes: usize,
     pub parameters: wgpu::Buffer,
@@ -60,14 +61,11 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Memory for particles (water, boundary, bed and walls among it) and bins, filled with their state.
+    /// Memory for particles (water, boundary, bed and walls among it) and bins.
     pub fn new(
         card: &Card,
         constants: &Constants,
-        state: &CardState,
-        (of_boundary, surfaces): &(CardState, Vec<[f32; 4]>),
-        excess_density: &[f32],
-        [water, boundary, _]: [usize; 3],
+        [water, boundary, walls]: [usize; 3],
         bins: usize,
     ) -> Result<Self, DeviceError> {
         let parameters = card.uniform("parameters", constants);
@@ -75,20 +73,20 @@ impl Memory {
         let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
         // The largest piece first: if the card refuses one, it is this.
         let records = card.buffer::<[f32; RECORD / 4]>("the particles' records", water + boundary)?;
-        let offset = card.filled("the water's places", &state.offset)?;
-        let cell = card.filled("the water's bins", &state.cell)?;
-        let motion = card.filled("the water's velocities", &state.motion)?;
+        let offset = card.buffer::<[f32; 4]>("the water's places", water)?;
+        let cell = card.buffer::<[i32; 4]>("the water's bins", water)?;
+        let motion = card.buffer::<[f32; 4]>("the water's velocities", water)?;
         let half_offset = card.buffer::<[f32; 4]>("the water's places at the half step", water)?;
         let half_motion = card.buffer::<[f32; 4]>("the water's velocities at the half step", water)?;
         let rates = card.buffer::<[f32; 4]>("the rates", water + boundary)?;
         let limits = card.buffer::<u32>("limits", 2)?;
         let unused_limits = card.buffer::<u32>("limits", 2)?;
         let extremes = card.buffer::<u32>("extremes", 5)?;
-        let boundary_offset = card.filled("the boundary's places", &of_boundary.offset)?;
-        let boundary_cell = card.filled("the boundary's bins", &of_boundary.cell)?;
-        let boundary_motion = card.filled("the boundary's velocities", &of_boundary.motion)?;
-        let boundary_density = card.filled("the boundary's densities", excess_density)?;
-        let to_surface = card.filled("the ways to surfaces", surfaces)?;
+        let boundary_offset = card.buffer::<[f32; 4]>("the boundary's places", boundary)?;
+        let boundary_cell = card.buffer::<[i32; 4]>("the boundary's bins", boundary)?;
+        let boundary_motion = card.buffer::<[f32; 4]>("the boundary's velocities", boundary)?;
+        let boundary_density = card.buffer::<f32>("the boundary's densities", boundary)?;
+        let to_surface = card.buffer::<[f32; 4]>("the ways to surfaces", boundary)?;
         let sort = Sort::new(card, &parameters, &cell, water, bins)?;
         let boundary_sort = Sort::new(card, &parameters, &boundary_cell, boundary, bins)?;
 
@@ -108,7 +106,8 @@ impl Memory {
                 (8, &half_motion),
             ],
         );
-        let of = |offset, motion| bind("of_water", &[(0, &parameters), (1, offset), (2, &cell), (3, motion), (5, &records)]);
+        let of =
+            |offset, motion| bind("of_water", &[(0, &parameters), (1, offset), (2, &cell), (3, motion), (5, &records)]);
         let water_records = of(&offset, &motion);
         let half_records = of(&half_offset, &half_motion);
         let boundary_records = bind(
@@ -147,7 +146,8 @@ impl Memory {
         let shader = Shader::new(card, STEP);
         let state_of_step = [(0, &parameters), (1, &step), (2, &offset), (4, &motion), (5, &rates), (6, &half_offset)];
         let predict = shader.kernel("predict").bind(card, &[&state_of_step[..], &[(7, &half_motion)]].concat());
-        let correct = shader.kernel("correct").bind(card, &[&state_of_step[..], &[(3, &cell), (8, &extremes)]].concat());
+        let correct =
+            shader.kernel("correct").bind(card, &[&state_of_step[..], &[(3, &cell), (8, &extremes)]].concat());
         card.check()?;
 
         // Places, bins, velocities, half step, rates, record; the boundary's surfaces and densities.
@@ -156,6 +156,7 @@ impl Memory {
         Ok(Self {
             water,
             boundary,
+            walls,
             bytes: of_water + of_boundary,
             parameters,
             step,
@@ -184,6 +185,37 @@ impl Memory {
             predict,
             correct,
         })
+    }
+
+    /// Whether it is made for these numbers of particles.
+    pub fn holds(&self, particles: [usize; 3]) -> bool {
+        [self.water, self.boundary, self.walls] == particles
+    }
+
+    /// Put in the state of water and boundary, with the boundary's rho - rho0 [kg/m3].
+    pub fn fill(
+        &self,
+        card: &Card,
+        state: &CardState,
+        (of_boundary, surfaces): &(CardState, Vec<[f32; 4]>),
+        excess_density: &[f32],
+    ) {
+        card.write(&self.offset, 0, &state.offset);
+        card.write(&self.cell, 0, &state.cell);
+        card.write(&self.motion, 0, &state.motion);
+        card.write(&self.boundary_offset, 0, &of_boundary.offset);
+        card.write(&self.boundary_cell, 0, &of_boundary.cell);
+        card.write(&self.boundary_motion, 0, &of_boundary.motion);
+        card.write(&self.boundary_density, 0, excess_density);
+        card.write(&self.to_surface, 0, surfaces);
+    }
+
+    /// Bytes that a step must at least move.
+    pub fn least_traffic(&self) -> f64 {
+        // Sorted and copied back: twelve vectors of four; predicted: five; corrected: seven.
+        let of_water = self.water * (24 * 16 + 2 * 2 * RECORD + 4 * 16);
+        let of_boundary = self.boundary * (2 * 2 * RECORD + 6 * 16);
+        (of_water + of_boundary) as f64
     }
 
     /// Put the water's arrays in the order of the bins.

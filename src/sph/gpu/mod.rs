@@ -12,8 +12,8 @@
 //! | [`solver`] | the verbs of a step |
 //!
 //! The state of the water stays on the card, in single precision: a place is a bin and an offset in it, whose last bit
-//! is a millionth of a millionth of a flume, so that slow particles do not stand still. Neighbours are found in the
-//! bins, row by row, by every particle for itself: no lists, 0.3 kB a particle.
+//! is a nanometre for bins of centimetres, so that slow particles do not stand still. Neighbours are found in the bins,
+//! row by row, by every particle for itself: there are no lists.
 
 pub mod card;
 pub mod constants;

@@ -131,12 +131,14 @@ impl NearSearch {
     pub fn put(
         &mut self,
         card: &Card,
-        _: &Memory,
         near: &NearWater,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), DeviceError> {
-        let change = |(&place, velocity): (&u32, &DVec3)| velocity.as_vec3().extend(f32::from_bits(place)).to_array();
-        let changes: Vec<[f32; 4]> = near.places.iter().zip(&near.water.velocity).map(change).collect();
+        let change = |(&place, velocity): (&u32, &DVec3)| {
+            let [x, y, z] = velocity.as_vec3().to_array().map(f32::to_bits);
+            [x, y, z, place]
+        };
+        let changes: Vec<[u32; 4]> = near.places.iter().zip(&near.water.velocity).map(change).collect();
         let constants = SurfaceConstants { room: changes.len() as u32, ..SurfaceConstants::default() };
         card.write(&self.put_constants, 0, &[constants]);
         card.write(&self.memory.changes, 0, &changes);
@@ -155,7 +157,7 @@ impl SearchMemory {
     ) -> Result<Self, DeviceError> {
         let shapes = card.buffer::<[f32; 4]>("shapes", shapes_room)?;
         let near = card.buffer::<NearParticle>("the water near to surfaces", room)?;
-        let changes = card.buffer::<[f32; 4]>("the velocities near to surfaces", room)?;
+        let changes = card.buffer::<[u32; 4]>("the velocities near to surfaces", room)?;
         let water = [(0, &memory.parameters), (2, &memory.offset), (3, &memory.cell), (4, &memory.motion)];
         let found = [(1, constants), (5, &shapes), (6, &near), (7, &memory.extremes)];
         let find = find.bind(card, &[&water[..], &found[..]].concat());
@@ -169,9 +171,10 @@ fn shapes_of(grid: &Grid, dp: f64, surfaces: &Surfaces) -> (SurfaceConstants, Ve
     let vector = |point: DVec3, w: f64| (point - grid.low).as_vec3().extend(w as f32).to_array();
     let (low_x, low_z) = (grid.low.x, grid.low.z);
     let nearest = surfaces.nearest + ALLOWANCE * dp;
-    let pieces = surfaces.outline.iter().map(|&[x0, z0, x1, z1]| {
-        [x0 - low_x, z0 - low_z, x1 - low_x, z1 - low_z].map(|value| value as f32)
-    });
+    let pieces = surfaces
+        .outline
+        .iter()
+        .map(|&[x0, z0, x1, z1]| [x0 - low_x, z0 - low_z, x1 - low_x, z1 - low_z].map(|value| value as f32));
     let boxes = surfaces.boxes.iter().flatten().map(|&corner| vector(corner, 0.0));
     let balls = surfaces.balls.iter().map(|&(centre, radius)| vector(centre, radius + ALLOWANCE * dp));
     let nothing = (0.0, 0.0, Vec::new());

@@ -43,10 +43,9 @@ pub struct Shader<'a> {
 impl<'a> Shader<'a> {
     /// Compile one of the shaders above.
     pub fn new(card: &'a Card, source: &'static str) -> Self {
-        let descriptor =
-            wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) };
-        // SAFETY: the shaders are our own; every index is below the length of its array, which the tests of the shaders
-        // check with bounds checks on in debug builds, and every loop ends.
+        let descriptor = wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) };
+        // SAFETY: the shaders are our own: threads beyond the particles return, indices are places in arrays of that length
+        // or bins clamped to the grid, and every loop ends.
         let module = unsafe {
             let checks = if cfg!(debug_assertions) {
                 wgpu::ShaderRuntimeChecks::checked()
@@ -108,19 +107,21 @@ mod tests {
 
     use super::*;
 
-    const ALL: [(&str, &str); 6] = [
+    const ALL: [(&str, &str); 7] = [
         ("grid", GRID),
         ("records", RECORDS),
         ("mdbc", MDBC),
         ("rates", RATES),
         ("step", STEP),
         ("impermeable", IMPERMEABLE),
+        ("peaks", crate::bench::card::PEAKS),
     ];
 
     #[test]
     fn shaders_are_sound_and_bind_no_more_than_every_card_has() {
         for (name, source) in ALL {
-            let module = wgsl::parse_str(source).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+            let module =
+                wgsl::parse_str(source).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
             let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
                 .validate(&module)
                 .unwrap_or_else(|error| panic!("{name}: {error:?}"));

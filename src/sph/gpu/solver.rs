@@ -58,17 +58,20 @@ struct Loaded {
 }
 
 impl GpuSolver {
-    /// Solver for the box from `low` to `high` [m].
+    /// Solver for bins in the box from `low` to `high` and particles that may not leave the box `bounds` [m].
     ///
     /// # Errors
     /// If cards do not compute the scheme.
-    pub fn new(card: Card, parameters: Parameters, low: DVec3, high: DVec3) -> Result<Self, DeviceError> {
+    pub fn new(
+        card: Card,
+        parameters: Parameters,
+        [low, high]: [DVec3; 2],
+        bounds: [DVec3; 2],
+    ) -> Result<Self, DeviceError> {
         if let Some(what) = not_on_cards(&parameters) {
             return Err(DeviceError::Scheme(what));
         }
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
-        // As high again above the walls, as a run allows.
-        let bounds = [low, high + DVec3::Z * (high.z - low.z)];
         Ok(Self { card, parameters, grid, bounds, loaded: None, bins: Bins::default(), encoder: None, trouble: None })
     }
 
@@ -78,8 +81,14 @@ impl GpuSolver {
     /// If the device is lost.
     pub fn finish(&mut self) -> Result<(), DeviceError> {
         let encoder = self.take_encoder();
-        self.card.queue.submit([encoder.finish()]);
+        self.card.submit(encoder);
         self.card.wait()
+    }
+
+    /// Bytes that a step must at least move: the water's state to be sorted, predicted and corrected, the records, which
+    /// are written and read twice, and rates.
+    pub fn least_traffic(&self) -> f64 {
+        self.loaded.as_ref().map_or(0.0, |loaded| loaded.memory.least_traffic())
     }
 
     /// Bytes on the card.
@@ -111,19 +120,22 @@ impl GpuSolver {
     fn upload_moving(&mut self, boundary: &Boundary) {
         let moving = boundary.piston().start..boundary.len();
         let first = moving.start;
-        let (state, surfaces) =
-            CardState::of_boundary(&self.grid, self.parameters.tait.rho0, boundary, moving);
+        let (state, surfaces) = CardState::of_boundary(&self.grid, self.parameters.tait.rho0, boundary, moving);
         let Some(loaded) = &mut self.loaded else { return };
         let memory = &loaded.memory;
         self.card.write(&memory.boundary_offset, first, &state.offset);
         self.card.write(&memory.boundary_cell, first, &state.cell);
         self.card.write(&memory.boundary_motion, first, &state.motion);
         self.card.write(&memory.to_surface, first, &surfaces);
-        loaded.fastest[1] = largest(&boundary.velocity);
+        loaded.fastest[1] = largest(&boundary.velocity[first..]);
     }
 }
 
 impl Backend for GpuSolver {
+    fn name(&self) -> &str {
+        self.card.name()
+    }
+
     fn parameters(&self) -> &Parameters {
         &self.parameters
     }
@@ -136,6 +148,10 @@ impl Backend for GpuSolver {
         &self.bins
     }
 
+    fn keeps_water(&self) -> bool {
+        true
+    }
+
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError> {
         let particles = [water.len(), boundary.len(), boundary.walls().end];
         let constants = Constants::new(&self.parameters, &self.grid, self.bounds, particles);
@@ -143,16 +159,20 @@ impl Backend for GpuSolver {
         let state = CardState::of_water(&self.grid, rho0, water);
         let of_boundary = CardState::of_boundary(&self.grid, rho0, boundary, 0..boundary.len());
         let excess: Vec<f32> = boundary.density.iter().map(|density| (density - rho0) as f32).collect();
-        let memory = Memory::new(&self.card, &constants, &state, &of_boundary, &excess, particles, self.grid.bins())?;
-        self.loaded = Some(Loaded {
-            near: NearSearch::new(&self.card, &memory)?,
-            memory,
-            fastest: [largest(&water.velocity), largest(&boundary.velocity)],
-            watched: Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false },
-        });
+        let loaded = match self.loaded.take() {
+            Some(loaded) if loaded.memory.holds(particles) => loaded,
+            _ => {
+                let memory = Memory::new(&self.card, &constants, particles, self.grid.bins())?;
+                let watched = Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false };
+                Loaded { near: NearSearch::new(&self.card, &memory)?, memory, fastest: [0.0; 2], watched }
+            }
+        };
+        let loaded = self.loaded.insert(loaded);
+        loaded.memory.fill(&self.card, &state, &of_boundary, &excess);
+        loaded.fastest = [largest(&water.velocity), largest(&boundary.velocity)];
         self.encoder = None;
         self.trouble = None;
-        Ok(())
+        self.card.check()
     }
 
     fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError> {
@@ -160,8 +180,8 @@ impl Backend for GpuSolver {
         let bins = self.grid.bins() + 1;
         let Loaded { memory, .. } = self.loaded()?;
         let count = memory.water;
-        let buffers = [&memory.offset, &memory.cell, &memory.motion, &memory.sort.start, &memory.boundary_density];
-        let [offset, cell, motion, start, density] = buffers.map(Clone::clone);
+        let [offset, cell, motion, start] =
+            [&memory.offset, &memory.cell, &memory.motion, &memory.sort.start].map(Clone::clone);
         let card = &self.card;
         let offset = card.read(encoder, &offset, 0, count)?;
         let cell = card.read(card.encoder(), &cell, 0, count)?;
@@ -169,7 +189,14 @@ impl Backend for GpuSolver {
         let rho0 = self.parameters.tait.rho0;
         CardState { offset, cell, motion }.put_into(&self.grid, rho0, water);
         self.bins.start = card.read(card.encoder(), &start, 0, bins)?;
-        let excess: Vec<f32> = card.read(card.encoder(), &density, 0, boundary.len())?;
+        self.fetch_boundary_densities(boundary)
+    }
+
+    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError> {
+        let encoder = self.take_encoder();
+        let density = self.loaded()?.memory.boundary_density.clone();
+        let excess: Vec<f32> = self.card.read(encoder, &density, 0, boundary.len())?;
+        let rho0 = self.parameters.tait.rho0;
         boundary.density.iter_mut().zip(excess).for_each(|(density, excess)| *density = rho0 + f64::from(excess));
         Ok(())
     }
@@ -206,26 +233,19 @@ impl Backend for GpuSolver {
     fn limits(&mut self) -> Result<Limits, DeviceError> {
         let encoder = self.take_encoder();
         let limits = self.loaded()?.memory.limits.clone();
-        let [acceleration, signal_speed] =
-            [0, 1].map(|k| move |bits: &[u32]| f64::from(f32::from_bits(bits[k])));
-        let bits = self.card.read(encoder, &limits, 0, 2)?;
-        Ok(Limits { acceleration: acceleration(&bits), signal_speed: signal_speed(&bits) })
+        let values: Vec<f32> = self.card.read(encoder, &limits, 0, 2)?;
+        Ok(Limits { acceleration: f64::from(values[0]), signal_speed: f64::from(values[1]) })
     }
 
-    fn predict(
-        &mut self,
-        dt: f64,
-        _: &Water,
-        boundary: &mut Boundary,
-        move_boundary: &mut dyn FnMut(&mut Boundary),
-    ) {
+    fn predict(&mut self, dt: f64, _: &Water, boundary: &mut Boundary, move_boundary: &mut dyn FnMut(&mut Boundary)) {
         move_boundary(boundary);
         self.upload_moving(boundary);
-        let support = self.parameters.kernel.support();
+        let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
         self.tell(|card, Loaded { memory, fastest, .. }, encoder| {
             // After the approach to a surface has been taken away, water can have its own speed and the surface's.
             let speed = fastest[0] + fastest[1];
-            let reach = (support + 0.5 * dt * speed) * ROUNDING;
+            let moved = (0.5 * dt * speed).min(h);
+            let reach = (support + moved) * ROUNDING;
             card.write(&memory.step, 0, &[StepConstants { dt: dt as f32, reach: reach as f32 }]);
             card.write(&memory.extremes, 0, &NOTHING_SEEN);
             memory.predict.run(encoder, groups(memory.water, 64));
@@ -255,25 +275,24 @@ impl Backend for GpuSolver {
         Ok(boundary.units().iter().zip(centres).map(load).collect())
     }
 
-    fn take_near(&mut self, surfaces: &Surfaces) -> Result<Option<NearWater>, DeviceError> {
+    fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError> {
         let encoder = self.take_encoder();
         self.loaded()?;
         let rho0 = self.parameters.tait.rho0;
         let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
-        let Some(Loaded { memory, near, fastest, watched }) = &mut self.loaded else { return Ok(None) };
+        let Some(Loaded { memory, near, fastest, watched }) = &mut self.loaded else { return Ok(NearWater::default()) };
         let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
         *watched = watched_from(extremes, rho0);
         fastest[0] = watched.fastest;
-        let mut out = NearWater::default();
-        out.places = found.cell.iter().map(|cell| cell[3] as u32).collect();
-        found.put_into(grid, rho0, &mut out.water);
-        Ok(Some(out))
+        let mut water = Water::default();
+        found.put_into(grid, rho0, &mut water);
+        Ok(NearWater { places: water.id.clone(), water })
     }
 
     fn put_near(&mut self, near: &NearWater) {
-        let Some(Loaded { memory, near: search, .. }) = &mut self.loaded else { return };
+        let Some(Loaded { near: search, .. }) = &mut self.loaded else { return };
         let mut encoder = self.encoder.take().unwrap_or_else(|| self.card.encoder());
-        if let Err(trouble) = search.put(&self.card, memory, near, &mut encoder) {
+        if let Err(trouble) = search.put(&self.card, near, &mut encoder) {
             self.trouble = Some(trouble);
         }
         self.encoder = Some(encoder);

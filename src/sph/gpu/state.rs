@@ -98,7 +98,14 @@ impl CardState {
     }
 }
 
-fn one(grid: &Grid, position: DVec3, velocity: DVec3, excess: f64, mass: f64, id: i32) -> ([f32; 4], [i32; 4], [f32; 4]) {
+fn one(
+    grid: &Grid,
+    position: DVec3,
+    velocity: DVec3,
+    excess: f64,
+    mass: f64,
+    id: i32,
+) -> ([f32; 4], [i32; 4], [f32; 4]) {
     let ([x, y, z], [dx, dy, dz]) = to_cell(grid, position);
     ([dx, dy, dz, excess as f32], [x, y, z, id], velocity.as_vec3().extend(mass as f32).to_array())
 }
@@ -110,7 +117,9 @@ mod tests {
     #[test]
     fn places_keep_their_digits_in_a_long_flume() {
         let grid = Grid::new(DVec3::new(36.5, 0.0, 0.4), DVec3::new(41.0, 0.16, 1.1), 0.009, Some(0.16));
-        for point in [DVec3::new(36.499_123_456, 0.012_345_678, 0.712_345_678), DVec3::new(40.987_654_321, 0.159_9, 2.3)] {
+        for point in
+            [DVec3::new(36.499_123_456, 0.012_345_678, 0.712_345_678), DVec3::new(40.987_654_321, 0.159_9, 2.3)]
+        {
             let ([x, y, z], [dx, dy, dz]) = to_cell(&grid, point);
             let back = to_point(&grid, [x, y, z, 0], [dx, dy, dz, 0.0]);
             // Half the last bit of an offset below 18 mm.
