@@ -11,6 +11,7 @@ use breakwater::case::Case;
 use breakwater::simulation::Simulation;
 use breakwater::simulation::checkpoint::{self, Checkpoint};
 use breakwater::simulation::recorder::RecorderState;
+use breakwater::sph::backend::Surfaces;
 use breakwater::sph::device::{Device, DeviceChoice};
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -190,4 +191,123 @@ fn a_checkpoint_goes_on_with_the_same_bits_and_on_the_other_device() {
     assert_eq!((on_card.time, on_card.steps), (unbroken.time, unbroken.steps));
     let energies = [&on_card, &on_cpu].map(|simulation| simulation.energy().total());
     assert!((energies[0] / energies[1] - 1.0).abs() < 1e-5, "{energies:?}");
+}
+
+/// The same state on the card and on the processor, some steps on the processor after the start of a case.
+fn both(device: &Device, case: &Arc<Case>, before: u32) -> [Simulation; 2] {
+    [device, &Device::Cpu].map(|device| {
+        let mut start = Simulation::new(case.clone()).unwrap();
+        steps(&mut start, before);
+        let mut simulation = Simulation::on(device, case.clone()).unwrap();
+        std::mem::swap(&mut simulation.water, &mut start.water);
+        std::mem::swap(&mut simulation.boundary, &mut start.boundary);
+        simulation.load().unwrap();
+        simulation
+    })
+}
+
+/// Largest distance between the places of the same particles [m].
+fn furthest_apart(a: &Simulation, b: &Simulation) -> f64 {
+    let mut places = vec![DVec3::ZERO; a.water.len()];
+    a.water.id.iter().zip(&a.water.position).for_each(|(&id, place)| places[id as usize] = *place);
+    let apart = |(&id, place): (&u32, &DVec3)| {
+        let mut r = places[id as usize] - *place;
+        // Periodic sides may have counted one of them to the other side.
+        r.y -= a.case.domain.width * (r.y / a.case.domain.width).round();
+        r.length()
+    };
+    b.water.id.iter().zip(&b.water.position).map(apart).fold(0.0, f64::max)
+}
+
+#[test]
+fn walls_an_obstacle_and_two_dimensions_hold_the_water_as_on_the_processor() {
+    let Some(device) = card() else { return };
+    let mut walled = tank(Some([0.3, 0.3]));
+    walled["domain"]["sides"] = json!("walls");
+    walled["domain"]["obstacles"] = json!([{ "low_m": [0.4, 0.0, 0.0], "high_m": [0.5, 0.125, 0.2] }]);
+    let mut flat = tank(Some([0.3, 0.3]));
+    flat["domain"]["sides"] = json!("two_dimensional");
+    flat["domain"].as_object_mut().unwrap().remove("width_m");
+    for (name, value) in [("walls and an obstacle", walled), ("two dimensions", flat)] {
+        let [mut gpu, mut cpu] = both(&device, &case(&value), 500);
+        for simulation in [&mut gpu, &mut cpu] {
+            steps(simulation, 40);
+            simulation.begin_step().unwrap();
+            simulation.fetch().unwrap();
+        }
+        let apart = furthest_apart(&gpu, &cpu);
+        let [of_gpu, of_cpu] = [gpu.powers().unwrap(), cpu.powers().unwrap()];
+        println!("{name}: places {apart:.1e} m apart, powers {of_gpu:?}, {of_cpu:?}");
+        // Rates to 1e-5 of some 100 m/s2 over 13 ms are 1e-7 m; where particles meet a wall, a hundred times that.
+        assert!(apart < 1e-5);
+        let all = of_cpu.boundary.abs() + of_cpu.viscosity.abs() + of_cpu.diffusion.abs();
+        for (gpu, cpu) in [
+            (of_gpu.boundary, of_cpu.boundary),
+            (of_gpu.viscosity, of_cpu.viscosity),
+            (of_gpu.diffusion, of_cpu.diffusion),
+        ] {
+            // 1e-3: pressure alone is a small rest of large sums.
+            assert!((gpu - cpu).abs() < 1e-3 * all, "{gpu} {cpu}");
+        }
+    }
+}
+
+#[test]
+fn units_and_wavemaker_move_as_on_the_processor() {
+    let Some(device) = card() else { return };
+    let mut value: Value =
+        serde_json::from_str(include_str!("../cases/fudo/quick-look.json")).expect("the quick look is JSON");
+    value["numerics"]["hold_units_s"] = json!(0.0);
+    let [mut gpu, mut cpu] = both(&device, &case(&value), 0);
+    for simulation in [&mut gpu, &mut cpu] {
+        steps(simulation, 8);
+        simulation.fetch().unwrap();
+    }
+    let apart = furthest_apart(&gpu, &cpu);
+    let [of_gpu, of_cpu] = [&gpu, &cpu].map(|simulation| simulation.units.as_ref().unwrap().states().to_vec());
+    let units = of_gpu.iter().zip(&of_cpu).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
+    let units = units.fold(0.0, f64::max);
+    println!("places of water {apart:.1e} m apart, velocities of units {units:.1e}");
+    // As above; the units' loads agree to 1e-5.
+    assert!(apart < 1e-6 && units < 1e-4);
+}
+
+#[test]
+fn water_astray_is_named() {
+    let Some(device) = card() else { return };
+    let spoilt = |spoil: fn(&mut Simulation)| {
+        let mut simulation = Simulation::on(&device, case(&tank(None))).unwrap();
+        spoil(&mut simulation);
+        simulation.load().unwrap();
+        let done = simulation.begin_step().and_then(|dt| simulation.finish_step(dt));
+        done.unwrap_err().to_string()
+    };
+    let message = spoilt(|simulation| simulation.water.velocity[700].x = f64::NAN);
+    assert!(message.contains("no longer a finite number") && message.contains("water particle"), "{message}");
+    let message = spoilt(|simulation| simulation.water.position[700].z = 3.0);
+    assert!(message.contains("has left the domain") && message.contains("z = 3.000 m"), "{message}");
+    let message = spoilt(|simulation| simulation.water.density[700] = 1500.0);
+    assert!(message.contains("water particle"), "{message}");
+}
+
+#[test]
+fn all_the_water_can_be_near_a_surface_and_gets_its_velocities_back() {
+    let Some(device) = card() else { return };
+    let case = case_file("fudo/quick-look.json");
+    let start = Simulation::new(case).unwrap();
+    let (mut water, mut boundary) = (start.water.clone(), start.boundary.clone());
+    let grid = start.solver().grid().clone();
+    let high = grid.low + grid.size * DVec3::from_array(grid.count.map(|n| n as f64));
+    let mut solver = device.solver(*start.solver().parameters(), [grid.low, high], [grid.low, high]).unwrap();
+    solver.load(&water, &boundary).unwrap();
+    solver.sort(&mut water, &boundary);
+    // More than there is room for at first.
+    let everywhere = Surfaces { balls: vec![(high, 100.0)], ..Surfaces::default() };
+    let mut near = solver.take_near(&everywhere).unwrap();
+    assert!(near.places.iter().copied().eq(0..water.len() as u32));
+    let given = |id: u32| DVec3::new(f64::from(id % 512), 1.0, -2.0);
+    near.water.velocity = near.places.iter().map(|&place| given(place)).collect();
+    solver.put_near(&near);
+    solver.fetch(&mut water, &mut boundary).unwrap();
+    assert!(water.velocity.iter().enumerate().all(|(i, velocity)| *velocity == given(i as u32)));
 }

@@ -93,3 +93,50 @@ impl Sort {
         4 * (3 * points + 2 * bins + bins / SCANNED)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::{super::constants::Constants, *};
+    use crate::sph::{
+        grid::{Bins, Grid},
+        parameters::Parameters,
+    };
+
+    #[test]
+    fn the_order_is_that_of_the_processor() {
+        let Ok(card) = Card::open(0) else { return println!("skipped: no card") };
+        let size = DVec3::new(1.4, 1.0, 1.2);
+        let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
+        let grid = Grid::new(DVec3::ZERO, size, parameters.dp, None);
+        // More blocks of bins than a group of threads scans at once, and points that share bins.
+        assert!(grid.bins() > 300 * SCANNED);
+        let spread = |i: u32, factor: u32| f64::from(i.wrapping_mul(factor) % 9973) / 9973.0;
+        let mut points: Vec<DVec3> =
+            (0..7000).map(|i| DVec3::new(spread(i, 7919), spread(i, 104_729), spread(i, 1_299_709)) * size).collect();
+        points.extend((0..500).map(|i| DVec3::splat(0.5 + 1e-6 * f64::from(i % 7))));
+        // Outside the grid.
+        points.push(DVec3::new(-1.0, 0.5, 9.0));
+        let cells: Vec<[i32; 4]> = points
+            .iter()
+            .map(|&point| {
+                let ([x, y, z], _) = super::super::state::to_cell(&grid, point);
+                [x, y, z, 0]
+            })
+            .collect();
+        let constants = Constants::new(&parameters, &grid, [DVec3::ZERO, size], [points.len(), 0, 0]);
+        let (constants, cells) = (card.uniform("parameters", &constants), card.filled("cells", &cells).unwrap());
+        let sort = Sort::new(&card, &constants, &cells, points.len(), grid.bins()).unwrap();
+        let mut encoder = card.encoder();
+        // Twice: nothing is left over from the first time.
+        sort.run(&mut encoder);
+        sort.run(&mut encoder);
+        let order: Vec<u32> = card.read(encoder, &sort.order, 0, points.len()).unwrap();
+        let start: Vec<u32> = card.read(card.encoder(), &sort.start, 0, grid.bins() + 1).unwrap();
+        let mut bins = Bins::default();
+        bins.sort(&grid, &points);
+        assert_eq!(start, bins.start);
+        assert_eq!(order, bins.order);
+    }
+}
