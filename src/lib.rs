@@ -18,6 +18,7 @@
 //! | [`placement`] | armour layers: units placed one by one and settled |
 //! | [`output`] | ParaView files, tables, checkpoints, summary, report, comparison |
 //! | [`bench`] | how fast the solver is on this machine |
+//! | [`sweep`] | one case with keys that vary, every combination a run |
 //! | [`cli`] | one file a subcommand |
 //!
 //! SI units throughout. Axes: x from the wavemaker to the shore, y across the flume, z upwards.
@@ -40,4 +41,5 @@ mod random;
 pub mod rigid;
 pub mod simulation;
 pub mod sph;
+pub mod sweep;
 pub mod waves;

@@ -1,15 +1,16 @@
 //! `breakwater check`: is a case sound, and what does it cost.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, is_fracture, load_any, placement};
+use super::{AnyCase, Trouble, is_fracture, is_sweep, load_any, placement};
 use crate::{
     case::{Case, DryCase, DryTest, Handover, Hardness, Sides, Units, Wave},
     dry::DryRun,
     rigid::{RigidError, RigidSetup, RigidWorld},
     simulation::{bodies::rigid_setup, incoming::particle_start, progress::readable, setup::check_times},
+    sweep::plan::{Sweep, in_words},
 };
 
 /// Full evaluations of a particle's rates per second and core that the estimate of the run time counts on; a step
@@ -34,6 +35,13 @@ impl CheckArguments {
         for path in &self.cases {
             if let Some(file) = placement(path) {
                 println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+                continue;
+            }
+            if is_sweep(path) {
+                match Sweep::load(path) {
+                    Ok(sweep) => print_sweep(path, &sweep),
+                    Err(reason) => refusals.push(reason.to_string()),
+                }
                 continue;
             }
             if is_fracture(path) {
@@ -65,6 +73,15 @@ impl CheckArguments {
             }
         }
         if refusals.is_empty() { Ok(()) } else { Err(Trouble::refused(refusals.join("\n"))) }
+    }
+}
+
+fn print_sweep(path: &Path, sweep: &Sweep) {
+    println!("{}: {}", path.display(), sweep.title);
+    println!("  runs        {} of {}", sweep.members.len(), sweep.case.display());
+    for one in &sweep.varied {
+        let values: Vec<String> = one.values.iter().map(in_words).collect();
+        println!("  varies      {}: {}", one.key, values.join(", "));
     }
 }
 

@@ -14,20 +14,16 @@ mod place;
 mod report;
 mod run;
 mod schema;
+mod sweep;
 mod unit;
 mod wave;
 
-use std::{
-    fmt::Display,
-    path::{Path, PathBuf},
-    process::ExitCode,
-    sync::Arc,
-};
+use std::{fmt::Display, path::Path, process::ExitCode, sync::Arc};
 
 use clap::{Parser, Subcommand};
 
 use crate::case::{Case, DryCase, FractureCase, PlacementFile};
-use crate::handover;
+use crate::{handover, sweep::plan::Sweep};
 
 /// Will this wave move the armour units, and will the units break?
 ///
@@ -68,6 +64,7 @@ enum Command {
     Schema(schema::SchemaArguments),
     Bench(bench::BenchArguments),
     Devices(devices::DevicesArguments),
+    Sweep(sweep::SweepArguments),
 }
 
 /// Why a command ended without its result.
@@ -105,6 +102,7 @@ pub fn main() -> ExitCode {
         Command::Schema(arguments) => arguments.execute(),
         Command::Bench(arguments) => arguments.execute(),
         Command::Devices(arguments) => arguments.execute(),
+        Command::Sweep(arguments) => arguments.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -137,6 +135,10 @@ fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
         let what = "is a fracture case; run it with breakwater fracture";
         return Err(Trouble::refused(format!("{}: {what}", path.display())));
     }
+    if is_sweep(path) {
+        let what = "is a sweep; run it with breakwater sweep";
+        return Err(Trouble::refused(format!("{}: {what}", path.display())));
+    }
     let is_dry = std::fs::read_to_string(path).is_ok_and(|text| DryCase::is_one(&text));
     if !is_dry {
         return load(path).map(AnyCase::Wet);
@@ -144,6 +146,11 @@ fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
     let case = DryCase::load(path).map_err(Trouble::refused)?;
     show_warnings(&case.warnings);
     Ok(AnyCase::Dry(Arc::new(case)))
+}
+
+/// Whether a file is a sweep.
+fn is_sweep(path: &Path) -> bool {
+    std::fs::read_to_string(path).is_ok_and(|text| Sweep::is_one(&text))
 }
 
 /// Whether a file is a fracture case.
@@ -213,7 +220,7 @@ const RESULT_FILES: [&str; 35] = [
 ];
 
 /// Make a folder for results: new, or empty, or cleared of an earlier run's files if the user says so.
-fn fresh_folder(dir: &PathBuf, overwrite: bool) -> Result<(), Trouble> {
+fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), Trouble> {
     let cannot = |error: std::io::Error| Trouble::refused(format!("{}: {error}", dir.display()));
     let occupied = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
     if occupied && !overwrite {

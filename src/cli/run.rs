@@ -54,10 +54,10 @@ pub struct ResumeArguments {
 pub(super) struct MachineArguments {
     /// Threads; without it, one a core. The results do not depend on it.
     #[arg(long)]
-    threads: Option<usize>,
+    pub(super) threads: Option<usize>,
     /// No progress.
     #[arg(long)]
-    quiet: bool,
+    pub(super) quiet: bool,
 }
 
 impl RunArguments {
@@ -156,7 +156,7 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
 }
 
 /// Say how a run ended.
-fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
+pub(super) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
     let summary = match ended {
         Ok(summary) => summary,
         Err(error @ RunError::Setup(_)) => return Err(Trouble::refused(error)),

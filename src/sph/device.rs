@@ -1,6 +1,6 @@
 //! What the water is computed on: the processor, or a graphics card.
 
-use std::str::FromStr;
+use std::{fmt, str::FromStr};
 
 use glam::DVec3;
 
@@ -22,6 +22,16 @@ pub enum DeviceChoice {
     Cpu,
     /// A graphics card, by its number in `breakwater devices`.
     Gpu(usize),
+}
+
+impl fmt::Display for DeviceChoice {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => write!(out, "auto"),
+            Self::Cpu => write!(out, "cpu"),
+            Self::Gpu(number) => write!(out, "gpu:{number}"),
+        }
+    }
 }
 
 impl FromStr for DeviceChoice {

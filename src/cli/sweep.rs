@@ -1,0 +1,173 @@
+//! `breakwater sweep`: one case with keys that vary.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use clap::{Args, ValueEnum};
+
+use super::{
+    Trouble,
+    devices::DeviceArgument,
+    fresh_folder, hand_over,
+    run::{MachineArguments, finish},
+    stem,
+};
+use crate::{
+    case::Case,
+    output::Summary,
+    simulation::{
+        checkpoint::Checkpoint,
+        run::{resume, run},
+    },
+    sweep::{
+        member::Outcome,
+        plan::{Member, Sweep},
+        queue::Work,
+        slurm, table,
+    },
+};
+
+/// Times that runs which Slurm leaves unfinished are submitted.
+const SUBMISSIONS: usize = 2;
+
+/// Run a case over lists or ranges of its keys: every combination a run of its own, all of them in one table and chart.
+///
+/// What is finished is kept: the same command goes on after an interruption. A run that fails is tried once more.
+#[derive(Args)]
+pub struct SweepArguments {
+    /// The sweep file: title, case, and `vary`, a list of {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or
+    /// {"key": ..., "from": 0.1, "to": 0.98, "count": 9}.
+    sweep: PathBuf,
+    /// Folder of the results; without it, runs/<name of the sweep>.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Runs at the same time on this machine; without it, as many as cores hold.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    jobs: Option<u32>,
+    /// Threads of each run; several runs of one thread are faster than one of several.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: u32,
+    #[command(flatten)]
+    device: DeviceArgument,
+    /// Who starts the runs.
+    #[arg(long, value_enum, default_value = "local")]
+    launcher: Launcher,
+    /// A further option of sbatch, as in --slurm-option=--partition=long; may be repeated.
+    #[arg(long = "slurm-option", value_name = "OPTION")]
+    slurm_options: Vec<String>,
+    /// Make one run of the sweep only, by its number.
+    #[arg(long, value_name = "NUMBER")]
+    member: Option<usize>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Launcher {
+    /// This command, on this machine.
+    Local,
+    /// Slurm, as a job array; this command waits for it.
+    Slurm,
+}
+
+impl SweepArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let sweep = Sweep::load(&self.sweep).map_err(Trouble::refused)?;
+        let dir = self.out.clone().unwrap_or_else(|| Path::new("runs").join(stem(&self.sweep)));
+        fs::create_dir_all(&dir).map_err(|error| Trouble::refused(format!("{}: {error}", dir.display())))?;
+        if let Some(number) = self.member {
+            let count = sweep.members.len();
+            let member = number.checked_sub(1).and_then(|place| sweep.members.get(place)).ok_or_else(|| {
+                Trouble::refused(format!("--member {number}: must be between 1 and {count}, the runs of the sweep"))
+            })?;
+            return self.make(&sweep, member, &dir);
+        }
+        // Absolute: processes and nodes may stand elsewhere.
+        let absolute = |path: &Path| path.canonicalize().map_err(Trouble::failed);
+        let (sweep_file, dir, program) =
+            (absolute(&self.sweep)?, absolute(&dir)?, std::env::current_exe().map_err(Trouble::failed)?);
+        let device = self.device.device.to_string();
+        let work = Work { sweep_file: &sweep_file, dir: &dir, threads: self.threads as usize, device: &device };
+        println!("{}: {} runs, in {}", sweep.title, sweep.members.len(), dir.display());
+        match self.launcher {
+            Launcher::Local => self.make_here(&work, &program, &sweep)?,
+            Launcher::Slurm => self.make_by_slurm(&work, &program, &sweep)?,
+        }
+        for path in table::write(&sweep, &dir).map_err(Trouble::failed)? {
+            println!("{}", path.display());
+        }
+        let finished = |member: &&Member| matches!(member.outcome(&dir), Outcome::Finished(_));
+        let missing: Vec<&str> =
+            sweep.members.iter().filter(|member| !finished(member)).map(|member| member.name.as_str()).collect();
+        if missing.is_empty() {
+            return Ok(());
+        }
+        Err(Trouble::failed(format!(
+            "{} of {} runs are not finished: {}; see their .log files in {}, and give the same command again",
+            missing.len(),
+            sweep.members.len(),
+            missing.join(", "),
+            dir.display()
+        )))
+    }
+
+    fn make_here(&self, work: &Work, program: &Path, sweep: &Sweep) -> Result<(), Trouble> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let jobs = self.jobs.map_or_else(|| (cores / work.threads).max(1), |jobs| jobs as usize);
+        let tell = |member: &Member, outcome: &Outcome, left: usize| {
+            let result = match outcome {
+                Outcome::Finished(summary) => in_words(summary),
+                Outcome::Missing => "not finished".to_owned(),
+                Outcome::Failed(words) => words.clone(),
+            };
+            println!("{}: {result} ({left} left)", member.name);
+        };
+        work.make_all(program, &sweep.members, jobs, tell).map_err(Trouble::failed)
+    }
+
+    fn make_by_slurm(&self, work: &Work, program: &Path, sweep: &Sweep) -> Result<(), Trouble> {
+        for _ in 0..SUBMISSIONS {
+            let script = slurm::write_script(work, program, &sweep.members, &self.slurm_options);
+            let Some(script) = script.map_err(Trouble::failed)? else { break };
+            let job = slurm::submit(&script).map_err(Trouble::failed)?;
+            println!("job {job} from {}", script.display());
+            let mut last = usize::MAX;
+            let tell = |tasks: usize| {
+                if tasks != last {
+                    println!("{tasks} runs queued or running");
+                    last = tasks;
+                }
+            };
+            slurm::wait(&job, tell).map_err(Trouble::failed)?;
+        }
+        Ok(())
+    }
+
+    /// Make one run, or go on with it.
+    fn make(&self, sweep: &Sweep, member: &Member, sweep_dir: &Path) -> Result<(), Trouble> {
+        let dir = member.dir(sweep_dir);
+        let name = sweep.case.display().to_string();
+        let case = Arc::new(Case::from_str(&member.text, &name).map_err(Trouble::refused)?);
+        let machine = MachineArguments { threads: Some(self.threads as usize), quiet: false };
+        let mut options = machine.prepare()?;
+        options.device = self.device.open(&case, options.quiet)?;
+        let begun = fs::read_to_string(dir.join("case.json")).is_ok_and(|text| text == member.text);
+        let ended = if begun && dir.join(Checkpoint::FILE).exists() {
+            resume(case.clone(), &dir, &options)
+        } else {
+            fresh_folder(&dir, true)?;
+            run(case.clone(), &dir, &options)
+        };
+        let summary = finish(ended, &dir)?;
+        hand_over::of_run(&case, &summary, &dir, options.quiet)
+    }
+}
+
+/// What came out of a run.
+fn in_words(summary: &Summary) -> String {
+    match (summary.mean_displacement_m, summary.damage_ratio) {
+        (Some(mean), Some(ratio)) => format!("mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio),
+        _ => "finished".to_owned(),
+    }
+}

@@ -1,0 +1,273 @@
+//! The sweep file, and the runs that follow from it.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use thiserror::Error;
+
+use crate::case::{Case, CaseErrors};
+
+/// Most runs of one sweep.
+const MOST_RUNS: usize = 10_000;
+
+/// Why a sweep is refused.
+#[derive(Debug, Error)]
+pub enum SweepError {
+    /// The file cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// It is no sweep.
+    #[error("{}: {what}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and what is needed.
+        what: String,
+    },
+    /// A run would be refused.
+    #[error("run {number} of the sweep ({label}) is refused:\n{errors}")]
+    Member {
+        /// Its number, from 1.
+        number: usize,
+        /// What varies in it.
+        label: String,
+        /// What is wrong with its case.
+        errors: CaseErrors,
+    },
+}
+
+/// The file as written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SweepFile {
+    title: String,
+    case: PathBuf,
+    vary: Vec<VaryFile>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VaryFile {
+    key: String,
+    values: Option<Vec<Value>>,
+    from: Option<f64>,
+    to: Option<f64>,
+    count: Option<usize>,
+}
+
+/// A key of the case and the values that it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Varied {
+    /// Path of the key, as in `friction[1].coefficient`.
+    pub key: String,
+    /// Its values.
+    pub values: Vec<Value>,
+}
+
+/// One run.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// Number, from 1.
+    pub number: usize,
+    /// Name of its folder.
+    pub name: String,
+    /// Values of the varied keys, in their order.
+    pub values: Vec<Value>,
+    /// The case file's text.
+    pub text: String,
+    /// Hash of the case, as in summaries.
+    pub hash: String,
+}
+
+/// A sweep.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// Title.
+    pub title: String,
+    /// The case that is varied; files that it names are looked for beside it.
+    pub case: PathBuf,
+    /// What varies.
+    pub varied: Vec<Varied>,
+    /// The runs; the last key varies fastest.
+    pub members: Vec<Member>,
+}
+
+impl Sweep {
+    /// Whether a text is meant to be a sweep.
+    pub fn is_one(text: &str) -> bool {
+        serde_json::from_str::<Value>(text).is_ok_and(|value| value.get("vary").is_some())
+    }
+
+    /// Read a sweep and check every run of it.
+    ///
+    /// # Errors
+    /// If the file is no sweep, or one of its runs would be refused.
+    pub fn load(path: &Path) -> Result<Self, SweepError> {
+        let content = |what: String| SweepError::Content { path: path.to_owned(), what };
+        let read = |path: &Path| {
+            std::fs::read_to_string(path).map_err(|source| SweepError::Read { path: path.to_owned(), source })
+        };
+        let file: SweepFile = serde_json::from_str(&read(path)?).map_err(|error| content(error.to_string()))?;
+        let case = path.parent().unwrap_or(Path::new("")).join(&file.case);
+        let base: Value = serde_json::from_str(&read(&case)?)
+            .map_err(|error| SweepError::Content { path: case.clone(), what: error.to_string() })?;
+        let varied = file.vary.iter().enumerate().map(|(k, vary)| vary.values(k)).collect::<Result<Vec<_>, _>>();
+        let varied = varied.map_err(&content)?;
+        if varied.is_empty() {
+            return Err(content("vary: must hold at least one key".to_owned()));
+        }
+        let runs = varied.iter().try_fold(1_usize, |runs, one| runs.checked_mul(one.values.len()));
+        let runs = runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(|| {
+            content(format!("vary: all values with each other are more than {MOST_RUNS} runs; take fewer"))
+        })?;
+        let member = |number: usize| {
+            let values = combination(&varied, number);
+            let mut text = base.clone();
+            for (one, value) in varied.iter().zip(&values) {
+                set(&mut text, &one.key, value.clone())
+                    .map_err(|what| content(format!("vary: {}: {what}", one.key)))?;
+            }
+            let label = label(&varied, &values);
+            let text = format!("{text:#}");
+            let case = Case::from_str(&text, &case.display().to_string()).map_err(|errors| SweepError::Member {
+                number: number + 1,
+                label: label.clone(),
+                errors,
+            })?;
+            let name = format!("{:03}_{}", number + 1, file_name(&label));
+            Ok(Member { number: number + 1, name, values, text, hash: case.hash })
+        };
+        let members = (0..runs).map(member).collect::<Result<Vec<_>, SweepError>>()?;
+        Ok(Self { title: file.title, case, varied, members })
+    }
+}
+
+impl VaryFile {
+    fn values(&self, number: usize) -> Result<Varied, String> {
+        let at = format!("vary[{number}] ({})", self.key);
+        let values = match (&self.values, self.from, self.to, self.count) {
+            (Some(values), None, None, None) if !values.is_empty() => values.clone(),
+            (None, Some(from), Some(to), Some(count)) if (2..=MOST_RUNS).contains(&count) => {
+                let step = (to - from) / (count - 1) as f64;
+                // Twelve digits: 0.1 + 2 * 0.11 is 0.32 to whoever reads it.
+                let value = |k: usize| (1e12 * (from + k as f64 * step)).round() / 1e12;
+                (0..count).map(|k| json!(value(k))).collect()
+            }
+            _ => {
+                return Err(format!(
+                    "{at}: must have either `values`, a list, or `from`, `to` and `count`, two values or more"
+                ));
+            }
+        };
+        Ok(Varied { key: self.key.clone(), values })
+    }
+}
+
+/// Values of the run with a number from 0.
+fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
+    let mut values: Vec<Value> = varied
+        .iter()
+        .rev()
+        .map(|one| {
+            let value = one.values[number % one.values.len()].clone();
+            number /= one.values.len();
+            value
+        })
+        .collect();
+    values.reverse();
+    values
+}
+
+/// The values in words: `coefficient=0.32 height_m=0.045`.
+fn label(varied: &[Varied], values: &[Value]) -> String {
+    let one = |(one, value): (&Varied, &Value)| format!("{}={}", short(&one.key), in_words(value));
+    varied.iter().zip(values).map(one).collect::<Vec<_>>().join(" ")
+}
+
+/// The last part of a key's path.
+pub fn short(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}
+
+/// A value without quotes.
+pub fn in_words(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// A text as the name of a folder.
+fn file_name(text: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "._-=".contains(c) { c } else { '_' };
+    text.chars().map(plain).take(80).collect()
+}
+
+/// Set the value at a path such as `friction[1].coefficient`; objects on the way that are missing are made.
+fn set(root: &mut Value, path: &str, value: Value) -> Result<(), String> {
+    let mut place = root;
+    for part in path.split('.') {
+        let (key, indices) = part.split_once('[').map_or((part, ""), |(key, rest)| (key, rest));
+        if key.is_empty() {
+            return Err("a part of the path is empty; write it as in friction[1].coefficient".to_owned());
+        }
+        if place.is_null() {
+            *place = Value::Object(Map::new());
+        }
+        let object = place.as_object_mut().ok_or_else(|| format!("what stands before {key} is no object"))?;
+        place = object.entry(key).or_insert(Value::Null);
+        for index in indices.split('[').filter(|index| !index.is_empty()) {
+            let number: Option<usize> = index.strip_suffix(']').and_then(|number| number.parse().ok());
+            let number = number.ok_or_else(|| format!("[{index} is no index"))?;
+            let length = place.as_array().map_or(0, Vec::len);
+            place = place.get_mut(number).ok_or_else(|| format!("{key} has {length} entries, from [0] on"))?;
+        }
+    }
+    *place = value;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_reach_into_lists_and_missing_objects() {
+        let mut case =
+            json!({ "friction": [{ "coefficient": 0.5 }, { "coefficient": 0.3 }], "wave": { "height_m": 0.1 } });
+        set(&mut case, "friction[1].coefficient", json!(0.4)).unwrap();
+        set(&mut case, "wave.height_m", json!(0.2)).unwrap();
+        set(&mut case, "numerics.cfl", json!(0.1)).unwrap();
+        assert_eq!(case["friction"][1]["coefficient"], 0.4);
+        assert_eq!((&case["wave"]["height_m"], &case["numerics"]["cfl"]), (&json!(0.2), &json!(0.1)));
+        for wrong in ["", "friction[2].coefficient", "friction[x]", "wave.height_m.deep", "wave..height_m"] {
+            assert!(set(&mut case, wrong, json!(1)).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn ranges_have_their_ends_and_no_crooked_digits() {
+        let vary = VaryFile { key: "a.b".to_owned(), values: None, from: Some(0.1), to: Some(0.98), count: Some(9) };
+        let values: Vec<f64> = vary.values(0).unwrap().values.iter().map(|v| v.as_f64().unwrap()).collect();
+        assert_eq!(values, [0.1, 0.21, 0.32, 0.43, 0.54, 0.65, 0.76, 0.87, 0.98]);
+        let both = VaryFile { values: Some(vec![json!(1)]), ..vary };
+        assert!(both.values(3).unwrap_err().contains("vary[3] (a.b)"));
+    }
+
+    #[test]
+    fn the_last_key_varies_fastest() {
+        let one = |key: &str, values: &[f64]| Varied {
+            key: key.to_owned(),
+            values: values.iter().map(|v| json!(v)).collect(),
+        };
+        let varied = [one("x.a", &[1.0, 2.0]), one("b", &[3.0, 4.0, 5.0])];
+        assert_eq!(combination(&varied, 0), [json!(1.0), json!(3.0)]);
+        assert_eq!(combination(&varied, 2), [json!(1.0), json!(5.0)]);
+        assert_eq!(combination(&varied, 3), [json!(2.0), json!(3.0)]);
+        assert_eq!(label(&varied, &combination(&varied, 5)), "a=2.0 b=5.0");
+        assert_eq!(file_name("a=2.0 b=[1,2]"), "a=2.0_b=_1_2_");
+    }
+}

@@ -1,0 +1,99 @@
+//! The runs of a sweep as a job array of the Slurm workload manager.
+
+use std::{io, path::Path, process::Command, time::Duration};
+
+use super::{member::Outcome, plan::Member, queue::Work};
+use crate::output::{OutputError, write_atomically};
+
+/// Name of the script in the folder of the sweep.
+pub const SCRIPT: &str = "sweep.sbatch";
+
+/// Time between two looks at the queue.
+const LOOK: Duration = Duration::from_secs(5);
+
+/// Write the script of a job array over the runs that are not finished; `options` are lines for `#SBATCH`. A job that
+/// was taken from a node that failed is queued again by Slurm and goes on from its checkpoint. `None` if all are
+/// finished.
+///
+/// # Errors
+/// If the script cannot be written.
+pub fn write_script(
+    work: &Work,
+    program: &Path,
+    members: &[Member],
+    options: &[String],
+) -> Result<Option<std::path::PathBuf>, OutputError> {
+    let waiting: Vec<String> = members
+        .iter()
+        .filter(|member| !matches!(member.outcome(work.dir), Outcome::Finished(_)))
+        .map(|member| member.number.to_string())
+        .collect();
+    if waiting.is_empty() {
+        return Ok(None);
+    }
+    let command = work.command(program, 0);
+    let words: Vec<String> = std::iter::once(command.get_program())
+        .chain(command.get_args())
+        .map(|word| quoted(&word.to_string_lossy()))
+        .collect();
+    // The number after --member comes from the array.
+    let line = words.join(" ").replacen("--member 0", "--member \"$SLURM_ARRAY_TASK_ID\"", 1);
+    let options: String = options.iter().map(|option| format!("#SBATCH {option}\n")).collect();
+    let script = format!(
+        "#!/bin/sh\n#SBATCH --job-name=breakwater\n#SBATCH --array={}\n#SBATCH --cpus-per-task={}\n\
+         #SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output={}/slurm-%a.log\n{options}exec {line}\n",
+        waiting.join(","),
+        work.threads,
+        work.dir.display(),
+    );
+    let path = work.dir.join(SCRIPT);
+    write_atomically(&path, script.as_bytes())?;
+    Ok(Some(path))
+}
+
+/// A word for the shell.
+fn quoted(word: &str) -> String {
+    let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./:=".contains(c));
+    if plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+/// Submit the script; returns the number of the job.
+///
+/// # Errors
+/// If there is no `sbatch`, or it refuses.
+pub fn submit(script: &Path) -> io::Result<String> {
+    let said = Command::new("sbatch").arg("--parsable").arg(script).output()?;
+    if !said.status.success() {
+        return Err(io::Error::other(format!("sbatch: {}", String::from_utf8_lossy(&said.stderr).trim())));
+    }
+    let number = String::from_utf8_lossy(&said.stdout);
+    Ok(number.trim().split(';').next().unwrap_or_default().to_owned())
+}
+
+/// Wait until Slurm has none of the job's tasks any more; `tell` hears how many it has.
+///
+/// # Errors
+/// If there is no `squeue`.
+pub fn wait(job: &str, mut tell: impl FnMut(usize)) -> io::Result<()> {
+    loop {
+        let said = Command::new("squeue").args(["--noheader", "--array", "--job", job]).output()?;
+        // A job that Slurm has forgotten is an error of squeue: it has ended.
+        let tasks = String::from_utf8_lossy(&said.stdout).lines().filter(|line| !line.trim().is_empty()).count();
+        if tasks == 0 {
+            return Ok(());
+        }
+        tell(tasks);
+        std::thread::sleep(LOOK);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_survive_the_shell() {
+        assert_eq!(quoted("cases/fudo/sweep.json"), "cases/fudo/sweep.json");
+        assert_eq!(quoted("a b'c"), "'a b'\\''c'");
+    }
+}

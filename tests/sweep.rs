@@ -1,0 +1,123 @@
+//! Sweeps from the command line: every combination runs, what is finished is kept, what fails is said.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+use serde_json::{Value, json};
+
+/// A tank of a few hundred particles for a few steps.
+fn tank() -> Value {
+    json!({
+        "title": "Tank",
+        "flume": { "bed_m": [[0.0, 0.0], [0.5, 0.0]], "still_water_level_m": 0.2, "material": "mortar" },
+        "domain": { "x_m": [0.0, 0.5], "width_m": 0.5, "sides": "periodic", "top_z_m": 0.4, "dp_m": 0.05 },
+        "numerics": { "hold_units_s": 0.0 },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.5 }],
+        "output": { "checkpoint_interval_s": 0.01 },
+        "stop": { "duration_s": 0.02 }
+    })
+}
+
+/// A folder with the tank and a sweep of it.
+fn sweep_of(vary: &Value) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, value: &Value| {
+        let path = folder.path().join(name);
+        fs::write(&path, value.to_string()).unwrap();
+        path
+    };
+    write("tank.json", &tank());
+    let sweep = write("sweep.json", &json!({ "title": "Tanks", "case": "tank.json", "vary": vary }));
+    (folder, sweep)
+}
+
+fn breakwater(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_breakwater")).args(arguments).output().unwrap()
+}
+
+fn run(sweep: &Path, out: &Path) -> Output {
+    breakwater(&["sweep", sweep.to_str().unwrap(), "--out", out.to_str().unwrap(), "--jobs", "2", "--device", "cpu"])
+}
+
+#[test]
+fn every_combination_runs_and_what_is_finished_is_kept() {
+    let vary = json!([
+        { "key": "numerics.viscosity_alpha", "values": [0.02, 0.04] },
+        { "key": "domain.dp_m", "from": 0.04, "to": 0.05, "count": 2 }
+    ]);
+    let (folder, sweep) = sweep_of(&vary);
+    let out = folder.path().join("out");
+    let first = run(&sweep, &out);
+    assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows.len(), 5, "{table}");
+    assert!(rows[0].starts_with("run,numerics.viscosity_alpha,domain.dp_m,"));
+    assert!(rows[2].starts_with("002_viscosity_alpha=0.02_dp_m=0.05,0.02,0.05,") && rows[2].ends_with(",finished"));
+
+    // One is lost, one was interrupted: both come back, and the others are not touched.
+    let summary = |name: &str| out.join(name).join("summary.json");
+    let changed = |name: &str| fs::metadata(summary(name)).unwrap().modified().unwrap();
+    let kept = changed("003_viscosity_alpha=0.04_dp_m=0.04");
+    fs::remove_dir_all(out.join("001_viscosity_alpha=0.02_dp_m=0.04")).unwrap();
+    let interrupted = "004_viscosity_alpha=0.04_dp_m=0.05";
+    fs::remove_file(summary(interrupted)).unwrap();
+    let again = run(&sweep, &out);
+    assert!(again.status.success(), "{}", String::from_utf8_lossy(&again.stderr));
+    assert_eq!(changed("003_viscosity_alpha=0.04_dp_m=0.04"), kept);
+    assert!(summary(interrupted).exists());
+    // All but the time on the wall.
+    let without_wall = |table: &str| {
+        let cells =
+            |row: &str| row.split(',').enumerate().filter(|(k, _)| *k != 11).map(|(_, c)| c.to_owned()).collect();
+        table.lines().map(cells).collect::<Vec<Vec<String>>>()
+    };
+    assert_eq!(without_wall(&fs::read_to_string(out.join("sweep.csv")).unwrap()), without_wall(&table));
+}
+
+#[test]
+fn a_run_that_fails_is_named() {
+    let (folder, sweep) = sweep_of(&json!([{ "key": "numerics.cfl", "values": [0.2, 0.3] }]));
+    let out = folder.path().join("out");
+    fs::create_dir(&out).unwrap();
+    // A file stands where the second run's folder should be.
+    fs::write(out.join("002_cfl=0.3"), "").unwrap();
+    let ended = run(&sweep, &out);
+    assert_eq!(ended.status.code(), Some(1));
+    let message = String::from_utf8_lossy(&ended.stderr);
+    assert!(message.contains("1 of 2 runs are not finished: 002_cfl=0.3"), "{message}");
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    assert!(table.lines().nth(1).unwrap().ends_with(",finished") && table.contains("failed: try"), "{table}");
+}
+
+#[test]
+fn bad_sweeps_are_refused_before_anything_runs() {
+    let cases = [
+        (json!([]), "vary: must hold at least one key"),
+        (json!([{ "key": "domain.dp_m" }]), "vary[0] (domain.dp_m): must have either `values`"),
+        (json!([{ "key": "friction[4].coefficient", "values": [0.1] }]), "friction has 1 entries"),
+        (json!([{ "key": "domain.dp_mm", "values": [0.1] }]), "run 1 of the sweep (dp_mm=0.1) is refused"),
+        (json!([{ "key": "domain.dp_m", "values": [0.05, -1] }]), "run 2 of the sweep (dp_m=-1) is refused"),
+        (json!([{ "key": "stop.duration_s", "from": 1, "to": 2, "count": 20000 }]), "must have either"),
+        (json!("dp_m"), "invalid type"),
+    ];
+    for (vary, expected) in cases {
+        let (folder, sweep) = sweep_of(&vary);
+        let out = folder.path().join("out");
+        for command in ["sweep", "check"] {
+            let mut arguments = vec![command, sweep.to_str().unwrap()];
+            if command == "sweep" {
+                arguments.extend(["--out", out.to_str().unwrap()]);
+            }
+            let ended = breakwater(&arguments);
+            let message = String::from_utf8_lossy(&ended.stderr);
+            assert_eq!(ended.status.code(), Some(2), "{vary}: {message}");
+            assert!(message.contains(expected), "{vary}: {message}");
+            assert!(!out.exists());
+        }
+    }
+}
