@@ -42,6 +42,7 @@ Examples:
   breakwater run cases/fudo/quick-look.json        run it; look at runs/quick-look/report.html
   breakwater resume runs/quick-look                go on after an interruption
   breakwater compare runs/quick-look               beside the Fudo experiment
+  breakwater sweep cases/fudo/friction-sweep.json  the same with nine coefficients of friction, in one table
   breakwater wave cases/fudo/H4.5-slice.json       the wave alone, in seconds
   breakwater run cases/contact/tilt-tetrapod.json  units without water: a slope test
   breakwater fracture cases/fracture/dolos-drop.json  a Dolos dropped on concrete: where does it crack?
