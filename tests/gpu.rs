@@ -1,7 +1,7 @@
 //! The step on a graphics card against the step on the processor.
 //!
 //! Any card will do, and so does a program that stands for one (Debian's mesa-vulkan-drivers). Without either the tests
-//! say so and pass.
+//! say so and pass, unless BREAKWATER_NEEDS_CARD is set.
 
 #![cfg(feature = "gpu")]
 
@@ -21,6 +21,7 @@ fn card() -> Option<Device> {
     match Device::open(DeviceChoice::Gpu(0), None) {
         Ok((device, _)) => Some(device),
         Err(error) => {
+            assert!(std::env::var_os("BREAKWATER_NEEDS_CARD").is_none(), "{error}");
             println!("skipped: {error}");
             None
         }
@@ -110,7 +111,8 @@ fn rates_of_a_step_are_those_of_the_processor() {
         for (gpu, cpu) in gpu_loads.iter().zip(&cpu_loads) {
             let [force, torque] = [0, 1].map(|k| (gpu[k] - cpu[k]).length() / cpu[k].length());
             println!("  loads of a unit: {force:.1e}, {torque:.1e}");
-            assert!(force < 1e-4, "{force}");
+            // 1e-5 as for the rates of water; the torque is a difference of forces on opposite sides, ten times that.
+            assert!(force < 1e-5 && torque < 1e-4);
         }
     }
 }
@@ -131,8 +133,8 @@ fn a_dam_breaks_as_on_the_processor() {
     println!(
         "after {time:.4} s: tip {gpu_tip:.5} and {tip:.5} m, energy {gpu_energy:.5} and {energy:.5} J, kinetic {gpu_kinetic:.5} and {kinetic:.5} J"
     );
+    // 1e-3: asked for of tip and energy; the steps that lead there are as long, too.
     assert!((gpu_time / time - 1.0).abs() < 1e-3);
-    // 1e-3: asked for.
     assert!((gpu_tip / tip - 1.0).abs() < 1e-3);
     assert!((gpu_energy / energy - 1.0).abs() < 1e-3);
 }
@@ -190,6 +192,7 @@ fn a_checkpoint_goes_on_with_the_same_bits_and_on_the_other_device() {
     assert_eq!(on_card.water, unbroken.water);
     assert_eq!((on_card.time, on_card.steps), (unbroken.time, unbroken.steps));
     let energies = [&on_card, &on_cpu].map(|simulation| simulation.energy().total());
+    // 1e-5: as far as the rates agree.
     assert!((energies[0] / energies[1] - 1.0).abs() < 1e-5, "{energies:?}");
 }
 

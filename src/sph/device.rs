@@ -125,12 +125,12 @@ impl Device {
     }
 
     /// Whether so many particles fit.
-    pub fn holds(&self, particles: f64) -> bool {
-        #[cfg(feature = "gpu")]
-        if let Self::Gpu(card) = self {
-            return particles <= most_particles(card.info()) as f64;
+    pub fn holds(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
+        match self {
+            Self::Cpu => true,
+            #[cfg(feature = "gpu")]
+            Self::Gpu(card) => particles <= most_particles(card.info()) as f64,
         }
-        particles.is_finite()
     }
 
     /// Its name.
@@ -150,10 +150,9 @@ impl Device {
         &self,
         parameters: Parameters,
         [low, high]: [DVec3; 2],
-        bounds: [DVec3; 2],
-    ) -> Result<Box<dyn Backend>, DeviceError> {
         // The processor leaves it to the run to look at its arrays.
-        let _ = bounds;
+        #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] bounds: [DVec3; 2],
+    ) -> Result<Box<dyn Backend>, DeviceError> {
         match self {
             Self::Cpu => Ok(Box::new(Solver::new(parameters, low, high))),
             #[cfg(feature = "gpu")]

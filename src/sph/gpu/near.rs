@@ -23,7 +23,7 @@ const ALLOWANCE: f64 = 0.01;
 /// `Surfaces` of the shader.
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 #[repr(C)]
-struct SurfaceConstants {
+pub(super) struct SurfaceConstants {
     pieces: u32,
     boxes: u32,
     balls: u32,
@@ -41,7 +41,7 @@ struct SurfaceConstants {
 /// A particle as the shader gives it.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
-struct NearParticle {
+pub(super) struct NearParticle {
     cell: [i32; 4],
     offset: [f32; 4],
     motion: [f32; 4],

@@ -134,4 +134,27 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn constants_have_the_size_that_the_shaders_expect() {
+        use super::super::{
+            constants::{Constants, StepConstants},
+            near::{NearParticle, SurfaceConstants},
+            sort::SortConstants,
+        };
+        let size_of_struct = |source: &str, name: &str| {
+            let module = wgsl::parse_str(source).unwrap();
+            let named = module.types.iter().find(|(_, of_type)| of_type.name.as_deref() == Some(name));
+            match named.map(|(_, of_type)| of_type.inner.clone()) {
+                Some(naga::TypeInner::Struct { span, .. }) => span as usize,
+                _ => panic!("{name} is no struct"),
+            }
+        };
+        assert_eq!(size_of_struct(RATES, "Parameters"), size_of::<Constants>());
+        assert_eq!(size_of_struct(RATES, "Step"), size_of::<StepConstants>());
+        assert_eq!(size_of_struct(IMPERMEABLE, "Near"), size_of::<NearParticle>());
+        // Of whole vectors; the shaders need not name what fills the last one.
+        assert_eq!(size_of_struct(GRID, "Sort").next_multiple_of(16), size_of::<SortConstants>());
+        assert_eq!(size_of_struct(IMPERMEABLE, "Surfaces").next_multiple_of(16), size_of::<SurfaceConstants>());
+    }
 }

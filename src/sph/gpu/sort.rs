@@ -14,7 +14,7 @@ const SCANNED: usize = 1024;
 /// `Sort` of the shader.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
-struct SortConstants {
+pub(super) struct SortConstants {
     points: u32,
     bins: u32,
     blocks: u32,
