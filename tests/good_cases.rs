@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use breakwater::case::file::{CaseFile, DryFile, FractureFile};
 use breakwater::case::{Case, DryCase, FractureCase, Handover, Wave, schema_text, template_text};
+use breakwater::sweep::plan::Sweep;
 
 fn json_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -25,7 +26,7 @@ fn all_files() -> Vec<PathBuf> {
 
 /// Cases with water.
 fn cases() -> Vec<PathBuf> {
-    let others = [dry_cases(), fracture_cases()].concat();
+    let others = [dry_cases(), fracture_cases(), sweeps()].concat();
     all_files().into_iter().filter(|path| !others.contains(path) && !is_placement(path)).collect()
 }
 
@@ -37,6 +38,11 @@ fn fracture_cases() -> Vec<PathBuf> {
 fn dry_cases() -> Vec<PathBuf> {
     let is_dry = |path: &PathBuf| DryCase::is_one(&std::fs::read_to_string(path).unwrap());
     all_files().into_iter().filter(is_dry).collect()
+}
+
+fn sweeps() -> Vec<PathBuf> {
+    let is_one = |path: &PathBuf| Sweep::is_one(&std::fs::read_to_string(path).unwrap());
+    all_files().into_iter().filter(is_one).collect()
 }
 
 fn is_placement(path: &Path) -> bool {
@@ -111,6 +117,19 @@ fn every_fracture_case_loads_and_survives_being_written_and_read() {
         let name = folder.path().join("case.json").display().to_string();
         let kept = FractureCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!((kept.hash, kept.setup), (case.hash, case.setup), "{}", path.display());
+    }
+}
+
+#[test]
+fn every_sweep_loads_and_its_runs_differ() {
+    let files = sweeps();
+    assert!(!files.is_empty());
+    for path in files {
+        let sweep = Sweep::load(&path).unwrap_or_else(|reason| panic!("{reason}"));
+        let mut hashes: Vec<&str> = sweep.members.iter().map(|member| member.hash.as_str()).collect();
+        hashes.sort_unstable();
+        hashes.dedup();
+        assert_eq!(hashes.len(), sweep.members.len(), "{}: two runs are the same case", path.display());
     }
 }
 
