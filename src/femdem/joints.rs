@@ -236,7 +236,13 @@ pub fn cohesion(setup: &Setup, number: usize) -> &Cohesion {
 
 /// Corners of both sides of an interface [m].
 pub fn faces(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) -> [[DVec3; 3]; 2] {
-    [0, 1].map(|side| corner_nodes(number, side, setup, tets).map(|node| nodes.place[node as usize]))
+    faces_before(number, setup, tets, nodes, 0.0)
+}
+
+/// Corners of both sides of an interface a time before, over which nothing has changed its velocity [m].
+pub fn faces_before(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes, time: f64) -> [[DVec3; 3]; 2] {
+    let place = |node: u32| nodes.place[node as usize] - nodes.velocity[node as usize] * time;
+    [0, 1].map(|side| corner_nodes(number, side, setup, tets).map(place))
 }
 
 /// Nodes at the corners of one side of an interface.

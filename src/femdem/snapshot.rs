@@ -18,7 +18,7 @@ use super::world::{Failure, World, contacts};
 /// Numbers of a joint that is worn: offset, whether it is worn, energies, three points.
 pub const MEMORY: usize = 4 + 3 * POINT;
 /// Numbers of a point.
-const POINT: usize = 8;
+const POINT: usize = 10;
 
 /// State of a world.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -157,8 +157,8 @@ fn numbers_of(joint: &WornJoint) -> [f64; MEMORY] {
     let mut numbers = [0.0; MEMORY];
     numbers[..4].copy_from_slice(&[offset, f64::from(u8::from(is_worn)), joint.dissipated, joint.freed]);
     for (numbers, point) in numbers[4..].chunks_exact_mut(POINT).zip(points) {
-        let Point { damage, secant, opening, plastic, slipped, lost } = point;
-        numbers.copy_from_slice(&[damage, secant, opening, plastic[0], plastic[1], slipped, lost[0], lost[1]]);
+        let Point { damage, secant, opening, slip: [a, b], plastic: [c, d], slipped, lost: [e, f] } = point;
+        numbers.copy_from_slice(&[damage, secant, opening, a, b, c, d, slipped, e, f]);
     }
     numbers
 }
@@ -168,9 +168,8 @@ fn recall(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
     let memory = Memory { offset, is_worn: is_worn != 0.0, ..Memory::default() };
     let mut joint = WornJoint { dissipated, freed, ..WornJoint::new(number as usize, memory) };
     for (point, numbers) in joint.memory.points.iter_mut().zip(points.as_chunks::<POINT>().0) {
-        let [damage, secant, opening, along, across, slipped, by_opening, by_sliding] = *numbers;
-        let (plastic, lost) = ([along, across], [by_opening, by_sliding]);
-        *point = Point { damage, secant, opening, plastic, slipped, lost };
+        let [damage, secant, opening, a, b, c, d, slipped, e, f] = *numbers;
+        *point = Point { damage, secant, opening, slip: [a, b], plastic: [c, d], slipped, lost: [e, f] };
     }
     joint
 }

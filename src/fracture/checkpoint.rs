@@ -32,7 +32,7 @@ pub const FILE: &str = "checkpoint.h5";
 pub const FAILED_FILE: &str = "failed.h5";
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Where a run stands besides its world.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -4,13 +4,23 @@
 //! which unbroken faces hold them together do not, unless the face between them has broken.
 //!
 //! What overlaps when a pair is first looked at does not count, but for the energy that a joint leaves to it: a joint
-//! that fails under pressure hands its compression over, and no energy comes from nothing.
+//! that fails under pressure hands its compression over, and no energy comes from nothing. With p I the energy of the
+//! overlap and I_b what does not count of I, the pair has
+//!
+//!   E = p (sqrt I - sqrt I_b)^2 where I > I_b, and gives the share 1 - sqrt(I_b / I) of the forces of the overlap.
+//!
+//! The force rises from zero, and for two faces that lie flush, whose I goes with the square of the depth, as steeply as
+//! if they had come from outside; no pair is stiffer than that. (With p (I - I_b) the force would jump where I passes
+//! I_b, and a crushed body whose pieces rattle there would gain half of force times way in each step that crosses it.)
+//! I_b falls with I: pieces that have come apart meet like any others.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 mod depth;
 pub mod snapshot;
+#[cfg(test)]
+mod tests;
 
 use super::super::assembly::{Copy4, Tets};
 use super::super::setup::Setup;
@@ -211,17 +221,10 @@ impl Pair {
         Self { tets, penalty, law, born, left, spring: None, forces: None, stored, dissipated }
     }
 
-    fn evaluate(&mut self, corners: [[DVec3; 4]; 2], moves: impl FnOnce() -> [[DVec3; 4]; 2]) {
+    fn evaluate(&mut self, corners: [[DVec3; 4]; 2], moves: impl Fn() -> [[DVec3; 4]; 2]) {
         let found = overlap(&corners[0], &corners[1]);
         let energy = found.as_ref().map_or(0.0, |found| found.energy);
-        let born = match self.born {
-            Some(born) => born.min(energy),
-            None => {
-                let counts = energy.min(self.left / self.penalty);
-                self.left = counts * self.penalty;
-                energy - counts
-            }
-        };
+        let born = self.born.unwrap_or_else(|| self.bear(&corners, &moves())).min(energy);
         self.born = Some(born);
         let Some(found) = found.filter(|_| energy > born) else {
             let held = self.spring.take().map_or(0.0, |spring| spring.stored(&self.law));
@@ -229,17 +232,28 @@ impl Pair {
             self.dissipated += held;
             return;
         };
-        let mut forces = found.forces.map(|of_tet| of_tet.map(|force| force * self.penalty));
-        self.stored = (energy - born) * self.penalty;
+        let penalty = self.penalty * (1.0 - (born / energy).sqrt());
+        let mut forces = found.forces.map(|of_tet| of_tet.map(|force| force * penalty));
+        self.stored = self.penalty * (energy.sqrt() - born.sqrt()).powi(2);
         if self.law.coefficient > 0.0 {
-            let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant() * self.penalty));
+            let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant() * penalty));
             let moves = moves();
             let friction =
-                spring.advance(&self.law, &found, self.penalty, [&corners[0], &corners[1]], [&moves[0], &moves[1]]);
+                spring.advance(&self.law, &found, penalty, [&corners[0], &corners[1]], [&moves[0], &moves[1]]);
             forces.iter_mut().flatten().zip(friction.forces.into_iter().flatten()).for_each(|(f, t)| *f += t);
             self.dissipated += friction.dissipated;
             self.stored += spring.stored(&self.law);
         }
         self.forces = Some(forces);
+    }
+
+    /// The overlap that does not count [m3], such that the pair has the energy that was left to it when the joint gave
+    /// way: half a step ago.
+    fn bear(&mut self, corners: &[[DVec3; 4]; 2], moves: &[[DVec3; 4]; 2]) -> f64 {
+        let [t, c] = [0, 1].map(|of| [0, 1, 2, 3].map(|k| corners[of][k] - 0.5 * moves[of][k]));
+        let root = overlap(&t, &c).map_or(0.0, |found| found.energy).sqrt();
+        let born = (root - (self.left / self.penalty).sqrt()).max(0.0);
+        self.left = self.penalty * (root - born).powi(2);
+        born * born
     }
 }

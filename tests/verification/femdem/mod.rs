@@ -5,6 +5,7 @@ mod contact;
 mod continuum;
 mod core_locs;
 mod dolos;
+mod energy_book;
 mod joints;
 mod loads;
 mod rigid;

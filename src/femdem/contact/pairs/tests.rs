@@ -1,0 +1,90 @@
+//! The birth of a contact: what a pair has and gives that overlaps before it counts.
+
+use super::super::samples::regular_tetrahedron;
+use super::*;
+
+const PENALTY: f64 = 26e9;
+const STILL: [[DVec3; 4]; 2] = [[DVec3::ZERO; 4]; 2];
+
+fn pair(left: f64) -> Pair {
+    let law = FrictionLaw { stiffness: 1e8, coefficient: 0.0 };
+    let (tets, born, spring, forces) = ([0, 1], None, None, None);
+    Pair { tets, penalty: PENALTY, law, born, left, spring, forces, stored: 0.0, dissipated: 0.0 }
+}
+
+/// Two tetrahedra with a size of about 1 cm, one deep in the other and pushed `further` into it [m].
+fn corners(further: f64) -> [[DVec3; 4]; 2] {
+    let one = regular_tetrahedron(DVec3::ZERO, 0.01);
+    let shift = DVec3::new(6e-3, 1e-3, -2e-3) - further * DVec3::X;
+    [one, one.map(|vertex| vertex + shift)]
+}
+
+/// Force on the second one along the way that parts them [N].
+fn push(pair: &Pair) -> f64 {
+    pair.forces.map_or(0.0, |forces| forces[1].iter().sum::<DVec3>().x)
+}
+
+#[test]
+fn a_pair_is_born_with_the_energy_that_its_joint_leaves() {
+    for left in [0.0, 1e-4, 1e-2] {
+        let mut pair = pair(left);
+        pair.evaluate(corners(0.0), || STILL);
+        // Rounding, against the overlap's own energy of some joule.
+        assert!((pair.stored - left).abs() < 1e-12 && (pair.left - left).abs() < 1e-12, "{left}: {}", pair.stored);
+        assert_eq!(pair.forces.is_some(), left > 0.0);
+    }
+    // More than the overlap holds: the rest is lost.
+    let mut rich = pair(1e3);
+    rich.evaluate(corners(0.0), || STILL);
+    assert!(rich.stored < 1e3 && (rich.left - rich.stored).abs() < 1e-12 && rich.born == Some(0.0));
+}
+
+#[test]
+fn what_is_left_is_that_of_half_a_step_ago() {
+    let way = 1e-6;
+    let moves = [[DVec3::ZERO; 4], [-way * DVec3::X; 4]];
+    let mut pair = pair(1e-2);
+    pair.evaluate(corners(0.0), || moves);
+    // The energy has grown by half of the force times the way; 1 %: the force grows over it.
+    let grown = pair.stored - 1e-2;
+    let work = push(&pair) * 0.5 * way;
+    assert!((grown / work - 1.0).abs() < 0.01, "{grown:.3e} {work:.3e}");
+}
+
+#[test]
+fn the_force_rises_from_zero_and_is_the_gradient_of_the_energy() {
+    let mut pair = pair(0.0);
+    pair.evaluate(corners(0.0), || STILL);
+    assert!(pair.forces.is_none());
+    let mut full = super::tests::pair(0.0);
+    full.born = Some(0.0);
+    let mut at = |further: f64| {
+        pair.evaluate(corners(further), || STILL);
+        full.evaluate(corners(further), || STILL);
+        (pair.stored, push(&pair), push(&full))
+    };
+    let (_, little, whole) = at(1e-9);
+    // A step of 1e-9 of 1e-3 m: a millionth of the force of the whole overlap.
+    assert!(little > 0.0 && little < 1e-5 * whole, "{little:.3e} of {whole:.3e} N");
+    for further in [1e-6, 1e-5, 1e-4] {
+        let step = 1e-3 * further;
+        let [before, (_, force, _), after] = [further - step, further, further + step].map(&mut at);
+        let slope = (after.0 - before.0) / (2.0 * step);
+        // Differences of the second order over a thousandth of the way.
+        assert!((force / slope - 1.0).abs() < 1e-5, "{further}: {force:.6e} {slope:.6e}");
+    }
+}
+
+#[test]
+fn pieces_that_come_apart_meet_like_any_others() {
+    let (mut pair, mut fresh) = (pair(0.0), pair(0.0));
+    pair.evaluate(corners(0.0), || STILL);
+    assert!(pair.born.unwrap() > 0.0);
+    pair.evaluate(corners(-0.1), || STILL);
+    fresh.evaluate(corners(-0.1), || STILL);
+    for pair in [&mut pair, &mut fresh] {
+        pair.evaluate(corners(1e-3), || STILL);
+    }
+    assert!(pair.stored > 0.0);
+    assert_eq!(pair, fresh);
+}
