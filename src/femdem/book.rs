@@ -60,7 +60,7 @@ impl World {
         }
         for joint in &self.joints.worn {
             let of = &mut energies[body_of(joint.interface as usize)];
-            of.joint += self.joints.stored_in(joint, &self.setup, &self.tets, &self.nodes);
+            of.joint += self.joints.stored_in(joint, &self.setup);
             of.fracture += joint.dissipated;
         }
         for failure in &self.failures {

@@ -78,12 +78,6 @@ impl Point {
         self.damage == 0.0 && self.plastic == [0.0; 2]
     }
 
-    /// The same with another opening and slip as the last ones [m].
-    #[inline]
-    pub fn moved_to(self, opening: f64, slip: [f64; 2]) -> Self {
-        Self { opening, slip, ..self }
-    }
-
     /// The part of the slip that comes back [m].
     #[inline]
     fn elastic_slip(&self) -> [f64; 2] {
@@ -166,7 +160,7 @@ impl CohesiveLaw {
         if point.damage > old.damage {
             normal = self.normal(point, opening);
         }
-        *point = point.moved_to(opening, slip);
+        (point.opening, point.slip) = (opening, slip);
         let lost = [self.lost_normal(&old, point), self.lost_shear(&old, point)];
         point.lost = [point.lost[0] + lost[0], point.lost[1] + lost[1]];
         Traction { normal, shear, dissipated: lost[0] + lost[1] }
@@ -258,8 +252,9 @@ impl CohesiveLaw {
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Work of the shear stress over the way between two calls that is not stored: that on the plastic slip, by the mean
-    /// of both stresses. It is zero where a joint is thrown from one side to the other between them [J/m2].
+    /// Work of the shear stress over the way between two calls that is not stored [J/m2]: that on the plastic slip, by the
+    /// mean of both stresses. Where a joint is thrown from one side to the other between them, that could be negative: it
+    /// is zero then, and the gain is left to show in the energy book.
     fn lost_shear(&self, old: &Point, new: &Point) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);

@@ -93,20 +93,9 @@ pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3
     out
 }
 
-/// Energy that a joint would give back [J].
-pub fn stored(law: &CohesiveLaw, area: f64, memory: &Memory, sides: &[[DVec3; 3]; 2]) -> f64 {
-    let (axes, jump) = (Axes::of_faces(sides), jumps(sides));
-    let of = |(point, [i, j]): (&Point, [usize; 2])| {
-        let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
-        law.stored(&point.moved_to(opening + memory.offset, slip))
-    };
-    memory.points.iter().zip(ENDS).map(of).sum::<f64>() * (area / 3.0)
-}
-
-/// Work done on a joint that pulls with constant forces on side 0 while its faces move from one place to another [J].
-pub fn work(forces: &[DVec3; 3], [from, to]: [&[[DVec3; 3]; 2]; 2]) -> f64 {
-    let (from, to) = (jumps(from), jumps(to));
-    (0..3).map(|k| forces[k].dot(to[k] - from[k])).sum()
+/// Energy that a joint would give back where its faces were at the last call [J].
+pub fn stored(law: &CohesiveLaw, area: f64, memory: &Memory) -> f64 {
+    memory.points.iter().map(|point| law.stored(point)).sum::<f64>() * (area / 3.0)
 }
 
 impl Memory {

@@ -94,8 +94,8 @@ impl Joints {
         self.bond.len()
     }
 
-    /// Stresses at the present places.
-    pub fn pull(&mut self, setup: &Setup, tets: &Tets, nodes: &Nodes) {
+    /// Stresses at the present places, to which the velocities have led over the last step `dt` [s].
+    pub fn pull(&mut self, setup: &Setup, tets: &Tets, nodes: &Nodes, dt: f64) {
         let Self { bond, size, forces, worn, reached } = self;
         let pieces = bond.par_chunks(PIECE).zip(forces.par_chunks_mut(PIECE)).zip(reached.par_iter_mut());
         pieces.enumerate().for_each(|(piece, ((bond, forces), reached))| {
@@ -104,8 +104,13 @@ impl Joints {
             lanes::dispatch(WholePiece { first, bond, size, forces, reached, setup, tets, nodes });
         });
         for number in reached.iter_mut().flat_map(|reached| reached.drain(..)) {
-            bond[number as usize] = Bond::Worn;
-            worn.push(WornJoint::new(number as usize, Memory::default()));
+            let number = number as usize;
+            bond[number] = Bond::Worn;
+            // Where it was before: its first slip is from there.
+            let ([edge, area], mut memory) = (size[number], Memory::default());
+            let before = faces_before(number, setup, tets, nodes, dt);
+            joint::forces(&cohesion(setup, number).law(edge), area, &mut memory, &before);
+            worn.push(WornJoint::new(number, memory));
         }
         worn.par_iter_mut().with_min_len(PIECE / LANES).for_each(|joint| {
             let number = joint.interface as usize;
@@ -123,7 +128,7 @@ impl Joints {
     /// Energy that the joints would give back [J].
     pub fn stored(&self, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
         let whole = |number: usize| self.stored_in_whole(number, setup, tets, nodes);
-        let worn = |k: usize| self.stored_in(&self.worn[k], setup, tets, nodes);
+        let worn = |k: usize| self.stored_in(&self.worn[k], setup);
         ordered_sum(self.count(), whole) + ordered_sum(self.worn.len(), worn)
     }
 
@@ -137,7 +142,7 @@ impl Joints {
         // Brings an empty memory to the present places.
         let mut memory = Memory::default();
         joint::forces(&law, area, &mut memory, &sides);
-        joint::stored(&law, area, &memory, &sides)
+        joint::stored(&law, area, &memory)
     }
 
     /// Energy that joints with a past have lost so far, but for those that have broken [J].
@@ -145,11 +150,11 @@ impl Joints {
         self.worn.iter().fold(0.0, |sum, joint| sum + joint.dissipated)
     }
 
-    /// Energy that a joint with a past would give back [J].
-    pub fn stored_in(&self, joint: &WornJoint, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
+    /// Energy that a joint with a past would give back where it last pulled [J].
+    pub fn stored_in(&self, joint: &WornJoint, setup: &Setup) -> f64 {
         let number = joint.interface as usize;
         let [edge, area] = self.size[number];
-        joint::stored(&cohesion(setup, number).law(edge), area, &joint.memory, &faces(number, setup, tets, nodes))
+        joint::stored(&cohesion(setup, number).law(edge), area, &joint.memory)
     }
 }
 
@@ -239,10 +244,17 @@ pub fn faces(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) -> [[DVec
     faces_before(number, setup, tets, nodes, 0.0)
 }
 
-/// Corners of both sides of an interface a time before, over which nothing has changed its velocity [m].
-pub fn faces_before(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes, time: f64) -> [[DVec3; 3]; 2] {
+/// Corners of both sides of an interface a time before, over which their nodes had the velocities of now [m].
+fn faces_before(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes, time: f64) -> [[DVec3; 3]; 2] {
     let place = |node: u32| nodes.place[node as usize] - nodes.velocity[node as usize] * time;
     [0, 1].map(|side| corner_nodes(number, side, setup, tets).map(place))
+}
+
+/// Power that the motion of its faces gives to a joint [W].
+pub fn power_on(joint: &WornJoint, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
+    let number = joint.interface as usize;
+    let [one, other] = [0, 1].map(|side| corner_nodes(number, side, setup, tets).map(|n| nodes.velocity[n as usize]));
+    (0..3).map(|k| joint.forces[k].dot(other[k] - one[k])).sum()
 }
 
 /// Nodes at the corners of one side of an interface.

@@ -31,17 +31,19 @@ impl World {
         }
         setup.interfaces[number].tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true);
         let [edge, area] = joints.size[number];
-        let sides = joints::faces(number, setup, tets, nodes);
         let mut joint = WornJoint::new(number, memory);
-        joint.freed = joint::stored(&joints::cohesion(setup, number).law(edge), area, &memory, &sides);
+        joint.freed = joint::stored(&joints::cohesion(setup, number).law(edge), area, &memory);
         self.lost.freed += joint.freed;
         joints.worn.push(joint);
     }
 
     fn break_joint(&mut self, joint: &WornJoint) {
         let number = joint.interface as usize;
-        // What it would have given back is lost with it.
-        let stored = self.stored_half_a_step_ago(joint);
+        // What it would have given back is lost with it. Its last forces are those before this step; in central
+        // differences they act until half a step after that, on which a joint crushed fast takes or gives much of what it
+        // has. One that springs back may have given more than it had: less than nothing is lost then.
+        let given = 0.5 * self.dt * joints::power_on(joint, &self.setup, &self.tets, &self.nodes);
+        let stored = self.joints.stored_in(joint, &self.setup) + given;
         self.lost.fracture += joint.dissipated + stored;
         self.joints.bond[number] = Bond::Broken;
         self.joints.forces[number] = Default::default();
@@ -55,19 +57,6 @@ impl World {
             let groups = assembly::held_together(&self.tets, &self.setup, &self.around[node as usize], &unbroken);
             groups.iter().for_each(|group| self.contacts.regroup(group));
         }
-    }
-
-    /// Energy that a failed joint had half a step ago [J]: its last forces are those at the places before this step, and
-    /// in central differences they act until half a step after that. At the present places it would have more, or less,
-    /// than was done on it: 5 % of the energy of a blow that crushes.
-    fn stored_half_a_step_ago(&self, joint: &WornJoint) -> f64 {
-        let Self { joints, setup, tets, nodes, dt, .. } = self;
-        let number = joint.interface as usize;
-        let [edge, area] = joints.size[number];
-        let before = joints::faces_before(number, setup, tets, nodes, *dt);
-        let now = joints::faces(number, setup, tets, nodes);
-        let stored = joint::stored(&joints::cohesion(setup, number).law(edge), area, &joint.memory, &before);
-        stored + 0.5 * joint::work(&joint.forces, [&before, &now])
     }
 
     /// Tied faces on which the mean of the stresses of both sides has reached the strength (eq. 1), with the memory that

@@ -180,7 +180,7 @@ impl World {
     }
 
     fn advance(&mut self, book: bool, mut bodies: Option<&mut Vec<BodyEnergy>>) -> Result<Ledger, StepError> {
-        self.joints.pull(&self.setup, &self.tets, &self.nodes);
+        self.joints.pull(&self.setup, &self.tets, &self.nodes, self.dt);
         let viscous_power = self.deform_tets()?;
         self.press_contacts();
         self.apply_loads();

@@ -3,7 +3,7 @@
 //! Only tetrahedra with a free face can touch: those at the outside, and those at a crack. Two that share a node around
 //! which unbroken faces hold them together do not, unless the face between them has broken.
 //!
-//! What overlaps when a pair is first looked at does not count, but for the energy that a joint leaves to it: a joint
+//! What overlaps when a pair is born does not count, but for the energy that a joint leaves to it: a joint
 //! that fails under pressure hands its compression over, and no energy comes from nothing. With p I the energy of the
 //! overlap and I_b what does not count of I, the pair has
 //!
@@ -26,7 +26,7 @@ use super::super::assembly::{Copy4, Tets};
 use super::super::setup::Setup;
 use super::detection::{Bounds, Detection};
 use super::friction::{FrictionLaw, TangentialSpring};
-use super::overlap::overlap;
+use super::overlap::{Overlap, overlap};
 use super::tetrahedron::Tetrahedron;
 
 /// Candidates of one task of the thread pool.
@@ -224,7 +224,10 @@ impl Pair {
     fn evaluate(&mut self, corners: [[DVec3; 4]; 2], moves: impl Fn() -> [[DVec3; 4]; 2]) {
         let found = overlap(&corners[0], &corners[1]);
         let energy = found.as_ref().map_or(0.0, |found| found.energy);
-        let born = self.born.unwrap_or_else(|| self.bear(&corners, &moves())).min(energy);
+        let born = match self.born {
+            Some(born) => born.min(energy),
+            None => self.bear(found.as_ref(), &moves()),
+        };
         self.born = Some(born);
         let Some(found) = found.filter(|_| energy > born) else {
             let held = self.spring.take().map_or(0.0, |spring| spring.stored(&self.law));
@@ -236,7 +239,7 @@ impl Pair {
         let mut forces = found.forces.map(|of_tet| of_tet.map(|force| force * penalty));
         self.stored = self.penalty * (energy.sqrt() - born.sqrt()).powi(2);
         if self.law.coefficient > 0.0 {
-            let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant() * penalty));
+            let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant()));
             let moves = moves();
             let friction =
                 spring.advance(&self.law, &found, penalty, [&corners[0], &corners[1]], [&moves[0], &moves[1]]);
@@ -247,13 +250,18 @@ impl Pair {
         self.forces = Some(forces);
     }
 
-    /// The overlap that does not count [m3], such that the pair has the energy that was left to it when the joint gave
-    /// way: half a step ago.
-    fn bear(&mut self, corners: &[[DVec3; 4]; 2], moves: &[[DVec3; 4]; 2]) -> f64 {
-        let [t, c] = [0, 1].map(|of| [0, 1, 2, 3].map(|k| corners[of][k] - 0.5 * moves[of][k]));
-        let root = overlap(&t, &c).map_or(0.0, |found| found.energy).sqrt();
-        let born = (root - (self.left / self.penalty).sqrt()).max(0.0);
-        self.left = self.penalty * (root - born).powi(2);
-        born * born
+    /// The overlap that does not count [m3]. It is such that the pair had the energy left to it when its joint gave way,
+    /// half a step ago: with s = sqrt I - sqrt I_b, p s^2 now less half of what the motion of this step does against its
+    /// forces, the share s / sqrt I of those of the whole overlap.
+    fn bear(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
+        let left = std::mem::take(&mut self.left);
+        let Some(found) = found.filter(|found| found.energy > 0.0) else { return 0.0 };
+        let root = found.energy.sqrt();
+        let along = found.forces.iter().flatten().zip(moves.iter().flatten()).map(|(force, way)| force.dot(*way));
+        // Of the whole overlap, over p sqrt I.
+        let work = -0.5 * along.sum::<f64>() / root;
+        let counts = (0.5 * (work + (work * work + 4.0 * left / self.penalty).sqrt())).clamp(0.0, root);
+        self.left = (self.penalty * counts * (counts - work)).max(0.0);
+        (root - counts).powi(2)
     }
 }
