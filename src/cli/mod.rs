@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 the run went wrong, 2 the input is refused (nothing was written).
 
 mod bench;
+mod book;
 mod check;
 mod compare;
 mod devices;
@@ -60,6 +61,7 @@ enum Command {
     Unit(unit::UnitArguments),
     Wave(wave::WaveArguments),
     Compare(compare::CompareArguments),
+    Book(book::BookArguments),
     Report(report::ReportArguments),
     Init(init::InitArguments),
     Schema(schema::SchemaArguments),
@@ -98,6 +100,7 @@ pub fn main() -> ExitCode {
         Command::Unit(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
         Command::Compare(arguments) => arguments.execute(),
+        Command::Book(arguments) => arguments.execute(),
         Command::Report(arguments) => arguments.execute(),
         Command::Init(arguments) => arguments.execute(),
         Command::Schema(arguments) => arguments.execute(),

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::output::{
     OutputError,
-    plot::{Line, LineChart},
+    plot::{Line, LineChart, standalone},
     write_atomically,
 };
 
@@ -29,7 +29,7 @@ pub fn write(sweep: &Sweep, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let mut written = vec![csv];
     if let Some(chart) = chart(sweep, &outcomes) {
         let path = dir.join("sweep.svg");
-        write_atomically(&path, chart.svg().as_bytes())?;
+        write_atomically(&path, standalone(&chart.svg()).as_bytes())?;
         written.push(path);
     }
     Ok(written)

@@ -5,7 +5,7 @@
 //! X1 = 19.85 + arccosh(sqrt(20)) / sqrt(3H/4d), half a wave length before the toe.
 
 use breakwater::geometry::profile::Profile;
-use breakwater::output::plot::{Line, LineChart};
+use breakwater::output::plot::{Line, LineChart, standalone};
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
@@ -282,9 +282,7 @@ fn picture(run_ups: &[RunUp]) -> String {
         size: [760.0, 460.0],
         ..LineChart::default()
     };
-    // The colours of the reports' style sheet.
-    let style = format!("><style>{}</style>", include_str!("../../src/output/report/style.css"));
-    chart.svg().replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1).replacen('>', &style, 1)
+    standalone(&chart.svg())
 }
 
 /// All of them, and their picture: `cargo test --release --test validation -- --ignored --nocapture all_run_ups`.

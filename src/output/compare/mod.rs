@@ -129,6 +129,27 @@ impl fmt::Display for Place {
 }
 
 impl WaveComparison {
+    /// Displacement of each unit in words, as rows of a table: the place, the published series, the runs [m].
+    pub fn displacement_rows(&self) -> Vec<Vec<String>> {
+        let words = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.3}"));
+        let row = |place: Place| {
+            let published = (0..SERIES.len()).map(|series| words(self.published_m(series, place)));
+            let runs = self.runs.iter().map(|run| words(self.run_m(run, place)));
+            [place.to_string()].into_iter().chain(published).chain(runs).collect()
+        };
+        self.places().into_iter().map(row).collect()
+    }
+
+    /// Displacement of each unit as a chart, `<svg>`.
+    pub fn units_chart(&self) -> String {
+        page::units_chart(self)
+    }
+
+    /// Mean displacement against the distance between particles as a chart, `<svg>`.
+    pub fn resolution_chart(&self) -> String {
+        page::resolution_chart(self)
+    }
+
     /// The experiment's units, then those of the slices, which are not units of the experiment.
     fn places(&self) -> Vec<Place> {
         let most = |slices: bool| {

@@ -82,7 +82,8 @@ fn means(wave: &WaveComparison) -> String {
     )
 }
 
-fn units_chart(wave: &WaveComparison) -> String {
+/// Displacement of each unit, published and computed.
+pub fn units_chart(wave: &WaveComparison) -> String {
     let places = wave.places();
     let mut bars: Vec<Bars> = (SERIES.into_iter().enumerate())
         .map(|(series, name)| Bars {
@@ -111,7 +112,8 @@ fn units_chart(wave: &WaveComparison) -> String {
     .svg()
 }
 
-fn resolution_chart(wave: &WaveComparison) -> String {
+/// Mean displacement against the distance between particles.
+pub fn resolution_chart(wave: &WaveComparison) -> String {
     let measured = wave.published.measured_mean_m();
     let point = |dp_m: f64, percent: f64| [1000.0 * dp_m, measured * (1.0 + 0.01 * percent)];
     let published = wave.published.convergence.iter().map(|r| point(r.dp_m, r.deviation_percent)).collect();

@@ -103,6 +103,9 @@ fn resolutions(table: &Table, height_m: f64) -> Result<Vec<Resolution>, OutputEr
 }
 
 impl PublishedWave {
+    /// Names of the series, measurements first.
+    pub const SERIES: [&str; 5] = SERIES;
+
     /// Number of units.
     pub fn units(&self) -> usize {
         self.displacement_m[0].len()

@@ -1,4 +1,5 @@
-//! Charts as inline SVG: a frame with axes, lines or bars in it, colours from the page's style sheet.
+//! Charts as inline SVG: a frame with axes, lines or bars in it, colours from the page's style sheet; or as files of their
+//! own that bring it along.
 //!
 //! Colours are the classes `c0` to `c5`; the style sheet gives them a palette that colour-blind readers can tell apart
 //! (Okabe & Ito 2008) and that differs between light and dark pages.
@@ -11,6 +12,8 @@ pub use axis::Axis;
 pub use bar::{BarChart, Bars};
 pub use line::{Line, LineChart};
 
+/// Style sheet of charts, with the palette for light and dark pages.
+pub const CHART_STYLE: &str = include_str!("chart.css");
 /// Number of colours in the palette.
 pub const COLOURS: usize = 6;
 /// Left edge of the plot area [px].
@@ -28,6 +31,17 @@ pub fn short(value: f64, decimals: usize) -> String {
 /// Text that may stand in HTML and SVG.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A chart as a file of its own, with its style sheet, on paper; an image viewer shows the light palette.
+pub fn standalone(chart: &str) -> String {
+    let letters = "\"Source Sans 3\", \"Segoe UI\", \"Helvetica Neue\", Helvetica, Arial, \"DejaVu Sans\", sans-serif";
+    let style = format!(
+        "<style>\n{CHART_STYLE}text {{ font-family: {letters}; }} .paper {{ fill: var(--paper); }}\n</style>\n\
+         <rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n"
+    );
+    let opened = chart.replacen("<svg ", "<svg xmlns=\"http://www.w3.org/2000/svg\" ", 1);
+    opened.replacen("</title>\n", &format!("</title>\n{style}"), 1)
 }
 
 /// The plot area inside the picture [px], and the two axes that map into it.
@@ -163,5 +177,13 @@ mod tests {
         assert_eq!(short(-0.0001, 2), "0");
         assert_eq!(short(1200.0, 0), "1200");
         assert_eq!(escape("H < 0.1 & \"d\""), "H &lt; 0.1 &amp; &quot;d&quot;");
+    }
+
+    #[test]
+    fn a_chart_of_its_own_brings_its_colours() {
+        let lines = vec![Line { name: "a".to_owned(), points: vec![[0.0, 1.0], [1.0, 2.0]], ..Line::default() }];
+        let file = standalone(&LineChart { lines, size: [400.0, 300.0], ..LineChart::default() }.svg());
+        assert!(file.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 400 300\""));
+        assert!(file.contains("--c0:") && file.contains(".line {") && file.matches("<style>").count() == 1);
     }
 }

@@ -18,7 +18,7 @@ mod window;
 
 use std::path::{Path, PathBuf};
 
-use super::plot::escape;
+use super::plot::{CHART_STYLE, escape};
 use super::{OutputError, write_atomically};
 use folder::RunFolder;
 use moments::Moments;
@@ -44,7 +44,7 @@ pub fn write_report(run_dir: &Path) -> Result<PathBuf, OutputError> {
 /// A whole page with the style sheet in it.
 pub fn page(title: &str, body: &str) -> String {
     let title = escape(title);
-    let style = [include_str!("style.css"), include_str!("shades.css")].concat();
+    let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css")].concat();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\

@@ -1,0 +1,75 @@
+//! The page beside the experiment of Mitsui et al. (2023).
+
+use std::{collections::BTreeMap, path::Path};
+
+use super::{entry::Entry, markdown::Page, wave};
+use crate::output::{Comparison, clock, plot::short};
+
+/// Name of the page.
+pub const FILE: &str = "fudo.md";
+
+/// The page: the runs, a section for each wave, what is assumed.
+pub fn page(comparison: &Comparison, entries: &[Entry], book: &Path) -> Page {
+    let mut page = Page::new("Tetrapods on a mound under solitary waves, beside Mitsui et al. (2023)");
+    page.paragraph(
+        "Written by `breakwater book`; every number and figure comes from the folder `runs` beside this page.\n\
+         Displacement is the horizontal distance seen from above; a unit counts as damaged when it has moved further than\n\
+         0.077 m, its height. EXP1 to EXP3 are the three repetitions in the flume, SPH1 and SPH2 the two published\n\
+         simulations with particles of 5 mm, which differ in how the units were turned. A slice is two units between\n\
+         periodic sides: it stands for the inner units of the row.",
+    );
+    page.heading(2, "Runs");
+    let head = [
+        "run",
+        "wave [cm]",
+        "particles every [mm]",
+        "particles",
+        "steps",
+        "simulated [s]",
+        "took",
+        "threads",
+        "computed by",
+    ];
+    let rows: Vec<Vec<String>> = entries.iter().map(run_row).collect();
+    page.table(&head.map(str::to_owned), &rows);
+    page.paragraph("Each of them again:");
+    let command = |entry: &Entry| {
+        let case = entry.folder(book).join("case.json");
+        format!("`breakwater run {} --out runs/{}`", case.display(), entry.name)
+    };
+    page.list(entries.iter().map(command));
+    for of_wave in &comparison.waves {
+        wave::add_section(&mut page, of_wave, entries);
+    }
+    add_assumptions(&mut page, entries);
+    page
+}
+
+fn run_row(entry: &Entry) -> Vec<String> {
+    let summary = &entry.summary;
+    let device = summary.execution.device.as_deref().unwrap_or("processor");
+    let height = summary.wave.as_ref().map_or(f64::NAN, |wave| wave.height_m);
+    vec![
+        entry.name.clone(),
+        short(100.0 * height, 1),
+        short(1000.0 * summary.dp_m, 2),
+        summary.particles.to_string(),
+        summary.steps.to_string(),
+        short(summary.simulated_s, 2),
+        clock(summary.execution.wall_s),
+        summary.execution.threads.to_string(),
+        format!("{device}, breakwater {}", summary.breakwater_version),
+    ]
+}
+
+/// What had to be assumed, and in which of the runs.
+fn add_assumptions(page: &mut Page, entries: &[Entry]) {
+    let mut assumed: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for entry in entries {
+        entry.summary.assumptions.iter().for_each(|words| assumed.entry(words).or_default().push(&entry.name));
+    }
+    page.heading(2, "Assumed");
+    page.list(assumed.into_iter().map(|(words, runs)| {
+        if runs.len() == entries.len() { words.to_owned() } else { format!("{words} ({})", runs.join(", ")) }
+    }));
+}

@@ -1,0 +1,131 @@
+//! The validation book: what stays of finished runs, and the pages that are written from it.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | [`entry`] | a run in the book: its case, its summary and one short table of series |
+//! | [`variation`] | in which keys of the case runs differ |
+//! | [`markdown`] | tables and figures of a page |
+//! | [`fudo`] | the page beside the experiment of Mitsui et al. (2023) |
+//! | [`wave`] | its section on one wave height |
+//!
+//! Everything on a page comes from the folder `runs` beside it, and nothing there is typed: another computer with the same
+//! book makes the same pages.
+
+pub mod entry;
+mod fudo;
+mod markdown;
+mod variation;
+mod wave;
+
+use std::path::{Path, PathBuf};
+
+use crate::output::{Fudo, OutputError, compare, write_atomically};
+use entry::Entry;
+
+/// Takes finished runs into the book and writes its pages; returns the files written, pages and figures.
+///
+/// # Errors
+/// If a run does not belong to the experiment, is not finished, or a file cannot be read or written. Nothing is taken
+/// in then.
+pub fn write(book: &Path, runs: &[PathBuf], reference: &Fudo) -> Result<Vec<PathBuf>, OutputError> {
+    compare(runs, reference)?;
+    let taken = runs.iter().map(|run| Entry::of_run(run)).collect::<Result<Vec<_>, _>>()?;
+    for entry in &taken {
+        entry.keep(book)?;
+    }
+    let entries = Entry::all(book)?;
+    if entries.is_empty() {
+        return Err(OutputError::content(
+            &book.join(Entry::RUNS),
+            "holds no run yet; name the folders of finished ones",
+        ));
+    }
+    let folders: Vec<PathBuf> = entries.iter().map(|entry| entry.folder(book)).collect();
+    let page = fudo::page(&compare(&folders, reference)?, &entries, book);
+    let mut written = vec![book.join(fudo::FILE)];
+    write_atomically(&written[0], page.text().as_bytes())?;
+    for (name, svg) in page.figures() {
+        let path = book.join(name);
+        write_atomically(&path, svg.as_bytes())?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::{Summary, UnitSummary, WaveSummary};
+    use serde_json::json;
+    use std::fs;
+
+    /// Folder of a finished run of two units that moved so far [m].
+    fn run(folder: &Path, name: &str, height_m: f64, friction: f64, moved: [f64; 2]) -> PathBuf {
+        let dir = folder.join(name);
+        fs::create_dir(&dir).unwrap();
+        let wave = WaveSummary { kind: "solitary".to_owned(), theory: "rayleigh".to_owned(), height_m, period_s: None };
+        let mut summary = Summary { wave: Some(wave), dp_m: 0.009, particles: 170_000, ..Summary::default() };
+        summary.assumptions.push("crest width 0.32 m".to_owned());
+        let unit = |(k, d): (usize, &f64)| {
+            UnitSummary::moved(k as u32 + 1, [39.0, 0.0, 0.0], [39.0 + d, 0.0, 0.0], 0.0, 0.077)
+        };
+        summary.set_units(moved.iter().enumerate().map(unit).collect(), 0.077);
+        summary.write(&dir).unwrap();
+        let case = json!({
+            "title": name, "friction": [{ "between": ["mortar", "pvc"], "coefficient": friction }], "domain": { "dp_m": 0.009 }
+        });
+        fs::write(dir.join("case.json"), case.to_string()).unwrap();
+        let rows = (0..4).flat_map(|row| [0, 1].map(|k| (row, k)));
+        let row = |(row, k): (u32, usize)| {
+            let share = f64::from(row) / 3.0;
+            format!("{},{},{},0,{},0\n", 16.0 + share, k + 1, 39.0 + share * moved[k], 0.5 * share)
+        };
+        let rows: String = rows.map(row).collect();
+        fs::write(dir.join("units.csv"), format!("time_s,unit,x_m,y_m,fluid_fx_n,fluid_fz_n\n{rows}")).unwrap();
+        fs::write(dir.join("gauges.csv"), "time_s,front_eta_m\n16,0\n17,0.01\n").unwrap();
+        dir
+    }
+
+    #[test]
+    fn a_book_grows_and_writes_itself_from_what_it_keeps() {
+        let folder = tempfile::tempdir().unwrap();
+        let (book, fudo) = (folder.path().join("book"), Fudo::published().unwrap());
+        let runs = [0.1, 0.32, 0.54].map(|friction| {
+            run(folder.path(), &format!("mu_{friction}"), 0.045, friction, [0.4 - friction, 0.42 - friction])
+        });
+        write(&book, &runs[..2], &fudo).unwrap();
+        let files = write(&book, &runs[2..], &fudo).unwrap();
+        assert!(files.iter().all(|file| file.exists()));
+        let page = fs::read_to_string(book.join("fudo.md")).unwrap();
+        for words in [
+            "## Solitary wave of 4.5 cm",
+            "| mu_0.32 | 2 | 9 | 0.090 | 100 |",
+            "| slice 2 |  |  |  |  |  | 0.320 | 0.100 |",
+            "| mu_0.54 | 0.54 | 0.130 | 100 |",
+            "![Mean displacement against `friction.mortar-pvc.coefficient`.](fudo-4.5-coefficient.svg)",
+            "runs/mu_0.1/case.json --out runs/mu_0.1`",
+            "* crest width 0.32 m\n",
+        ] {
+            assert!(page.contains(words), "{words} in\n{page}");
+        }
+        // The same pages from the book alone.
+        for run in &runs {
+            fs::remove_dir_all(run).unwrap();
+        }
+        assert_eq!(write(&book, &[], &fudo).unwrap(), files);
+        assert_eq!(fs::read_to_string(book.join("fudo.md")).unwrap(), page);
+    }
+
+    #[test]
+    fn what_does_not_belong_into_the_book_leaves_it_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let (book, fudo) = (folder.path().join("book"), Fudo::published().unwrap());
+        assert!(write(&book, &[], &fudo).unwrap_err().to_string().contains("holds no run yet"));
+        let good = run(folder.path(), "good", 0.045, 0.32, [0.2, 0.2]);
+        let other = run(folder.path(), "other", 0.05, 0.32, [0.2, 0.2]);
+        let message = write(&book, &[good.clone(), other], &fudo).unwrap_err().to_string();
+        assert!(message.contains("5.00 cm high") && !book.exists(), "{message}");
+        fs::remove_file(good.join("units.csv")).unwrap();
+        assert!(write(&book, &[good], &fudo).unwrap_err().to_string().contains("units.csv") && !book.exists());
+    }
+}

@@ -1,0 +1,184 @@
+//! The section of the page on one wave height.
+
+use super::{
+    entry::Entry,
+    markdown::Page,
+    variation::{Varied, between},
+};
+use crate::output::{
+    PublishedWave, RunResult, WaveComparison,
+    plot::{Line, LineChart, short},
+};
+
+/// Size of a chart [px].
+const SIZE: [f64; 2] = [920.0, 320.0];
+
+/// Adds what a wave did in the experiment, in the published simulations and in the runs.
+pub fn add_section(page: &mut Page, wave: &WaveComparison, entries: &[Entry]) {
+    let centimetres = format!("{:.1}", 100.0 * wave.published.height_m);
+    let of = |run: &RunResult| entries.iter().find(|entry| entry.name == run.name);
+    let runs: Vec<(&RunResult, &Entry)> = wave.runs.iter().filter_map(|run| Some((run, of(run)?))).collect();
+    page.heading(2, &format!("Solitary wave of {centimetres} cm"));
+    add_means(page, wave);
+    add_units(page, wave, &centimetres);
+    let file = format!("fudo-{centimetres}-resolution.svg");
+    page.figure(
+        &file,
+        &wave.resolution_chart(),
+        "Mean displacement against the distance between particles; the published study (Tables 5 and 6, Fig. 16 of the paper) and \
+         the runs, the measured mean dashed. The published error is read as (EXP \u{2212} SPH1) / EXP, the sign that agrees with \
+         the appendix at 5 mm.",
+    );
+    add_variations(page, &runs, &centimetres);
+    if let Some((run, entry)) = runs.iter().min_by(|a, b| a.0.summary.dp_m.total_cmp(&b.0.summary.dp_m)) {
+        add_series(page, run, entry, &centimetres);
+    }
+}
+
+/// Means, damage ratios and deviations: Tables 3, 4 and 6 of the paper.
+fn add_means(page: &mut Page, wave: &WaveComparison) {
+    let head = [
+        "series",
+        "units",
+        "particles every [mm]",
+        "mean displacement [m]",
+        "damaged [%]",
+        "against EXP [%]",
+        "against its inner units [%]",
+    ];
+    let published = &wave.published;
+    let percent = |value: f64| short(100.0 * value, 0);
+    let mut rows = Vec::new();
+    for (series, name) in PublishedWave::SERIES.into_iter().enumerate() {
+        let deviation = 100.0 * (published.mean_m(series) / published.measured_mean_m() - 1.0);
+        let is_measured = name.starts_with("EXP");
+        rows.push(vec![
+            name.to_owned(),
+            published.units().to_string(),
+            if is_measured { String::new() } else { "5".to_owned() },
+            format!("{:.3}", published.mean_m(series)),
+            percent(published.damage_ratio(series)),
+            if is_measured { String::new() } else { short(deviation, 1) },
+            String::new(),
+        ]);
+    }
+    for run in &wave.runs {
+        rows.push(vec![
+            run.name.clone(),
+            run.summary.units.len().to_string(),
+            short(1000.0 * run.summary.dp_m, 2),
+            format!("{:.3}", run.mean_m),
+            percent(run.damage_ratio),
+            short(run.deviation_percent, 1),
+            short(run.inner_deviation_percent, 1),
+        ]);
+    }
+    page.table(&head.map(str::to_owned), &rows);
+}
+
+/// Displacement of every unit: Tables A1 to A3 and Fig. 12.
+fn add_units(page: &mut Page, wave: &WaveComparison, centimetres: &str) {
+    page.figure(
+        &format!("fudo-{centimetres}-units.svg"),
+        &wave.units_chart(),
+        "Displacement of each unit (Tables A1 to A3, Fig. 12 of the paper); hollow: published.",
+    );
+    let mut head = vec!["unit".to_owned()];
+    head.extend(PublishedWave::SERIES.map(str::to_owned));
+    head.extend(wave.runs.iter().map(|run| run.name.clone()));
+    page.table(&head, &wave.displacement_rows());
+}
+
+/// The keys in which the runs differ beside what came of them, and a chart for each that takes three values or more.
+fn add_variations(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
+    let varied = between(&runs.iter().map(|(_, entry)| *entry).collect::<Vec<_>>());
+    if varied.is_empty() {
+        return;
+    }
+    page.paragraph("What differs between the runs:");
+    let mut head = vec!["run".to_owned()];
+    head.extend(varied.iter().map(|one| format!("`{}`", one.key)));
+    head.extend(["mean displacement [m]", "damaged [%]"].map(str::to_owned));
+    let row = |(number, (run, _)): (usize, &(&RunResult, &Entry))| {
+        let mut row = vec![run.name.clone()];
+        row.extend(varied.iter().map(|one| one.in_words(number)));
+        row.extend([format!("{:.3}", run.mean_m), short(100.0 * run.damage_ratio, 0)]);
+        row
+    };
+    page.table(&head, &runs.iter().enumerate().map(row).collect::<Vec<_>>());
+    for one in varied.iter().filter(|one| one.numbers() > 2 && one.key != "domain.dp_m") {
+        let last = one.key.rsplit('.').next().unwrap_or_default();
+        page.figure(
+            &format!("fudo-{centimetres}-{last}.svg"),
+            &chart_along(one, &varied, runs),
+            &format!("Mean displacement against `{}`.", one.key),
+        );
+    }
+}
+
+/// Mean displacement along a key, a line for each combination of the others.
+fn chart_along(along: &Varied, varied: &[Varied], runs: &[(&RunResult, &Entry)]) -> String {
+    let mut lines: Vec<Line> = Vec::new();
+    for (number, (run, _)) in runs.iter().enumerate() {
+        let Some(x) = along.number(number) else { continue };
+        let others = varied.iter().filter(|one| one.key != along.key);
+        let name = others.map(|one| format!("{} {}", one.key, one.in_words(number))).collect::<Vec<_>>().join(", ");
+        match lines.iter_mut().find(|line| line.name == name) {
+            Some(line) => line.points.push([x, run.mean_m]),
+            None => {
+                let (points, colour) = (vec![[x, run.mean_m]], lines.len());
+                lines.push(Line { name, points, colour, dots: true, ..Line::default() });
+            }
+        }
+    }
+    lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a[0].total_cmp(&b[0])));
+    LineChart {
+        title: format!("Mean displacement against {}", along.key),
+        x_label: along.key.clone(),
+        y_label: "mean displacement [m]".to_owned(),
+        lines,
+        size: SIZE,
+        ..LineChart::default()
+    }
+    .svg()
+}
+
+/// Water at the gauges and force on the units of the finest run: Figs. 8 and 14.
+fn add_series(page: &mut Page, run: &RunResult, entry: &Entry, centimetres: &str) {
+    let chart = |title: &str, y_label: &str, lines: Vec<Line>| {
+        let (title, y_label) = (title.to_owned(), y_label.to_owned());
+        LineChart { title, x_label: "flume time [s]".to_owned(), y_label, lines, size: SIZE, ..LineChart::default() }
+            .svg()
+    };
+    let line = |name: String, column: &str, colour: usize, dashed: bool| {
+        Some(Line { name, points: entry.points(column)?, colour, dashed, ..Line::default() })
+    };
+    let in_domain = |gauge: &str| {
+        entry.points(&format!("{gauge}_eta_m")).is_some_and(|points| points.iter().any(|point| point[1].is_finite()))
+    };
+    let gauges = || entry.gauges().filter(|gauge| in_domain(gauge)).enumerate();
+    let water: Vec<Line> = gauges()
+        .filter_map(|(colour, gauge)| line(gauge.to_owned(), &format!("{gauge}_eta_m"), colour, false))
+        .chain(gauges().filter_map(|(colour, gauge)| {
+            line(format!("{gauge}, flume model"), &format!("{gauge}_flume_eta_m"), colour, true)
+        }))
+        .collect();
+    if !water.is_empty() {
+        page.figure(
+            &format!("fudo-{centimetres}-gauges.svg"),
+            &chart("Water level at the gauges", "above still water [m]", water),
+            &format!(
+                "Water level at the gauges of `{}`, dashed without the mound by the model of the flume. (Fig. 8 of the paper has the \
+                 measured series, which were not published as numbers.)",
+                run.name
+            ),
+        );
+    }
+    let units = 1..=run.summary.units.len();
+    let forces = units.filter_map(|unit| line(format!("unit {unit}"), &format!("unit_{unit}_fx_n"), unit - 1, false));
+    page.figure(
+        &format!("fudo-{centimetres}-forces.svg"),
+        &chart("Force of the water on the units", "force towards the shore [N]", forces.collect()),
+        &format!("Force of the water on the units of `{}` towards the shore (as Fig. 14 of the paper).", run.name),
+    );
+}
