@@ -179,6 +179,8 @@ fn bench_writes_its_measurements() {
 fn schema_prints_json() {
     let schema: Value = serde_json::from_str(&succeed(&["schema"])).unwrap();
     assert!(schema["properties"]["domain"].is_object() && schema["properties"]["flume"].is_object());
+    let sweep: Value = serde_json::from_str(&succeed(&["schema", "--sweep"])).unwrap();
+    assert_eq!(sweep["required"], serde_json::json!(["title", "case", "vary"]));
 }
 
 /// As with `breakwater schema | head`.

@@ -24,7 +24,7 @@ pub struct Stop {
 /// When the units count as come to rest; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtRest {
-    /// A unit slower than this is at rest [m/s].
+    /// A unit that gets on more slowly than this is at rest [m/s].
     pub speed: f64,
     /// For how long all must be at rest [s].
     pub hold: f64,

@@ -13,6 +13,9 @@ pub struct SchemaArguments {
     /// The schema of fracture cases: deformable bodies that crack.
     #[arg(long, conflicts_with = "dry")]
     fracture: bool,
+    /// The schema of sweeps: one case with keys that vary.
+    #[arg(long, conflicts_with_all = ["dry", "fracture"])]
+    sweep: bool,
 }
 
 impl SchemaArguments {
@@ -20,6 +23,7 @@ impl SchemaArguments {
         let text = match self {
             Self { dry: true, .. } => crate::case::dry_schema_text(),
             Self { fracture: true, .. } => crate::case::fracture_schema_text(),
+            Self { sweep: true, .. } => crate::sweep::plan::schema_text(),
             _ => crate::case::schema_text(),
         };
         println!("{text}");

@@ -15,6 +15,7 @@
 //! | [`mean_loads`] | loads on the units as the series show them |
 //! | [`water_at_impacts`] | the water at the units when their impacts are hardest |
 //! | [`statistics`] | what is kept of a run besides its series |
+//! | [`rest`] | whether the units have come to rest |
 //! | [`recorder`] | writes the series and snapshots |
 //! | [`snapshots`] | moments of water and units for ParaView |
 //! | [`checkpoint`] | state to and from HDF5 |
@@ -34,6 +35,7 @@ pub mod incoming;
 pub mod mean_loads;
 pub mod progress;
 pub mod recorder;
+pub mod rest;
 pub mod run;
 pub mod scheme;
 pub mod setup;

@@ -16,7 +16,6 @@ use super::{
 use crate::{
     case::Case,
     output::{OutputError, Stopped, Summary, write_report},
-    rigid::BodyState,
     sph::device::Device,
 };
 
@@ -151,10 +150,6 @@ fn stop_rule(simulation: &mut Simulation) -> Option<Stopped> {
     let (rule, units) = (stop.at_rest.as_ref()?, simulation.units.as_ref()?);
     // The tips of a unit are about half its height away from its centre.
     let tips = 0.5 * units.shape.height();
-    let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
-    let at_rest = units.states().iter().all(|state| speed(state) < rule.speed);
-    let since = &mut simulation.statistics.at_rest_since;
-    *since = if at_rest { since.or(Some(simulation.time)) } else { None };
-    let long_enough = since.is_some_and(|since| simulation.time - since >= rule.hold);
-    (simulation.time >= rule.not_before && long_enough).then_some(Stopped::AtRest)
+    let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
+    (simulation.time >= rule.not_before && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

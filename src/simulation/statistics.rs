@@ -1,6 +1,6 @@
 //! What is kept of a run besides its series.
 
-use super::balance::Balance;
+use super::{balance::Balance, rest::Rest};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -29,8 +29,9 @@ pub struct Statistics {
     pub peak_contact: f64,
     /// Fastest approach at the start of a contact [m/s].
     pub fastest_contact: f64,
-    /// Time since which all units have been at rest [s].
-    pub at_rest_since: Option<f64>,
+    /// Whether the units have come to rest.
+    #[serde(default)]
+    pub rest: Rest,
     /// Energy of water and units at the start [J].
     pub energy_start: Option<f64>,
     /// Energy that the water received.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use thiserror::Error;
@@ -42,23 +43,42 @@ pub enum SweepError {
     },
 }
 
-/// The file as written.
-#[derive(Debug, Deserialize)]
+/// A sweep: one case with keys that vary, every combination of their values a run.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SweepFile {
+    /// Where the JSON schema lies, for editors (`breakwater schema --sweep` prints it). Not used by the solver.
+    #[serde(rename = "$schema", default)]
+    _schema: Option<String>,
+    /// Title of table and chart.
     title: String,
+    /// The case file, from where the sweep file lies; files that it names are looked for beside it.
     case: PathBuf,
+    /// Keys with their values; the last one varies fastest.
     vary: Vec<VaryFile>,
 }
 
-#[derive(Debug, Deserialize)]
+/// A key of the case with its values: either `values`, or `from`, `to` and `count`.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct VaryFile {
+    /// Path of the key, as in `domain.dp_m` or `friction[1].coefficient`.
     key: String,
+    /// Its values: numbers, texts, whatever the key takes.
+    #[schemars(length(min = 1))]
     values: Option<Vec<Value>>,
+    /// First value.
     from: Option<f64>,
+    /// Last value.
     to: Option<f64>,
+    /// How many values at equal distances, both ends included.
+    #[schemars(range(min = 2, max = 10_000))]
     count: Option<usize>,
+}
+
+/// JSON schema of sweep files, indented.
+pub fn schema_text() -> String {
+    format!("{:#}", schemars::schema_for!(SweepFile).as_value())
 }
 
 /// A key of the case and the values that it takes.
