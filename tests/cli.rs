@@ -353,10 +353,12 @@ fn resume_before_the_first_checkpoint_says_what_to_do() {
 #[test]
 fn compare_and_report_of_what_is_no_run_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    for command in ["compare", "report"] {
+    for command in ["compare", "report", "book"] {
         let message = refuse(&[command, path(folder.path())]);
         assert!(message.contains("summary.json"), "{message}");
     }
+    let message = refuse(&["book", "--out", path(folder.path())]);
+    assert!(message.contains("holds no run yet"), "{message}");
 }
 
 /// Snapshots that the disk does not take end the run with the message of their file.

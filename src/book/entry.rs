@@ -13,8 +13,8 @@ use crate::{
     output::{OutputError, Summary, Table, write_atomically},
 };
 
-/// Rows that the series of a run has at most: enough for a figure of a page.
-const ROWS: usize = 400;
+/// Rows that the series of a run has at most: all of them in the runs of the paper, 8 s at 10 ms.
+const ROWS: usize = 1000;
 
 /// What the book keeps of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Entry {
     /// The summary.
     pub summary: Summary,
     /// Series against `time_s`, flume time: `unit_1_fx_n`, `unit_1_fz_n` and `unit_1_moved_m` of each unit,
-    /// `<gauge>_eta_m` and `<gauge>_flume_eta_m` of each gauge.
+    /// `<gauge>_eta_m` and `<gauge>.flume_eta_m` of each gauge. Forces are means over the interval of the series.
     pub series: Table,
     /// Whatever else the case needs or the comparison reads: names and contents.
     others: Vec<(&'static str, Vec<u8>)>,
@@ -43,9 +43,11 @@ impl Entry {
     /// # Errors
     /// If it is not finished, or one of its files cannot be read.
     pub fn of_run(run: &Path) -> Result<Self, OutputError> {
-        let summary = Summary::read(run)?;
-        let series = series_of(run, summary.units.len())?;
-        Self::with(run, summary, series)
+        // By its own name, whatever way it was called.
+        let run = fs::canonicalize(run).map_err(OutputError::io(run))?;
+        let summary = Summary::read(&run)?;
+        let series = series_of(&run, summary.units.len())?;
+        Self::with(&run, summary, series)
     }
 
     #[cfg(test)]
@@ -87,7 +89,9 @@ impl Entry {
         };
         let paths = folders.map(|folder| folder.map(|folder| folder.path())).collect::<Result<Vec<_>, _>>();
         let mut paths: Vec<PathBuf> = paths.map_err(OutputError::io(&runs))?;
-        paths.retain(|path| path.is_dir());
+        // A hidden one was being written when the program was killed.
+        let is_hidden = |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        paths.retain(|path| path.is_dir() && !is_hidden(path));
         paths.sort();
         paths.iter().map(|path| Self::read(path)).collect()
     }
@@ -97,17 +101,19 @@ impl Entry {
         book.join(Self::RUNS).join(&self.name)
     }
 
-    /// Puts it into a book, in the place of an older one with its name.
+    /// Puts it into a book, in the place of an older one with its name: whole or not at all.
     ///
     /// # Errors
     /// If a file cannot be written.
     pub fn keep(&self, book: &Path) -> Result<(), OutputError> {
-        let folder = self.folder(book);
-        fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;
-        write_atomically(&folder.join(Self::CASE), format!("{:#}\n", self.case).as_bytes())?;
-        write_atomically(&folder.join(Self::SERIES), csv(&self.series).as_bytes())?;
-        self.others.iter().try_for_each(|(file, content)| write_atomically(&folder.join(file), content))?;
-        self.summary.write(&folder)
+        let (folder, part) = (self.folder(book), book.join(Self::RUNS).join(format!(".{}.part", self.name)));
+        let clear = |folder: &Path| if folder.exists() { fs::remove_dir_all(folder) } else { Ok(()) };
+        clear(&part).and_then(|()| fs::create_dir_all(&part)).map_err(OutputError::io(&part))?;
+        write_atomically(&part.join(Self::CASE), format!("{:#}\n", self.case).as_bytes())?;
+        write_atomically(&part.join(Self::SERIES), csv(&self.series).as_bytes())?;
+        self.others.iter().try_for_each(|(file, content)| write_atomically(&part.join(file), content))?;
+        self.summary.write(&part)?;
+        clear(&folder).and_then(|()| fs::rename(&part, &folder)).map_err(OutputError::io(&folder))
     }
 
     /// Points of a series against the time, where there is one.
@@ -119,7 +125,8 @@ impl Entry {
     /// Names of the gauges in the series.
     pub fn gauges(&self) -> impl Iterator<Item = &str> {
         let names = self.series.names().iter().filter_map(|name| name.strip_suffix("_eta_m"));
-        names.filter(|name| !name.ends_with("_flume"))
+        // Names of gauges have no dots.
+        names.filter(|name| !name.contains('.'))
     }
 }
 
@@ -127,6 +134,11 @@ impl Entry {
 fn series_of(run: &Path, units: usize) -> Result<Table, OutputError> {
     let path = run.join("units.csv");
     let table = Table::read(&path)?;
+    let numbers = table.column("unit")?;
+    let in_turn = numbers.iter().enumerate().all(|(row, unit)| *unit == (row % units.max(1) + 1) as f64);
+    if !in_turn || table.rows() == 0 || table.rows() % units.max(1) != 0 {
+        return Err(OutputError::content(&path, format!("must hold rows of {units} units in turn")));
+    }
     let rows = table.rows() / units.max(1);
     let stride = rows.div_ceil(ROWS).max(1);
     let times: Vec<f64> = table.column("time_s")?.iter().step_by(units.max(1) * stride).copied().collect();
@@ -143,12 +155,12 @@ fn series_of(run: &Path, units: usize) -> Result<Table, OutputError> {
             columns.push(values);
         }
     }
-    for (file, suffix) in [("gauges.csv", "eta_m"), ("flume_gauges.csv", "flume_eta_m")] {
+    for (file, suffix) in [("gauges.csv", "_eta_m"), ("flume_gauges.csv", ".flume_eta_m")] {
         let Some(gauges) = Table::read_if_present(&run.join(file))? else { continue };
         let at = gauges.column("time_s")?;
         for name in gauges.names().iter().filter_map(|name| name.strip_suffix("_eta_m")) {
             let values = gauges.column(&format!("{name}_eta_m"))?;
-            names.push(format!("{name}_{suffix}"));
+            names.push(format!("{name}{suffix}"));
             columns.push(columns[0].iter().map(|time| interpolated(at, values, *time)).collect());
         }
     }
@@ -195,16 +207,16 @@ mod tests {
     fn the_series_of_long_runs_are_thinned() {
         let folder = tempfile::tempdir().unwrap();
         let mut text = "time_s,unit,x_m,y_m,fluid_fx_n,fluid_fz_n\n".to_owned();
-        for row in 0..1000 {
+        for row in 0..3000 {
             for unit in 0..2 {
                 let x = f64::from(unit) + 3e-3 * f64::from(row);
                 text += &format!("{},{},{x},{},{row},0\n", 0.01 * f64::from(row), unit + 1, 4e-3 * f64::from(row));
             }
         }
         fs::write(folder.path().join("units.csv"), text).unwrap();
-        fs::write(folder.path().join("gauges.csv"), "time_s,front_eta_m\n0,0\n10,1\n").unwrap();
+        fs::write(folder.path().join("gauges.csv"), "time_s,front_eta_m\n0,0\n30,3\n").unwrap();
         let series = series_of(folder.path(), 2).unwrap();
-        assert_eq!(series.rows(), 334);
+        assert_eq!(series.rows(), 1000);
         let moved = series.column("unit_2_moved_m").unwrap();
         // Three and four thousandths a row: five.
         assert!((moved[1] - 0.015).abs() < 1e-9 && series.column("unit_2_fx_n").unwrap()[1] == 3.0);

@@ -1,22 +1,23 @@
 //! The page beside the experiment of Mitsui et al. (2023).
 
-use std::{collections::BTreeMap, path::Path};
+use std::collections::BTreeMap;
 
 use super::{entry::Entry, markdown::Page, wave};
-use crate::output::{Comparison, clock, plot::short};
+use crate::output::{Comparison, Stopped, clock, plot::short};
 
 /// Name of the page.
 pub const FILE: &str = "fudo.md";
 
 /// The page: the runs, a section for each wave, what is assumed.
-pub fn page(comparison: &Comparison, entries: &[Entry], book: &Path) -> Page {
+pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
     let mut page = Page::new("Tetrapods on a mound under solitary waves, beside Mitsui et al. (2023)");
     page.paragraph(
         "Written by `breakwater book`; every number and figure comes from the folder `runs` beside this page.\n\
          Displacement is the horizontal distance seen from above; a unit counts as damaged when it has moved further than\n\
          0.077 m, its height. EXP1 to EXP3 are the three repetitions in the flume, SPH1 and SPH2 the two published\n\
          simulations with particles of 5 mm, which differ in how the units were turned. A slice is two units between\n\
-         periodic sides: it stands for the inner units of the row.",
+         periodic sides: it stands for the inner units of the row, has no side walls, and no unit of it is one of the\n\
+         experiment's. The published runs lasted 20 s; these end when all units lie still.",
     );
     page.heading(2, "Runs");
     let head = [
@@ -26,22 +27,21 @@ pub fn page(comparison: &Comparison, entries: &[Entry], book: &Path) -> Page {
         "particles",
         "steps",
         "simulated [s]",
+        "ended",
         "took",
         "threads",
         "computed by",
+        "on",
     ];
     let rows: Vec<Vec<String>> = entries.iter().map(run_row).collect();
     page.table(&head.map(str::to_owned), &rows);
-    page.paragraph("Each of them again:");
-    let command = |entry: &Entry| {
-        let case = entry.folder(book).join("case.json");
-        format!("`breakwater run {} --out runs/{}`", case.display(), entry.name)
-    };
-    page.list(entries.iter().map(command));
+    page.paragraph("Each of them again, from the folder of this page:");
+    page.list(entries.iter().map(|entry| format!("`breakwater run {}/{}/case.json`", Entry::RUNS, entry.name)));
     for of_wave in &comparison.waves {
         wave::add_section(&mut page, of_wave, entries);
     }
-    add_assumptions(&mut page, entries);
+    add_words(&mut page, "Assumed", entries, |entry| &entry.summary.assumptions);
+    add_words(&mut page, "Warnings of the runs", entries, |entry| &entry.summary.warnings);
     page
 }
 
@@ -56,20 +56,28 @@ fn run_row(entry: &Entry) -> Vec<String> {
         summary.particles.to_string(),
         summary.steps.to_string(),
         short(summary.simulated_s, 2),
+        match summary.stopped {
+            Stopped::Duration => "time over".to_owned(),
+            Stopped::AtRest => "units at rest".to_owned(),
+        },
         clock(summary.execution.wall_s),
         summary.execution.threads.to_string(),
         format!("{device}, breakwater {}", summary.breakwater_version),
+        summary.execution.created.as_deref().and_then(|date| date.get(..10)).unwrap_or_default().to_owned(),
     ]
 }
 
-/// What had to be assumed, and in which of the runs.
-fn add_assumptions(page: &mut Page, entries: &[Entry]) {
-    let mut assumed: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+/// Sentences of the summaries, and which of the runs they are from if not from all.
+fn add_words<'a>(page: &mut Page, heading: &str, entries: &'a [Entry], of: impl Fn(&'a Entry) -> &'a [String]) {
+    let mut said: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for entry in entries {
-        entry.summary.assumptions.iter().for_each(|words| assumed.entry(words).or_default().push(&entry.name));
+        of(entry).iter().for_each(|words| said.entry(words).or_default().push(&entry.name));
     }
-    page.heading(2, "Assumed");
-    page.list(assumed.into_iter().map(|(words, runs)| {
+    if said.is_empty() {
+        return;
+    }
+    page.heading(2, heading);
+    page.list(said.into_iter().map(|(words, runs)| {
         if runs.len() == entries.len() { words.to_owned() } else { format!("{words} ({})", runs.join(", ")) }
     }));
 }

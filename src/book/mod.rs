@@ -22,14 +22,23 @@ use std::path::{Path, PathBuf};
 use crate::output::{Fudo, OutputError, compare, write_atomically};
 use entry::Entry;
 
-/// Takes finished runs into the book and writes its pages; returns the files written, pages and figures.
+/// Takes finished runs into the book and writes its pages; returns the files written, the page last.
 ///
 /// # Errors
-/// If a run does not belong to the experiment, is not finished, or a file cannot be read or written. Nothing is taken
-/// in then.
+/// If a run does not belong to the experiment, is not finished, or has the name of another one: nothing is taken in then.
+/// If a file of the book cannot be read or written.
 pub fn write(book: &Path, runs: &[PathBuf], reference: &Fudo) -> Result<Vec<PathBuf>, OutputError> {
     compare(runs, reference)?;
     let taken = runs.iter().map(|run| Entry::of_run(run)).collect::<Result<Vec<_>, _>>()?;
+    let mut known = Entry::all(book)?;
+    for entry in taken.iter().cloned() {
+        let other = known.iter().find(|other| other.name == entry.name);
+        if other.is_some_and(|other| other.summary.case_hash != entry.summary.case_hash) {
+            let what = "is the name of a run of another case in the book; rename one of the two folders";
+            return Err(OutputError::content(&entry.folder(book), what));
+        }
+        known.push(entry);
+    }
     for entry in &taken {
         entry.keep(book)?;
     }
@@ -41,15 +50,13 @@ pub fn write(book: &Path, runs: &[PathBuf], reference: &Fudo) -> Result<Vec<Path
         ));
     }
     let folders: Vec<PathBuf> = entries.iter().map(|entry| entry.folder(book)).collect();
-    let page = fudo::page(&compare(&folders, reference)?, &entries, book);
-    let mut written = vec![book.join(fudo::FILE)];
-    write_atomically(&written[0], page.text().as_bytes())?;
-    for (name, svg) in page.figures() {
+    let page = fudo::page(&compare(&folders, reference)?, &entries);
+    let figures = page.figures().iter().map(|(name, svg)| (name.as_str(), svg.as_str()));
+    let write = |(name, content): (&str, &str)| {
         let path = book.join(name);
-        write_atomically(&path, svg.as_bytes())?;
-        written.push(path);
-    }
-    Ok(written)
+        write_atomically(&path, content.as_bytes()).map(|()| path)
+    };
+    figures.chain([(fudo::FILE, page.text())]).map(write).collect()
 }
 
 #[cfg(test)]
@@ -99,11 +106,13 @@ mod tests {
         let page = fs::read_to_string(book.join("fudo.md")).unwrap();
         for words in [
             "## Solitary wave of 4.5 cm",
-            "| mu_0.32 | 2 | 9 | 0.090 | 100 |",
+            "| EXP, mean of the three | 15 |  | 0.242 | 100 |  |  |",
+            "| mu_0.32 | 2 | 9 | 0.090 | 100 | \u{2212}62.9 | \u{2212}62.3 |",
+            "| mu_0.1 | 2 | 9 | 0.310 | 100 | +27.9 | +29.7 |",
             "| slice 2 |  |  |  |  |  | 0.320 | 0.100 |",
             "| mu_0.54 | 0.54 | 0.130 | 100 |",
-            "![Mean displacement against `friction.mortar-pvc.coefficient`.](fudo-4.5-coefficient.svg)",
-            "runs/mu_0.1/case.json --out runs/mu_0.1`",
+            "![Mean displacement against `friction.mortar-pvc.coefficient`.](fudo-4.5-friction-mortar-pvc-coefficient.svg)",
+            "`breakwater run runs/mu_0.1/case.json`",
             "* crest width 0.32 m\n",
         ] {
             assert!(page.contains(words), "{words} in\n{page}");
@@ -126,6 +135,25 @@ mod tests {
         let message = write(&book, &[good.clone(), other], &fudo).unwrap_err().to_string();
         assert!(message.contains("5.00 cm high") && !book.exists(), "{message}");
         fs::remove_file(good.join("units.csv")).unwrap();
-        assert!(write(&book, &[good], &fudo).unwrap_err().to_string().contains("units.csv") && !book.exists());
+        let refuse = |run: PathBuf| write(&book, &[run], &fudo).unwrap_err().to_string();
+        assert!(refuse(good.clone()).contains("units.csv") && !book.exists());
+        fs::write(good.join("units.csv"), "time_s,unit,x_m,y_m,fluid_fx_n,fluid_fz_n\n16,1,39,0,0,0\n").unwrap();
+        let message = refuse(good);
+        assert!(message.contains("rows of 2 units in turn") && !book.exists(), "{message}");
+    }
+
+    #[test]
+    fn a_name_that_another_case_has_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let (book, fudo) = (folder.path().join("book"), Fudo::published().unwrap());
+        let run = run(folder.path(), "twice", 0.045, 0.32, [0.2, 0.2]);
+        // Once more, and by another path, is the same run.
+        write(&book, &[run.clone(), run.join("../twice/.")], &fudo).unwrap();
+        write(&book, std::slice::from_ref(&run), &fudo).unwrap();
+        let mut summary = Summary::read(&run).unwrap();
+        summary.case_hash = "another".to_owned();
+        summary.write(&run).unwrap();
+        let message = write(&book, &[run], &fudo).unwrap_err().to_string();
+        assert!(message.contains("rename one of the two"), "{message}");
     }
 }

@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use super::entry::Entry;
 
-/// Keys that do not change what is computed, or when.
-const OF_NO_MATTER: [&str; 7] = ["$schema", "title", "assumptions", "output", "gauges", "stop", "fracture"];
+/// Keys that do not change how the units move.
+const OF_NO_MATTER: [&str; 6] = ["$schema", "title", "assumptions", "output", "gauges", "fracture"];
 
 /// A key in which runs differ, with the value in each of them; none where a case does not have it.
 #[derive(Debug, Clone, PartialEq)]

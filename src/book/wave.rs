@@ -26,8 +26,8 @@ pub fn add_section(page: &mut Page, wave: &WaveComparison, entries: &[Entry]) {
         &file,
         &wave.resolution_chart(),
         "Mean displacement against the distance between particles; the published study (Tables 5 and 6, Fig. 16 of the paper) and \
-         the runs, the measured mean dashed. The published error is read as (EXP \u{2212} SPH1) / EXP, the sign that agrees with \
-         the appendix at 5 mm.",
+         the runs, the measured mean dashed. The paper does not say which sign its errors have: here they are taken such that \
+         they agree with its appendix at 5 mm, which means that its coarse runs move the units too little.",
     );
     add_variations(page, &runs, &centimetres);
     if let Some((run, entry)) = runs.iter().min_by(|a, b| a.0.summary.dp_m.total_cmp(&b.0.summary.dp_m)) {
@@ -43,8 +43,8 @@ fn add_means(page: &mut Page, wave: &WaveComparison) {
         "particles every [mm]",
         "mean displacement [m]",
         "damaged [%]",
-        "against EXP [%]",
-        "against its inner units [%]",
+        "(mean \u{2212} EXP) / EXP [%]",
+        "the same for the 13 inner units [%]",
     ];
     let published = &wave.published;
     let percent = |value: f64| short(100.0 * value, 0);
@@ -58,10 +58,21 @@ fn add_means(page: &mut Page, wave: &WaveComparison) {
             if is_measured { String::new() } else { "5".to_owned() },
             format!("{:.3}", published.mean_m(series)),
             percent(published.damage_ratio(series)),
-            if is_measured { String::new() } else { short(deviation, 1) },
+            if is_measured { String::new() } else { signed(deviation) },
             String::new(),
         ]);
     }
+    let measured = (0..PublishedWave::SERIES.len()).filter(|series| PublishedWave::SERIES[*series].starts_with("EXP"));
+    let ratios: Vec<f64> = measured.map(|series| published.damage_ratio(series)).collect();
+    rows.push(vec![
+        "EXP, mean of the three".to_owned(),
+        published.units().to_string(),
+        String::new(),
+        format!("{:.3}", published.measured_mean_m()),
+        percent(ratios.iter().sum::<f64>() / ratios.len() as f64),
+        String::new(),
+        String::new(),
+    ]);
     for run in &wave.runs {
         rows.push(vec![
             run.name.clone(),
@@ -69,11 +80,16 @@ fn add_means(page: &mut Page, wave: &WaveComparison) {
             short(1000.0 * run.summary.dp_m, 2),
             format!("{:.3}", run.mean_m),
             percent(run.damage_ratio),
-            short(run.deviation_percent, 1),
-            short(run.inner_deviation_percent, 1),
+            signed(run.deviation_percent),
+            if run.is_slice_of(published) { signed(run.inner_deviation_percent) } else { String::new() },
         ]);
     }
     page.table(&head.map(str::to_owned), &rows);
+}
+
+/// A number of per cent with its sign.
+fn signed(percent: f64) -> String {
+    format!("{percent:+.1}").replace('-', "\u{2212}")
 }
 
 /// Displacement of every unit: Tables A1 to A3 and Fig. 12.
@@ -107,9 +123,9 @@ fn add_variations(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &
     };
     page.table(&head, &runs.iter().enumerate().map(row).collect::<Vec<_>>());
     for one in varied.iter().filter(|one| one.numbers() > 2 && one.key != "domain.dp_m") {
-        let last = one.key.rsplit('.').next().unwrap_or_default();
+        let plain = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' };
         page.figure(
-            &format!("fudo-{centimetres}-{last}.svg"),
+            &format!("fudo-{centimetres}-{}.svg", one.key.chars().map(plain).collect::<String>()),
             &chart_along(one, &varied, runs),
             &format!("Mean displacement against `{}`.", one.key),
         );
@@ -160,7 +176,7 @@ fn add_series(page: &mut Page, run: &RunResult, entry: &Entry, centimetres: &str
     let water: Vec<Line> = gauges()
         .filter_map(|(colour, gauge)| line(gauge.to_owned(), &format!("{gauge}_eta_m"), colour, false))
         .chain(gauges().filter_map(|(colour, gauge)| {
-            line(format!("{gauge}, flume model"), &format!("{gauge}_flume_eta_m"), colour, true)
+            line(format!("{gauge}, flume model"), &format!("{gauge}.flume_eta_m"), colour, true)
         }))
         .collect();
     if !water.is_empty() {
@@ -168,17 +184,28 @@ fn add_series(page: &mut Page, run: &RunResult, entry: &Entry, centimetres: &str
             &format!("fudo-{centimetres}-gauges.svg"),
             &chart("Water level at the gauges", "above still water [m]", water),
             &format!(
-                "Water level at the gauges of `{}`, dashed without the mound by the model of the flume. (Fig. 8 of the paper has the \
-                 measured series, which were not published as numbers.)",
+                "Water level at the gauges of `{}`, dashed by the model of the flume, in which no units lie. (Fig. 8 of the paper \
+                 has the measured series, which were not published as numbers.)",
                 run.name
             ),
         );
     }
-    let units = 1..=run.summary.units.len();
-    let forces = units.filter_map(|unit| line(format!("unit {unit}"), &format!("unit_{unit}_fx_n"), unit - 1, false));
+    let of_units = |what: &str| -> Vec<Line> {
+        let units = 1..=run.summary.units.len();
+        units.filter_map(|k| line(format!("unit {k}"), &format!("unit_{k}_{what}"), k - 1, false)).collect()
+    };
     page.figure(
         &format!("fudo-{centimetres}-forces.svg"),
-        &chart("Force of the water on the units", "force towards the shore [N]", forces.collect()),
-        &format!("Force of the water on the units of `{}` towards the shore (as Fig. 14 of the paper).", run.name),
+        &chart("Force of the water on the units", "force towards the shore [N]", of_units("fx_n")),
+        &format!(
+            "Force of the water on the units of `{}` towards the shore (as Fig. 14 of the paper), means over the interval of the \
+             series.",
+            run.name
+        ),
+    );
+    page.figure(
+        &format!("fudo-{centimetres}-moved.svg"),
+        &chart("Displacement of the units", "displacement [m]", of_units("moved_m")),
+        &format!("Displacement of the units of `{}`.", run.name),
     );
 }

@@ -1,4 +1,4 @@
-//! A block of the bed under a blow.
+//! A block of the bed under a blow, and where it lies.
 
 use glam::{DMat3, DVec3};
 
@@ -13,9 +13,84 @@ pub const BOTTOM: &str = "base_bottom";
 /// Depth over width of the block [-].
 const DEPTH: f64 = 0.5;
 
+/// Largest width of the block of the bed over the height of the unit [-], where legs reach below the plane of contact.
+const WIDEST: f64 = 1.5;
+
+/// Least one [-]: where there is less room between them, the block lies below them all.
+const NARROWEST: f64 = 0.2;
+
+/// Nodes so near the plane of contact belong to feet, over the height of the unit [-].
+const FOOT: f64 = 0.25;
+
+/// The block of a plane bed reaches so much further than the feet [-].
+const MARGIN: f64 = 1.1;
+
+/// Where the bed is not plane, the block leaves out what is lower than the foot that touches by more than this, over the
+/// height of the unit [-].
+const LEVEL: f64 = 0.01;
+
+/// Gap between the bodies at the start over the height of the unit [-].
+pub const GAP: f64 = 1e-4;
+
+/// Sharp edges of the unit reach so far below the place where its rounded edges touched, over its height [-].
+pub const ROUNDED_OFF: f64 = 0.05;
+
+/// Nodes about the place of contact within this distance over the height of the unit [-] are those that touch.
+pub const ABOUT: f64 = 0.12;
+
+/// Where the block lies; lengths from the place of contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seat {
+    /// Middle of its upper side, in the plane through the place of contact [m].
+    pub middle: DVec3,
+    /// Width [m].
+    pub width: f64,
+    /// Upper side along the normal [m].
+    pub top: f64,
+    /// How far that is below the foot that touches [m].
+    pub gap: f64,
+}
+
+impl Seat {
+    /// Just below a unit with these nodes, this centre and height [m], touched along the unit vector `normal`: under all
+    /// feet where the bed is plane, else, where legs reach below the plane of contact, about the place of contact and as
+    /// wide as they leave room.
+    pub fn below(nodes: &[DVec3], centre: DVec3, normal: DVec3, height: f64) -> Self {
+        let level = |node: &DVec3| node.dot(normal);
+        let flat = |place: DVec3| place - normal * place.dot(normal);
+        let is_plane = nodes.iter().all(|node| level(node) >= -ROUNDED_OFF * height);
+        let about = nodes.iter().filter(|node| node.length() < ABOUT * height);
+        let foot = about.map(level).fold(f64::INFINITY, f64::min).min(ROUNDED_OFF * height);
+        let lower = |node: &DVec3| !is_plane && level(node) < foot - LEVEL * height;
+        let room = nodes.iter().filter(|node| lower(node)).map(|node| flat(*node).length());
+        // Half the diagonal of the block lies within the room.
+        let room = 0.9 * std::f64::consts::SQRT_2 * room.fold(f64::INFINITY, f64::min);
+        let (middle, width) = if (NARROWEST * height..f64::INFINITY).contains(&room) {
+            (DVec3::ZERO, room.min(WIDEST * height))
+        } else {
+            let middle = flat(centre);
+            let feet = nodes.iter().filter(|node| level(node) < FOOT * height);
+            let reach = feet.map(|node| flat(*node - middle).length()).fold(NARROWEST * height, f64::max);
+            (middle, 2.0 * MARGIN * reach)
+        };
+        let half_diagonal = width * std::f64::consts::FRAC_1_SQRT_2;
+        let over = nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal);
+        let lowest = over.map(level).fold(f64::INFINITY, f64::min);
+        let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
+        // On a plane bed another foot may be lower, by what its edges are not rounded off, and touches first.
+        let gap = if is_plane { GAP * height } else { (foot - top).max(GAP * height) };
+        Self { middle, width, top, gap }
+    }
+
+    /// The block, of cells about as long as `cell` [m].
+    pub fn block(&self, normal: DVec3, cell: f64) -> Mesh {
+        under(self.middle, normal, self.top, self.width, cell)
+    }
+}
+
 /// A block with its upper side at `level` [m] over the place `middle` along the unit vector `normal`, so wide [m], of cells
 /// about as long as `cell` [m].
-pub fn under(middle: DVec3, normal: DVec3, level: f64, width: f64, cell: f64) -> Mesh {
+fn under(middle: DVec3, normal: DVec3, level: f64, width: f64, cell: f64) -> Mesh {
     let across = ((width / cell).ceil() as usize).max(2);
     let down = ((DEPTH * width / cell).ceil() as usize).max(1);
     let lengths = DVec3::new(width, width, DEPTH * width);
@@ -29,4 +104,45 @@ pub fn under(middle: DVec3, normal: DVec3, level: f64, width: f64, cell: f64) ->
     mesh.sets.retain(|set| set.name == "zmin");
     mesh.sets.iter_mut().for_each(|set| set.name = BOTTOM.to_owned());
     mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nodes of feet, each a small square of four [m].
+    fn feet(places: &[[f64; 3]]) -> Vec<DVec3> {
+        let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let foot =
+            |place: &[f64; 3]| corners.map(|[x, y]| DVec3::from_array(*place) + DVec3::new(0.01 * x, 0.01 * y, 0.0));
+        places.iter().flat_map(foot).collect()
+    }
+
+    #[test]
+    fn on_a_plane_bed_the_block_lies_under_all_feet() {
+        // One foot touches, the edge of another reaches a little lower.
+        let nodes = feet(&[[0.0, 0.0, 0.0], [0.8, 0.0, -0.03], [0.4, 0.7, 0.02], [0.4, 0.3, 1.0]]);
+        let seat = Seat::below(&nodes, DVec3::new(0.4, 0.25, 0.4), DVec3::Z, 1.0);
+        assert_eq!((seat.top, seat.gap), (-0.03 - GAP, GAP));
+        assert!(seat.width > 0.9 && seat.middle == DVec3::new(0.4, 0.25, 0.0));
+    }
+
+    #[test]
+    fn beyond_an_edge_the_block_lies_under_the_foot_that_touches() {
+        // The plane of contact is a slope; towards the crest the unit reaches below it, first a little, then more.
+        let nodes = feet(&[[0.0, 0.0, 0.0], [-0.5, 0.0, -0.025], [-0.8, 0.1, -0.13], [0.1, 0.2, 1.0]]);
+        let seat = Seat::below(&nodes, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
+        assert_eq!((seat.top, seat.gap, seat.middle), (-GAP, GAP, DVec3::ZERO));
+        // Half its diagonal does not reach the second foot, 0.49 m away.
+        assert!(seat.width * std::f64::consts::FRAC_1_SQRT_2 < 0.49 && seat.width > 0.5, "{}", seat.width);
+    }
+
+    #[test]
+    fn without_room_the_block_lies_below_all_and_is_waited_for() {
+        let nodes = feet(&[[0.0, 0.0, 0.0], [-0.05, 0.0, -0.2], [0.1, 0.2, 1.0]]);
+        let seat = Seat::below(&nodes, DVec3::new(0.0, 0.0, 0.4), DVec3::Z, 1.0);
+        assert!((seat.top + 0.2 + GAP).abs() < 1e-12, "{seat:?}");
+        // From the lowest node about the place of contact, which is the one that is lower here.
+        assert!(seat.gap >= GAP && seat.gap <= 0.2 + GAP);
+    }
 }

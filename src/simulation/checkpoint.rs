@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]

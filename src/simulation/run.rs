@@ -16,6 +16,7 @@ use super::{
 use crate::{
     case::Case,
     output::{OutputError, Stopped, Summary, write_report},
+    rigid::BodyState,
     sph::device::Device,
 };
 
@@ -150,6 +151,9 @@ fn stop_rule(simulation: &mut Simulation) -> Option<Stopped> {
     let (rule, units) = (stop.at_rest.as_ref()?, simulation.units.as_ref()?);
     // The tips of a unit are about half its height away from its centre.
     let tips = 0.5 * units.shape.height();
+    let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
+    // Units that have just begun to move have not got far yet.
+    let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
-    (simulation.time >= rule.not_before && stayed >= rule.hold).then_some(Stopped::AtRest)
+    (simulation.time >= rule.not_before && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

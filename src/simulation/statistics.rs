@@ -30,7 +30,6 @@ pub struct Statistics {
     /// Fastest approach at the start of a contact [m/s].
     pub fastest_contact: f64,
     /// Whether the units have come to rest.
-    #[serde(default)]
     pub rest: Rest,
     /// Energy of water and units at the start [J].
     pub energy_start: Option<f64>,

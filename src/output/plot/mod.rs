@@ -33,14 +33,17 @@ pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A chart as a file of its own, with its style sheet, on paper; an image viewer shows the light palette.
+/// A chart as a file of its own for browsers, with its style sheet, on paper.
 pub fn standalone(chart: &str) -> String {
     let letters = "\"Source Sans 3\", \"Segoe UI\", \"Helvetica Neue\", Helvetica, Arial, \"DejaVu Sans\", sans-serif";
     let style = format!(
         "<style>\n{CHART_STYLE}text {{ font-family: {letters}; }} .paper {{ fill: var(--paper); }}\n</style>\n\
          <rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n"
     );
-    let opened = chart.replacen("<svg ", "<svg xmlns=\"http://www.w3.org/2000/svg\" ", 1);
+    let size = chart.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).unwrap_or("920 320");
+    let (width, height) = size.split_once(' ').unwrap_or((size, size));
+    let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" ");
+    let opened = chart.replacen("<svg ", &head, 1);
     opened.replacen("</title>\n", &format!("</title>\n{style}"), 1)
 }
 
@@ -183,7 +186,9 @@ mod tests {
     fn a_chart_of_its_own_brings_its_colours() {
         let lines = vec![Line { name: "a".to_owned(), points: vec![[0.0, 1.0], [1.0, 2.0]], ..Line::default() }];
         let file = standalone(&LineChart { lines, size: [400.0, 300.0], ..LineChart::default() }.svg());
-        assert!(file.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 400 300\""));
+        assert!(
+            file.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"400\" height=\"300\" class=\"chart\"")
+        );
         assert!(file.contains("--c0:") && file.contains(".line {") && file.matches("<style>").count() == 1);
     }
 }
