@@ -52,9 +52,12 @@ impl Page {
         rows.iter().for_each(|row| self.text += &line(row));
     }
 
-    /// A chart, `<svg>`, as a file beside the page, with words under it.
+    /// A chart, `<svg>`, as a file beside the page, with words under it; the first of them stand for it where it cannot be
+    /// shown.
     pub fn figure(&mut self, file: &str, chart: &str, caption: &str) {
-        self.text += &format!("\n![{}]({file})\n\n{caption}\n", caption.replace(['[', ']'], ""));
+        let words = caption.replace(['[', ']', '`'], "");
+        let end = [". ", ";", "(", ", "].into_iter().filter_map(|sign| words.find(sign)).min().unwrap_or(words.len());
+        self.text += &format!("\n![{}]({file})\n\n{caption}\n", words[..end].trim().trim_end_matches('.'));
         self.figures.push((file.to_owned(), standalone(chart)));
     }
 }

@@ -41,7 +41,9 @@ pub fn scene(blow: &Blow) -> Scene {
             (together(shifted(mesh, normal * back), other), parts, most)
         }
         None => {
-            let seat = Seat::below(&mesh.nodes, mover.pose.position, normal, height);
+            let moves = |node: DVec3| mover.velocity + mover.angular_velocity.cross(node - mover.pose.position);
+            let way = |node: DVec3| moves(node) * blow.time_after();
+            let seat = Seat::below(&mesh.nodes, way, mover.pose.position, normal, height);
             let cell = BASE_CELL * blow.handover.mesh.edge() * blow.froude.length();
             let base = Part::held(base::NAME, base::BOTTOM);
             (together(mesh, seat.block(normal, cell)), vec![unit, base], seat.gap)
