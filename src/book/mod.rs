@@ -2,11 +2,11 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | [`entry`] | a run in the book: its case, its summary and one short table of series |
-//! | [`variation`] | in which keys of the case runs differ |
-//! | [`markdown`] | tables and figures of a page |
-//! | [`fudo`] | the page beside the experiment of Mitsui et al. (2023) |
-//! | [`wave`] | its section on one wave height |
+//! | `entry` | a run in the book: its case, its summary and one short table of series |
+//! | `variation` | in which keys of the case runs differ |
+//! | `markdown` | tables and figures of a page |
+//! | `fudo` | the page beside the experiment of Mitsui et al. (2023) |
+//! | `wave` | its section on one wave height |
 //!
 //! Everything on a page comes from the folder `runs` beside it, and nothing there is typed: another computer with the same
 //! book makes the same pages.
