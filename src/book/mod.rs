@@ -111,7 +111,7 @@ mod tests {
             "| mu_0.1 | 2 | 9 | 0.310 | 100 | +27.9 | +29.7 |",
             "| slice 2 |  |  |  |  |  | 0.320 | 0.100 |",
             "| mu_0.54 | 0.54 | 0.130 | 100 |",
-            "![Mean displacement against friction](fudo-4.5-friction-mortar-pvc-coefficient.svg)",
+            "![Mean displacement against friction.mortar-pvc.coefficient](fudo-4.5-friction-mortar-pvc-coefficient.svg)",
             "`breakwater run runs/mu_0.1/case.json`",
             "* crest width 0.32 m\n",
         ] {
