@@ -125,6 +125,21 @@ mod tests {
         assert_eq!(fs::read_to_string(book.join("fudo.md")).unwrap(), page);
     }
 
+    /// Where it is not: `breakwater book` writes it anew.
+    #[test]
+    fn the_book_in_docs_is_what_its_runs_give() {
+        let (kept, folder) =
+            (Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/validation"), tempfile::tempdir().unwrap());
+        for entry in Entry::all(&kept).unwrap() {
+            entry.keep(folder.path()).unwrap();
+        }
+        for file in write(folder.path(), &[], &Fudo::published().unwrap()).unwrap() {
+            let name = file.file_name().unwrap();
+            let same = fs::read(kept.join(name)).unwrap() == fs::read(&file).unwrap();
+            assert!(same, "docs/validation/{} is not what `breakwater book` writes", name.display());
+        }
+    }
+
     #[test]
     fn what_does_not_belong_into_the_book_leaves_it_as_it_is() {
         let folder = tempfile::tempdir().unwrap();
