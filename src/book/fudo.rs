@@ -17,7 +17,7 @@ pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
          0.077 m, its height. EXP1 to EXP3 are the three repetitions in the flume, SPH1 and SPH2 the two published\n\
          simulations with particles of 5 mm, which differ in how the units were turned. A slice is two units between\n\
          periodic sides: it stands for the inner units of the row, has no side walls, and no unit of it is one of the\n\
-         experiment's. The published runs lasted 20 s; these end when all units lie still.",
+         experiment's. The published runs lasted 20 s.",
     );
     page.heading(2, "Runs");
     let head = [

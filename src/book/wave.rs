@@ -51,7 +51,7 @@ fn add_means(page: &mut Page, wave: &WaveComparison) {
     let mut rows = Vec::new();
     for (series, name) in PublishedWave::SERIES.into_iter().enumerate() {
         let deviation = 100.0 * (published.mean_m(series) / published.measured_mean_m() - 1.0);
-        let is_measured = name.starts_with("EXP");
+        let is_measured = PublishedWave::is_measured(series);
         rows.push(vec![
             name.to_owned(),
             published.units().to_string(),
@@ -62,14 +62,12 @@ fn add_means(page: &mut Page, wave: &WaveComparison) {
             String::new(),
         ]);
     }
-    let measured = (0..PublishedWave::SERIES.len()).filter(|series| PublishedWave::SERIES[*series].starts_with("EXP"));
-    let ratios: Vec<f64> = measured.map(|series| published.damage_ratio(series)).collect();
     rows.push(vec![
         "EXP, mean of the three".to_owned(),
         published.units().to_string(),
         String::new(),
         format!("{:.3}", published.measured_mean_m()),
-        percent(ratios.iter().sum::<f64>() / ratios.len() as f64),
+        percent(published.measured_damage_ratio()),
         String::new(),
         String::new(),
     ]);

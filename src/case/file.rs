@@ -410,8 +410,8 @@ pub struct StopFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AtRestFile {
-    /// A unit whose centre and tips have got on by no more than this speed over `for_s` is at rest [m/s]; without water,
-    /// one that was never faster.
+    /// A unit is at rest whose centre and tips are slower than this and have got on by no more than this over `for_s`
+    /// [m/s]; without water, one that was never faster.
     pub speed_m_s: f64,
     /// For how long all must be at rest [s].
     pub for_s: f64,

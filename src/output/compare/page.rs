@@ -65,7 +65,7 @@ fn means(wave: &WaveComparison) -> String {
         let damage = published.damage_ratio(series);
         rows += &row(name, dp, published.units(), published.mean_m(series), damage, None, percent);
     }
-    let ratio = (0..MEASURED).map(|series| published.damage_ratio(series)).sum::<f64>() / MEASURED as f64;
+    let ratio = published.measured_damage_ratio();
     let exp = "EXP, mean of the repetitions";
     rows += &row(exp, String::new(), published.units(), published.measured_mean_m(), ratio, None, String::new());
     for run in &wave.runs {

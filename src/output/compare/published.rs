@@ -106,6 +106,11 @@ impl PublishedWave {
     /// Names of the series, measurements first.
     pub const SERIES: [&str; 5] = SERIES;
 
+    /// Whether a series was measured.
+    pub fn is_measured(series: usize) -> bool {
+        series < MEASURED
+    }
+
     /// Number of units.
     pub fn units(&self) -> usize {
         self.displacement_m[0].len()
@@ -119,6 +124,11 @@ impl PublishedWave {
     /// Measured mean displacement: the mean of the three repetitions' means, as in Table 3 [m].
     pub fn measured_mean_m(&self) -> f64 {
         (0..MEASURED).map(|series| self.mean_m(series)).sum::<f64>() / MEASURED as f64
+    }
+
+    /// Share of the units that moved further than the damage distance, mean of the three repetitions [-].
+    pub fn measured_damage_ratio(&self) -> f64 {
+        (0..MEASURED).map(|series| self.damage_ratio(series)).sum::<f64>() / MEASURED as f64
     }
 
     /// Measured mean displacement without the first and the last unit, which stand at the side walls [m].
