@@ -78,9 +78,10 @@ pub struct MethodFile {
 #[serde(rename_all = "snake_case")]
 pub enum Joints {
     /// Joints between all of them from the start (Guo, Latham and Xiang).
-    Intrinsic,
-    /// They share their nodes until the strength is reached: no compliance of joints, a longer step.
     #[default]
+    Intrinsic,
+    /// They share their nodes until the strength is reached: no compliance of joints, a longer step; on elements that are
+    /// not small against the crack's own zone they carry too much (docs/validation.md).
     Tied,
     /// Nothing cracks: the elastic twin of a run.
     Unbreakable,
