@@ -1,6 +1,9 @@
 //! `breakwater run` and `breakwater resume`.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 
@@ -13,6 +16,7 @@ use crate::{
     dry::{self, recorder::DryRecorder},
     output::{Stopped, Summary},
     simulation::{
+        branch::{MAY_DIFFER, apart, branch},
         checkpoint::{Checkpoint, device_of},
         progress::readable,
         run::{RunError, RunOptions, resume, run},
@@ -31,6 +35,10 @@ pub struct RunArguments {
     /// Replace what the folder holds.
     #[arg(long)]
     overwrite: bool,
+    /// Begin at the last checkpoint of the run in this folder, whose case is the same but for friction and stop, and whose
+    /// units have not moved yet: the wave up to there is not computed again.
+    #[arg(long, value_name = "DIR")]
+    from: Option<PathBuf>,
     #[command(flatten)]
     machine: MachineArguments,
     #[command(flatten)]
@@ -68,11 +76,18 @@ impl RunArguments {
         if let AnyCase::Wet(case) = &case {
             options.device = self.device.open(case, options.quiet)?;
         }
+        if let Some(from) = &self.from {
+            refuse_other_start(&case, from, &dir)?;
+        }
         fresh_folder(&dir, self.overwrite)?;
         match case {
             AnyCase::Wet(case) => {
                 introduce(&case, &dir, &options);
-                let summary = finish(run(case.clone(), &dir, &options), &dir)?;
+                let ended = match &self.from {
+                    Some(from) => branch(case.clone(), from, &dir, &options),
+                    None => run(case.clone(), &dir, &options),
+                };
+                let summary = finish(ended, &dir)?;
                 hand_over::of_run(&case, &summary, &dir, options.quiet)
             }
             AnyCase::Dry(case) => {
@@ -134,6 +149,25 @@ impl MachineArguments {
     }
 }
 
+/// Refuse to begin a case at a run that is none of the same water and units.
+fn refuse_other_start(case: &AnyCase, from: &Path, dir: &Path) -> Result<(), Trouble> {
+    let refused = |what: String| Trouble::refused(format!("--from {}: {what}", from.display()));
+    let AnyCase::Wet(case) = case else { return Err(refused("only runs with water can begin at another".to_owned())) };
+    if !from.join(Checkpoint::FILE).exists() {
+        return Err(refused(format!("must hold a run with its {}", Checkpoint::FILE)));
+    }
+    if from.canonicalize().is_ok_and(|from| dir.canonicalize().is_ok_and(|dir| dir == from)) {
+        return Err(refused("is the folder of the results; give another one with --out".to_owned()));
+    }
+    let text = fs::read_to_string(from.join("case.json")).map_err(|error| refused(format!("case.json: {error}")))?;
+    let apart = apart(&case.text, &text);
+    if apart.is_empty() {
+        return Ok(());
+    }
+    let may = MAY_DIFFER.join(", ");
+    Err(refused(format!("its case differs in {}; only {may} may", apart.join(", "))))
+}
+
 fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
     if options.quiet {
         return;
@@ -159,7 +193,7 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
 pub(super) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
     let summary = match ended {
         Ok(summary) => summary,
-        Err(error @ RunError::Setup(_)) => return Err(Trouble::refused(error)),
+        Err(error @ (RunError::Setup(_) | RunError::NoStart { .. })) => return Err(Trouble::refused(error)),
         Err(error) => return Err(Trouble::failed(error)),
     };
     let why = match summary.stopped {

@@ -19,6 +19,7 @@ use crate::{
     case::Case,
     output::Summary,
     simulation::{
+        branch::branch,
         checkpoint::Checkpoint,
         run::{resume, run},
     },
@@ -58,7 +59,7 @@ pub struct SweepArguments {
     /// A further option of sbatch, as in --slurm-option=--partition=long; may be repeated.
     #[arg(long = "slurm-option", value_name = "OPTION")]
     slurm_options: Vec<String>,
-    /// Make one run of the sweep only, by its number.
+    /// Make one run of the sweep only, by its number; 0 is the common start, if the sweep has one.
     #[arg(long, value_name = "NUMBER")]
     member: Option<usize>,
 }
@@ -77,9 +78,11 @@ impl SweepArguments {
         let dir = self.out.clone().unwrap_or_else(|| Path::new("runs").join(stem(&self.sweep)));
         fs::create_dir_all(&dir).map_err(|error| Trouble::refused(format!("{}: {error}", dir.display())))?;
         if let Some(number) = self.member {
-            let count = sweep.members.len();
-            let member = number.checked_sub(1).and_then(|place| sweep.members.get(place)).ok_or_else(|| {
-                Trouble::refused(format!("--member {number}: must be between 1 and {count}, the runs of the sweep"))
+            let (first, last) = (usize::from(sweep.start.is_none()), sweep.members.len());
+            let member = sweep.member(number).ok_or_else(|| {
+                Trouble::refused(format!(
+                    "--member {number}: must be between {first} and {last}, the runs of the sweep"
+                ))
             })?;
             return self.make(&sweep, member, &dir);
         }
@@ -90,9 +93,12 @@ impl SweepArguments {
         let device = self.device.device.to_string();
         let work = Work { sweep_file: &sweep_file, dir: &dir, threads: self.threads as usize, device: &device };
         println!("{}: {} runs, in {}", sweep.title, sweep.members.len(), dir.display());
-        match self.launcher {
-            Launcher::Local => self.make_here(&work, &program, &sweep)?,
-            Launcher::Slurm => self.make_by_slurm(&work, &program, &sweep)?,
+        // The others begin where the common start ends.
+        for members in [sweep.start.as_slice(), &sweep.members] {
+            match self.launcher {
+                Launcher::Local => self.make_here(&work, &program, members)?,
+                Launcher::Slurm => self.make_by_slurm(&work, &program, members)?,
+            }
         }
         for path in table::write(&sweep, &dir).map_err(Trouble::failed)? {
             println!("{}", path.display());
@@ -112,7 +118,7 @@ impl SweepArguments {
         )))
     }
 
-    fn make_here(&self, work: &Work, program: &Path, sweep: &Sweep) -> Result<(), Trouble> {
+    fn make_here(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let jobs = self.jobs.map_or_else(|| (cores / work.threads).max(1), |jobs| jobs as usize);
         let tell = |member: &Member, outcome: &Outcome, left: usize| {
@@ -123,12 +129,12 @@ impl SweepArguments {
             };
             println!("{}: {result} ({left} left)", member.name);
         };
-        work.make_all(program, &sweep.members, jobs, tell).map_err(Trouble::failed)
+        work.make_all(program, members, jobs, tell).map_err(Trouble::failed)
     }
 
-    fn make_by_slurm(&self, work: &Work, program: &Path, sweep: &Sweep) -> Result<(), Trouble> {
+    fn make_by_slurm(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
         for _ in 0..SUBMISSIONS {
-            let script = slurm::write_script(work, program, &sweep.members, &self.slurm_options);
+            let script = slurm::write_script(work, program, members, &self.slurm_options);
             let Some(script) = script.map_err(Trouble::failed)? else { break };
             let job = slurm::submit(&script).map_err(Trouble::failed)?;
             println!("job {job} from {}", script.display());
@@ -157,10 +163,28 @@ impl SweepArguments {
             resume(case.clone(), &dir, &options)
         } else {
             fresh_folder(&dir, true)?;
-            run(case.clone(), &dir, &options)
+            match &sweep.start {
+                Some(start) if member.number > 0 => branch(case.clone(), &finished(start, sweep_dir)?, &dir, &options),
+                _ => run(case.clone(), &dir, &options),
+            }
         };
         let summary = finish(ended, &dir)?;
+        if member.number == 0 {
+            return Ok(());
+        }
         hand_over::of_run(&case, &summary, &dir, options.quiet)
+    }
+}
+
+/// Folder of the common start.
+fn finished(start: &Member, sweep_dir: &Path) -> Result<PathBuf, Trouble> {
+    let dir = start.dir(sweep_dir);
+    match start.outcome(sweep_dir) {
+        Outcome::Finished(_) => Ok(dir),
+        _ => Err(Trouble::failed(format!(
+            "{}: the common start is not finished; make it with --member 0",
+            dir.display()
+        ))),
     }
 }
 

@@ -116,67 +116,74 @@ pub fn device_of(dir: &Path) -> Option<String> {
 /// # Errors
 /// If there is no checkpoint, it is damaged, or it is one of another case.
 pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
-    let path = dir.join(Checkpoint::FILE);
-    let (text, arrays) = read_state(&path, read_arrays)?;
-    let scalars: Scalars = parse(&text, &path)?;
-    if scalars.version != VERSION {
-        let what = format!("was written by another version of breakwater (layout {})", scalars.version);
-        return Err(OutputError::content(&path, what));
-    }
-    if scalars.case_hash != simulation.case.hash {
-        return Err(OutputError::content(&path, "belongs to another case than case.json beside it".to_owned()));
-    }
-    if arrays.boundary_density.len() != simulation.boundary.len() {
-        return Err(OutputError::content(&path, "does not match the particles of the case".to_owned()));
-    }
-    simulation.water.position = arrays.position;
-    simulation.water.velocity = arrays.velocity;
-    simulation.water.density = arrays.density;
-    simulation.water.mass = arrays.mass;
-    simulation.water.id = arrays.id;
-    simulation.boundary.density = arrays.boundary_density;
-    simulation.time = scalars.time;
-    simulation.steps = scalars.steps;
-    simulation.statistics = scalars.statistics;
-    let now = simulation.solver.name();
-    if scalars.device != now {
-        simulation.statistics.warnings.push(format!(
-            "went on at {:.3} s on another device, {now} instead of {}: as exact, but not with the same bits",
-            simulation.flume_time(),
-            scalars.device
-        ));
-    }
-    simulation.absorbed = scalars.absorbed;
-    if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
-        units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
-        for (load, [force, torque]) in units.fluid_loads.iter_mut().zip(scalars.fluid_loads) {
-            load.force = DVec3::from_array(force);
-            load.torque = DVec3::from_array(torque);
+    Checkpoint::read(dir)?.restore(simulation, dir)
+}
+
+/// Take the checkpoint of a folder into another one, as that of another case of the same particles and units.
+///
+/// # Errors
+/// If there is no checkpoint, it is damaged, or it cannot be written.
+pub fn adopt(from: &Path, to: &Path, case_hash: &str) -> Result<(), OutputError> {
+    let mut checkpoint = Checkpoint::read(from)?;
+    case_hash.clone_into(&mut checkpoint.scalars.case_hash);
+    checkpoint.write(to, Checkpoint::FILE)
+}
+
+impl Checkpoint {
+    fn read(dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join(Self::FILE);
+        let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
+        let scalars: Scalars = parse(&text, &path)?;
+        if scalars.version != VERSION {
+            let what = format!("was written by another version of breakwater (layout {})", scalars.version);
+            return Err(OutputError::content(&path, what));
         }
-        units.mean_loads = scalars.mean_loads;
-        let places = simulation.boundary.places_in_unit().count();
-        if arrays.water_at_impacts.0.values().any(|water| water.pressure.len() != places) {
-            return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
-        }
-        units.water_at_impacts = arrays.water_at_impacts;
+        Ok(Self { scalars, water, boundary_density, water_at_impacts })
     }
-    simulation.place_boundary();
-    Ok(scalars.recorder)
+
+    fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
+        let Self { scalars, water, boundary_density, water_at_impacts } = self;
+        let path = dir.join(Self::FILE);
+        if scalars.case_hash != simulation.case.hash {
+            return Err(OutputError::content(&path, "belongs to another case than case.json beside it".to_owned()));
+        }
+        if boundary_density.len() != simulation.boundary.len() {
+            return Err(OutputError::content(&path, "does not match the particles of the case".to_owned()));
+        }
+        simulation.water = water;
+        simulation.boundary.density = boundary_density;
+        simulation.time = scalars.time;
+        simulation.steps = scalars.steps;
+        simulation.statistics = scalars.statistics;
+        let now = simulation.solver.name();
+        if scalars.device != now {
+            simulation.statistics.warnings.push(format!(
+                "went on at {:.3} s on another device, {now} instead of {}: as exact, but not with the same bits",
+                simulation.flume_time(),
+                scalars.device
+            ));
+        }
+        simulation.absorbed = scalars.absorbed;
+        if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
+            units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
+            for (load, [force, torque]) in units.fluid_loads.iter_mut().zip(scalars.fluid_loads) {
+                load.force = DVec3::from_array(force);
+                load.torque = DVec3::from_array(torque);
+            }
+            units.mean_loads = scalars.mean_loads;
+            let places = simulation.boundary.places_in_unit().count();
+            if water_at_impacts.0.values().any(|water| water.pressure.len() != places) {
+                return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
+            }
+            units.water_at_impacts = water_at_impacts;
+        }
+        simulation.place_boundary();
+        Ok(scalars.recorder)
+    }
 }
 
 fn parse<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, OutputError> {
     serde_json::from_str(text).map_err(OutputError::json(path))
-}
-
-/// The arrays of a checkpoint.
-struct Arrays {
-    position: Vec<DVec3>,
-    velocity: Vec<DVec3>,
-    density: Vec<f64>,
-    mass: Vec<f64>,
-    id: Vec<u32>,
-    boundary_density: Vec<f64>,
-    water_at_impacts: WaterAtImpacts,
 }
 
 fn write_impacts(group: &Group, water: &WaterAtImpacts) -> Hdf5Result<()> {
@@ -200,15 +207,15 @@ fn read_impacts(group: &Group) -> Hdf5Result<WaterAtImpacts> {
     Ok(WaterAtImpacts(contacts.into_iter().zip(water).collect()))
 }
 
-fn read_arrays(file: &File) -> Hdf5Result<Arrays> {
-    let water = file.group("water")?;
-    Ok(Arrays {
-        position: read_vectors(&water, "position_m")?,
-        velocity: read_vectors(&water, "velocity_m_s")?,
-        density: water.dataset("density_kg_m3")?.read_raw()?,
-        mass: water.dataset("mass_kg")?.read_raw()?,
-        id: water.dataset("id")?.read_raw()?,
-        boundary_density: file.dataset("boundary/density_kg_m3")?.read_raw()?,
-        water_at_impacts: read_impacts(&file.group("impacts")?)?,
-    })
+/// Water, densities of the boundary, water at the impacts.
+fn read_arrays(file: &File) -> Hdf5Result<(Water, Vec<f64>, WaterAtImpacts)> {
+    let group = file.group("water")?;
+    let water = Water {
+        position: read_vectors(&group, "position_m")?,
+        velocity: read_vectors(&group, "velocity_m_s")?,
+        density: group.dataset("density_kg_m3")?.read_raw()?,
+        mass: group.dataset("mass_kg")?.read_raw()?,
+        id: group.dataset("id")?.read_raw()?,
+    };
+    Ok((water, file.dataset("boundary/density_kg_m3")?.read_raw()?, read_impacts(&file.group("impacts")?)?))
 }

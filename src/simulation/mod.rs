@@ -20,11 +20,13 @@
 //! | [`snapshots`] | moments of water and units for ParaView |
 //! | [`checkpoint`] | state to and from HDF5 |
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
+//! | [`branch`] | runs that begin where another one stands |
 //! | [`summary`] | the run in a few numbers |
 
 mod absorb;
 pub mod balance;
 pub mod bodies;
+pub mod branch;
 pub mod checkpoint;
 mod diagnostics;
 pub mod energy;

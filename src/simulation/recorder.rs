@@ -159,6 +159,8 @@ impl Recorder {
     /// If a file cannot be written.
     pub fn record_end(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         simulation.fetch()?;
+        // Before a row of its own and the end of contacts that go on: the run may go on from here.
+        self.record_checkpoint(simulation)?;
         self.record_series(simulation, dt)?;
         if simulation.case.output.units_interval.is_some() {
             self.record_surfaces(simulation)?;
@@ -175,7 +177,6 @@ impl Recorder {
             impacts_of(simulation, units, offset).write(&self.dir.join(Impacts::FILE))?;
             running.iter().for_each(|event| count_contact(simulation, event));
         }
-        self.record_checkpoint(simulation)?;
         self.writer.drain()
     }
 

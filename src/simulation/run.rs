@@ -26,6 +26,19 @@ pub enum RunError {
     /// The case cannot be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// The run is to begin where another one stands, and the units of that one have moved.
+    #[error(
+        "{from}: a unit has moved {} mm by {time:.3} s; a run with other keys can begin there only while the units stand",
+        moved * 1e3
+    )]
+    NoStart {
+        /// Folder of the other run.
+        from: String,
+        /// Time of the flume [s].
+        time: f64,
+        /// How far [m].
+        moved: f64,
+    },
     /// A file cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -63,15 +76,21 @@ pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary,
 /// # Errors
 /// As [`run`], and if the checkpoint is not one of the case.
 pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
+    let (simulation, recorder) = reopen(case, dir, options)?;
+    drive(simulation, recorder, dir, options)
+}
+
+/// A run as it stood at its last checkpoint.
+pub(super) fn reopen(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(Simulation, Recorder), RunError> {
     let mut simulation = Simulation::on(&options.device, case)?;
     let state = checkpoint::read(&mut simulation, dir)?;
     simulation.load().map_err(SetupError::Device)?;
     let recorder = Recorder::reopen(&simulation, dir, state)?;
-    drive(simulation, recorder, dir, options)
+    Ok((simulation, recorder))
 }
 
 /// Step until a stop rule holds.
-fn drive(
+pub(super) fn drive(
     mut simulation: Simulation,
     mut recorder: Recorder,
     dir: &Path,

@@ -7,7 +7,10 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
-use crate::case::{Case, CaseErrors};
+use crate::{
+    case::{Case, CaseErrors},
+    simulation::branch::{MAY_DIFFER, apart},
+};
 
 /// Most runs of one sweep.
 const MOST_RUNS: usize = 10_000;
@@ -56,6 +59,10 @@ struct SweepFile {
     case: PathBuf,
     /// Keys with their values; the last one varies fastest.
     vary: Vec<VaryFile>,
+    /// Simulated time [s] until which the units stand still in every run: up to there one run is made, with the first
+    /// values, and the others begin at its checkpoint. Only friction, stop and titles may vary then.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    common_start_s: Option<f64>,
 }
 
 /// A key of the case with its values: either `values`, or `from`, `to` and `count`.
@@ -93,7 +100,7 @@ pub struct Varied {
 /// One run.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// Number, from 1.
+    /// Number, from 1; 0 is the common start.
     pub number: usize,
     /// Name of its folder.
     pub name: String,
@@ -116,6 +123,8 @@ pub struct Sweep {
     pub varied: Vec<Varied>,
     /// The runs; the last key varies fastest.
     pub members: Vec<Member>,
+    /// The run at whose checkpoint the others begin, if there is one.
+    pub start: Option<Member>,
 }
 
 impl Sweep {
@@ -164,8 +173,42 @@ impl Sweep {
             Ok(Member { number: number + 1, name, values, text, hash: case.hash })
         };
         let members = (0..runs).map(member).collect::<Result<Vec<_>, SweepError>>()?;
-        Ok(Self { title: file.title, case, varied, members })
+        let start = file.common_start_s.map(|until| start(&members, until, &case)).transpose().map_err(content)?;
+        Ok(Self { title: file.title, case, varied, members, start })
     }
+
+    /// The run with a number, 0 for the common start.
+    pub fn member(&self, number: usize) -> Option<&Member> {
+        match number.checked_sub(1) {
+            Some(place) => self.members.get(place),
+            None => self.start.as_ref(),
+        }
+    }
+}
+
+/// The first run, ended at a time [s] at which the others can begin.
+fn start(members: &[Member], until: f64, case: &Path) -> Result<Member, String> {
+    let first = &members[0];
+    for member in members {
+        let apart = apart(&first.text, &member.text);
+        if !apart.is_empty() {
+            let (may, key) = (MAY_DIFFER.join(", "), apart.join(", "));
+            return Err(format!("common_start_s: the runs differ in {key}; with a common start only {may} may vary"));
+        }
+    }
+    let mut text: Value = serde_json::from_str(&first.text).map_err(|error| error.to_string())?;
+    let shortest = members.iter().filter_map(|member| duration(&member.text)).fold(f64::INFINITY, f64::min);
+    if !(until > 0.0 && until < shortest) {
+        return Err(format!("common_start_s = {until}: must be above 0 and below stop.duration_s, {shortest}"));
+    }
+    text["stop"] = json!({ "duration_s": until });
+    let text = format!("{text:#}");
+    let hash = Case::from_str(&text, &case.display().to_string()).map_err(|errors| errors.to_string())?.hash;
+    Ok(Member { number: 0, name: "000_start".to_owned(), values: Vec::new(), text, hash })
+}
+
+fn duration(text: &str) -> Option<f64> {
+    serde_json::from_str::<Value>(text).ok()?["stop"]["duration_s"].as_f64()
 }
 
 impl VaryFile {

@@ -1,0 +1,147 @@
+//! Runs that begin at the checkpoint of another one: the same bits, or a refusal that says why.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+use serde_json::{Value, json};
+
+/// Water that falls towards one big Tetrapod and reaches it after 0.1 s: the unit stands still until then.
+fn surge(friction: f64, duration: f64) -> Value {
+    json!({
+        "title": format!("Surge, friction {friction}"),
+        "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.3, "material": "mortar" },
+        "domain": { "x_m": [0.0, 1.0], "width_m": 0.25, "sides": "periodic", "top_z_m": 0.5, "dp_m": 0.025,
+                    "water": { "kind": "block", "x_m": [0.0, 0.6], "top_z_m": 0.3 } },
+        "numerics": { "hold_units_s": 0.02 },
+        "units": { "shape": "tetrapod", "height_m": 0.2, "mass_kg": 5.0, "material": "mortar",
+                   "count": 1, "pitch_m": 0.25, "x_m": 0.75 },
+        "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+        "friction": [{ "between": ["mortar", "mortar"], "coefficient": friction }],
+        "gauges": [{ "kind": "elevation", "name": "column", "x_m": 0.3 }],
+        "output": { "units_interval_s": 0.02, "series_interval_s": 0.005, "checkpoint_interval_s": 0.02 },
+        "stop": { "duration_s": duration }
+    })
+}
+
+fn write(folder: &Path, name: &str, value: &Value) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, value.to_string()).unwrap();
+    path
+}
+
+fn breakwater(arguments: &[&Path]) -> Output {
+    let program = env!("CARGO_BIN_EXE_breakwater");
+    Command::new(program).args(arguments).args(["--device", "cpu"]).output().unwrap()
+}
+
+fn run(case: &Path, out: &Path, from: Option<&Path>) -> Output {
+    let mut arguments = vec![Path::new("run"), case, Path::new("--quiet"), Path::new("--out"), out];
+    if let Some(from) = from {
+        arguments.extend([Path::new("--from"), from]);
+    }
+    breakwater(&arguments)
+}
+
+fn succeed(ended: &Output) {
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+}
+
+fn refused(ended: &Output, why: &str) {
+    let message = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(2), "{message}");
+    assert!(message.contains(why), "{message}");
+}
+
+fn summary(dir: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(dir.join("summary.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_run_that_begins_at_another_ends_like_an_unbroken_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let start = write(folder.path(), "start.json", &surge(0.5, 0.06));
+    succeed(&run(&start, &at("start"), None));
+    let whole = write(folder.path(), "whole.json", &surge(0.5, 0.25));
+    succeed(&run(&whole, &at("whole"), None));
+    succeed(&run(&whole, &at("branched"), Some(&at("start"))));
+
+    let (unbroken, branched) = (summary(&at("whole")), summary(&at("branched")));
+    for key in ["steps", "simulated_s", "mean_displacement_m", "damage_ratio", "units", "contacts", "largest_mach"] {
+        assert!(!unbroken[key].is_null() && unbroken[key] == branched[key], "{key}: {unbroken:#} {branched:#}");
+    }
+    for file in ["gauges.csv", "units.csv", "contacts.csv", "energy.csv", "diagnostics.csv"] {
+        let text = |dir: &str| fs::read_to_string(at(dir).join(file)).unwrap();
+        assert!(text("whole") == text("branched"), "{file}");
+    }
+    assert!(branched["warnings"].to_string().contains("this is a run of another friction or end"));
+
+    let slippery = write(folder.path(), "slippery.json", &surge(0.1, 0.25));
+    succeed(&run(&slippery, &at("slippery"), Some(&at("start"))));
+    let displacement = |run: &Value| run["mean_displacement_m"].as_f64().unwrap();
+    assert!(displacement(&summary(&at("slippery"))) > 1.1 * displacement(&unbroken));
+}
+
+#[test]
+fn a_run_begins_only_where_it_can() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let case = write(folder.path(), "case.json", &surge(0.1, 0.3));
+    refused(&run(&case, &at("out"), Some(&at("none"))), "must hold a run with its checkpoint.h5");
+    assert!(!at("out").exists());
+
+    // The surge has pushed this unit.
+    succeed(&run(&case, &at("moved"), None));
+    refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
+    assert!(at("moved").join("summary.json").exists());
+    let longer = write(folder.path(), "longer.json", &surge(0.1, 0.4));
+    refused(&run(&longer, &at("longer"), Some(&at("moved"))), "a unit has moved");
+
+    let mut deeper = surge(0.1, 0.3);
+    deeper["flume"]["still_water_level_m"] = json!(0.31);
+    deeper["numerics"]["viscosity_alpha"] = json!(0.02);
+    let deeper = write(folder.path(), "deeper.json", &deeper);
+    refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "its case differs in flume, numerics; only title,");
+    let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
+    refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only runs with water can begin at another");
+    assert!(!at("deeper").exists() && !at("dry").exists());
+}
+
+#[test]
+fn a_sweep_makes_its_common_start_once() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "surge.json", &surge(0.5, 0.25));
+    let sweep_of = |vary: &Value, start: f64| {
+        let sweep = json!({ "title": "Friction", "case": "surge.json", "vary": vary, "common_start_s": start });
+        write(folder.path(), "sweep.json", &sweep)
+    };
+    let out = folder.path().join("out");
+    let sweep = |path: &Path| breakwater(&[Path::new("sweep"), path, Path::new("--out"), &out]);
+
+    let friction = json!([{ "key": "friction[0].coefficient", "values": [0.1, 0.5] }]);
+    let bad = [
+        (
+            json!([{ "key": "domain.dp_m", "values": [0.025, 0.024] }]),
+            0.06,
+            "common_start_s: the runs differ in domain;",
+        ),
+        (friction.clone(), 0.25, "common_start_s = 0.25: must be above 0 and below stop.duration_s, 0.25"),
+        (friction.clone(), 0.0, "common_start_s = 0: must be"),
+    ];
+    for (vary, start, why) in bad {
+        refused(&sweep(&sweep_of(&vary, start)), why);
+        assert!(!out.exists());
+    }
+
+    succeed(&sweep(&sweep_of(&friction, 0.06)));
+    let of = |name: &str| summary(&out.join(name));
+    let (start, slippery, rough) = (of("000_start"), of("001_coefficient=0.1"), of("002_coefficient=0.5"));
+    assert!(start["simulated_s"].as_f64().unwrap() < 0.07);
+    let displacement = |run: &Value| run["mean_displacement_m"].as_f64().unwrap();
+    assert!(displacement(&slippery) > 1.1 * displacement(&rough));
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    assert!(table.lines().count() == 3 && !table.contains("000_start"), "{table}");
+}
