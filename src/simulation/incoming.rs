@@ -122,6 +122,15 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
     }
 }
 
+/// Time of the particles [s] at which a solitary wave stands highest at x [m], by the flume model; 0 for other waves.
+pub(super) fn crest_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
+    let (Some(record), Wave::Solitary(_) | Wave::SolitaryInflow(_)) = (record, &case.wave) else { return 0.0 };
+    let end = start + case.stop.duration;
+    let times = record.times_s().iter().copied().filter(|time| (start..=end).contains(time));
+    let highest = times.max_by(|&a, &b| record.elevation(x, a).total_cmp(&record.elevation(x, b)));
+    highest.map_or(0.0, |time| time - start)
+}
+
 /// The multi-layer piston of the case's wave.
 pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     let interval = interval(&case.wave);

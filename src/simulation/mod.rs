@@ -88,6 +88,9 @@ pub struct Simulation {
     pub steps: u64,
     /// Flume time at which the particles started [s].
     pub start: f64,
+    /// Time since the particles started at which the crest of a solitary wave stands over all units, by the flume
+    /// model [s]; 0 for other waves.
+    pub crest: f64,
     /// What is kept of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,

@@ -174,5 +174,7 @@ fn stop_rule(simulation: &mut Simulation) -> Option<Stopped> {
     // Units that have just begun to move have not got far yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
-    (simulation.time >= rule.not_before && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
+    // Units that the wave has not reached are at rest, too.
+    let reached = simulation.time >= rule.not_before.max(simulation.crest);
+    (reached && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::{
     Simulation, Units,
     bodies::rigid_setup,
-    incoming::{particle_start, run_flume, wavemaker},
+    incoming::{crest_time, particle_start, run_flume, wavemaker},
     mean_loads::MeanLoads,
     scheme::{parameters, tait},
     statistics::Statistics,
@@ -116,6 +116,8 @@ impl Simulation {
             clear_units(&mut water, units, &case);
         }
 
+        let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
+        let crest = shoreward.map_or(0.0, |x| crest_time(&case, flume.as_ref(), start, x));
         let [low, high] = bounds(&case, seaward_reach);
         let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
         let mut simulation = Self {
@@ -130,6 +132,7 @@ impl Simulation {
             time: 0.0,
             steps: 0,
             start,
+            crest,
             wavemaker,
             absorbed: AbsorptionState::default(),
             outline,

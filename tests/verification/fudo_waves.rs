@@ -1,7 +1,13 @@
 //! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m, over the bare slope and up the
 //! shore, beside the flume model 0.5, 1, 2 and 4 m from the piston.
 
+use std::{fs, sync::Arc};
+
+use breakwater::case::Case;
+use breakwater::output::Stopped;
 use breakwater::simulation::Simulation;
+use breakwater::simulation::run::{RunOptions, run};
+use breakwater::sph::device::Device;
 use glam::DVec2;
 use serde_json::{Value, json};
 
@@ -104,6 +110,40 @@ fn a_crest_is_the_top_of_a_parabola() {
         (0..400).map(|i| 0.01 * f64::from(i)).map(|t| [t, 0.05 - 0.01 * (t - 2.003).powi(2)]).collect();
     let [height, time] = crest(&series);
     assert!((height - 0.05).abs() < 1e-9 && (time - 2.003).abs() < 1e-7);
+}
+
+#[test]
+fn a_run_does_not_end_before_the_crest_has_come() {
+    let mut case = case(0.026, 0.025, "free_slip");
+    case["flume"]["mound"] = json!({
+        "centre_x_m": 39.0, "crest_width_m": 0.32, "crest_z_m": 0.717, "seaward_run_per_rise": 2.0,
+        "lee_run_per_rise": 2.0
+    });
+    case["flume"]["material"] = json!("stone");
+    case["domain"]["x_m"] = json!([37.5, 40.0]);
+    // Too heavy and too rough to move.
+    case["units"] = json!({
+        "shape": "cuboid", "size_m": [0.1, 0.1, 0.075], "mass_kg": 2.0, "material": "stone",
+        "poses": [{ "centre_m": [39.0, 0.0, 0.717 + 0.0375], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0] }]
+    });
+    case["materials"] = json!([{ "name": "stone", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.2 }]);
+    case["friction"] = json!([{ "between": ["stone", "stone"], "coefficient": 0.9 }]);
+    case["gauges"] = json!([{ "kind": "elevation", "name": "mound", "x_m": 38.9 }]);
+    case["output"] = json!({ "series_interval_s": 0.01 });
+    case["stop"]["at_rest"] = json!({ "speed_m_s": 0.01, "for_s": 0.2, "not_before_s": 0.5 });
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
+    let options = RunOptions { quiet: true, device: Device::Cpu };
+    let summary = run(Arc::new(case), folder.path(), &options).unwrap();
+    assert!(summary.stopped == Stopped::AtRest && summary.mean_displacement_m.unwrap() < 0.01, "{summary:?}");
+    // The surface over the mound has begun to fall, and no more than 0.5 s ago: the unit was at rest all the time.
+    let gauge = fs::read_to_string(folder.path().join("gauges.csv")).unwrap();
+    let level = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
+    let levels: Vec<f64> = gauge.lines().skip(1).map(level).collect();
+    let highest = (0..levels.len()).max_by(|&a, &b| levels[a].total_cmp(&levels[b])).unwrap();
+    let since = (levels.len() - 1 - highest) as f64 * 0.01;
+    println!("at rest after {:.2} s, {since:.2} s after the crest of {} m", summary.simulated_s, levels[highest]);
+    assert!(levels[highest] > 0.02 && (0.0..0.5).contains(&since));
 }
 
 /// Coarse, to see what resolution and slip do: `cargo test --release --test verification -- --ignored --nocapture
