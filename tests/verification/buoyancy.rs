@@ -2,10 +2,8 @@
 //! of it, submerged or half out of the water.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
-use breakwater::particles::{fill::clear_solid, unit::LEAST_DEPTH};
-use breakwater::rigid::BodyState;
 use breakwater::simulation::setup::particles_of;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::tanks::{BareTank, GRAVITY, RHO0, UNIT_HEIGHT, run_until, simulation, tank_with_held_unit, volume_below};
 
@@ -53,15 +51,10 @@ fn standing(depth: f64, dp: f64) -> Deviation {
 /// A unit held with its centre of mass at a height [m] in water of a depth [m], from the solver alone.
 fn free(centre_z: f64, depth: f64, dp: f64) -> Deviation {
     let unit = ArmourUnit::tetrapod(UNIT_HEIGHT, 0.05).unwrap();
-    let solid = unit.solid();
     // Off the lattice of the water.
     let centre = DVec3::new(0.5 * LENGTH + 0.3 * dp, 0.5 * LENGTH + 0.1 * dp, centre_z);
     let mut tank = BareTank::new(LENGTH, depth, dp, &particles_of(&unit, dp));
-    clear_solid(&mut tank.water, LEAST_DEPTH * dp, |point| {
-        let (nearest, distance) = solid.project(point - centre);
-        (nearest + centre, distance)
-    });
-    tank.boundary.move_unit(0, &BodyState::at_rest(centre, DQuat::IDENTITY));
+    tank.hold(&unit, centre);
     let (mut time, mut sum, mut count) = (0.0, DVec3::ZERO, 0.0);
     while time < DURATION {
         time += tank.step(|tank| {
@@ -71,7 +64,7 @@ fn free(centre_z: f64, depth: f64, dp: f64) -> Deviation {
             }
         });
     }
-    let displaced = volume_below(solid, depth - centre_z);
+    let displaced = volume_below(unit.solid(), depth - centre_z);
     Deviation::of(&format!("centre at {centre_z} m in {depth} m, dp = {dp} m"), sum / count, displaced)
 }
 

@@ -27,6 +27,7 @@ mod still_water;
 mod tanks;
 mod two_dimensional;
 mod two_dimensional_units;
+mod unit_in_stream;
 mod viscous_flow;
 mod wavemaker;
 mod waves;

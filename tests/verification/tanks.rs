@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use breakwater::bench::tank::Tank;
 use breakwater::case::Case;
-use breakwater::geometry::solid::Solid;
+use breakwater::geometry::{armour_unit::ArmourUnit, solid::Solid};
 use breakwater::particles::bed::{Across, Outline, outline_particles};
 use breakwater::particles::boundary::{Boundary, BoundaryParticle};
-use breakwater::particles::fill::Basin;
+use breakwater::particles::fill::{Basin, clear_solid};
+use breakwater::particles::unit::LEAST_DEPTH;
 use breakwater::particles::water::Water;
+use breakwater::rigid::BodyState;
 use breakwater::simulation::Simulation;
 use breakwater::sph::{
     density_diffusion::{DensityDiffusion, Diffusion},
@@ -16,7 +18,7 @@ use breakwater::sph::{
     parameters::Parameters,
     step::Solver,
 };
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};
 
 pub const GRAVITY: f64 = 9.81;
@@ -131,9 +133,15 @@ impl BareTank {
         Self { solver, water, boundary }
     }
 
-    /// A square box of side `side`, `width` wide and periodic across, full of weightless water; `adjust` changes the
-    /// scheme.
-    pub fn closed(side: f64, width: f64, dp: f64, c0: f64, adjust: impl FnOnce(&mut Parameters)) -> Self {
+    /// A square box of side `side`, `width` wide and periodic across, full of weightless water; `unit` as its one unit
+    /// at the origin, if it has particles; `adjust` changes the scheme.
+    pub fn closed(
+        [side, width]: [f64; 2],
+        dp: f64,
+        c0: f64,
+        unit: &[BoundaryParticle],
+        adjust: impl FnOnce(&mut Parameters),
+    ) -> Self {
         let mut parameters = parameters(dp, side, 0.0, Some(width));
         parameters.tait.c0 = c0;
         parameters.diffusion =
@@ -158,8 +166,18 @@ impl BareTank {
         Self {
             solver: Solver::new(parameters, -margin, DVec3::new(side, width, side) + margin),
             water: basin.fill(&parameters.tait),
-            boundary: Boundary::new(&fixed, &[], &[], 0, RHO0),
+            boundary: Boundary::new(&fixed, &[], unit, usize::from(!unit.is_empty()), RHO0),
         }
+    }
+
+    /// Put the one unit at a place [m] in the water, which leaves its room.
+    pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3) {
+        let solid = unit.solid();
+        clear_solid(&mut self.water, LEAST_DEPTH * self.solver.parameters.dp, |point| {
+            let (nearest, distance) = solid.project(point - centre);
+            (nearest + centre, distance)
+        });
+        self.boundary.move_unit(0, &BodyState::at_rest(centre, DQuat::IDENTITY));
     }
 
     /// One step; `look` sees the state between its halves. Returns its length [s].

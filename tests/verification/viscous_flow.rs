@@ -69,7 +69,7 @@ fn series_of_the_duct() {
 fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
     let (dp, nu, fastest) = (SIDE / particles, 0.1, 1.0);
     let force = fastest * nu / duct(0.5, 0.5);
-    let mut tank = BareTank::closed(SIDE, ACROSS * dp, dp, 10.0 * fastest, viscous(form(nu), WallSlip::NoSlip));
+    let mut tank = BareTank::closed([SIDE, ACROSS * dp], dp, 10.0 * fastest, &[], viscous(form(nu), WallSlip::NoSlip));
     let mut time = 0.0;
     // The slowest mode dies with 2 pi^2 nu / side^2: e^-8 is left.
     while time < 4.0 {
@@ -124,7 +124,8 @@ impl Vortex {
     /// With Reynolds number 100 and a number of particles a side.
     fn new(particles: f64, form: fn(f64) -> Viscosity, start: Start) -> Self {
         let (dp, nu, speed, wave) = (SIDE / particles, 0.01, 1.0, PI / SIDE);
-        let mut tank = BareTank::closed(SIDE, ACROSS * dp, dp, 10.0 * speed, viscous(form(nu), WallSlip::FreeSlip));
+        let mut tank =
+            BareTank::closed([SIDE, ACROSS * dp], dp, 10.0 * speed, &[], viscous(form(nu), WallSlip::FreeSlip));
         let tait = tank.solver.parameters.tait;
         if let Start::Settled = start {
             settle(&mut tank, 0.5 * dp, tait.rho0 * speed * speed);
