@@ -59,30 +59,49 @@ fn summary(dir: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(dir.join("summary.json")).unwrap()).unwrap()
 }
 
+/// A sweep of the surge over friction or another key.
+fn sweep_of(folder: &Path, vary: &Value, start: f64) -> PathBuf {
+    write(folder, "surge.json", &surge(0.5, 0.25));
+    let sweep = json!({ "title": "Friction", "case": "surge.json", "vary": vary, "common_start_s": start });
+    write(folder, "sweep.json", &sweep)
+}
+
+fn displacement(dir: &Path) -> f64 {
+    summary(dir)["mean_displacement_m"].as_f64().unwrap()
+}
+
 #[test]
-fn a_run_that_begins_at_another_ends_like_an_unbroken_one() {
+fn runs_with_a_common_start_end_like_unbroken_ones() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let start = write(folder.path(), "start.json", &surge(0.5, 0.06));
-    succeed(&run(&start, &at("start"), None));
-    let whole = write(folder.path(), "whole.json", &surge(0.5, 0.25));
-    succeed(&run(&whole, &at("whole"), None));
-    succeed(&run(&whole, &at("branched"), Some(&at("start"))));
+    let friction = json!([{ "key": "friction[0].coefficient", "values": [0.5, 0.1] }]);
+    let sweep = sweep_of(folder.path(), &friction, 0.06);
+    let out = at("out");
+    succeed(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]));
+    let begun = summary(&out.join("000_start"))["simulated_s"].as_f64().unwrap();
+    assert!((0.06..0.065).contains(&begun), "{begun}");
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    assert!(table.lines().count() == 3 && !table.contains("000_start"), "{table}");
 
-    let (unbroken, branched) = (summary(&at("whole")), summary(&at("branched")));
+    // Same friction as the start.
+    let branched = out.join("001_coefficient=0.5");
+    succeed(&run(&at("surge.json"), &at("whole"), None));
+    let (unbroken, summary) = (summary(&at("whole")), summary(&branched));
     for key in ["steps", "simulated_s", "mean_displacement_m", "damage_ratio", "units", "contacts", "largest_mach"] {
-        assert!(!unbroken[key].is_null() && unbroken[key] == branched[key], "{key}: {unbroken:#} {branched:#}");
+        assert!(!unbroken[key].is_null() && unbroken[key] == summary[key], "{key}: {unbroken:#} {summary:#}");
     }
     for file in ["gauges.csv", "units.csv", "contacts.csv", "energy.csv", "diagnostics.csv"] {
-        let text = |dir: &str| fs::read_to_string(at(dir).join(file)).unwrap();
-        assert!(text("whole") == text("branched"), "{file}");
+        let text = |dir: &Path| fs::read_to_string(dir.join(file)).unwrap();
+        assert!(text(&at("whole")) == text(&branched), "{file}");
     }
-    assert!(branched["warnings"].to_string().contains("this is a run of another friction or end"));
+    assert!(summary["warnings"].to_string().contains("with the friction of another run"));
+    let slippery = out.join("002_coefficient=0.1");
+    assert!(displacement(&slippery) > 1.1 * displacement(&branched));
 
-    let slippery = write(folder.path(), "slippery.json", &surge(0.1, 0.25));
-    succeed(&run(&slippery, &at("slippery"), Some(&at("start"))));
-    let displacement = |run: &Value| run["mean_displacement_m"].as_f64().unwrap();
-    assert!(displacement(&summary(&at("slippery"))) > 1.1 * displacement(&unbroken));
+    // The same by hand.
+    let case = write(folder.path(), "slippery.json", &surge(0.1, 0.25));
+    succeed(&run(&case, &at("slippery"), Some(&out.join("000_start"))));
+    assert_eq!(displacement(&at("slippery")), displacement(&slippery));
 }
 
 #[test]
@@ -90,58 +109,38 @@ fn a_run_begins_only_where_it_can() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let case = write(folder.path(), "case.json", &surge(0.1, 0.3));
-    refused(&run(&case, &at("out"), Some(&at("none"))), "must hold a run with its checkpoint.h5");
+    refused(&run(&case, &at("out"), Some(&at("none"))), "the run cannot begin there: there is no checkpoint.h5");
     assert!(!at("out").exists());
 
     // The surge has pushed this unit.
     succeed(&run(&case, &at("moved"), None));
     refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
     assert!(at("moved").join("summary.json").exists());
-    let longer = write(folder.path(), "longer.json", &surge(0.1, 0.4));
-    refused(&run(&longer, &at("longer"), Some(&at("moved"))), "a unit has moved");
+    let rough = write(folder.path(), "rough.json", &surge(0.4, 0.3));
+    refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all stand still");
 
-    let mut deeper = surge(0.1, 0.3);
+    let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);
-    deeper["numerics"]["viscosity_alpha"] = json!(0.02);
     let deeper = write(folder.path(), "deeper.json", &deeper);
-    refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "its case differs in flume, numerics; only title,");
+    refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "the cases differ in flume, stop; only title,");
     let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
     refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only runs with water can begin at another");
-    assert!(!at("deeper").exists() && !at("dry").exists());
+    assert!(!at("rough").exists() && !at("deeper").exists() && !at("dry").exists());
 }
 
 #[test]
-fn a_sweep_makes_its_common_start_once() {
+fn a_common_start_is_refused_where_runs_differ_from_the_start() {
     let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), "surge.json", &surge(0.5, 0.25));
-    let sweep_of = |vary: &Value, start: f64| {
-        let sweep = json!({ "title": "Friction", "case": "surge.json", "vary": vary, "common_start_s": start });
-        write(folder.path(), "sweep.json", &sweep)
-    };
-    let out = folder.path().join("out");
-    let sweep = |path: &Path| breakwater(&[Path::new("sweep"), path, Path::new("--out"), &out]);
-
     let friction = json!([{ "key": "friction[0].coefficient", "values": [0.1, 0.5] }]);
+    let size = json!([{ "key": "domain.dp_m", "values": [0.025, 0.024] }]);
     let bad = [
-        (
-            json!([{ "key": "domain.dp_m", "values": [0.025, 0.024] }]),
-            0.06,
-            "common_start_s: the runs differ in domain;",
-        ),
-        (friction.clone(), 0.25, "common_start_s = 0.25: must be above 0 and below stop.duration_s, 0.25"),
-        (friction.clone(), 0.0, "common_start_s = 0: must be"),
+        (&size, 0.06, "common_start_s: the cases differ in domain;"),
+        (&friction, 0.25, "common_start_s = 0.25: must be above 0 and below stop.duration_s, 0.25"),
+        (&friction, 0.0, "common_start_s = 0: must be"),
     ];
     for (vary, start, why) in bad {
-        refused(&sweep(&sweep_of(&vary, start)), why);
+        let (sweep, out) = (sweep_of(folder.path(), vary, start), folder.path().join("out"));
+        refused(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]), why);
         assert!(!out.exists());
     }
-
-    succeed(&sweep(&sweep_of(&friction, 0.06)));
-    let of = |name: &str| summary(&out.join(name));
-    let (start, slippery, rough) = (of("000_start"), of("001_coefficient=0.1"), of("002_coefficient=0.5"));
-    assert!(start["simulated_s"].as_f64().unwrap() < 0.07);
-    let displacement = |run: &Value| run["mean_displacement_m"].as_f64().unwrap();
-    assert!(displacement(&slippery) > 1.1 * displacement(&rough));
-    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
-    assert!(table.lines().count() == 3 && !table.contains("000_start"), "{table}");
 }

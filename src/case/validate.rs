@@ -6,7 +6,7 @@ use std::path::Path;
 use super::check::{Checker, show};
 use super::domain::{self, Domain};
 use super::error::{CaseError, CaseErrors};
-use super::file::{CaseFile, GivenWaveFile, HandoverFile, Sides, VelxFile, WaveFile, WaveSourceFile};
+use super::file::{CaseFile, GivenWaveFile, HandoverFile, Sides, StopFile, VelxFile, WaveFile, WaveSourceFile};
 use super::flume::{self, Flume};
 use super::gauges::{self, Gauge};
 use super::given_wave::ROWS_FILE;
@@ -43,6 +43,8 @@ pub struct Case {
     pub name: String,
     /// 32 hexadecimal digits that stay the same for the same case, whatever the layout of the file.
     pub hash: String,
+    /// Fingerprint of what decides where a run stands while its units have not moved: all but [`Self::MAY_DIFFER`].
+    pub start_hash: String,
     /// The file as written, to copy into the run's folder.
     pub text: String,
     /// Bed, mound and still water of the whole flume.
@@ -91,6 +93,10 @@ impl Case {
             _ => Err(check.into_errors()),
         }
     }
+
+    /// Keys that may differ between a run and the one at whose checkpoint it begins: units at rest do not feel them.
+    /// The duration is none of them, for the wavemaker's motion is prepared up to there.
+    pub const MAY_DIFFER: [&str; 4] = ["title", "assumptions", "friction", "stop.at_rest"];
 
     /// Ground and limits of the place where the units stand.
     pub fn site(&self) -> Site {
@@ -182,6 +188,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         warnings: Vec::new(),
         name: name.to_owned(),
         hash: fingerprint(&CaseFile { schema: None, ..file.clone() }, &read),
+        start_hash: fingerprint(&without_what_may_differ(&file), &read),
         text,
         flume: flume?,
         domain: domain?,
@@ -200,6 +207,12 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     };
     validate_size(&case, check);
     Some(case)
+}
+
+/// The case without its schema and [`Case::MAY_DIFFER`].
+fn without_what_may_differ(file: &CaseFile) -> CaseFile {
+    let stop = StopFile { at_rest: None, ..file.stop.clone() };
+    CaseFile { schema: None, title: String::new(), assumptions: Vec::new(), friction: Vec::new(), stop, ..file.clone() }
 }
 
 /// Impacts are those of units in three dimensions.

@@ -1,9 +1,6 @@
 //! `breakwater run` and `breakwater resume`.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -16,7 +13,7 @@ use crate::{
     dry::{self, recorder::DryRecorder},
     output::{Stopped, Summary},
     simulation::{
-        branch::{MAY_DIFFER, apart, branch},
+        branch::Start,
         checkpoint::{Checkpoint, device_of},
         progress::readable,
         run::{RunError, RunOptions, resume, run},
@@ -35,8 +32,8 @@ pub struct RunArguments {
     /// Replace what the folder holds.
     #[arg(long)]
     overwrite: bool,
-    /// Begin at the last checkpoint of the run in this folder, whose case is the same but for friction and stop, and whose
-    /// units have not moved yet: the wave up to there is not computed again.
+    /// Begin at the last checkpoint of the run in this folder, whose case is the same but for friction and the rule of
+    /// rest, and whose units have not moved yet: the wave up to there is not computed again.
     #[arg(long, value_name = "DIR")]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -76,15 +73,16 @@ impl RunArguments {
         if let AnyCase::Wet(case) = &case {
             options.device = self.device.open(case, options.quiet)?;
         }
-        if let Some(from) = &self.from {
-            refuse_other_start(&case, from, &dir)?;
-        }
+        let start = match &self.from {
+            Some(from) => Some(start_at(&case, from, &dir, &options)?),
+            None => None,
+        };
         fresh_folder(&dir, self.overwrite)?;
         match case {
             AnyCase::Wet(case) => {
                 introduce(&case, &dir, &options);
-                let ended = match &self.from {
-                    Some(from) => branch(case.clone(), from, &dir, &options),
+                let ended = match start {
+                    Some(start) => start.run(&dir, &options),
                     None => run(case.clone(), &dir, &options),
                 };
                 let summary = finish(ended, &dir)?;
@@ -149,23 +147,14 @@ impl MachineArguments {
     }
 }
 
-/// Refuse to begin a case at a run that is none of the same water and units.
-fn refuse_other_start(case: &AnyCase, from: &Path, dir: &Path) -> Result<(), Trouble> {
-    let refused = |what: String| Trouble::refused(format!("--from {}: {what}", from.display()));
-    let AnyCase::Wet(case) = case else { return Err(refused("only runs with water can begin at another".to_owned())) };
-    if !from.join(Checkpoint::FILE).exists() {
-        return Err(refused(format!("must hold a run with its {}", Checkpoint::FILE)));
-    }
+/// A case with water where the run in another folder stands.
+fn start_at<'a>(case: &AnyCase, from: &'a Path, dir: &Path, options: &RunOptions) -> Result<Start<'a>, Trouble> {
+    let refused = |what: &str| Trouble::refused(format!("--from {}: {what}", from.display()));
+    let AnyCase::Wet(case) = case else { return Err(refused("only runs with water can begin at another")) };
     if from.canonicalize().is_ok_and(|from| dir.canonicalize().is_ok_and(|dir| dir == from)) {
-        return Err(refused("is the folder of the results; give another one with --out".to_owned()));
+        return Err(refused("is the folder of the results; give another one with --out"));
     }
-    let text = fs::read_to_string(from.join("case.json")).map_err(|error| refused(format!("case.json: {error}")))?;
-    let apart = apart(&case.text, &text);
-    if apart.is_empty() {
-        return Ok(());
-    }
-    let may = MAY_DIFFER.join(", ");
-    Err(refused(format!("its case differs in {}; only {may} may", apart.join(", "))))
+    Start::at(case.clone(), from, options).map_err(Trouble::refused)
 }
 
 fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
@@ -193,7 +182,7 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
 pub(super) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
     let summary = match ended {
         Ok(summary) => summary,
-        Err(error @ (RunError::Setup(_) | RunError::NoStart { .. })) => return Err(Trouble::refused(error)),
+        Err(error @ RunError::Setup(_)) => return Err(Trouble::refused(error)),
         Err(error) => return Err(Trouble::failed(error)),
     };
     let why = match summary.stopped {

@@ -19,7 +19,7 @@ use crate::{
     case::Case,
     output::Summary,
     simulation::{
-        branch::branch,
+        branch::Start,
         checkpoint::Checkpoint,
         run::{resume, run},
     },
@@ -94,12 +94,11 @@ impl SweepArguments {
         let work = Work { sweep_file: &sweep_file, dir: &dir, threads: self.threads as usize, device: &device };
         println!("{}: {} runs, in {}", sweep.title, sweep.members.len(), dir.display());
         // The others begin where the common start ends.
-        for members in [sweep.start.as_slice(), &sweep.members] {
-            match self.launcher {
-                Launcher::Local => self.make_here(&work, &program, members)?,
-                Launcher::Slurm => self.make_by_slurm(&work, &program, members)?,
-            }
+        if let Some(start) = &sweep.start {
+            self.launch(&work, &program, std::slice::from_ref(start))?;
+            finished(start, &dir)?;
         }
+        self.launch(&work, &program, &sweep.members)?;
         for path in table::write(&sweep, &dir).map_err(Trouble::failed)? {
             println!("{}", path.display());
         }
@@ -116,6 +115,13 @@ impl SweepArguments {
             missing.join(", "),
             dir.display()
         )))
+    }
+
+    fn launch(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
+        match self.launcher {
+            Launcher::Local => self.make_here(work, program, members),
+            Launcher::Slurm => self.make_by_slurm(work, program, members),
+        }
     }
 
     fn make_here(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
@@ -158,18 +164,26 @@ impl SweepArguments {
         let machine = MachineArguments { threads: Some(self.threads as usize), quiet: false };
         let mut options = machine.prepare()?;
         options.device = self.device.open(&case, options.quiet)?;
+        options.until = member.until;
         let begun = fs::read_to_string(dir.join("case.json")).is_ok_and(|text| text == member.text);
         let ended = if begun && dir.join(Checkpoint::FILE).exists() {
             resume(case.clone(), &dir, &options)
         } else {
-            fresh_folder(&dir, true)?;
             match &sweep.start {
-                Some(start) if member.number > 0 => branch(case.clone(), &finished(start, sweep_dir)?, &dir, &options),
-                _ => run(case.clone(), &dir, &options),
+                Some(start) if member.until.is_none() => {
+                    let from = finished(start, sweep_dir)?;
+                    let start = Start::at(case.clone(), &from, &options).map_err(Trouble::failed)?;
+                    fresh_folder(&dir, true)?;
+                    start.run(&dir, &options)
+                }
+                _ => {
+                    fresh_folder(&dir, true)?;
+                    run(case.clone(), &dir, &options)
+                }
             }
         };
         let summary = finish(ended, &dir)?;
-        if member.number == 0 {
+        if member.until.is_some() {
             return Ok(());
         }
         hand_over::of_run(&case, &summary, &dir, options.quiet)
@@ -182,8 +196,9 @@ fn finished(start: &Member, sweep_dir: &Path) -> Result<PathBuf, Trouble> {
     match start.outcome(sweep_dir) {
         Outcome::Finished(_) => Ok(dir),
         _ => Err(Trouble::failed(format!(
-            "{}: the common start is not finished; make it with --member 0",
-            dir.display()
+            "{}: the common start is not finished, see {}; nothing can begin there",
+            dir.display(),
+            start.log(sweep_dir).display()
         ))),
     }
 }

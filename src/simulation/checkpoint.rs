@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 11;
+const VERSION: u32 = 12;
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]
@@ -116,17 +116,21 @@ pub fn device_of(dir: &Path) -> Option<String> {
 /// # Errors
 /// If there is no checkpoint, it is damaged, or it is one of another case.
 pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
-    Checkpoint::read(dir)?.restore(simulation, dir)
+    let hash = simulation.case.hash.clone();
+    read_of(simulation, dir, &hash)
 }
 
-/// Take the checkpoint of a folder into another one, as that of another case of the same particles and units.
+/// The same from a checkpoint of a case with the given fingerprint, which has the same particles and units.
 ///
 /// # Errors
-/// If there is no checkpoint, it is damaged, or it cannot be written.
-pub fn adopt(from: &Path, to: &Path, case_hash: &str) -> Result<(), OutputError> {
-    let mut checkpoint = Checkpoint::read(from)?;
-    case_hash.clone_into(&mut checkpoint.scalars.case_hash);
-    checkpoint.write(to, Checkpoint::FILE)
+/// As [`read`].
+pub fn read_of(simulation: &mut Simulation, dir: &Path, case_hash: &str) -> Result<RecorderState, OutputError> {
+    let checkpoint = Checkpoint::read(dir)?;
+    if checkpoint.scalars.case_hash != case_hash {
+        let what = "belongs to another case than case.json beside it".to_owned();
+        return Err(OutputError::content(&dir.join(Checkpoint::FILE), what));
+    }
+    checkpoint.restore(simulation, dir)
 }
 
 impl Checkpoint {
@@ -144,9 +148,6 @@ impl Checkpoint {
     fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
         let Self { scalars, water, boundary_density, water_at_impacts } = self;
         let path = dir.join(Self::FILE);
-        if scalars.case_hash != simulation.case.hash {
-            return Err(OutputError::content(&path, "belongs to another case than case.json beside it".to_owned()));
-        }
         if boundary_density.len() != simulation.boundary.len() {
             return Err(OutputError::content(&path, "does not match the particles of the case".to_owned()));
         }

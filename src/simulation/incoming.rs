@@ -126,9 +126,10 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
 pub(super) fn crest_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
     let (Some(record), Wave::Solitary(_) | Wave::SolitaryInflow(_)) = (record, &case.wave) else { return 0.0 };
     let end = start + case.stop.duration;
-    let times = record.times_s().iter().copied().filter(|time| (start..=end).contains(time));
-    let highest = times.max_by(|&a, &b| record.elevation(x, a).total_cmp(&record.elevation(x, b)));
-    highest.map_or(0.0, |time| time - start)
+    let times = record.times_s().iter().filter(|time| (start..=end).contains(*time));
+    let levels = times.map(|&time| (time - start, record.elevation(x, time)));
+    // The first of equal ones: where it stays dry, none is waited for.
+    levels.reduce(|highest, next| if next.1 > highest.1 { next } else { highest }).map_or(0.0, |(time, _)| time)
 }
 
 /// The multi-layer piston of the case's wave.

@@ -6,14 +6,17 @@
 //!
 //! Every time is that of the flume: 0 when the paddle starts.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use serde::{Deserialize, Serialize};
 
 use super::{
     Simulation, Units,
     checkpoint::Checkpoint,
-    snapshots::{Frame, SnapshotFiles},
+    snapshots::{Frame, SURFACES_FILE, SnapshotFiles, WATER_FILE},
     water_at_impacts::pressure_places,
 };
 use crate::{
@@ -113,6 +116,23 @@ impl Recorder {
             writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water, state.surfaces)?),
             state,
         })
+    }
+
+    /// The files of a run that begins where that of another folder stands: its own, with the tables and snapshots of the
+    /// other up to there.
+    ///
+    /// # Errors
+    /// If a file cannot be read or written.
+    pub fn branch(simulation: &Simulation, from: &Path, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+        drop(Self::create(simulation, dir)?);
+        let tables = [GAUGES_FILE, UNITS_FILE, CONTACTS_FILE, ENERGY_FILE, DIAGNOSTICS_FILE];
+        for file in tables.into_iter().chain([WATER_FILE, SURFACES_FILE]) {
+            let (from, to) = (from.join(file), dir.join(file));
+            if to.exists() {
+                fs::copy(&from, to).map_err(OutputError::io(&from))?;
+            }
+        }
+        Self::reopen(simulation, dir, state)
     }
 
     /// Where the outputs stand.

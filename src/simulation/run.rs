@@ -26,18 +26,13 @@ pub enum RunError {
     /// The case cannot be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// The run is to begin where another one stands, and the units of that one have moved.
-    #[error(
-        "{from}: a unit has moved {} mm by {time:.3} s; a run with other keys can begin there only while the units stand",
-        moved * 1e3
-    )]
+    /// The run is to begin where another one stands, and cannot.
+    #[error("{from}: the run cannot begin there: {why}")]
     NoStart {
         /// Folder of the other run.
         from: String,
-        /// Time of the flume [s].
-        time: f64,
-        /// How far [m].
-        moved: f64,
+        /// Reason.
+        why: String,
     },
     /// A file cannot be written or read.
     #[error(transparent)]
@@ -59,6 +54,8 @@ pub struct RunOptions {
     pub quiet: bool,
     /// What computes the water.
     pub device: Device,
+    /// End at this simulated time [s] although the case goes on: others will begin there.
+    pub until: Option<f64>,
 }
 
 /// Run a case into an existing, empty folder.
@@ -76,17 +73,11 @@ pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary,
 /// # Errors
 /// As [`run`], and if the checkpoint is not one of the case.
 pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
-    let (simulation, recorder) = reopen(case, dir, options)?;
-    drive(simulation, recorder, dir, options)
-}
-
-/// A run as it stood at its last checkpoint.
-pub(super) fn reopen(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(Simulation, Recorder), RunError> {
     let mut simulation = Simulation::on(&options.device, case)?;
     let state = checkpoint::read(&mut simulation, dir)?;
     simulation.load().map_err(SetupError::Device)?;
     let recorder = Recorder::reopen(&simulation, dir, state)?;
-    Ok((simulation, recorder))
+    drive(simulation, recorder, dir, options)
 }
 
 /// Step until a stop rule holds.
@@ -96,7 +87,8 @@ pub(super) fn drive(
     dir: &Path,
     options: &RunOptions,
 ) -> Result<Summary, RunError> {
-    let mut progress = Progress::new(simulation.case.stop.duration, simulation.time, simulation.steps, options.quiet);
+    let end = options.until.map_or(simulation.case.stop.duration, |until| until.min(simulation.case.stop.duration));
+    let mut progress = Progress::new(end, simulation.time, simulation.steps, options.quiet);
     let wall_before = simulation.statistics.wall_s;
     let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
     simulation.statistics.energy_start = Some(energy_start);
@@ -107,7 +99,7 @@ pub(super) fn drive(
             Err(failure) => return Err(keep_failed(&mut simulation, &mut recorder, dir, failure)),
         };
         simulation.statistics.wall_s = wall_before + progress.wall();
-        if let Some(stopped) = stop_rule(&mut simulation) {
+        if let Some(stopped) = stop_rule(&mut simulation, end) {
             recorder.record_end(&mut simulation, dt)?;
             progress.finish();
             let summary = summarise(&simulation, stopped, dir)?;
@@ -161,13 +153,12 @@ fn keep_failed(simulation: &mut Simulation, recorder: &mut Recorder, dir: &Path,
     RunError::Failed { failure, kept }
 }
 
-/// Whether the run is over, and why.
-fn stop_rule(simulation: &mut Simulation) -> Option<Stopped> {
-    let stop = &simulation.case.stop;
-    if simulation.time >= stop.duration {
+/// Whether the run, which ends at a simulated time [s] at the latest, is over, and why.
+fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
+    if simulation.time >= end {
         return Some(Stopped::Duration);
     }
-    let (rule, units) = (stop.at_rest.as_ref()?, simulation.units.as_ref()?);
+    let (rule, units) = (simulation.case.stop.at_rest.as_ref()?, simulation.units.as_ref()?);
     // The tips of a unit are about half its height away from its centre.
     let tips = 0.5 * units.shape.height();
     let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();

@@ -15,8 +15,10 @@ use crate::{
     rigid::BodyState,
 };
 
-const WATER_FILE: &str = "fluid.vtkhdf";
-const SURFACES_FILE: &str = "units.vtkhdf";
+/// Files of the snapshots.
+pub const WATER_FILE: &str = "fluid.vtkhdf";
+/// See [`WATER_FILE`].
+pub const SURFACES_FILE: &str = "units.vtkhdf";
 
 /// Fields of the units' surfaces.
 pub const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];

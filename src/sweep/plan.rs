@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::{
     case::{Case, CaseErrors},
-    simulation::branch::{MAY_DIFFER, apart},
+    simulation::branch::difference,
 };
 
 /// Most runs of one sweep.
@@ -60,7 +60,7 @@ struct SweepFile {
     /// Keys with their values; the last one varies fastest.
     vary: Vec<VaryFile>,
     /// Simulated time [s] until which the units stand still in every run: up to there one run is made, with the first
-    /// values, and the others begin at its checkpoint. Only friction, stop and titles may vary then.
+    /// values, and the others begin at its checkpoint. Only friction, the rule of rest and titles may vary then.
     #[schemars(extend("exclusiveMinimum" = 0))]
     common_start_s: Option<f64>,
 }
@@ -110,6 +110,10 @@ pub struct Member {
     pub text: String,
     /// Hash of the case, as in summaries.
     pub hash: String,
+    /// Hash of what decides where the run stands while its units have not moved, see [`Case::start_hash`].
+    start_hash: String,
+    /// Simulated time at which the common start ends [s].
+    pub until: Option<f64>,
 }
 
 /// A sweep.
@@ -155,6 +159,7 @@ impl Sweep {
         let runs = runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(|| {
             content(format!("vary: all values with each other are more than {MOST_RUNS} runs; take fewer"))
         })?;
+        let mut duration = f64::INFINITY;
         let member = |number: usize| {
             let values = combination(&varied, number);
             let mut text = base.clone();
@@ -170,10 +175,12 @@ impl Sweep {
                 errors,
             })?;
             let name = format!("{:03}_{}", number + 1, file_name(&label));
-            Ok(Member { number: number + 1, name, values, text, hash: case.hash })
+            let Case { hash, start_hash, stop, .. } = case;
+            duration = stop.duration;
+            Ok(Member { number: number + 1, name, values, text, hash, start_hash, until: None })
         };
         let members = (0..runs).map(member).collect::<Result<Vec<_>, SweepError>>()?;
-        let start = file.common_start_s.map(|until| start(&members, until, &case)).transpose().map_err(content)?;
+        let start = file.common_start_s.map(|until| start(&members, until, duration)).transpose().map_err(content)?;
         Ok(Self { title: file.title, case, varied, members, start })
     }
 
@@ -186,29 +193,16 @@ impl Sweep {
     }
 }
 
-/// The first run, ended at a time [s] at which the others can begin.
-fn start(members: &[Member], until: f64, case: &Path) -> Result<Member, String> {
+/// The first run, ended at a time [s] at which the others can begin; all of them last as long [s].
+fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String> {
     let first = &members[0];
-    for member in members {
-        let apart = apart(&first.text, &member.text);
-        if !apart.is_empty() {
-            let (may, key) = (MAY_DIFFER.join(", "), apart.join(", "));
-            return Err(format!("common_start_s: the runs differ in {key}; with a common start only {may} may vary"));
-        }
+    if let Some(other) = members.iter().find(|other| other.start_hash != first.start_hash) {
+        return Err(format!("common_start_s: {}", difference(&first.text, &other.text)));
     }
-    let mut text: Value = serde_json::from_str(&first.text).map_err(|error| error.to_string())?;
-    let shortest = members.iter().filter_map(|member| duration(&member.text)).fold(f64::INFINITY, f64::min);
-    if !(until > 0.0 && until < shortest) {
-        return Err(format!("common_start_s = {until}: must be above 0 and below stop.duration_s, {shortest}"));
+    if !(until > 0.0 && until < duration) {
+        return Err(format!("common_start_s = {until}: must be above 0 and below stop.duration_s, {duration}"));
     }
-    text["stop"] = json!({ "duration_s": until });
-    let text = format!("{text:#}");
-    let hash = Case::from_str(&text, &case.display().to_string()).map_err(|errors| errors.to_string())?.hash;
-    Ok(Member { number: 0, name: "000_start".to_owned(), values: Vec::new(), text, hash })
-}
-
-fn duration(text: &str) -> Option<f64> {
-    serde_json::from_str::<Value>(text).ok()?["stop"]["duration_s"].as_f64()
+    Ok(Member { number: 0, name: "000_start".to_owned(), values: Vec::new(), until: Some(until), ..first.clone() })
 }
 
 impl VaryFile {
