@@ -203,3 +203,10 @@ fn floating_box_in_a_layer() {
 fn floating_box_in_a_fine_layer() {
     compare(0.0125, Part::Layer);
 }
+
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_finer_layer`
+#[test]
+#[ignore = "an hour on one core"]
+fn floating_box_in_a_finer_layer() {
+    compare(0.00625, Part::Layer);
+}
