@@ -164,6 +164,7 @@ impl Simulation {
         self.relax_in_zones(dt);
         self.sum_unit_loads(dt)?;
         self.keep_water_out(dt)?;
+        self.solver.sort_ahead();
         self.advance_units(dt)?;
         self.time += dt;
         self.steps += 1;

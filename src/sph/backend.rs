@@ -168,6 +168,9 @@ pub trait Backend: Send {
     /// Give back the velocities of the water near to surfaces.
     fn put_near(&mut self, near: &NearWater);
 
+    /// Begin to sort the water, whose places at the end of the step are known, while the host moves the units.
+    fn sort_ahead(&mut self);
+
     /// Look over the water at the end of a step; `None` if it lies in the arrays of the host.
     ///
     /// # Errors
@@ -264,6 +267,8 @@ impl Backend for Solver {
     }
 
     fn put_near(&mut self, _: &NearWater) {}
+
+    fn sort_ahead(&mut self) {}
 
     fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
         Ok(None)

@@ -55,6 +55,18 @@ struct Loaded {
     fastest: [f64; 2],
     /// As last read.
     watched: Watched,
+    /// Whether the water has been sorted already, while the host moved the units.
+    is_sorted: bool,
+}
+
+impl Loaded {
+    /// Put the water in the order of the bins, if that has not been done ahead.
+    fn sort_water(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if !std::mem::replace(&mut self.is_sorted, true) {
+            self.memory.sort.run(encoder);
+            self.memory.permute(encoder);
+        }
+    }
 }
 
 impl GpuSolver {
@@ -164,12 +176,14 @@ impl Backend for GpuSolver {
             _ => {
                 let memory = Memory::new(&self.card, &constants, particles, self.grid.bins())?;
                 let watched = Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false };
-                Loaded { near: NearSearch::new(&self.card, &memory)?, memory, fastest: [0.0; 2], watched }
+                let near = NearSearch::new(&self.card, &memory)?;
+                Loaded { near, memory, fastest: [0.0; 2], watched, is_sorted: false }
             }
         };
         let loaded = self.loaded.insert(loaded);
         loaded.memory.fill(&self.card, &state, &of_boundary, &excess);
         loaded.fastest = [largest(&water.velocity), largest(&boundary.velocity)];
+        loaded.is_sorted = false;
         self.encoder = None;
         self.trouble = None;
         self.card.check()
@@ -204,10 +218,10 @@ impl Backend for GpuSolver {
     fn sort(&mut self, _: &mut Water, boundary: &Boundary) {
         self.upload_moving(boundary);
         let reach = self.parameters.kernel.support() as f32;
-        self.tell(|card, Loaded { memory, .. }, encoder| {
+        self.tell(|card, loaded, encoder| {
+            loaded.sort_water(encoder);
+            let memory = &loaded.memory;
             card.write(&memory.step, 0, &[StepConstants { dt: 0.0, reach }]);
-            memory.sort.run(encoder);
-            memory.permute(encoder);
             memory.boundary_sort.run(encoder);
             memory.water_records.run(encoder, groups(memory.water, 64));
         });
@@ -255,7 +269,10 @@ impl Backend for GpuSolver {
     }
 
     fn correct(&mut self, _: f64, _: &mut Water, _: &mut Boundary) {
-        self.tell(|_, Loaded { memory, .. }, encoder| memory.correct.run(encoder, groups(memory.water, 64)));
+        self.tell(|_, Loaded { memory, is_sorted, .. }, encoder| {
+            *is_sorted = false;
+            memory.correct.run(encoder, groups(memory.water, 64));
+        });
     }
 
     fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError> {
@@ -280,7 +297,9 @@ impl Backend for GpuSolver {
         self.loaded()?;
         let rho0 = self.parameters.tait.rho0;
         let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
-        let Some(Loaded { memory, near, fastest, watched }) = &mut self.loaded else { return Ok(NearWater::default()) };
+        let Some(Loaded { memory, near, fastest, watched, .. }) = &mut self.loaded else {
+            return Ok(NearWater::default());
+        };
         let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
         *watched = watched_from(extremes, rho0);
         fastest[0] = watched.fastest;
@@ -296,6 +315,12 @@ impl Backend for GpuSolver {
             self.trouble = Some(trouble);
         }
         self.encoder = Some(encoder);
+    }
+
+    fn sort_ahead(&mut self) {
+        self.tell(|_, loaded, encoder| loaded.sort_water(encoder));
+        let encoder = self.take_encoder();
+        self.card.submit(encoder);
     }
 
     fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
