@@ -73,7 +73,7 @@ fn is_near_shape(at: vec3<f32>) -> bool {
     }
     for (let end = k + surfaces.balls; k < end; k++) {
         var r = at - shapes[k].xyz;
-        if parameters.periodic == 1u {
+        if PERIODIC {
             r.y -= parameters.width * round(r.y / parameters.width);
         }
         if dot(r, r) < shapes[k].w * shapes[k].w {

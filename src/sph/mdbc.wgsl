@@ -161,7 +161,7 @@ fn densities(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let i = order[place];
     let surface = to_surface[i].xyz;
     var node = split(cell[i].xyz, offset[i].xyz + 2.0 * surface);
-    if parameters.periodic == 1u {
+    if PERIODIC {
         node.z -= parameters.width * round(node.z / parameters.width);
     }
     density[i] = excess_density(sum_round(node), surface);

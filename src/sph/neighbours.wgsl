@@ -14,7 +14,7 @@ fn rows_within(place: vec4<f32>, reach: f32) -> Rows {
     var rows: Rows;
     rows.first = clamp(low, vec2<i32>(0), last);
     rows.last = clamp(high, vec2<i32>(0), last);
-    if parameters.periodic == 1u {
+    if PERIODIC {
         rows.first.x = low.x;
         rows.last.x = min(high.x, low.x + last.x);
     }
@@ -30,7 +30,7 @@ fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
         middle.y = 0.0;
     }
     var across = row.x;
-    if parameters.periodic == 1u {
+    if PERIODIC {
         middle.x -= parameters.width * round(middle.x / parameters.width);
         across = (row.x % parameters.count.y + parameters.count.y) % parameters.count.y;
     } else if (row.x == 0 && middle.x > 0.0) || (row.x == last.x && middle.x < 0.0) {
@@ -52,7 +52,7 @@ fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
 // From b to a, its nearest image in a periodic flume [m].
 fn difference(a: vec4<f32>, b: vec4<f32>) -> vec3<f32> {
     var r = vec3<f32>((a.x - b.x) * parameters.size.x + (a.y - b.y), a.zw - b.zw);
-    if parameters.periodic == 1u {
+    if PERIODIC {
         r.y -= parameters.width * round(r.y / parameters.width);
     }
     return r;

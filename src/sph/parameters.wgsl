@@ -11,8 +11,6 @@ struct Parameters {
     boundary: u32,
     // Bed, walls and wavemaker among them; the others are those of units.
     walls: u32,
-    // 1 if what leaves on one side enters on the other.
-    periodic: u32,
     // Width of a periodic domain [m].
     width: f32,
     // Smoothing length [m].
@@ -36,6 +34,7 @@ struct Parameters {
     gravity: f32,
     // -rho0 g / c0^2 [kg/m4], by which mDBC carries densities.
     density_slope: f32,
+    padding: f32,
     // Trust in a fitted gradient by the place of the water and by its spread, see mdbc.rs.
     trust_place: vec2<f32>,
     trust_spread: vec2<f32>,
@@ -70,6 +69,10 @@ struct Record {
     // rho - rho0 [kg/m3], pressure [Pa], speed of sound [m/s], and what it is: WATER, WALL or UNIT.
     state: vec4<f32>,
 }
+
+// Whether what leaves on one side enters on the other. A constant of the compiled shader: branches on uniform values make
+// Mesa's software driver compile a shader anew at every dispatch, and keep it.
+override PERIODIC: bool = false;
 
 const WATER = 0.0;
 const WALL = 1.0;

@@ -82,7 +82,7 @@ fn correct(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gro
         let turned = floor(moved / parameters.size);
         var place = cell[i];
         place = vec4<i32>(place.xyz + vec3<i32>(turned), place.w);
-        if parameters.periodic == 1u {
+        if PERIODIC {
             place.y = (place.y % parameters.count.y + parameters.count.y) % parameters.count.y;
         }
         let rest = moved - turned * parameters.size;

@@ -21,7 +21,6 @@ pub struct Constants {
     size: [f32; 3],
     boundary: u32,
     walls: u32,
-    periodic: u32,
     width: f32,
     h: f32,
     inv_2h: f32,
@@ -34,6 +33,7 @@ pub struct Constants {
     curvature: f32,
     gravity: f32,
     density_slope: f32,
+    padding: f32,
     trust_place: [f32; 2],
     trust_spread: [f32; 2],
     least_determinant: f32,
@@ -71,7 +71,6 @@ impl Constants {
             size: grid.size.as_vec3().to_array(),
             boundary,
             walls,
-            periodic: u32::from(grid.periodic_width.is_some()),
             width: grid.periodic_width.unwrap_or(0.0) as f32,
             h: kernel.h as f32,
             inv_2h: (0.5 / kernel.h) as f32,
@@ -84,6 +83,7 @@ impl Constants {
             curvature,
             gravity: gravity as f32,
             density_slope: (-tait.rho0 * gravity / tait.c0.powi(2)) as f32,
+            padding: 0.0,
             trust_place: TRUST.map(|t| t as f32),
             trust_spread: SPREAD.map(|t| t as f32),
             least_determinant: LEAST_DETERMINANT as f32,
@@ -95,6 +95,11 @@ impl Constants {
             pressure: pressure_series(&tait),
             sound: sound_series(&tait),
         }
+    }
+
+    /// Whether what leaves on one side enters on the other.
+    pub fn is_periodic(&self) -> bool {
+        self.width > 0.0
     }
 
     /// The same without viscosity and diffusion, and with the water as the only target: pressure on the water alone.

@@ -25,6 +25,7 @@ pub fn most_particles(card: &CardInfo) -> u64 {
 
 /// Memory and bound kernels.
 pub(super) struct Memory {
+    pub is_periodic: bool,
     pub water: usize,
     pub boundary: usize,
     walls: usize,
@@ -68,6 +69,7 @@ impl Memory {
         [water, boundary, walls]: [usize; 3],
         bins: usize,
     ) -> Result<Self, DeviceError> {
+        let is_periodic = constants.is_periodic();
         let parameters = card.uniform("parameters", constants);
         let pressure_alone = card.uniform("parameters of pressure alone", &constants.of_pressure_alone());
         let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
@@ -122,7 +124,7 @@ impl Memory {
                 (9, &boundary_density),
             ],
         );
-        let densities = Shader::new(card, MDBC).kernel("densities").bind(
+        let densities = Shader::new(card, MDBC).periodic(is_periodic).kernel("densities").bind(
             card,
             &[
                 (0, &parameters),
@@ -135,7 +137,7 @@ impl Memory {
                 (7, &boundary_density),
             ],
         );
-        let rates_kernel = Shader::new(card, RATES).kernel("rates_of_all");
+        let rates_kernel = Shader::new(card, RATES).periodic(is_periodic).kernel("rates_of_all");
         let rates_into = |parameters, rates, limits| {
             let sources = [(2, &records), (3, &sort.start), (4, &boundary_sort.start), (5, &boundary_sort.order)];
             let own = [(0, parameters), (1, &step), (6, rates), (7, limits)];
@@ -143,7 +145,7 @@ impl Memory {
         };
         let all_rates = rates_into(&parameters, &rates, &limits);
         let pressure_rates = rates_into(&pressure_alone, &half_offset, &unused_limits);
-        let shader = Shader::new(card, STEP);
+        let shader = Shader::new(card, STEP).periodic(is_periodic);
         let state_of_step = [(0, &parameters), (1, &step), (2, &offset), (4, &motion), (5, &rates), (6, &half_offset)];
         let predict = shader.kernel("predict").bind(card, &[&state_of_step[..], &[(7, &half_motion)]].concat());
         let correct =
@@ -154,6 +156,7 @@ impl Memory {
         let of_water = water * (6 * 16 + RECORD) + Sort::bytes(water, bins);
         let of_boundary = boundary * (5 * 16 + 4 + RECORD) + Sort::bytes(boundary, bins);
         Ok(Self {
+            is_periodic,
             water,
             boundary,
             walls,

@@ -71,7 +71,7 @@ struct SearchMemory {
 impl NearSearch {
     /// A search in the water of a memory.
     pub fn new(card: &Card, memory: &Memory) -> Result<Self, DeviceError> {
-        let shader = Shader::new(card, IMPERMEABLE);
+        let shader = Shader::new(card, IMPERMEABLE).periodic(memory.is_periodic);
         let [find, put] = ["find_near", "put_velocities"].map(|name| shader.kernel(name));
         let constants = card.uniform("surfaces", &SurfaceConstants::default());
         let put_constants = card.uniform("velocities", &SurfaceConstants::default());

@@ -38,6 +38,7 @@ pub struct Bound {
 pub struct Shader<'a> {
     card: &'a Card,
     module: wgpu::ShaderModule,
+    constants: &'static [(&'static str, f64)],
 }
 
 impl<'a> Shader<'a> {
@@ -54,7 +55,12 @@ impl<'a> Shader<'a> {
             };
             card.device.create_shader_module_trusted(descriptor, checks)
         };
-        Self { card, module }
+        Self { card, module, constants: &[] }
+    }
+
+    /// The same for a flume where what leaves on one side enters on the other, or not.
+    pub fn periodic(self, is_periodic: bool) -> Self {
+        Self { constants: if is_periodic { &[("PERIODIC", 1.0)] } else { &[] }, ..self }
     }
 
     /// One of its functions.
@@ -64,7 +70,10 @@ impl<'a> Shader<'a> {
             layout: None,
             module: &self.module,
             entry_point: Some(name),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: self.constants,
+                ..wgpu::PipelineCompilationOptions::default()
+            },
             cache: None,
         });
         Kernel { pipeline, name }
