@@ -59,6 +59,10 @@ fn every_combination_runs_and_what_is_finished_is_kept() {
     assert!(rows[0].starts_with("run,numerics.viscosity_alpha,domain.dp_m,"));
     assert!(rows[2].starts_with("002_viscosity_alpha=0.02_dp_m=0.05,0.02,0.05,") && rows[2].ends_with(",finished"));
 
+    let case = fs::read_to_string(out.join("002_viscosity_alpha=0.02_dp_m=0.05/case.json")).unwrap();
+    let case: Value = serde_json::from_str(&case).unwrap();
+    assert_eq!(case["title"], "Tanks: viscosity_alpha=0.02 dp_m=0.05");
+
     // One is lost, one was interrupted: both come back, and the others are not touched.
     let summary = |name: &str| out.join(name).join("summary.json");
     let changed = |name: &str| fs::metadata(summary(name)).unwrap().modified().unwrap();

@@ -168,6 +168,10 @@ impl Sweep {
                     .map_err(|what| content(format!("vary: {}: {what}", one.key)))?;
             }
             let label = label(&varied, &values);
+            // The title of the case that is varied would be wrong for most runs.
+            if !varied.iter().any(|one| one.key == "title") {
+                text["title"] = format!("{}: {label}", file.title).into();
+            }
             let text = format!("{text:#}");
             let case = Case::from_str(&text, &case.display().to_string()).map_err(|errors| SweepError::Member {
                 number: number + 1,
