@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{entry::Entry, markdown::Page, wave};
-use crate::output::{Comparison, Stopped, clock, plot::short};
+use crate::output::{Comparison, clock, plot::short};
 
 /// Name of the page.
 pub const FILE: &str = "fudo.md";
@@ -56,10 +56,7 @@ fn run_row(entry: &Entry) -> Vec<String> {
         summary.particles.to_string(),
         summary.steps.to_string(),
         short(summary.simulated_s, 2),
-        match summary.stopped {
-            Stopped::Duration => "time over".to_owned(),
-            Stopped::AtRest => "units at rest".to_owned(),
-        },
+        summary.stopped.to_string(),
         clock(summary.execution.wall_s),
         summary.execution.threads.to_string(),
         format!("{device}, breakwater {}", summary.breakwater_version),

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     case::Case,
     dry::{self, recorder::DryRecorder},
-    output::{Stopped, Summary},
+    output::Summary,
     simulation::{
         branch::Start,
         checkpoint::{Checkpoint, device_of},
@@ -185,15 +185,12 @@ pub(super) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Sum
         Err(error @ RunError::Setup(_)) => return Err(Trouble::refused(error)),
         Err(error) => return Err(Trouble::failed(error)),
     };
-    let why = match summary.stopped {
-        Stopped::Duration => "time of the case over",
-        Stopped::AtRest => "units at rest",
-    };
     println!(
-        "{:.2} s simulated in {} steps and {} ({why})",
+        "{:.2} s simulated in {} steps and {} ({})",
         summary.simulated_s,
         summary.steps,
-        readable(summary.execution.wall_s)
+        readable(summary.execution.wall_s),
+        summary.stopped
     );
     for unit in &summary.units {
         let damaged = if unit.damaged { ", damaged" } else { "" };

@@ -1,6 +1,6 @@
 //! The summary of a run: what happened to the units, and how the run went.
 
-use std::path::Path;
+use std::{fmt, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -230,6 +230,15 @@ pub enum Stopped {
     Duration,
     /// The units had come to rest.
     AtRest,
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::Duration => "time of the case over",
+            Self::AtRest => "units at rest",
+        })
+    }
 }
 
 /// Time and machine: the keys in which two runs of one case may differ.

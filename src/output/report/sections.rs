@@ -1,7 +1,7 @@
 //! The words and tables of the report, section by section.
 
 use super::super::plot::{escape, short};
-use super::super::{Stopped, Summary, UnitSummary};
+use super::super::{Summary, UnitSummary};
 use super::folder::RunFolder;
 use super::moments::Moments;
 use super::{breakage, charts, views};
@@ -240,10 +240,6 @@ fn assumptions(summary: &Summary) -> String {
 
 fn facts(summary: &Summary) -> String {
     let (counts, step, execution) = (&summary.particle_counts, &summary.time_step_s, &summary.execution);
-    let stopped = match summary.stopped {
-        Stopped::Duration => "simulated time of the case file over",
-        Stopped::AtRest => "units at rest",
-    };
     let mut rows = vec![
         (
             "Particles",
@@ -269,9 +265,10 @@ fn facts(summary: &Summary) -> String {
         (
             "Time",
             format!(
-                "{} s simulated from flume time {} s; end: {stopped}",
+                "{} s simulated from flume time {} s; end: {}",
                 short(summary.simulated_s, 3),
-                short(summary.start_s, 3)
+                short(summary.start_s, 3),
+                summary.stopped
             ),
         ),
         (
@@ -288,9 +285,10 @@ fn facts(summary: &Summary) -> String {
         (
             "Wall clock",
             format!(
-                "{} with {} threads, {} steps a second",
+                "{} with {} threads, water on the {}, {} steps a second",
                 clock(execution.wall_s),
                 execution.threads,
+                execution.device.as_deref().unwrap_or("processor"),
                 short(execution.steps_per_s, 2)
             ),
         ),
