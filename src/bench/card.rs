@@ -121,6 +121,7 @@ pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peak
         useful_lanes: f64::NAN,
         steps,
         full_evaluations_per_s: 2.0 * f64::from(steps) * particles as f64 / total,
+        water_evaluations_per_s: 2.0 * f64::from(steps) * water_particles as f64 / total,
         pairs_per_s: pairs / total,
         share_of_peak: FLOPS_PER_PAIR * pairs / total / peaks.flops,
         share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / times[3].as_secs_f64() / peaks.flops,

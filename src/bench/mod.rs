@@ -37,8 +37,11 @@ pub struct Measurement {
     pub useful_lanes: f64,
     /// Steps measured.
     pub steps: u32,
-    /// Evaluations of the rates of all particles, per particle and second of whole steps; a step has two.
+    /// Evaluations of all particles, per second of whole steps; a step has two. With mDBC that of a boundary particle is its
+    /// density, once a step.
     pub full_evaluations_per_s: f64,
+    /// Those of the water alone, which has rates.
+    pub water_evaluations_per_s: f64,
     /// Pairs within the support, per second of whole steps.
     pub pairs_per_s: f64,
     /// Useful operations as a share of the measured peak of the threads.
@@ -104,6 +107,7 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
         useful_lanes: neighbours_mean / block.solver().lanes_per_target(),
         steps,
         full_evaluations_per_s: evaluations / total,
+        water_evaluations_per_s: 2.0 * f64::from(steps) * water_particles as f64 / total,
         pairs_per_s: pairs / total,
         share_of_peak: FLOPS_PER_PAIR * pairs / total / machine.flops(threads),
         share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / rates / machine.flops(threads),

@@ -4,13 +4,14 @@ use super::estimate::area_under;
 use super::file::FluidField;
 use super::gauges::Quantity;
 use super::validate::Case;
+use crate::output::columns;
 
 /// A number in a table with its comma [bytes]; measured over the tables of a run, 19.0 to 19.6.
 const BYTES_PER_NUMBER: f64 = 19.0;
 /// Columns of a unit in `units.csv`, of `energy.csv` and of `diagnostics.csv`.
-const UNIT_COLUMNS: f64 = 27.0;
-const ENERGY_COLUMNS: f64 = 6.0;
-const DIAGNOSTICS_COLUMNS: f64 = 9.0;
+const UNIT_COLUMNS: f64 = columns::UNITS.len() as f64;
+const ENERGY_COLUMNS: f64 = columns::ENERGY.len() as f64;
+const DIAGNOSTICS_COLUMNS: f64 = columns::DIAGNOSTICS.len() as f64;
 /// A point in a snapshot: three f32 [bytes].
 const BYTES_PER_POINT: f64 = 12.0;
 /// What a cell costs once a file, for all snapshots alike: its offset and one or three corners, i64 [bytes].
@@ -126,7 +127,7 @@ mod tests {
         let some = case(r#", "fluid_fields": ["velocity"]"#).output_size();
         assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
         assert_eq!(some.units, 0.0);
-        assert_eq!(some.tables, 19.0 * 12.0 * 16.0);
+        assert_eq!(some.tables, 19.0 * 12.0 * 21.0);
         assert_eq!(some.checkpoint, case("").output_size().checkpoint);
     }
 

@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Layout of the file; raised when it changes.
-const VERSION: u32 = 12;
+const VERSION: u32 = 13;
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]

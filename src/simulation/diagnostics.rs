@@ -62,9 +62,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// A row of `diagnostics.csv`; `dt` is the length of the step that comes [s]. Mach number and densities are the
+    /// A row of `diagnostics.csv`; `dt` is the length of the step that comes [s], `divergence` is that of
+    /// [`crate::sph::power::Powers`] [1/s]. Mach number and densities are the
     /// extremes since the last row.
-    pub(super) fn diagnostics_row(&mut self, dt: f64) -> [f64; 9] {
+    pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
         let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));
         let of_now = |water| {
@@ -74,7 +75,8 @@ impl Simulation {
         let since_row = self.statistics.take_water_since_row();
         let [mach, lowest, highest] = since_row.or_else(|| of_now(&self.water)).unwrap_or([f64::NAN; 3]);
         let lost = start.1 as f64 - self.water.len() as f64;
-        [self.flume_time(), volume, volume - start.0, mach, lowest, highest, self.steps as f64, dt, lost]
+        let steps = self.steps as f64;
+        [self.flume_time(), volume, volume - start.0, mach, lowest, highest, divergence, steps, dt, lost]
     }
 
     /// Volume of the water, the sum of m / rho [m3].
@@ -130,8 +132,9 @@ mod tests {
     fn a_row_shows_the_extremes_since_the_row_before() {
         let mut simulation = tank();
         let sound = simulation.case.fluid.sound_speed;
-        let [_, volume, change, mach, lowest, highest, steps, dt, lost] = simulation.diagnostics_row(1e-4);
-        assert_eq!((change, mach, steps, dt, lost), (0.0, 0.0, 0.0, 1e-4, 0.0));
+        let [_, volume, change, mach, lowest, highest, divergence, steps, dt, lost] =
+            simulation.diagnostics_row(1e-4, 0.3);
+        assert_eq!((change, mach, divergence, steps, dt, lost), (0.0, 0.0, 0.3, 0.0, 1e-4, 0.0));
         // 0.5 m x 0.2 m x 0.2 m of water, compressed a little; the mass is that of the water at rest.
         assert!((volume / 0.02 - 1.0).abs() < 0.01, "{volume}");
         assert!(lowest <= highest && lowest > 990.0);
@@ -140,10 +143,10 @@ mod tests {
         simulation.water.velocity[3] = DVec3::ZERO;
         simulation.watch_water().unwrap();
         simulation.water.density.iter_mut().for_each(|rho| *rho *= 1.01);
-        let [_, _, change, mach, ..] = simulation.diagnostics_row(1e-4);
+        let [_, _, change, mach, ..] = simulation.diagnostics_row(1e-4, 0.0);
         assert!((mach - 0.05).abs() < 1e-12);
         assert!((change / volume + 0.01 / 1.01).abs() < 1e-12);
-        let [_, _, _, mach, ..] = simulation.diagnostics_row(1e-4);
+        let [_, _, _, mach, ..] = simulation.diagnostics_row(1e-4, 0.0);
         assert_eq!(mach, 0.0);
     }
 }

@@ -25,7 +25,7 @@ use crate::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically, write_flume_gauges,
     },
     rigid::{ContactEvent, RecordedContact},
-    sph::backend::DeviceError,
+    sph::power::Powers,
 };
 
 /// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
@@ -224,8 +224,9 @@ impl Recorder {
     fn record_series(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
         let time = simulation.flume_time();
         self.gauges.append(&gauge_row(simulation))?;
-        self.energy.append(&energy_row(simulation)?)?;
-        self.diagnostics.append(&simulation.diagnostics_row(dt))?;
+        let powers = simulation.powers()?;
+        self.energy.append(&energy_row(simulation, powers))?;
+        self.diagnostics.append(&simulation.diagnostics_row(dt, powers.divergence))?;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
         let means = units.mean_loads.take();
@@ -312,12 +313,11 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     row
 }
 
-fn energy_row(simulation: &mut Simulation) -> Result<[f64; 10], DeviceError> {
-    let powers = simulation.powers()?;
+fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
     simulation.statistics.balance.add(simulation.time, powers);
     let balance = simulation.statistics.balance;
     let energy = simulation.energy();
-    Ok([
+    [
         simulation.flume_time(),
         energy.kinetic,
         energy.potential,
@@ -328,7 +328,7 @@ fn energy_row(simulation: &mut Simulation) -> Result<[f64; 10], DeviceError> {
         balance.viscosity,
         balance.diffusion,
         balance.zones,
-    ])
+    ]
 }
 
 /// From the clock of the contacts, which starts when the units are let go, to that of the flume [s].

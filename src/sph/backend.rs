@@ -177,7 +177,7 @@ pub trait Backend: Send {
     /// If the device is lost.
     fn watch(&mut self) -> Result<Option<Watched>, DeviceError>;
 
-    /// Rates of the water found last, in its order; those of cards lack the speed of approach.
+    /// Rates of the water found last, in its order, until [`Self::sort_ahead`]; those of cards lack the speed of approach.
     ///
     /// # Errors
     /// If the device is lost.

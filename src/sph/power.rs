@@ -1,4 +1,4 @@
-//! Who gives energy to the water and who takes it, at one moment.
+//! Who gives energy to the water and who takes it, at one moment, and how far its flow is from free of divergence.
 //!
 //! Pairs of water particles exchange energy by pressure without gain or loss. So what pressure adds in all,
 //!
@@ -21,6 +21,8 @@ pub struct Powers {
     pub viscosity: f64,
     /// From density diffusion.
     pub diffusion: f64,
+    /// Root mean square over the water of div v = -1 / rho d rho/dt, without diffusion [1/s].
+    pub divergence: f64,
 }
 
 impl Solver {
@@ -44,6 +46,7 @@ impl Powers {
     pub(super) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
         let mut powers = Self::default();
+        let (mut volume, mut squares) = (0.0, 0.0);
         for (a, (all, pressure)) in all.iter().zip(pressure_only).enumerate() {
             let (mass, density) = (water.mass[a], water.density[a]);
             // p / rho^2 [J m3/kg2].
@@ -52,6 +55,11 @@ impl Powers {
             powers.boundary += mass * (water.velocity[a].dot(vector(pressure)) + per_rate * of_pressure);
             powers.viscosity += mass * water.velocity[a].dot(vector(all) - vector(pressure));
             powers.diffusion += mass * per_rate * (of_all - of_pressure);
+            volume += mass / density;
+            squares += mass / density * (of_pressure / density).powi(2);
+        }
+        if volume > 0.0 {
+            powers.divergence = (squares / volume).sqrt();
         }
         powers
     }

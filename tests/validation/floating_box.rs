@@ -169,44 +169,38 @@ fn a_fit_finds_amplitude_phase_and_drift() {
     assert!((found.amplitude - 0.05).abs() < 1e-9 && (found.phase - 0.5_f64.to_degrees()).abs() < 1e-6);
 }
 
-/// `cargo test --release --test validation -- --ignored --nocapture floating_box_coarse`
-#[test]
-#[ignore = "a few minutes on 2 cores"]
-fn floating_box_coarse() {
-    compare(0.04, Part::Slice);
+/// Hold a comparison to what was seen: heave and roll as measured, and a drift over the measured one that comes with the
+/// resolution. Five periods scatter by a tenth.
+fn hold(result: Option<[f64; 5]>, roll: f64, drift: [f64; 2]) {
+    let Some([heave, _, of_roll, _, of_drift]) = result else { return };
+    assert!((heave - 1.0).abs() < 0.1 && (of_roll - 1.0).abs() < roll, "heave {heave}, roll {of_roll}");
+    assert!(of_drift > drift[0] && of_drift < drift[1], "drift {of_drift}");
 }
 
-/// `cargo test --release --test validation -- --ignored --nocapture floating_box_medium`
+/// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_slice`
 #[test]
-#[ignore = "10 minutes on 2 cores"]
-fn floating_box_medium() {
-    compare(0.025, Part::Slice);
-}
-
-/// `cargo test --release --test validation -- --ignored --nocapture floating_box_fine`
-#[test]
-#[ignore = "half an hour on 2 cores"]
-fn floating_box_fine() {
-    compare(0.02, Part::Slice);
+#[ignore = "20 minutes on one core"]
+fn floating_box_in_a_slice() {
+    hold(compare(0.025, Part::Slice), 0.3, [0.3, 0.6]);
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_layer`
 #[test]
 #[ignore = "a minute on one core"]
 fn floating_box_in_a_layer() {
-    compare(0.025, Part::Layer);
+    hold(compare(0.025, Part::Layer), 0.2, [0.3, 0.6]);
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_fine_layer`
 #[test]
 #[ignore = "8 minutes on one core"]
 fn floating_box_in_a_fine_layer() {
-    compare(0.0125, Part::Layer);
+    hold(compare(0.0125, Part::Layer), 0.2, [0.5, 0.8]);
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture floating_box_in_a_finer_layer`
 #[test]
-#[ignore = "an hour on one core"]
+#[ignore = "40 minutes on one core"]
 fn floating_box_in_a_finer_layer() {
-    compare(0.00625, Part::Layer);
+    hold(compare(0.00625, Part::Layer), 0.2, [0.8, 1.1]);
 }

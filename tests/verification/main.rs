@@ -21,6 +21,7 @@ mod regular_waves;
 mod reproducibility;
 mod returning_waves;
 mod rigid;
+mod schemes;
 mod solitary_wave;
 mod standing_wave;
 mod still_water;

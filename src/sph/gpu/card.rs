@@ -14,6 +14,10 @@ use crate::sph::backend::DeviceError;
 /// Largest number of groups of a dispatch in one dimension, on every card.
 const MOST_GROUPS: u64 = 65_535;
 
+/// `VK_MEMORY_HEAP_DEVICE_LOCAL_BIT`.
+#[cfg(not(target_vendor = "apple"))]
+const DEVICE_LOCAL: u32 = 1;
+
 /// What is known of a card without opening it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CardInfo {
@@ -80,7 +84,7 @@ fn describe(adapter: &wgpu::Adapter) -> CardInfo {
     }
 }
 
-/// Memory of a card that Vulkan shows: its largest heap [bytes].
+/// Memory of a card that Vulkan shows: its largest heap of its own [bytes]. Cards also show that of the host.
 fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
     #[cfg(not(target_vendor = "apple"))]
     // SAFETY: the handles are only asked for the sizes of the heaps, while the adapter is alive.
@@ -88,7 +92,8 @@ fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
         let vulkan = adapter.as_hal::<wgpu::hal::api::Vulkan>()?;
         let instance = vulkan.shared_instance().raw_instance();
         let memory = instance.get_physical_device_memory_properties(vulkan.raw_physical_device());
-        memory.memory_heaps.iter().take(memory.memory_heap_count as usize).map(|heap| heap.size).max()
+        let heaps = memory.memory_heaps.iter().take(memory.memory_heap_count as usize);
+        heaps.filter(|heap| heap.flags.as_raw() & DEVICE_LOCAL != 0).map(|heap| heap.size).max()
     };
     #[cfg(target_vendor = "apple")]
     None
