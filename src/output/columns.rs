@@ -128,8 +128,8 @@ pub const BREAKAGE: [&str; 10] = [
 
 /// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3`
 /// its change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all
-/// steps since the row before, `rms_divergence_1_s` is the root mean square of div v over the water, `steps` counts from the start, `dt_s` is the length of the step that comes.
-/// `lost_particles` is 0 in a sound run.
+/// steps since the row before, `rms_divergence_1_s` is the root mean square of div v over the water, `steps` counts from
+/// the start, `dt_s` is the length of the step that comes. `lost_particles` is 0 in a sound run.
 pub const DIAGNOSTICS: [&str; 10] = [
     "time_s",
     "volume_m3",

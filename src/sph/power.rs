@@ -64,3 +64,26 @@ impl Powers {
         powers
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn divergence_is_the_mean_over_the_volume_without_diffusion() {
+        let mut water = Water::default();
+        for mass in [1.0, 3.0] {
+            water.position.push(DVec3::ZERO);
+            water.velocity.push(DVec3::ZERO);
+            water.density.push(1000.0);
+            water.mass.push(mass);
+        }
+        let rates = |density: [f32; 2]| density.map(|density| Rate { density, ..Rate::default() });
+        let tait = Tait { rho0: 1000.0, c0: 15.0, gamma: 7.0 };
+        // div v = 0.2 / s in a quarter of the water and -0.1 / s in the rest; diffusion adds 50 kg/(m3 s).
+        let powers = Powers::of(&water, &tait, &rates([-150.0, 150.0]), &rates([-200.0, 100.0]));
+        let expected = (0.25 * 0.2_f64.powi(2) + 0.75 * 0.1_f64.powi(2)).sqrt();
+        assert!((powers.divergence - expected).abs() < 1e-12);
+        assert_eq!(Powers::of(&Water::default(), &tait, &[], &[]).divergence, 0.0);
+    }
+}

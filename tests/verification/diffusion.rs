@@ -83,9 +83,10 @@ fn the_diffusion_of_antuono_leaves_a_linear_density_alone() {
     let [whole, rest] = [DensityDiffusion::MolteniColagrossi, DensityDiffusion::Antuono]
         .map(|diffusion| largest_rate(diffusion, 20.0, 0.0));
     println!("slope alone: {whole:.2e} of the whole density, {rest:.2e} after Antuono et al.");
-    // Single precision: differences of 0.1 kg/m3 of densities that are kept less rho0.
-    assert!(rest < 1e-3 * whole);
+    // 1.5e-6 was reached: single precision, some 280 neighbours.
+    assert!(rest < 1e-5 * whole);
     let ripples = largest_rate(DensityDiffusion::Antuono, 0.0, 1.0);
     println!("ripples: {ripples:.2e}");
+    // Not because it does nothing: of waves of nine particle distances the gradients explain a part.
     assert!(ripples > 0.1 * largest_rate(DensityDiffusion::MolteniColagrossi, 0.0, 1.0));
 }
