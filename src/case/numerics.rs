@@ -39,6 +39,8 @@ pub struct Numerics {
     pub boundary: Boundary,
     /// Velocity that boundary particles show to the water.
     pub wall_slip: WallSlip,
+    /// Whether bed, walls and other units press on units through gaps that hold no water particle.
+    pub gap_pressure: bool,
     /// Layers of particles in walls and bed.
     pub boundary_layers: usize,
     /// Time for which the units are held at the start [s].
@@ -146,6 +148,7 @@ pub(super) fn validate_numerics(
         cfl: file.cfl,
         boundary: file.boundary,
         wall_slip,
+        gap_pressure: file.gap_pressure,
         boundary_layers: file.boundary_layers as usize,
         hold_units: file.hold_units_s,
     })
@@ -198,6 +201,7 @@ fn warn_of_what_has_no_effect(file: &NumericsFile, check: &mut Checker) {
             "diffusion_delta",
             "density_diffusion is none",
         ),
+        (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
     ];
     for (_, key, reason) in unread.iter().filter(|(unread, ..)| *unread) {
         check.warn(format!("numerics.{key} has no effect: numerics.{reason}"));

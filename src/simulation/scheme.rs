@@ -48,6 +48,7 @@ pub fn parameters(case: &Case) -> Parameters {
             case::WallSlip::NoSlip => WallSlip::NoSlip,
             case::WallSlip::FreeSlip => WallSlip::FreeSlip,
         },
+        gap_pressure: numerics.gap_pressure,
         shifting: (numerics.shifting > 0.0).then_some(shifting),
         gravity: fluid.gravity,
         cfl: numerics.cfl,

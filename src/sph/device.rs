@@ -178,6 +178,9 @@ pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
     if parameters.slip != WallSlip::Original {
         return Some("walls that slide or stick (numerics.wall_slip other than \"original\")");
     }
+    if !parameters.gap_pressure {
+        return Some("units without the pressure through gaps (numerics.gap_pressure = false)");
+    }
     parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
 }
 
@@ -192,11 +195,15 @@ mod tests {
         assert_eq!(not_on_cards(&published), None);
         let free_slip = Parameters { slip: WallSlip::FreeSlip, ..published };
         let dynamic = Parameters { boundary: BoundaryCondition::Dynamic, ..published };
+        let gaps = Parameters { gap_pressure: false, ..published };
         let mut antuono = published;
         antuono.diffusion.kind = DensityDiffusion::Antuono;
-        for (parameters, key) in
-            [(free_slip, "wall_slip"), (dynamic, "numerics.boundary"), (antuono, "density_diffusion")]
-        {
+        for (parameters, key) in [
+            (free_slip, "wall_slip"),
+            (dynamic, "numerics.boundary"),
+            (gaps, "gap_pressure"),
+            (antuono, "density_diffusion"),
+        ] {
             assert!(not_on_cards(&parameters).is_some_and(|what| what.contains(key)), "{key}");
             // Asked for by name it is refused; by auto the processor computes it, and it is said why.
             let refused = Device::open(DeviceChoice::Gpu(0), not_on_cards(&parameters)).unwrap_err().to_string();

@@ -39,6 +39,8 @@ pub struct Parameters {
     pub boundary: BoundaryCondition,
     /// Velocity that boundary particles show to the water under mDBC.
     pub slip: WallSlip,
+    /// Whether bed, walls and other units press on units through gaps that hold no water particle, under mDBC.
+    pub gap_pressure: bool,
     /// Particle shifting, if any.
     pub shifting: Option<Shifting>,
     /// Width across the flume if what leaves on one side enters on the other [m].
@@ -60,6 +62,7 @@ impl Parameters {
             cfl: 0.2,
             boundary: BoundaryCondition::ModifiedDynamic,
             slip: WallSlip::Original,
+            gap_pressure: true,
             shifting: None,
             periodic_width,
         }

@@ -204,10 +204,10 @@ impl Solver {
         let extra = gradients.extra();
         pairs.rates(&water.lists, records, extra, 0, &mut water.rates);
         pairs.rates(&units.lists, records, extra, units.first_record, &mut units.rates);
-        if parameters.boundary == BoundaryCondition::ModifiedDynamic {
-            pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
-        } else {
+        if parameters.boundary == BoundaryCondition::Dynamic {
             pairs.rates(&walls.lists, records, extra, walls.first_record, &mut walls.rates);
+        } else if parameters.gap_pressure {
+            pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
         }
     }
 

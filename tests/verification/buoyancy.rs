@@ -4,6 +4,7 @@
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::simulation::setup::particles_of;
 use glam::DVec3;
+use serde_json::{Value, json};
 
 use super::tanks::{BareTank, GRAVITY, RHO0, UNIT_HEIGHT, run_until, simulation, tank_with_held_unit, volume_below};
 
@@ -33,7 +34,11 @@ impl Deviation {
 
 /// A unit that stands on the bed in water of a depth [m], in the whole program.
 fn standing(depth: f64, dp: f64) -> Deviation {
-    let mut tank = simulation(&tank_with_held_unit(LENGTH, depth, dp, DURATION));
+    standing_in(&tank_with_held_unit(LENGTH, depth, dp, DURATION), depth, dp)
+}
+
+fn standing_in(case: &Value, depth: f64, dp: f64) -> Deviation {
+    let mut tank = simulation(case);
     let (mut sum, mut count) = (DVec3::ZERO, 0.0);
     run_until(&mut tank, DURATION, |now| {
         if now.time > 0.5 * DURATION {
@@ -93,6 +98,16 @@ impl Deviation {
 #[test]
 fn standing_submerged() {
     standing(0.16, 0.01).assert_below(0.03, 0.01);
+}
+
+/// Why bed and walls press on units through gaps: water alone presses on a foot from above only.
+#[test]
+fn without_the_pressure_through_gaps_water_holds_a_unit_down() {
+    let mut case = tank_with_held_unit(LENGTH, 0.16, 0.01, DURATION);
+    case["numerics"]["gap_pressure"] = json!(false);
+    let held_down = standing_in(&case, 0.16, 0.01);
+    // Held down with more than its buoyancy, instead of being lifted by it.
+    assert!(held_down.vertical < -2.0 && held_down.horizontal < 0.05, "{held_down:?}");
 }
 
 #[test]
