@@ -84,6 +84,32 @@ fn every_combination_runs_and_what_is_finished_is_kept() {
 }
 
 #[test]
+fn one_value_at_a_time_shows_what_hangs_on_each() {
+    let (folder, sweep) = sweep_of(&json!([
+        { "key": "numerics.viscosity_alpha", "values": [0.02] },
+        { "key": "domain.x_m", "values": [[0.0, 0.4]] }
+    ]));
+    let mut file: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
+    file["combine"] = json!("one_at_a_time");
+    file["set"] = json!({ "numerics.cfl": 0.1, "domain.dp_m": 0.04 });
+    fs::write(&sweep, file.to_string()).unwrap();
+    let out = folder.path().join("out");
+    let done = run(&sweep, &out);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    let starts = [
+        "001_as_given,,\"[0.0,0.5]\",",
+        "002_viscosity_alpha=0.02,0.02,\"[0.0,0.5]\",",
+        "003_x_m=_0.0_0.4_,,\"[0.0,0.4]\",",
+    ];
+    assert!(table.lines().skip(1).zip(starts).all(|(row, start)| row.starts_with(start)), "{table}");
+    assert_eq!(table.lines().count(), 4);
+    let case = fs::read_to_string(out.join("003_x_m=_0.0_0.4_/case.json")).unwrap();
+    let case: Value = serde_json::from_str(&case).unwrap();
+    assert_eq!((&case["numerics"]["cfl"], &case["numerics"]["viscosity_alpha"]), (&json!(0.1), &Value::Null));
+}
+
+#[test]
 fn a_run_that_fails_is_named() {
     let (folder, sweep) = sweep_of(&json!([{ "key": "numerics.cfl", "values": [0.2, 0.3] }]));
     let out = folder.path().join("out");

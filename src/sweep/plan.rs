@@ -57,12 +57,29 @@ struct SweepFile {
     title: String,
     /// The case file, from where the sweep file lies; files that it names are looked for beside it.
     case: PathBuf,
+    /// Keys that have other values than in the case, the same in all runs: `{"domain.dp_m": 0.014}`.
+    #[serde(default)]
+    set: Map<String, Value>,
     /// Keys with their values; the last one varies fastest.
     vary: Vec<VaryFile>,
+    /// Which of their values meet in a run.
+    #[serde(default)]
+    combine: Combine,
     /// Simulated time [s] until which the units stand still in every run: up to there one run is made, with the first
     /// values, and the others begin at its checkpoint. Only friction, the rule of rest and titles may vary then.
     #[schemars(extend("exclusiveMinimum" = 0))]
     common_start_s: Option<f64>,
+}
+
+/// Which values of the keys that vary meet in a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Combine {
+    /// Every value of a key with every one of the others.
+    #[default]
+    All,
+    /// The case as it is, then every value alone: how much hangs on each of them.
+    OneAtATime,
 }
 
 /// A key of the case with its values: either `values`, or `from`, `to` and `count`.
@@ -104,7 +121,7 @@ pub struct Member {
     pub number: usize,
     /// Name of its folder.
     pub name: String,
-    /// Values of the varied keys, in their order.
+    /// Values of the varied keys, in their order; null where the case does not have it.
     pub values: Vec<Value>,
     /// The case file's text.
     pub text: String,
@@ -125,6 +142,8 @@ pub struct Sweep {
     pub case: PathBuf,
     /// What varies.
     pub varied: Vec<Varied>,
+    /// Which values meet in a run.
+    pub combine: Combine,
     /// The runs; the last key varies fastest.
     pub members: Vec<Member>,
     /// The run at whose checkpoint the others begin, if there is one.
@@ -148,26 +167,29 @@ impl Sweep {
         };
         let file: SweepFile = serde_json::from_str(&read(path)?).map_err(|error| content(error.to_string()))?;
         let case = path.parent().unwrap_or(Path::new("")).join(&file.case);
-        let base: Value = serde_json::from_str(&read(&case)?)
+        let mut base: Value = serde_json::from_str(&read(&case)?)
             .map_err(|error| SweepError::Content { path: case.clone(), what: error.to_string() })?;
         let varied = file.vary.iter().enumerate().map(|(k, vary)| vary.values(k)).collect::<Result<Vec<_>, _>>();
         let varied = varied.map_err(&content)?;
         if varied.is_empty() {
             return Err(content("vary: must hold at least one key".to_owned()));
         }
-        let runs = varied.iter().try_fold(1_usize, |runs, one| runs.checked_mul(one.values.len()));
-        let runs = runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(|| {
-            content(format!("vary: all values with each other are more than {MOST_RUNS} runs; take fewer"))
-        })?;
+        for (key, value) in &file.set {
+            set(&mut base, key, value.clone()).map_err(|what| content(format!("set: {key}: {what}")))?;
+        }
+        let runs = file.combine.runs(&varied).filter(|runs| *runs <= MOST_RUNS);
+        let runs = runs.ok_or_else(|| content(format!("vary: these are more than {MOST_RUNS} runs; take fewer")))?;
         let mut duration = f64::INFINITY;
         let member = |number: usize| {
-            let values = combination(&varied, number);
+            let changes = file.combine.changes(&varied, number);
             let mut text = base.clone();
-            for (one, value) in varied.iter().zip(&values) {
+            for (one, value) in varied.iter().zip(&changes) {
+                let Some(value) = value else { continue };
                 set(&mut text, &one.key, value.clone())
                     .map_err(|what| content(format!("vary: {}: {what}", one.key)))?;
             }
-            let label = label(&varied, &values);
+            let label = label(&varied, &changes);
+            let values = varied.iter().map(|one| get(&text, &one.key)).collect();
             // The title of the case that is varied would be wrong for most runs.
             if !varied.iter().any(|one| one.key == "title") {
                 text["title"] = format!("{}: {label}", file.title).into();
@@ -185,7 +207,7 @@ impl Sweep {
         };
         let members = (0..runs).map(member).collect::<Result<Vec<_>, SweepError>>()?;
         let start = file.common_start_s.map(|until| start(&members, until, duration)).transpose().map_err(content)?;
-        Ok(Self { title: file.title, case, varied, members, start })
+        Ok(Self { title: file.title, case, varied, combine: file.combine, members, start })
     }
 
     /// The run with a number, 0 for the common start.
@@ -230,6 +252,31 @@ impl VaryFile {
     }
 }
 
+impl Combine {
+    /// How many runs; none if they cannot be counted.
+    fn runs(self, varied: &[Varied]) -> Option<usize> {
+        let mut values = varied.iter().map(|one| one.values.len());
+        match self {
+            Self::All => values.try_fold(1, usize::checked_mul),
+            Self::OneAtATime => values.try_fold(1, usize::checked_add),
+        }
+    }
+
+    /// What the run with a number from 0 has in the place of the case's values; none where it keeps them.
+    fn changes(self, varied: &[Varied], number: usize) -> Vec<Option<Value>> {
+        if self == Self::All {
+            return combination(varied, number).into_iter().map(Some).collect();
+        }
+        let mut changes = vec![None; varied.len()];
+        let mut alone =
+            varied.iter().enumerate().flat_map(|(key, one)| one.values.iter().map(move |value| (key, value)));
+        if let Some((key, value)) = number.checked_sub(1).and_then(|before| alone.nth(before)) {
+            changes[key] = Some(value.clone());
+        }
+        changes
+    }
+}
+
 /// Values of the run with a number from 0.
 fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     let mut values: Vec<Value> = varied
@@ -245,10 +292,12 @@ fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     values
 }
 
-/// The values in words: `coefficient=0.32 height_m=0.045`.
-fn label(varied: &[Varied], values: &[Value]) -> String {
-    let one = |(one, value): (&Varied, &Value)| format!("{}={}", short(&one.key), in_words(value));
-    varied.iter().zip(values).map(one).collect::<Vec<_>>().join(" ")
+/// What a run changes in words: `coefficient=0.32 height_m=0.045`.
+fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
+    let one =
+        |(one, value): (&Varied, &Option<Value>)| Some(format!("{}={}", short(&one.key), in_words(value.as_ref()?)));
+    let words: Vec<String> = varied.iter().zip(changes).filter_map(one).collect();
+    if words.is_empty() { "as_given".to_owned() } else { words.join(" ") }
 }
 
 /// The last part of a key's path.
@@ -256,15 +305,25 @@ pub fn short(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
-/// A value without quotes.
+/// A value without quotes; nothing for null.
 pub fn in_words(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
 }
 
 /// A text as the name of a folder.
 fn file_name(text: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || "._-=".contains(c) { c } else { '_' };
     text.chars().map(plain).take(80).collect()
+}
+
+/// The value at a path that [`set`] takes; null if there is none.
+fn get(root: &Value, path: &str) -> Value {
+    let pointer = path.replace(['.', '['], "/").replace(']', "");
+    root.pointer(&format!("/{pointer}")).cloned().unwrap_or_default()
 }
 
 /// Set the value at a path such as `friction[1].coefficient`; objects on the way that are missing are made.
@@ -304,6 +363,7 @@ mod tests {
         set(&mut case, "numerics.cfl", json!(0.1)).unwrap();
         assert_eq!(case["friction"][1]["coefficient"], 0.4);
         assert_eq!((&case["wave"]["height_m"], &case["numerics"]["cfl"]), (&json!(0.2), &json!(0.1)));
+        assert_eq!((get(&case, "friction[1].coefficient"), get(&case, "numerics.h")), (json!(0.4), Value::Null));
         for wrong in ["", "friction[2].coefficient", "friction[x]", "wave.height_m.deep", "wave..height_m"] {
             assert!(set(&mut case, wrong, json!(1)).is_err(), "{wrong}");
         }
@@ -328,7 +388,10 @@ mod tests {
         assert_eq!(combination(&varied, 0), [json!(1.0), json!(3.0)]);
         assert_eq!(combination(&varied, 2), [json!(1.0), json!(5.0)]);
         assert_eq!(combination(&varied, 3), [json!(2.0), json!(3.0)]);
-        assert_eq!(label(&varied, &combination(&varied, 5)), "a=2.0 b=5.0");
+        assert_eq!((Combine::All.runs(&varied), Combine::OneAtATime.runs(&varied)), (Some(6), Some(6)));
+        assert_eq!(label(&varied, &Combine::All.changes(&varied, 5)), "a=2.0 b=5.0");
+        let alone: Vec<String> = (0..6).map(|k| label(&varied, &Combine::OneAtATime.changes(&varied, k))).collect();
+        assert_eq!(alone, ["as_given", "a=1.0", "a=2.0", "b=3.0", "b=4.0", "b=5.0"]);
         assert_eq!(file_name("a=2.0 b=[1,2]"), "a=2.0_b=_1_2_");
     }
 }

@@ -6,19 +6,19 @@ use serde_json::Value;
 
 use super::{
     member::Outcome,
-    plan::{Sweep, Varied, in_words, short},
+    plan::{Combine, Sweep, Varied, in_words, short},
 };
 use crate::output::{
     OutputError,
-    plot::{Line, LineChart, standalone},
+    plot::{BarChart, Bars, Line, LineChart, standalone},
     write_atomically,
 };
 
 /// Size of the chart [px].
 const SIZE: [f64; 2] = [720.0, 420.0];
 
-/// Write `sweep.csv`, a row a run, and `sweep.svg`, the mean displacement against the first key that is a number; returns
-/// what was written.
+/// Write `sweep.csv`, a row a run, and `sweep.svg`, the mean displacement against the first key that is a number, or a bar
+/// for each run if one value varies at a time; returns what was written.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -27,9 +27,13 @@ pub fn write(sweep: &Sweep, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let csv = dir.join("sweep.csv");
     write_atomically(&csv, table(sweep, &outcomes).as_bytes())?;
     let mut written = vec![csv];
-    if let Some(chart) = chart(sweep, &outcomes) {
+    let chart = match sweep.combine {
+        Combine::All => chart(sweep, &outcomes).map(|chart| chart.svg()),
+        Combine::OneAtATime => bars(sweep, &outcomes).map(|chart| chart.svg()),
+    };
+    if let Some(chart) = chart {
         let path = dir.join("sweep.svg");
-        write_atomically(&path, standalone(&chart.svg()).as_bytes())?;
+        write_atomically(&path, standalone(&chart).as_bytes())?;
         written.push(path);
     }
     Ok(written)
@@ -121,4 +125,51 @@ fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
         size: SIZE,
         ..LineChart::default()
     })
+}
+
+/// Mean displacement of each run, and as a mark that of the case as it is.
+fn bars(sweep: &Sweep, outcomes: &[Outcome]) -> Option<BarChart> {
+    let of = |outcome: &Outcome| match outcome {
+        Outcome::Finished(summary) => summary.mean_displacement_m,
+        Outcome::Missing | Outcome::Failed(_) => None,
+    };
+    let (runs, values): (Vec<String>, Vec<f64>) = (sweep.members.iter().zip(outcomes))
+        .filter_map(|(member, outcome)| Some((member.number.to_string(), of(outcome)?)))
+        .unzip();
+    let as_given = outcomes.first().and_then(of);
+    (!values.is_empty()).then(|| BarChart {
+        title: sweep.title.clone(),
+        x_label: "number of the run in sweep.csv".to_owned(),
+        y_label: "mean displacement [m]".to_owned(),
+        groups: runs,
+        bars: vec![Bars { name: String::new(), values, colour: 1, hollow: false }],
+        stacked: false,
+        marks: as_given.map(|value| (value, "as given".to_owned())).into_iter().collect(),
+        size: SIZE,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::Summary;
+
+    #[test]
+    fn one_value_at_a_time_is_a_bar_each_beside_the_case_as_it_is() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/sensitivity-sweep.json");
+        let sweep = Sweep::load(&file).unwrap();
+        let moved = |mean: f64| {
+            let summary = Summary { mean_displacement_m: Some(mean), ..Summary::default() };
+            Outcome::Finished(Box::new(summary))
+        };
+        // Nobody has made the others yet.
+        let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
+        let chart = bars(&sweep, &outcomes).unwrap();
+        assert_eq!(
+            (chart.groups, &chart.bars[0].values[..]),
+            (vec!["1".to_owned(), "3".to_owned()], &[0.25, 0.28][..])
+        );
+        assert_eq!(chart.marks, [(0.25, "as given".to_owned())]);
+        assert!(bars(&sweep, &[Outcome::Missing]).is_none());
+    }
 }
