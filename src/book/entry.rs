@@ -116,6 +116,22 @@ impl Entry {
         clear(&folder).and_then(|()| fs::rename(&part, &folder)).map_err(OutputError::io(&folder))
     }
 
+    /// The command that makes runs of a book again and takes them in, given in the folder of the book.
+    pub fn again<'a>(runs: impl IntoIterator<Item = &'a Self>) -> String {
+        let plain = |c: char| c.is_ascii_alphanumeric() || ".-_".contains(c);
+        let quoted = |name: &str| {
+            if name.chars().all(plain) { name.to_owned() } else { format!("'{}'", name.replace('\'', r"'\''")) }
+        };
+        let names: Vec<String> = runs.into_iter().map(|entry| quoted(&entry.name)).collect();
+        let run = |name: &str| format!("breakwater run {}/{name}/case.json --out again/{name}", Self::RUNS);
+        let make = match &names[..] {
+            [] => return "breakwater book --out .".to_owned(),
+            [name] => run(name),
+            _ => format!("for run in {}; do {}; done", names.join(" "), run("\"$run\"")),
+        };
+        format!("{make}; breakwater book again/* --out .")
+    }
+
     /// Points of a series against the time, where there is one.
     pub fn points(&self, column: &str) -> Option<Vec<[f64; 2]>> {
         let (times, values) = (self.series.get("time_s")?, self.series.get(column)?);
@@ -201,6 +217,18 @@ mod tests {
         let at = |time: f64| interpolated(&times, &values, time);
         assert_eq!([at(1.0), at(1.5), at(3.0), at(4.0)], [0.0, 0.5, 3.0, 5.0]);
         assert!(at(0.9).is_nan() && at(4.1).is_nan());
+    }
+
+    #[test]
+    fn the_command_that_makes_runs_again_is_one_for_the_shell() {
+        let entry = |name: &str| {
+            let series = Table::of_columns(Path::new("series.csv"), std::iter::empty());
+            Entry::for_tests(name, Value::Null, Summary::default(), series)
+        };
+        let one = Entry::again([&entry("H4.5-9mm")]);
+        assert_eq!(one, "breakwater run runs/H4.5-9mm/case.json --out again/H4.5-9mm; breakwater book again/* --out .");
+        let two = Entry::again([&entry("my run"), &entry("b")]);
+        assert!(two.starts_with("for run in 'my run' b; do breakwater run runs/\"$run\"/case.json --out"), "{two}");
     }
 
     #[test]

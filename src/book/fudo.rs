@@ -35,8 +35,8 @@ pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
     ];
     let rows: Vec<Vec<String>> = entries.iter().map(run_row).collect();
     page.table(&head.map(str::to_owned), &rows);
-    page.paragraph("Each of them again, from the folder of this page:");
-    page.list(entries.iter().map(|entry| format!("`breakwater run {}/{}/case.json`", Entry::RUNS, entry.name)));
+    page.paragraph("All of them again, from the folder of this page, as every command under a figure:");
+    page.code(&Entry::again(entries));
     for of_wave in &comparison.waves {
         wave::add_section(&mut page, of_wave, entries);
     }

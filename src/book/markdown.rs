@@ -35,6 +35,11 @@ impl Page {
         self.text += &format!("\n{words}\n");
     }
 
+    /// A command.
+    pub fn code(&mut self, command: &str) {
+        self.text += &format!("\n    {command}\n");
+    }
+
     /// A list.
     pub fn list(&mut self, items: impl IntoIterator<Item = String>) {
         self.text += "\n";
@@ -52,12 +57,13 @@ impl Page {
         rows.iter().for_each(|row| self.text += &line(row));
     }
 
-    /// A chart, `<svg>`, as a file beside the page, with words under it; the first of them stand for it where it cannot be
-    /// shown.
-    pub fn figure(&mut self, file: &str, chart: &str, caption: &str) {
+    /// A chart, `<svg>`, as a file beside the page, with words under it, of which the first stand for it where it cannot be
+    /// shown, and the command that makes it again.
+    pub fn figure(&mut self, file: &str, chart: &str, caption: &str, command: &str) {
         let words = caption.replace(['[', ']', '`'], "");
         let end = [". ", ";", "(", ", "].into_iter().filter_map(|sign| words.find(sign)).min().unwrap_or(words.len());
         self.text += &format!("\n![{}]({file})\n\n{caption}\n", words[..end].trim().trim_end_matches('.'));
+        self.code(command);
         self.figures.push((file.to_owned(), standalone(chart)));
     }
 }

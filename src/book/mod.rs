@@ -3,15 +3,19 @@
 //! | file | what it holds |
 //! | --- | --- |
 //! | `entry` | a run in the book: its case, its summary and one short table of series |
-//! | `variation` | in which keys of the case runs differ |
+//! | `variation` | in what a run differs from the case as it is given |
+//! | `assumed` | runs that do: what hangs on what is assumed |
 //! | `markdown` | tables and figures of a page |
+//! | `friction` | what the friction of the mound does under one wave |
 //! | `fudo` | the page beside the experiment of Mitsui et al. (2023) |
 //! | `wave` | its section on one wave height |
 //!
 //! Everything on a page comes from the folder `runs` beside it, and nothing there is typed: another computer with the same
 //! book makes the same pages.
 
+mod assumed;
 pub mod entry;
+mod friction;
 mod fudo;
 mod markdown;
 mod variation;
@@ -63,11 +67,16 @@ pub fn write(book: &Path, runs: &[PathBuf], reference: &Fudo) -> Result<Vec<Path
 mod tests {
     use super::*;
     use crate::output::{Summary, UnitSummary, WaveSummary};
-    use serde_json::json;
+    use serde_json::{Value, json};
     use std::fs;
 
-    /// Folder of a finished run of two units that moved so far [m].
+    /// Folder of a finished run of two units that moved so far [m] on a crest of 0.32 m.
     fn run(folder: &Path, name: &str, height_m: f64, friction: f64, moved: [f64; 2]) -> PathBuf {
+        run_on(0.32, folder, name, height_m, friction, moved)
+    }
+
+    /// The same on a crest of a width [m].
+    fn run_on(crest_m: f64, folder: &Path, name: &str, height_m: f64, friction: f64, moved: [f64; 2]) -> PathBuf {
         let dir = folder.join(name);
         fs::create_dir(&dir).unwrap();
         let wave = WaveSummary { kind: "solitary".to_owned(), theory: "rayleigh".to_owned(), height_m, period_s: None };
@@ -78,9 +87,9 @@ mod tests {
         };
         summary.set_units(moved.iter().enumerate().map(unit).collect(), 0.077);
         summary.write(&dir).unwrap();
-        let case = json!({
-            "title": name, "friction": [{ "between": ["mortar", "pvc"], "coefficient": friction }], "domain": { "dp_m": 0.009 }
-        });
+        let mut case: Value = serde_json::from_str(include_str!("../../cases/fudo/H4.5-slice.json")).unwrap();
+        case["friction"][1]["coefficient"] = json!(friction);
+        case["flume"]["mound"]["crest_width_m"] = json!(crest_m);
         fs::write(dir.join("case.json"), case.to_string()).unwrap();
         let rows = (0..4).flat_map(|row| [0, 1].map(|k| (row, k)));
         let row = |(row, k): (u32, usize)| {
@@ -97,9 +106,12 @@ mod tests {
     fn a_book_grows_and_writes_itself_from_what_it_keeps() {
         let folder = tempfile::tempdir().unwrap();
         let (book, fudo) = (folder.path().join("book"), Fudo::published().unwrap());
-        let runs = [0.1, 0.32, 0.54].map(|friction| {
-            run(folder.path(), &format!("mu_{friction}"), 0.045, friction, [0.4 - friction, 0.42 - friction])
+        let rubbed = [(0.1, 0.3), (0.32, 0.1), (0.54, 0.0)].map(|(friction, moved)| {
+            run(folder.path(), &format!("mu_{friction}"), 0.045, friction, [moved, 1.2 * moved])
         });
+        let narrowed = [0.28, 0.36]
+            .map(|crest| run_on(crest, folder.path(), &format!("crest_{crest}"), 0.045, 0.32, [crest - 0.1, crest]));
+        let runs = [&rubbed[..], &narrowed[..]].concat();
         write(&book, &runs[..2], &fudo).unwrap();
         let files = write(&book, &runs[2..], &fudo).unwrap();
         assert!(files.iter().all(|file| file.exists()));
@@ -107,16 +119,25 @@ mod tests {
         for words in [
             "## Solitary wave of 4.5 cm",
             "| EXP, mean of the three | 15 |  | 0.242 | 100 |  |  |",
-            "| mu_0.32 | 2 | 9 | 0.090 | 100 | \u{2212}62.9 | \u{2212}62.3 |",
-            "| mu_0.1 | 2 | 9 | 0.310 | 100 | +27.9 | +29.7 |",
-            "| slice 2 |  |  |  |  |  | 0.320 | 0.100 |",
-            "| mu_0.54 | 0.54 | 0.130 | 100 |",
-            "![Mean displacement against friction.mortar-pvc.coefficient](fudo-4.5-friction-mortar-pvc-coefficient.svg)",
-            "`breakwater run runs/mu_0.1/case.json`",
+            "| mu_0.32 | 2 | 9 | 0.110 | 100 | \u{2212}54.6 | \u{2212}54.0 |",
+            "| slice 2 |  |  |  |  |  | 0.120 |",
+            "| 2 | crest_0.36 | `flume.mound.crest_width_m` 0.36 for 0.32 | 9 | 0.310 | +182 | 100 |",
+            "![Mean displacement where something is not as given](fudo-4.5-assumed.svg)",
+            "case as given [%]",
+            "![Mean displacement against the friction of the mound](fudo-4.5-friction.svg)",
+            "| mu_0.1 | 0.1 | 9 | 0.330 | 100 |",
+            "* Units move with a friction of 0.32 and less.\n* All stand still with 0.54 and more.\n",
+            "* Published, with particles of 5 mm: 0.37 m with a friction of 0.1; with more than 0.54 no unit moves.\n",
+            "\n    breakwater run runs/mu_0.32/case.json --out again/mu_0.32; breakwater book again/* --out .\n",
+            "\n    for run in mu_0.1 mu_0.32 mu_0.54; do breakwater run",
             "* crest width 0.32 m\n",
         ] {
             assert!(page.contains(words), "{words} in\n{page}");
         }
+        // Neither another crest among the frictions, nor either of them beside the experiment.
+        assert!(
+            ["| crest_0.28 | 0.32 |", "| crest_0.28 | 2 |", "| mu_0.1 | 2 |"].iter().all(|row| !page.contains(row))
+        );
         // The same pages from the book alone.
         for run in &runs {
             fs::remove_dir_all(run).unwrap();

@@ -1,72 +1,94 @@
-//! In which keys of the case runs differ.
+//! In what the case of a run differs from the one of `cases/fudo` that it comes from.
 
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::entry::Entry;
+use crate::case::file::CaseFile;
 
-/// Keys that do not change how the units move.
-const OF_NO_MATTER: [&str; 6] = ["$schema", "title", "assumptions", "output", "gauges", "fracture"];
+/// The cases as they are given: the slices and the whole flume.
+const GIVEN: [&str; 6] = [
+    include_str!("../../cases/fudo/H2.6-slice.json"),
+    include_str!("../../cases/fudo/H4.5-slice.json"),
+    include_str!("../../cases/fudo/H6.4-slice.json"),
+    include_str!("../../cases/fudo/H2.6-full.json"),
+    include_str!("../../cases/fudo/H4.5-full.json"),
+    include_str!("../../cases/fudo/H6.4-full.json"),
+];
 
-/// A key in which runs differ, with the value in each of them; none where a case does not have it.
+/// Keys that do not change how the units move until the run ends.
+const OF_NO_MATTER: [&str; 7] = ["$schema", "title", "assumptions", "output", "gauges", "fracture", "stop"];
+
+/// The distance between particles has columns of its own.
+const DISTANCE: &str = "domain.dp_m";
+
+/// A key that a run has otherwise than the case as it is given; no value where one of them does not have it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Varied {
+pub struct Change {
     /// Path of the key; an element of a list goes by its names if it has any: `friction.mortar-pvc.coefficient`.
     pub key: String,
-    /// Values, one for each run.
-    pub values: Vec<Option<Value>>,
+    /// Value in the run.
+    pub value: Option<Value>,
+    /// Value as given.
+    pub given: Option<Value>,
 }
 
-impl Varied {
-    /// The value of a run in words.
-    pub fn in_words(&self, run: usize) -> String {
-        match &self.values[run] {
-            None => "\u{2013}".to_owned(),
+impl Change {
+    /// Whether it is one of friction.
+    pub fn is_of_friction(&self) -> bool {
+        self.key.starts_with("friction.")
+    }
+
+    /// The change in words: `flume.mound.crest_width_m 0.36 for 0.32`.
+    pub fn in_words(&self) -> String {
+        let words = |value: &Option<Value>| match value {
+            None => "nothing".to_owned(),
             Some(Value::String(text)) => text.clone(),
             Some(other) => other.to_string(),
-        }
-    }
-
-    /// The value of a run as a number.
-    pub fn number(&self, run: usize) -> Option<f64> {
-        self.values[run].as_ref().and_then(Value::as_f64)
-    }
-
-    /// How many different numbers there are.
-    pub fn numbers(&self) -> usize {
-        let mut numbers: Vec<f64> = (0..self.values.len()).filter_map(|run| self.number(run)).collect();
-        numbers.sort_by(f64::total_cmp);
-        numbers.dedup();
-        numbers.len()
+        };
+        format!("`{}` {} for {}", self.key, words(&self.value), words(&self.given))
     }
 }
 
-/// Keys in which the cases of runs differ, in the order of their paths.
-pub fn between(entries: &[&Entry]) -> Vec<Varied> {
-    let mut found: BTreeMap<String, Vec<Option<Value>>> = BTreeMap::new();
-    for (number, entry) in entries.iter().enumerate() {
-        let Value::Object(keys) = &entry.case else { continue };
+/// Changes of a case from that of the given ones which is nearest to it, by the paths of the keys; the distance between
+/// particles is left out.
+pub fn changes(case: &Value) -> Vec<Change> {
+    let leaves = leaves_of(case);
+    let from = |given: &str| {
+        let given = leaves_of(&serde_json::from_str(given).unwrap_or_default());
+        let keys: BTreeMap<&String, ()> = leaves.keys().chain(given.keys()).map(|key| (key, ())).collect();
+        let changed = keys.into_keys().filter(|key| leaves.get(*key) != given.get(*key) && *key != DISTANCE);
+        let change =
+            |key: &String| Change { key: key.clone(), value: leaves.get(key).cloned(), given: given.get(key).cloned() };
+        changed.map(change).collect::<Vec<Change>>()
+    };
+    GIVEN.into_iter().map(from).min_by_key(Vec::len).unwrap_or_default()
+}
+
+/// Values at the ends of all paths of a case, with the defaults that it does not write.
+fn leaves_of(case: &Value) -> BTreeMap<String, Value> {
+    let written_out =
+        serde_json::from_value::<CaseFile>(case.clone()).ok().and_then(|file| serde_json::to_value(file).ok());
+    let mut leaves = BTreeMap::new();
+    if let Value::Object(keys) = written_out.as_ref().unwrap_or(case) {
         for (key, value) in keys.iter().filter(|(key, _)| !OF_NO_MATTER.contains(&key.as_str())) {
-            collect(key, value, &mut |path, value| {
-                found.entry(path).or_insert_with(|| vec![None; entries.len()])[number] = Some(value.clone());
-            });
+            collect(key, value, &mut leaves);
         }
     }
-    let differ = |values: &Vec<Option<Value>>| values.iter().any(|value| *value != values[0]);
-    found.into_iter().filter(|(_, values)| differ(values)).map(|(key, values)| Varied { key, values }).collect()
+    leaves
 }
 
-/// Calls `visit` with the path and the value of every leaf.
-fn collect(path: &str, value: &Value, visit: &mut impl FnMut(String, &Value)) {
+fn collect(path: &str, value: &Value, leaves: &mut BTreeMap<String, Value>) {
     match value {
-        Value::Object(keys) => keys.iter().for_each(|(key, inner)| collect(&format!("{path}.{key}"), inner, visit)),
+        Value::Object(keys) => keys.iter().for_each(|(key, inner)| collect(&format!("{path}.{key}"), inner, leaves)),
         Value::Array(items) if items.iter().any(Value::is_object) => {
             for (number, item) in items.iter().enumerate() {
-                collect(&format!("{path}.{}", name_of(item).unwrap_or_else(|| number.to_string())), item, visit);
+                collect(&format!("{path}.{}", name_of(item).unwrap_or_else(|| number.to_string())), item, leaves);
             }
         }
-        leaf => visit(path.to_owned(), leaf),
+        leaf => {
+            leaves.insert(path.to_owned(), leaf.clone());
+        }
     }
 }
 
@@ -82,32 +104,24 @@ fn name_of(item: &Value) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::{Summary, Table};
     use serde_json::json;
-    use std::path::Path;
-
-    fn entry(case: Value) -> Entry {
-        let series = Table::of_columns(Path::new("series.csv"), std::iter::empty());
-        Entry::for_tests("run", case, Summary::default(), series)
-    }
 
     #[test]
     fn only_what_differs_and_matters_is_told() {
-        let case = |title: &str, friction: f64, dp: f64| {
-            json!({
-                "title": title, "domain": { "dp_m": dp, "x_m": [36.5, 41.0] }, "output": { "surfaces_interval_s": dp },
-                "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.65 },
-                             { "between": ["mortar", "pvc"], "coefficient": friction }]
-            })
-        };
-        let mut third = case("c", 0.32, 0.007);
-        third["numerics"] = json!({ "wall_slip": "original" });
-        let entries = [entry(case("a", 0.32, 0.009)), entry(case("b", 0.1, 0.009)), entry(third)];
-        let varied = between(&entries.iter().collect::<Vec<_>>());
-        let keys: Vec<&str> = varied.iter().map(|one| one.key.as_str()).collect();
-        assert_eq!(keys, ["domain.dp_m", "friction.mortar-pvc.coefficient", "numerics.wall_slip"]);
-        assert_eq!((varied[0].numbers(), varied[1].number(1)), (2, Some(0.1)));
-        assert_eq!([0, 2].map(|run| varied[2].in_words(run)), ["\u{2013}", "original"]);
-        assert_eq!(between(&[&entries[0]]), []);
+        let mut case: Value = serde_json::from_str(GIVEN[4]).unwrap();
+        assert_eq!(changes(&case), []);
+        case["title"] = json!("another");
+        case["domain"]["dp_m"] = json!(0.012);
+        case["output"]["series_interval_s"] = json!(0.02);
+        // A default that is written, and numbers written otherwise.
+        case["numerics"]["cfl"] = json!(0.2);
+        case["flume"]["mound"]["lee_run_per_rise"] = json!(2);
+        assert_eq!(changes(&case), []);
+        case["friction"][1]["coefficient"] = json!(0.1);
+        case["numerics"]["gap_pressure"] = json!(false);
+        let words: Vec<String> = changes(&case).iter().map(Change::in_words).collect();
+        let friction = "`friction.mortar-pvc.coefficient` 0.1 for 0.32";
+        assert_eq!(words, [friction, "`numerics.gap_pressure` false for nothing"]);
+        assert_eq!(changes(&case).iter().filter(|change| change.is_of_friction()).count(), 1);
     }
 }

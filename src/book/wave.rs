@@ -1,10 +1,6 @@
 //! The section of the page on one wave height.
 
-use super::{
-    entry::Entry,
-    markdown::Page,
-    variation::{Varied, between},
-};
+use super::{assumed, entry::Entry, friction, markdown::Page};
 use crate::output::{
     PublishedWave, RunResult, WaveComparison,
     plot::{Line, LineChart, short},
@@ -17,10 +13,15 @@ const SIZE: [f64; 2] = [920.0, 320.0];
 pub fn add_section(page: &mut Page, wave: &WaveComparison, entries: &[Entry]) {
     let centimetres = format!("{:.1}", 100.0 * wave.published.height_m);
     let of = |run: &RunResult| entries.iter().find(|entry| entry.name == run.name);
-    let runs: Vec<(&RunResult, &Entry)> = wave.runs.iter().filter_map(|run| Some((run, of(run)?))).collect();
+    let all: Vec<(&RunResult, &Entry)> = wave.runs.iter().filter_map(|run| Some((run, of(run)?))).collect();
+    // What moves with something else than the experiment had is no test against what was measured.
+    let runs: Vec<_> = all.iter().copied().filter(|(_, entry)| assumed::is_as_given(entry)).collect();
+    let as_given = runs.iter().map(|(run, _)| (*run).clone()).collect();
+    let wave = &WaveComparison { published: wave.published.clone(), runs: as_given };
+    let again = Entry::again(runs.iter().map(|(_, entry)| *entry));
     page.heading(2, &format!("Solitary wave of {centimetres} cm"));
     add_means(page, wave);
-    add_units(page, wave, &centimetres);
+    add_units(page, wave, &centimetres, &again);
     let file = format!("fudo-{centimetres}-resolution.svg");
     page.figure(
         &file,
@@ -28,11 +29,14 @@ pub fn add_section(page: &mut Page, wave: &WaveComparison, entries: &[Entry]) {
         "Mean displacement against the distance between particles; the published study (Tables 5 and 6, Fig. 16 of the paper) and \
          the runs, the measured mean dashed. The paper does not say which sign its errors have: here they are taken such that \
          they agree with its appendix at 5 mm, which means that its coarse runs move the units too little.",
+        &again,
     );
-    add_variations(page, &runs, &centimetres);
     if let Some((run, entry)) = runs.iter().min_by(|a, b| a.0.summary.dp_m.total_cmp(&b.0.summary.dp_m)) {
         add_series(page, run, entry, &centimetres);
     }
+    friction::add(page, &wave.published, &all, &centimetres);
+    let of_friction: Vec<_> = all.iter().copied().filter(|(_, entry)| friction::is_measured(entry)).collect();
+    assumed::add(page, &of_friction, &centimetres);
 }
 
 /// Means, damage ratios and deviations: Tables 3, 4 and 6 of the paper.
@@ -91,70 +95,17 @@ fn signed(percent: f64) -> String {
 }
 
 /// Displacement of every unit: Tables A1 to A3 and Fig. 12.
-fn add_units(page: &mut Page, wave: &WaveComparison, centimetres: &str) {
+fn add_units(page: &mut Page, wave: &WaveComparison, centimetres: &str, again: &str) {
     page.figure(
         &format!("fudo-{centimetres}-units.svg"),
         &wave.units_chart(),
         "Displacement of each unit (Tables A1 to A3, Fig. 12 of the paper); hollow: published.",
+        again,
     );
     let mut head = vec!["unit".to_owned()];
     head.extend(PublishedWave::SERIES.map(str::to_owned));
     head.extend(wave.runs.iter().map(|run| run.name.clone()));
     page.table(&head, &wave.displacement_rows());
-}
-
-/// The keys in which the runs differ beside what came of them, and a chart for each that takes three values or more.
-fn add_variations(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
-    let varied = between(&runs.iter().map(|(_, entry)| *entry).collect::<Vec<_>>());
-    if varied.is_empty() {
-        return;
-    }
-    page.paragraph("What differs between the runs:");
-    let mut head = vec!["run".to_owned()];
-    head.extend(varied.iter().map(|one| format!("`{}`", one.key)));
-    head.extend(["mean displacement [m]", "damaged [%]"].map(str::to_owned));
-    let row = |(number, (run, _)): (usize, &(&RunResult, &Entry))| {
-        let mut row = vec![run.name.clone()];
-        row.extend(varied.iter().map(|one| one.in_words(number)));
-        row.extend([format!("{:.3}", run.mean_m), short(100.0 * run.damage_ratio, 0)]);
-        row
-    };
-    page.table(&head, &runs.iter().enumerate().map(row).collect::<Vec<_>>());
-    for one in varied.iter().filter(|one| one.numbers() > 2 && one.key != "domain.dp_m") {
-        let plain = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' };
-        page.figure(
-            &format!("fudo-{centimetres}-{}.svg", one.key.chars().map(plain).collect::<String>()),
-            &chart_along(one, &varied, runs),
-            &format!("Mean displacement against `{}`.", one.key),
-        );
-    }
-}
-
-/// Mean displacement along a key, a line for each combination of the others.
-fn chart_along(along: &Varied, varied: &[Varied], runs: &[(&RunResult, &Entry)]) -> String {
-    let mut lines: Vec<Line> = Vec::new();
-    for (number, (run, _)) in runs.iter().enumerate() {
-        let Some(x) = along.number(number) else { continue };
-        let others = varied.iter().filter(|one| one.key != along.key);
-        let name = others.map(|one| format!("{} {}", one.key, one.in_words(number))).collect::<Vec<_>>().join(", ");
-        match lines.iter_mut().find(|line| line.name == name) {
-            Some(line) => line.points.push([x, run.mean_m]),
-            None => {
-                let (points, colour) = (vec![[x, run.mean_m]], lines.len());
-                lines.push(Line { name, points, colour, dots: true, ..Line::default() });
-            }
-        }
-    }
-    lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a[0].total_cmp(&b[0])));
-    LineChart {
-        title: format!("Mean displacement against {}", along.key),
-        x_label: along.key.clone(),
-        y_label: "mean displacement [m]".to_owned(),
-        lines,
-        size: SIZE,
-        ..LineChart::default()
-    }
-    .svg()
 }
 
 /// Water at the gauges and force on the units of the finest run: Figs. 8 and 14.
@@ -164,6 +115,7 @@ fn add_series(page: &mut Page, run: &RunResult, entry: &Entry, centimetres: &str
         LineChart { title, x_label: "flume time [s]".to_owned(), y_label, lines, size: SIZE, ..LineChart::default() }
             .svg()
     };
+    let again = Entry::again([entry]);
     let line = |name: String, column: &str, colour: usize, dashed: bool| {
         Some(Line { name, points: entry.points(column)?, colour, dashed, ..Line::default() })
     };
@@ -186,6 +138,7 @@ fn add_series(page: &mut Page, run: &RunResult, entry: &Entry, centimetres: &str
                  has the measured series, which were not published as numbers.)",
                 run.name
             ),
+            &again,
         );
     }
     let of_units = |what: &str| -> Vec<Line> {
@@ -200,10 +153,12 @@ fn add_series(page: &mut Page, run: &RunResult, entry: &Entry, centimetres: &str
              series.",
             run.name
         ),
+        &again,
     );
     page.figure(
         &format!("fudo-{centimetres}-moved.svg"),
         &chart("Displacement of the units", "displacement [m]", of_units("moved_m")),
         &format!("Displacement of the units of `{}`.", run.name),
+        &again,
     );
 }

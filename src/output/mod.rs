@@ -32,7 +32,9 @@ mod wave_page;
 mod writer;
 
 pub use atomic::write_atomically;
-pub use compare::{Comparison, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare};
+pub use compare::{
+    Comparison, FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare,
+};
 pub use error::OutputError;
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
 pub use report::{clock, grouped, page, section, write_report};

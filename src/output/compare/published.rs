@@ -1,7 +1,8 @@
 //! The published experiment: Mitsui et al. (2023), Tetrapods on a PVC mound under solitary waves.
 //!
 //! Displacements of the 15 units in three repetitions (EXP1 to EXP3) and two DualSPHysics runs (SPH1, SPH2) from their
-//! Tables A1 to A3, the resolution study from their Tables 5 and 6. The same files lie in `cases/fudo/reference`.
+//! Tables A1 to A3, the resolution study from their Tables 5 and 6, what section 4.7 says of friction. The same files lie in
+//! `cases/fudo/reference`.
 
 use std::path::Path;
 
@@ -13,6 +14,8 @@ pub const SERIES: [&str; 5] = ["EXP1", "EXP2", "EXP3", "SPH1", "SPH2"];
 pub const MEASURED: usize = 3;
 /// A unit is damaged when it has moved further than this, the height of a Tetrapod [m].
 pub const DAMAGE_DISTANCE_M: f64 = 0.077;
+/// Friction of mortar on PVC in the experiment (section 3) [-].
+pub const FRICTION_ON_MOUND: f64 = 0.32;
 /// Wave heights within this share of a published one are taken to be it: the paper gives two figures.
 const HEIGHT_TOLERANCE: f64 = 0.005;
 
@@ -22,6 +25,7 @@ const DISPLACEMENTS: [(f64, &str, &str); 3] = [
     (0.064, "displacement_H6.4cm.csv", include_str!("../../../cases/fudo/reference/displacement_H6.4cm.csv")),
 ];
 const CONVERGENCE: &str = include_str!("../../../cases/fudo/reference/convergence_table5_table6.csv");
+const FRICTION: &str = include_str!("../../../cases/fudo/reference/friction_sweep_section47.csv");
 
 /// The published experiment: one entry for each wave height.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +43,21 @@ pub struct PublishedWave {
     pub displacement_m: [Vec<f64>; 5],
     /// Resolution study, coarsest first.
     pub convergence: Vec<Resolution>,
+    /// What is said about the friction of the mound.
+    pub friction: FrictionSweep,
+}
+
+/// What section 4.7 says about the mean displacement against the friction of the mound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionSweep {
+    /// The least friction simulated [-].
+    pub least: f64,
+    /// The mean displacement with it [m].
+    pub mean_m: f64,
+    /// With more friction than this [-] ...
+    pub beyond: f64,
+    /// ... the mean displacement is less than this; zero: no unit moves [m].
+    pub less_than_m: f64,
 }
 
 /// One run of the published resolution study (orientation SPH1).
@@ -64,13 +83,19 @@ impl Fudo {
     /// Never, unless the tables in this program were damaged.
     pub fn published() -> Result<Self, OutputError> {
         let convergence = Table::parse(Path::new("convergence_table5_table6.csv"), CONVERGENCE)?;
+        let friction = Table::parse(Path::new("friction_sweep_section47.csv"), FRICTION)?;
         let waves = DISPLACEMENTS.into_iter().map(|(height_m, name, text)| {
             let table = Table::parse(Path::new(name), text)?;
             let mut displacement_m: [Vec<f64>; 5] = Default::default();
             for (values, series) in displacement_m.iter_mut().zip(SERIES) {
                 *values = table.column(series)?.to_vec();
             }
-            Ok(PublishedWave { height_m, displacement_m, convergence: resolutions(&convergence, height_m)? })
+            Ok(PublishedWave {
+                height_m,
+                displacement_m,
+                convergence: resolutions(&convergence, height_m)?,
+                friction: friction_sweep(&friction, height_m)?,
+            })
         });
         Ok(Self { waves: waves.collect::<Result<_, OutputError>>()? })
     }
@@ -88,11 +113,9 @@ impl Fudo {
 }
 
 fn resolutions(table: &Table, height_m: f64) -> Result<Vec<Resolution>, OutputError> {
-    let height = table.column("H_WG1_cm")?;
     let (dp, particles) = (table.column("dp_m")?, table.column("particles")?);
     let (runtime, error) = (table.column("runtime_h")?, table.column("error_vs_EXP_percent")?);
-    let of_this_wave = (0..table.rows()).filter(|row| (height[*row] - 100.0 * height_m).abs() < 0.05);
-    Ok(of_this_wave
+    Ok(rows_of(table, height_m)?
         .map(|row| Resolution {
             dp_m: dp[row],
             particles: particles[row],
@@ -100,6 +123,20 @@ fn resolutions(table: &Table, height_m: f64) -> Result<Vec<Resolution>, OutputEr
             deviation_percent: -error[row],
         })
         .collect())
+}
+
+fn friction_sweep(table: &Table, height_m: f64) -> Result<FrictionSweep, OutputError> {
+    let (least, mean) = (table.column("least_friction")?, table.column("mean_displacement_m")?);
+    let (beyond, less) = (table.column("beyond_friction")?, table.column("less_than_m")?);
+    let row = rows_of(table, height_m)?.next();
+    let row = row.ok_or_else(|| OutputError::content(Path::new("friction_sweep_section47.csv"), "lacks a wave"))?;
+    Ok(FrictionSweep { least: least[row], mean_m: mean[row], beyond: beyond[row], less_than_m: less[row] })
+}
+
+/// Rows of a table on one wave.
+fn rows_of(table: &Table, height_m: f64) -> Result<impl Iterator<Item = usize>, OutputError> {
+    let height = table.column("H_WG1_cm")?;
+    Ok((0..table.rows()).filter(move |row| (height[*row] - 100.0 * height_m).abs() < 0.05))
 }
 
 impl PublishedWave {
@@ -184,6 +221,13 @@ mod tests {
             // The appendix has three decimals: at worst half a per cent in each of two means of 0.1 m.
             assert!((from_appendix - printed).abs() < 0.7, "{from_appendix} {printed}");
         }
+    }
+
+    #[test]
+    fn friction_holds_higher_waves_later() {
+        let friction: Vec<FrictionSweep> = Fudo::published().unwrap().waves.iter().map(|wave| wave.friction).collect();
+        assert_eq!(friction[1], FrictionSweep { least: 0.1, mean_m: 0.37, beyond: 0.54, less_than_m: 0.0 });
+        assert!(friction.is_sorted_by(|a, b| a.mean_m < b.mean_m && a.beyond < b.beyond));
     }
 
     #[test]

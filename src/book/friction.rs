@@ -1,0 +1,232 @@
+//! Friction of the mound: how far the units go with it, how much of it the water asks for, where motion begins.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use super::{
+    entry::Entry,
+    markdown::Page,
+    variation::{Change, changes},
+};
+use crate::output::{
+    FRICTION_ON_MOUND, PublishedWave, RunResult,
+    plot::{Line, LineChart, short},
+};
+
+/// A unit that has moved less than this stands still [m]: a hundredth of its height.
+const STILL_M: f64 = 0.000_77;
+/// The water is asked for as a mean over this time [s]: a force that lasts shorter does not move a unit by a millimetre.
+const MEAN_OVER_S: f64 = 0.1;
+
+/// Friction of the units on the mound in a case, if it has it.
+pub fn on_mound(case: &Value) -> Option<f64> {
+    let pair = [case.pointer("/units/material")?, case.pointer("/flume/material")?];
+    let mut table = case.get("friction")?.as_array()?.iter();
+    let of_pair = |row: &&Value| {
+        let between = row.get("between").and_then(Value::as_array);
+        between.is_some_and(|names| pair.iter().all(|name| names.contains(name)) && names.len() == pair.len())
+    };
+    table.find(of_pair)?.get("coefficient")?.as_f64()
+}
+
+/// Whether a run has the friction of the experiment, so that its displacements may be held against the measured ones.
+pub fn is_measured(entry: &Entry) -> bool {
+    on_mound(&entry.case).is_none_or(|friction| (friction - FRICTION_ON_MOUND).abs() < 1e-9)
+}
+
+/// A run and its friction.
+struct Rubbed<'a> {
+    friction: f64,
+    run: &'a RunResult,
+    entry: &'a Entry,
+    /// Distance between particles, and what it has otherwise than the case as given but for friction.
+    otherwise: String,
+}
+
+/// Runs of which others differ in friction alone, by friction.
+fn rubbed<'a>(runs: &[(&'a RunResult, &'a Entry)]) -> Vec<Rubbed<'a>> {
+    let of_run = |(run, entry): &(&'a RunResult, &'a Entry)| {
+        let changes = changes(&entry.case);
+        let others = changes.iter().filter(|change| !change.is_of_friction()).map(Change::in_words);
+        let distance = format!("every {} mm", short(1000.0 * run.summary.dp_m, 2));
+        let otherwise = [distance].into_iter().chain(others).collect::<Vec<_>>().join(", ");
+        Some(Rubbed { friction: on_mound(&entry.case)?, run, entry, otherwise })
+    };
+    let all: Vec<Rubbed> = runs.iter().filter_map(of_run).collect();
+    let has_others: Vec<bool> = (all.iter())
+        .map(|one| all.iter().any(|other| other.otherwise == one.otherwise && other.friction != one.friction))
+        .collect();
+    let mut known: Vec<Rubbed> = all.into_iter().zip(has_others).filter_map(|(one, has)| has.then_some(one)).collect();
+    known.sort_by(|a, b| a.friction.total_cmp(&b.friction));
+    known
+}
+
+/// Adds what friction does: a chart, a table, and the friction that holds the units; nothing unless it alone varies.
+pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Entry)], centimetres: &str) {
+    let known = rubbed(runs);
+    if known.is_empty() {
+        return;
+    }
+    page.heading(3, &format!("Friction of the mound under the wave of {centimetres} cm"));
+    page.figure(
+        &format!("fudo-{centimetres}-friction.svg"),
+        &chart(published, &known),
+        "Mean displacement against the friction of the mound (as Fig. 18 of the paper), beside what section 4.7 says in numbers \
+         about particles of 5 mm; the rest of its curve was not published as numbers.",
+        &Entry::again(known.iter().map(|one| one.entry)),
+    );
+    let head = [
+        "run",
+        "friction",
+        "particles every [mm]",
+        "mean displacement [m]",
+        "damaged [%]",
+        "friction mobilised while they stand",
+    ];
+    let row = |Rubbed { friction, run, entry, .. }: &Rubbed| {
+        vec![
+            run.name.clone(),
+            short(*friction, 2),
+            short(1000.0 * run.summary.dp_m, 2),
+            format!("{:.3}", run.mean_m),
+            short(100.0 * run.damage_ratio, 0),
+            mobilised(entry).iter().map(|most| format!("{most:.3}")).collect::<Vec<_>>().join(", "),
+        ]
+    };
+    page.table(&head.map(str::to_owned), &known.iter().map(row).collect::<Vec<_>>());
+    page.paragraph(&format!(
+        "Mobilised is the force of the water towards the shore over the weight that it leaves on the ground, means over {MEAN_OVER_S} s, \
+         at most while a unit has moved less than {} mm: one value for each unit. A unit that slides later has mobilised all of \
+         its friction; the value of one that never does is the friction that this wave asks for.",
+        short(1000.0 * STILL_M, 2)
+    ));
+    page.list(findings(published, &known));
+}
+
+/// Where motion begins, in the runs and as published.
+fn findings(published: &PublishedWave, known: &[Rubbed]) -> Vec<String> {
+    let stands = |run: &RunResult| run.summary.units.iter().all(|unit| unit.displacement_m < STILL_M);
+    let moved = known.iter().filter(|one| !stands(one.run)).map(|one| one.friction).reduce(f64::max);
+    let held = known.iter().filter(|one| stands(one.run)).map(|one| one.friction).reduce(f64::min);
+    let mut found = Vec::new();
+    if let Some(friction) = moved {
+        found.push(format!("Units move with a friction of {} and less.", short(friction, 2)));
+    }
+    if let Some(friction) = held {
+        found.push(format!("All stand still with {} and more.", short(friction, 2)));
+    }
+    // The one held best has mobilised least by creeping.
+    if let Some(Rubbed { run, entry, .. }) = known.iter().rev().find(|one| stands(one.run)) {
+        let most: Vec<String> = mobilised(entry).iter().map(|most| format!("{most:.2}")).collect();
+        found.push(format!(
+            "The wave asks for a friction of {} to hold the units (`{}`).",
+            most.join(" and "),
+            run.name
+        ));
+    }
+    let said = published.friction;
+    let beyond = if said.less_than_m == 0.0 {
+        "no unit moves".to_owned()
+    } else {
+        format!("the mean displacement is less than {} m", short(said.less_than_m, 2))
+    };
+    found.push(format!(
+        "Published, with particles of 5 mm: {} m with a friction of {}; with more than {} {beyond}.",
+        short(said.mean_m, 2),
+        short(said.least, 2),
+        short(said.beyond, 2)
+    ));
+    found
+}
+
+/// The largest friction that the water mobilises under each unit while it stands; empty if the case does not say what a
+/// unit weighs.
+fn mobilised(entry: &Entry) -> Vec<f64> {
+    let Some(mass) = entry.case.pointer("/units/mass_kg").and_then(Value::as_f64) else { return Vec::new() };
+    let gravity = entry.case.pointer("/fluid/gravity_m_s2").and_then(Value::as_f64).unwrap_or(9.81);
+    let of_unit = |unit: usize| {
+        let column = |what: &str| entry.series.get(&format!("unit_{unit}_{what}"));
+        most_mobilised(
+            entry.series.get("time_s")?,
+            [column("fx_n")?, column("fz_n")?],
+            column("moved_m")?,
+            mass * gravity,
+        )
+    };
+    (1..=entry.summary.units.len()).filter_map(of_unit).collect()
+}
+
+/// Largest mean force towards the shore over the weight less the mean uplift, until the unit moves.
+fn most_mobilised(times: &[f64], [fx, fz]: [&[f64]; 2], moved: &[f64], weight_n: f64) -> Option<f64> {
+    let standing = moved.iter().position(|moved| *moved >= STILL_M).unwrap_or(moved.len());
+    let interval = (times.last()? - times[0]) / (times.len() - 1).max(1) as f64;
+    let rows = (MEAN_OVER_S / interval).round().max(1.0) as usize;
+    let sum = |values: &[f64]| values.iter().sum::<f64>() / rows as f64;
+    let windows = fx[..standing].windows(rows).zip(fz[..standing].windows(rows));
+    windows.map(|(fx, fz)| sum(fx) / (weight_n - sum(fz))).reduce(f64::max)
+}
+
+/// Mean displacement against friction, a line for each distance between particles, beside the published numbers.
+fn chart(published: &PublishedWave, known: &[Rubbed]) -> String {
+    let said = published.friction;
+    let points = vec![[said.least, said.mean_m], [said.beyond, said.less_than_m]];
+    let mut lines = vec![Line {
+        name: "published in numbers, every 5 mm".to_owned(),
+        points,
+        dots: true,
+        dashed: true,
+        colour: 0,
+        ..Line::default()
+    }];
+    for alike in known.iter().map(|one| &one.otherwise).collect::<BTreeSet<_>>() {
+        let points =
+            known.iter().filter(|one| one.otherwise == *alike).map(|one| [one.friction, one.run.mean_m]).collect();
+        let name = alike.replace('`', "");
+        lines.push(Line { name, points, dots: true, colour: lines.len(), ..Line::default() });
+    }
+    let measured = published.measured_mean_m();
+    LineChart {
+        title: "Mean displacement against the friction of the mound".to_owned(),
+        x_label: "friction of the units on the mound".to_owned(),
+        y_label: "mean displacement [m]".to_owned(),
+        lines,
+        marks: vec![(measured, format!("EXP {measured:.3} m, friction {}", short(FRICTION_ON_MOUND, 2)))],
+        size: [920.0, 320.0],
+    }
+    .svg()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn the_friction_on_the_mound_is_found_whatever_the_order() {
+        let case = json!({
+            "units": { "material": "mortar" }, "flume": { "material": "pvc" },
+            "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.65 },
+                         { "between": ["pvc", "mortar"], "coefficient": 0.43 }]
+        });
+        assert_eq!(on_mound(&case), Some(0.43));
+        assert_eq!(on_mound(&json!({})), None);
+    }
+
+    #[test]
+    fn the_friction_asked_for_is_that_of_a_lasting_force_before_the_unit_moves() {
+        let times: Vec<f64> = (0..200).map(|row| 0.01 * f64::from(row)).collect();
+        // A steady 0.6 N for half a second, a blow of 3 N for one row, and 2 N once the unit has gone.
+        let force = |row: usize| match row {
+            20 => 3.0,
+            101..=150 => 0.6,
+            151.. => 2.0,
+            _ => 0.0,
+        };
+        let fx: Vec<f64> = (0..200).map(force).collect();
+        let (fz, moved) = (vec![1.0; 200], (0..200).map(|row| if row > 150 { 0.1 } else { 0.0 }).collect::<Vec<_>>());
+        let most = most_mobilised(&times, [&fx, &fz], &moved, 2.5).unwrap();
+        assert!((most - 0.4).abs() < 1e-9, "{most}");
+        assert_eq!(most_mobilised(&[0.0, 0.01], [&[0.1, 0.1], &[1.0, 1.0]], &[0.1, 0.1], 2.5), None);
+    }
+}
