@@ -16,7 +16,7 @@ use crate::output::{
 
 /// A unit that has moved less than this stands still [m]: a hundredth of its height.
 const STILL_M: f64 = 0.000_77;
-/// The water is asked for as a mean over this time [s]: a force that lasts shorter does not move a unit by a millimetre.
+/// Forces of the water are means over this time [s]: one that lasts shorter does not move a unit by a millimetre.
 const MEAN_OVER_S: f64 = 0.1;
 
 /// Friction of the units on the mound in a case, if it has it.

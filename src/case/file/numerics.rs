@@ -29,7 +29,7 @@ pub struct NumericsFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
     /// Whether bed, walls and other units press on a unit through gaps that hold no water particle, as the water there
-    /// would; false: water alone acts on units, as in the published runs. Of mDBC only.
+    /// would; false: water alone acts on units, as far as described that of the published runs. Of mDBC only.
     // Left out where it is usual: the fingerprints of older cases stay.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
