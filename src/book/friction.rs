@@ -1,4 +1,5 @@
-//! Friction of the mound: how far the units go with it, how much of it the water asks for, where motion begins.
+//! Friction of the mound: how far the units go with it, how much of it the water asks for, where motion begins. Units that
+//! it holds fast may roll over their feet instead.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +11,7 @@ use super::{
     variation::{Change, changes},
 };
 use crate::output::{
-    FRICTION_ON_MOUND, PublishedWave, RunResult,
+    FRICTION_ON_MOUND, PublishedWave, RunResult, UnitSummary,
     plot::{Line, LineChart, short},
 };
 
@@ -82,6 +83,7 @@ pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Ent
         "particles every [mm]",
         "mean displacement [m]",
         "damaged [%]",
+        "turned by [°]",
         "friction mobilised while they stand",
     ];
     let row = |Rubbed { friction, run, entry, .. }: &Rubbed| {
@@ -91,6 +93,7 @@ pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Ent
             short(1000.0 * run.summary.dp_m, 2),
             format!("{:.3}", run.mean_m),
             short(100.0 * run.damage_ratio, 0),
+            run.summary.units.iter().map(|unit| short(unit.rotation_deg, 0)).collect::<Vec<_>>().join(", "),
             mobilised(entry).iter().map(|most| format!("{most:.3}")).collect::<Vec<_>>().join(", "),
         ]
     };
@@ -98,7 +101,8 @@ pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Ent
     page.paragraph(&format!(
         "Mobilised is the force of the water towards the shore over the weight that it leaves on the ground, means over {MEAN_OVER_S} s, \
          at most while a unit has moved less than {} mm: one value for each unit. A unit that slides later has mobilised all of \
-         its friction; the value of one that never does is the friction that this wave asks for.",
+         its friction; one that turns over has found its feet first; the value of one that does neither is the friction that \
+         this wave asks for.",
         short(1000.0 * STILL_M, 2)
     ));
     page.list(findings(published, &known));
@@ -106,7 +110,7 @@ pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Ent
 
 /// Where motion begins, in the runs and as published.
 fn findings(published: &PublishedWave, known: &[Rubbed]) -> Vec<String> {
-    let stands = |run: &RunResult| run.summary.units.iter().all(|unit| unit.displacement_m < STILL_M);
+    let stands = |run: &RunResult| run.summary.units.iter().all(stands_still);
     let moved = known.iter().filter(|one| !stands(one.run)).map(|one| one.friction).reduce(f64::max);
     let held = known.iter().filter(|one| stands(one.run)).map(|one| one.friction).reduce(f64::min);
     let mut found = Vec::new();
@@ -116,14 +120,10 @@ fn findings(published: &PublishedWave, known: &[Rubbed]) -> Vec<String> {
     if let Some(friction) = held {
         found.push(format!("All stand still with {} and more.", short(friction, 2)));
     }
-    // The one held best has mobilised least by creeping.
-    if let Some(Rubbed { run, entry, .. }) = known.iter().rev().find(|one| stands(one.run)) {
-        let most: Vec<String> = mobilised(entry).iter().map(|most| format!("{most:.2}")).collect();
-        found.push(format!(
-            "The wave asks for a friction of {} to hold the units (`{}`).",
-            most.join(" and "),
-            run.name
-        ));
+    // The units held best have mobilised least by creeping.
+    let held_best = known.iter().rev().map(|one| (one, asked_for(one))).find(|(_, asked)| !asked.is_empty());
+    if let Some((one, asked)) = held_best {
+        found.push(format!("The wave asks for a friction of {} (`{}`).", asked.join(" and "), one.run.name));
     }
     let said = published.friction;
     let beyond = if said.less_than_m == 0.0 {
@@ -138,6 +138,19 @@ fn findings(published: &PublishedWave, known: &[Rubbed]) -> Vec<String> {
         short(said.beyond, 2)
     ));
     found
+}
+
+fn stands_still(unit: &UnitSummary) -> bool {
+    unit.displacement_m < STILL_M
+}
+
+/// What the water mobilises at most under each unit of a run that stands still, in words.
+fn asked_for(Rubbed { run, entry, .. }: &Rubbed) -> Vec<String> {
+    let units = run.summary.units.iter().zip(mobilised(entry));
+    units
+        .filter(|(unit, _)| stands_still(unit))
+        .map(|(unit, most)| format!("{most:.2} to hold unit {}", unit.unit))
+        .collect()
 }
 
 /// The largest friction that the water mobilises under each unit while it stands; empty if the case does not say what a
