@@ -10,13 +10,16 @@ use super::{
     markdown::Page,
     variation::{Change, changes},
 };
-use crate::output::{
-    FRICTION_ON_MOUND, PublishedWave, RunResult, UnitSummary,
-    plot::{Line, LineChart, short},
+use crate::{
+    output::{
+        FRICTION_ON_MOUND, PublishedWave, RunResult, UNIT_HEIGHT_M, UnitSummary,
+        plot::{Line, LineChart, short},
+    },
+    simulation::branch::STILL,
 };
 
-/// A unit that has moved less than this stands still [m]: a hundredth of its height.
-const STILL_M: f64 = 0.000_77;
+/// A unit that has moved less than this stands still [m].
+const STILL_M: f64 = STILL * UNIT_HEIGHT_M;
 /// Forces of the water are means over this time [s]: one that lasts shorter does not move a unit by a millimetre.
 const MEAN_OVER_S: f64 = 0.1;
 

@@ -33,7 +33,8 @@ mod writer;
 
 pub use atomic::write_atomically;
 pub use compare::{
-    Comparison, FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution, RunResult, WaveComparison, compare,
+    Comparison, FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution, RunResult, UNIT_HEIGHT_M,
+    WaveComparison, compare,
 };
 pub use error::OutputError;
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};

@@ -15,7 +15,7 @@ use super::{
 use crate::{case::Case, output::Summary};
 
 /// Units that have moved less than this share of their height stand still: rolling and sliding begin after it.
-const STILL: f64 = 0.01;
+pub const STILL: f64 = 0.01;
 
 /// A case where another run of the same wave stands.
 pub struct Start<'a> {

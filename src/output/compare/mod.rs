@@ -8,7 +8,7 @@ mod terminal;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-pub use published::{FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution};
+pub use published::{FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution, UNIT_HEIGHT_M};
 
 use super::{CsvSeries, OutputError, Summary, write_atomically};
 use crate::handover::breakage::Breakage;

@@ -12,8 +12,10 @@ use super::super::{OutputError, Table};
 pub const SERIES: [&str; 5] = ["EXP1", "EXP2", "EXP3", "SPH1", "SPH2"];
 /// How many of [`SERIES`] are measurements.
 pub const MEASURED: usize = 3;
-/// A unit is damaged when it has moved further than this, the height of a Tetrapod [m].
-pub const DAMAGE_DISTANCE_M: f64 = 0.077;
+/// Height of a Tetrapod of the experiment [m].
+pub const UNIT_HEIGHT_M: f64 = 0.077;
+/// A unit is damaged when it has moved further than this, its height [m].
+pub const DAMAGE_DISTANCE_M: f64 = UNIT_HEIGHT_M;
 /// Friction of mortar on PVC in the experiment (section 3) [-].
 pub const FRICTION_ON_MOUND: f64 = 0.32;
 /// Wave heights within this share of a published one are taken to be it: the paper gives two figures.
