@@ -125,6 +125,24 @@ fn a_run_that_fails_is_named() {
 }
 
 #[test]
+fn a_key_to_set_that_a_case_does_not_have_is_refused() {
+    let (_folder, sweep) = sweep_of(&json!([{ "key": "domain.dp_m", "values": [0.05] }]));
+    let given: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
+    for (key, expected) in [
+        ("friction[4].coefficient", "set: friction[4].coefficient: friction has 1 entries"),
+        ("numerics.cfll", "unknown field `cfll`"),
+    ] {
+        let mut file = given.clone();
+        file["set"] = json!({ key: 0.4 });
+        fs::write(&sweep, file.to_string()).unwrap();
+        let ended = breakwater(&["check", sweep.to_str().unwrap()]);
+        let message = String::from_utf8_lossy(&ended.stderr);
+        assert_eq!(ended.status.code(), Some(2), "{key}: {message}");
+        assert!(message.contains(expected), "{key}: {message}");
+    }
+}
+
+#[test]
 fn bad_sweeps_are_refused_before_anything_runs() {
     let cases = [
         (json!([]), "vary: must hold at least one key"),
