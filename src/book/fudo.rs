@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::{entry::Entry, markdown::Page, wave};
+use super::{entry::Entry, markdown::Page, overview, wave};
 use crate::output::{Comparison, clock, plot::short};
 
 /// Name of the page.
 pub const FILE: &str = "fudo.md";
 
-/// The page: the runs, a section for each wave, what is assumed.
+/// The page: an overview, the runs, a section for each wave, what is assumed.
 pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
     let mut page = Page::new("Tetrapods on a mound under solitary waves, beside Mitsui et al. (2023)");
     page.paragraph(
@@ -19,6 +19,7 @@ pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
          periodic sides: it stands for the inner units of the row, has no side walls, and no unit of it is one of the\n\
          experiment's. The published runs lasted 20 s.",
     );
+    overview::add(&mut page, comparison, entries);
     page.heading(2, "Runs");
     let head = [
         "run",

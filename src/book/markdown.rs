@@ -2,6 +2,11 @@
 
 use crate::output::plot::standalone;
 
+/// A number of per cent with its sign.
+pub fn signed(percent: f64) -> String {
+    format!("{percent:+.1}").replace('-', "\u{2212}")
+}
+
 /// A page as it grows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Page {

@@ -5,6 +5,7 @@
 //! | `entry` | a run in the book: its case, its summary and one short table of series |
 //! | `variation` | in what a run differs from the case as it is given |
 //! | `assumed` | runs that do: what hangs on what is assumed |
+//! | `overview` | how near the runs are to the experiment, and what they cost |
 //! | `markdown` | tables and figures of a page |
 //! | `friction` | what the friction of the mound does under one wave |
 //! | `fudo` | the page beside the experiment of Mitsui et al. (2023) |
@@ -18,6 +19,7 @@ pub mod entry;
 mod friction;
 mod fudo;
 mod markdown;
+mod overview;
 mod variation;
 mod wave;
 
@@ -117,6 +119,8 @@ mod tests {
         assert!(files.iter().all(|file| file.exists()));
         let page = fs::read_to_string(book.join("fudo.md")).unwrap();
         for words in [
+            "\n| 4.5 | 9 | 0.242 | 0.110 | \u{2212}54.6 | \u{2212}32.5 | 100 | 100 | 0 s | 6.78 h |\n",
+            "![Mean displacement under each wave](fudo-means.svg)",
             "## Solitary wave of 4.5 cm",
             "| EXP, mean of the three | 15 |  | 0.242 | 100 |  |  |",
             "| mu_0.32 | 2 | 9 | 0.110 | 100 | \u{2212}54.6 | \u{2212}54.0 |",

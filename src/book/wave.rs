@@ -1,6 +1,11 @@
 //! The section of the page on one wave height.
 
-use super::{assumed, entry::Entry, friction, markdown::Page};
+use super::{
+    assumed,
+    entry::Entry,
+    friction,
+    markdown::{Page, signed},
+};
 use crate::output::{
     PublishedWave, RunResult, WaveComparison,
     plot::{Line, LineChart, short},
@@ -87,11 +92,6 @@ fn add_means(page: &mut Page, wave: &WaveComparison) {
         ]);
     }
     page.table(&head.map(str::to_owned), &rows);
-}
-
-/// A number of per cent with its sign.
-fn signed(percent: f64) -> String {
-    format!("{percent:+.1}").replace('-', "\u{2212}")
 }
 
 /// Displacement of every unit: Tables A1 to A3 and Fig. 12.
