@@ -130,7 +130,7 @@ fn a_key_to_set_that_a_case_does_not_have_is_refused() {
     let given: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
     for (key, expected) in [
         ("friction[4].coefficient", "set: friction[4].coefficient: friction has 1 entries"),
-        ("numerics.cfll", "unknown field `cfll`"),
+        ("numerics.cfll", "unknown key \"cfll\"; did you mean \"cfl\"?"),
     ] {
         let mut file = given.clone();
         file["set"] = json!({ key: 0.4 });
