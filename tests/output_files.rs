@@ -117,7 +117,7 @@ fn summary(units: u32) -> Summary {
         start_s: 11.25,
         time_step_s: TimeStepSummary { min: 3.1e-5, mean: 5.3e-5, max: 6.0e-5 },
         stopped: Stopped::AtRest,
-        execution: Execution { wall_s: 9876.0, steps_per_s: 15.3, threads: 16, created: None, device: None },
+        execution: Execution { wall_s: 9876.0, steps_per_s: 15.3, threads: 16, ..Execution::default() },
         ..Summary::default()
     };
     let moved = |unit: u32| {

@@ -63,7 +63,7 @@ fn run_row(entry: &Entry) -> Vec<String> {
         clock(summary.execution.wall_s),
         summary.execution.threads.to_string(),
         format!("{device}, breakwater {}", summary.breakwater_version),
-        summary.execution.created.as_deref().and_then(|date| date.get(..10)).unwrap_or_default().to_owned(),
+        summary.execution.processor.clone().unwrap_or_else(|| "not recorded".to_owned()),
     ]
 }
 

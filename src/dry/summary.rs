@@ -123,13 +123,7 @@ impl DrySummary {
             units: (0..run.start.len()).map(unit).collect(),
             assumptions: run.case.assumptions.clone(),
             warnings: run.case.warnings.clone(),
-            execution: Execution {
-                wall_s,
-                steps_per_s: run.world.substeps() as f64 / wall_s.max(1e-9),
-                threads: rayon::current_num_threads(),
-                created: None,
-                device: None,
-            },
+            execution: Execution::here(wall_s, run.world.substeps() as f64, None),
         }
     }
 

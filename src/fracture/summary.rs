@@ -224,13 +224,7 @@ impl FractureSummary {
             initiation: initiations(world).into_iter().map(initiation).collect(),
             assumptions: case.assumptions.clone(),
             warnings: case.warnings.clone(),
-            execution: Execution {
-                wall_s: watched.wall,
-                steps_per_s: watched.steps as f64 / watched.wall.max(1e-9),
-                threads: rayon::current_num_threads(),
-                created: None,
-                device: None,
-            },
+            execution: Execution::here(watched.wall, watched.steps as f64, None),
         }
     }
 

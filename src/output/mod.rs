@@ -18,6 +18,7 @@ mod atomic;
 pub mod columns;
 mod compare;
 mod error;
+mod execution;
 mod impacts;
 pub mod plot;
 pub mod raster;
@@ -37,12 +38,13 @@ pub use compare::{
     WaveComparison, compare,
 };
 pub use error::OutputError;
+pub use execution::Execution;
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
 pub use report::{clock, grouped, page, section, write_report};
 pub use series::CsvSeries;
 pub use summary::{
-    BreakageSummary, ContactSummary, EnergySummary, Execution, GaugeSummary, ParticleCounts, Stopped, Summary,
-    TimeStepSummary, UnitSummary, WaveSummary,
+    BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
+    UnitSummary, WaveSummary,
 };
 pub use table::Table;
 pub use unit_surface::UnitSurface;

@@ -4,7 +4,7 @@ use std::{fmt, path::Path};
 
 use serde::{Deserialize, Serialize};
 
-use super::{OutputError, write_atomically};
+use super::{Execution, OutputError, write_atomically};
 use crate::handover::breakage::Breakage;
 
 /// `summary.json`: damage and displacements first, then what they rest on.
@@ -241,23 +241,6 @@ impl fmt::Display for Stopped {
     }
 }
 
-/// Time and machine: the keys in which two runs of one case may differ.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Execution {
-    /// Wall clock [s], all sessions of a resumed run together.
-    pub wall_s: f64,
-    /// Time steps a second of wall clock [1/s].
-    pub steps_per_s: f64,
-    /// Threads.
-    pub threads: usize,
-    /// Date and time of the end (RFC 3339); none if not recorded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub created: Option<String>,
-    /// What computed the water.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub device: Option<String>,
-}
-
 impl Summary {
     /// Name of the file in a run folder.
     pub const FILE: &str = "summary.json";
@@ -332,7 +315,7 @@ mod tests {
     fn the_file_has_the_required_keys_and_reads_back() {
         let folder = tempfile::tempdir().unwrap();
         let mut summary = two_units();
-        summary.execution = Execution { wall_s: 12.5, steps_per_s: 3.0, threads: 4, created: None, device: None };
+        summary.execution = Execution { wall_s: 12.5, steps_per_s: 3.0, threads: 4, ..Execution::default() };
         summary.breakage = Some(BreakageSummary { scale: 50.0, damaged_ratio: 0.5, broken_ratio: 0.0 });
         summary.write(folder.path()).unwrap();
         assert_eq!(Summary::read(folder.path()).unwrap(), summary);

@@ -55,13 +55,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
             max: statistics.longest_step,
         },
         stopped,
-        execution: Execution {
-            wall_s: statistics.wall_s,
-            steps_per_s: steps_run / statistics.wall_s.max(1e-9),
-            threads: rayon::current_num_threads(),
-            created: None,
-            device: Some(simulation.solver().name().to_owned()),
-        },
+        execution: Execution::here(statistics.wall_s, steps_run, Some(simulation.solver().name())),
         ..Summary::default()
     };
     if let Some(units) = &case.units {

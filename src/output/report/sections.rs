@@ -303,7 +303,7 @@ fn facts(summary: &Summary) -> String {
         rows.push(("Wave", format!("{}{theory}, H = {} m", wave.kind, short(wave.height_m, 4))));
     }
     rows.push(("breakwater", format!("version {}", summary.breakwater_version)));
-    rows.extend(execution.created.clone().map(|date| ("Date", date)));
+    rows.extend(execution.processor.clone().map(|name| ("Processor", name)));
     let mut html: String =
         rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{}</td></tr>\n", escape(value))).collect();
     html += &format!("<tr><td>Case</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
