@@ -3,7 +3,7 @@
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::simulation::setup::particles_of;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
 use super::tanks::{BareTank, GRAVITY, RHO0, UNIT_HEIGHT, run_until, simulation, tank_with_held_unit, volume_below};
@@ -59,7 +59,7 @@ fn free(centre_z: f64, depth: f64, dp: f64) -> Deviation {
     // Off the lattice of the water.
     let centre = DVec3::new(0.5 * LENGTH + 0.3 * dp, 0.5 * LENGTH + 0.1 * dp, centre_z);
     let mut tank = BareTank::new(LENGTH, depth, dp, &particles_of(&unit, dp));
-    tank.hold(&unit, centre);
+    tank.hold(&unit, centre, DQuat::IDENTITY);
     let (mut time, mut sum, mut count) = (0.0, DVec3::ZERO, 0.0);
     while time < DURATION {
         time += tank.step(|tank| {

@@ -170,14 +170,14 @@ impl BareTank {
         }
     }
 
-    /// Put the one unit at a place [m] in the water, which leaves its room.
-    pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3) {
-        let solid = unit.solid();
+    /// Put the one unit in a pose in the water, which leaves its room.
+    pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3, rotation: DQuat) {
+        let (solid, back) = (unit.solid(), rotation.inverse());
         clear_solid(&mut self.water, LEAST_DEPTH * self.solver.parameters.dp, |point| {
-            let (nearest, distance) = solid.project(point - centre);
-            (nearest + centre, distance)
+            let (nearest, distance) = solid.project(back * (point - centre));
+            (rotation * nearest + centre, distance)
         });
-        self.boundary.move_unit(0, &BodyState::at_rest(centre, DQuat::IDENTITY));
+        self.boundary.move_unit(0, &BodyState::at_rest(centre, rotation));
     }
 
     /// One step; `look` sees the state between its halves. Returns its length [s].
