@@ -170,7 +170,7 @@ impl BareTank {
         }
     }
 
-    /// Put the one unit in a pose in the water, which leaves its room.
+    /// Put the one unit, its centre of mass at `centre` [m], in the water, which leaves its room.
     pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3, rotation: DQuat) {
         let (solid, back) = (unit.solid(), rotation.inverse());
         clear_solid(&mut self.water, LEAST_DEPTH * self.solver.parameters.dp, |point| {

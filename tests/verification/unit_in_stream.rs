@@ -178,11 +178,11 @@ fn drag_falls_with_resolution_and_viscosity() {
 /// `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::on_the_bed`
 #[test]
 #[ignore = "16 minutes on one core"]
-fn on_the_bed_drag_falls_with_resolution() {
+fn on_the_bed_drag_falls_and_lift_grows_with_resolution() {
     // 14, 9 and 7 mm for a unit of 77 mm.
     for place in [Place::OneLegForward, Place::TwoLegsForward] {
         let of = |particles| steady_force(particles, ModifiedDynamic, 0.05, place);
         let [coarse, _, fine] = [5.5, 8.5, 11.0].map(of);
-        assert!(fine.y < coarse.y, "{coarse} {fine}");
+        assert!(fine.y < coarse.y && fine.z > coarse.z, "{coarse} {fine}");
     }
 }
