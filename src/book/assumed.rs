@@ -2,7 +2,7 @@
 
 use super::{
     entry::Entry,
-    markdown::Page,
+    markdown::{Page, signed},
     variation::{Change, changes},
 };
 use crate::output::{
@@ -32,6 +32,7 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
         "has",
         "particles every [mm]",
         "mean displacement [m]",
+        "(mean \u{2212} EXP) / EXP [%]",
         "against the case as given [%]",
         "damaged [%]",
     ];
@@ -43,6 +44,7 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
             changes(&entry.case).iter().map(Change::in_words).collect::<Vec<_>>().join(", "),
             short(1000.0 * run.summary.dp_m, 2),
             format!("{:.3}", run.mean_m),
+            signed(run.deviation_percent),
             beside(run).map(percent).unwrap_or_default(),
             short(100.0 * run.damage_ratio, 0),
         ]

@@ -1,8 +1,6 @@
 //! Friction of the mound: how far the units go with it, how much of it the water asks for, where motion begins. Units that
 //! it holds fast may roll over their feet instead.
 
-use std::collections::BTreeSet;
-
 use serde_json::Value;
 
 use super::{
@@ -44,63 +42,67 @@ struct Rubbed<'a> {
     friction: f64,
     run: &'a RunResult,
     entry: &'a Entry,
-    /// Distance between particles, and what it has otherwise than the case as given but for friction.
-    otherwise: String,
 }
 
-/// Runs of which others differ in friction alone, by friction.
-fn rubbed<'a>(runs: &[(&'a RunResult, &'a Entry)]) -> Vec<Rubbed<'a>> {
-    let of_run = |(run, entry): &(&'a RunResult, &'a Entry)| {
-        let changes = changes(&entry.case);
-        let others = changes.iter().filter(|change| !change.is_of_friction()).map(Change::in_words);
-        let distance = format!("every {} mm", short(1000.0 * run.summary.dp_m, 2));
-        let otherwise = [distance].into_iter().chain(others).collect::<Vec<_>>().join(", ");
-        Some(Rubbed { friction: on_mound(&entry.case)?, run, entry, otherwise })
-    };
-    let all: Vec<Rubbed> = runs.iter().filter_map(of_run).collect();
-    let has_others: Vec<bool> = (all.iter())
-        .map(|one| all.iter().any(|other| other.otherwise == one.otherwise && other.friction != one.friction))
-        .collect();
-    let mut known: Vec<Rubbed> = all.into_iter().zip(has_others).filter_map(|(one, has)| has.then_some(one)).collect();
-    known.sort_by(|a, b| a.friction.total_cmp(&b.friction));
-    known
+/// Runs that differ in friction alone, by friction; at least two.
+struct Alike<'a> {
+    dp_m: f64,
+    /// What they have otherwise than the case as given, but for friction.
+    changes: Vec<Change>,
+    runs: Vec<Rubbed<'a>>,
 }
 
-/// Adds what friction does: a chart, a table, and the friction that holds the units; nothing unless it alone varies.
+impl<'a> Alike<'a> {
+    /// Groups of runs, those of the case as it is given first, then by the distance between particles.
+    fn groups(runs: &[(&'a RunResult, &'a Entry)]) -> Vec<Self> {
+        let mut groups: Vec<Self> = Vec::new();
+        for &(run, entry) in runs {
+            let Some(friction) = on_mound(&entry.case) else { continue };
+            let mut changes = changes(&entry.case);
+            changes.retain(|change| !change.is_of_friction());
+            let (rubbed, dp_m) = (Rubbed { friction, run, entry }, run.summary.dp_m);
+            match groups.iter_mut().find(|group| group.dp_m == dp_m && group.changes == changes) {
+                Some(group) => group.runs.push(rubbed),
+                None => groups.push(Self { dp_m, changes, runs: vec![rubbed] }),
+            }
+        }
+        for group in &mut groups {
+            group.runs.sort_by(|a, b| a.friction.total_cmp(&b.friction));
+        }
+        let varies = |group: &Self| group.runs.iter().any(|run| run.friction != group.runs[0].friction);
+        groups.retain(varies);
+        groups.sort_by(|a, b| a.changes.len().cmp(&b.changes.len()).then(a.dp_m.total_cmp(&b.dp_m)));
+        groups
+    }
+
+    /// What tells a group from the others, each change by `words`.
+    fn name(&self, words: impl Fn(&Change) -> String) -> String {
+        let distance = format!("every {} mm", short(1000.0 * self.dp_m, 2));
+        [distance].into_iter().chain(self.changes.iter().map(words)).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Adds what friction does: a chart, and for runs that differ in nothing else a table and the friction that holds the
+/// units; nothing unless it alone varies.
 pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Entry)], centimetres: &str) {
-    let known = rubbed(runs);
-    if known.is_empty() {
+    let groups = Alike::groups(runs);
+    if groups.is_empty() {
         return;
     }
     page.heading(3, &format!("Friction of the mound under the wave of {centimetres} cm"));
     page.figure(
         &format!("fudo-{centimetres}-friction.svg"),
-        &chart(published, &known),
+        &chart(published, &groups),
         "Mean displacement against the friction of the mound (as Fig. 18 of the paper), beside what section 4.7 says in numbers \
          about particles of 5 mm; the rest of its curve was not published as numbers.",
-        &Entry::again(known.iter().map(|one| one.entry)),
+        &Entry::again(groups.iter().flat_map(|group| &group.runs).map(|one| one.entry)),
     );
-    let head = [
-        "run",
-        "friction",
-        "particles every [mm]",
-        "mean displacement [m]",
-        "damaged [%]",
-        "turned by [°]",
-        "friction mobilised while they stand",
-    ];
-    let row = |Rubbed { friction, run, entry, .. }: &Rubbed| {
-        vec![
-            run.name.clone(),
-            short(*friction, 2),
-            short(1000.0 * run.summary.dp_m, 2),
-            format!("{:.3}", run.mean_m),
-            short(100.0 * run.damage_ratio, 0),
-            run.summary.units.iter().map(|unit| short(unit.rotation_deg, 0)).collect::<Vec<_>>().join(", "),
-            mobilised(entry).iter().map(|most| format!("{most:.3}")).collect::<Vec<_>>().join(", "),
-        ]
-    };
-    page.table(&head.map(str::to_owned), &known.iter().map(row).collect::<Vec<_>>());
+    page.paragraph(&format!("Published, with particles of 5 mm: {}.", said(published)));
+    for group in &groups {
+        page.paragraph(&format!("Particles {}:", group.name(Change::in_words)));
+        add_table(page, &group.runs);
+        page.list(findings(&group.runs));
+    }
     page.paragraph(&format!(
         "Mobilised is the force of the water towards the shore over the weight that it leaves on the ground, means over {MEAN_OVER_S} s, \
          at most while a unit has moved less than {} mm: one value for each unit. A unit that slides later has mobilised all of \
@@ -108,14 +110,51 @@ pub fn add(page: &mut Page, published: &PublishedWave, runs: &[(&RunResult, &Ent
          this wave asks for.",
         short(1000.0 * STILL_M, 2)
     ));
-    page.list(findings(published, &known));
 }
 
-/// Where motion begins, in the runs and as published.
-fn findings(published: &PublishedWave, known: &[Rubbed]) -> Vec<String> {
+fn add_table(page: &mut Page, runs: &[Rubbed]) {
+    let head = [
+        "run",
+        "friction",
+        "mean displacement [m]",
+        "damaged [%]",
+        "turned by [°]",
+        "friction mobilised while they stand",
+    ];
+    let row = |Rubbed { friction, run, entry }: &Rubbed| {
+        vec![
+            run.name.clone(),
+            short(*friction, 2),
+            format!("{:.3}", run.mean_m),
+            short(100.0 * run.damage_ratio, 0),
+            run.summary.units.iter().map(|unit| short(unit.rotation_deg, 0)).collect::<Vec<_>>().join(", "),
+            mobilised(entry).iter().map(|most| format!("{most:.3}")).collect::<Vec<_>>().join(", "),
+        ]
+    };
+    page.table(&head.map(str::to_owned), &runs.iter().map(row).collect::<Vec<_>>());
+}
+
+/// What section 4.7 of the paper says in numbers.
+fn said(published: &PublishedWave) -> String {
+    let said = published.friction;
+    let beyond = if said.less_than_m == 0.0 {
+        "no unit moves".to_owned()
+    } else {
+        format!("the mean displacement is less than {} m", short(said.less_than_m, 2))
+    };
+    format!(
+        "{} m with a friction of {}; with more than {} {beyond}",
+        short(said.mean_m, 2),
+        short(said.least, 2),
+        short(said.beyond, 2)
+    )
+}
+
+/// Where motion begins in runs of rising friction.
+fn findings(runs: &[Rubbed]) -> Vec<String> {
     let stands = |run: &RunResult| run.summary.units.iter().all(stands_still);
-    let moved = known.iter().filter(|one| !stands(one.run)).map(|one| one.friction).reduce(f64::max);
-    let held = known.iter().filter(|one| stands(one.run)).map(|one| one.friction).reduce(f64::min);
+    let moved = runs.iter().filter(|one| !stands(one.run)).map(|one| one.friction).reduce(f64::max);
+    let held = runs.iter().filter(|one| stands(one.run)).map(|one| one.friction).reduce(f64::min);
     let mut found = Vec::new();
     if let Some(friction) = moved {
         found.push(format!("Units move with a friction of {} and less.", short(friction, 2)));
@@ -124,22 +163,10 @@ fn findings(published: &PublishedWave, known: &[Rubbed]) -> Vec<String> {
         found.push(format!("All stand still with {} and more.", short(friction, 2)));
     }
     // The units held best have mobilised least by creeping.
-    let held_best = known.iter().rev().map(|one| (one, asked_for(one))).find(|(_, asked)| !asked.is_empty());
+    let held_best = runs.iter().rev().map(|one| (one, asked_for(one))).find(|(_, asked)| !asked.is_empty());
     if let Some((one, asked)) = held_best {
         found.push(format!("The wave asks for a friction of {} (`{}`).", asked.join(" and "), one.run.name));
     }
-    let said = published.friction;
-    let beyond = if said.less_than_m == 0.0 {
-        "no unit moves".to_owned()
-    } else {
-        format!("the mean displacement is less than {} m", short(said.less_than_m, 2))
-    };
-    found.push(format!(
-        "Published, with particles of 5 mm: {} m with a friction of {}; with more than {} {beyond}.",
-        short(said.mean_m, 2),
-        short(said.least, 2),
-        short(said.beyond, 2)
-    ));
     found
 }
 
@@ -183,8 +210,8 @@ fn most_mobilised(times: &[f64], [fx, fz]: [&[f64]; 2], moved: &[f64], weight_n:
     windows.map(|(fx, fz)| sum(fx) / (weight_n - sum(fz))).reduce(f64::max)
 }
 
-/// Mean displacement against friction, a line for each distance between particles, beside the published numbers.
-fn chart(published: &PublishedWave, known: &[Rubbed]) -> String {
+/// Mean displacement against friction, a line for each group, beside the published numbers.
+fn chart(published: &PublishedWave, groups: &[Alike]) -> String {
     let said = published.friction;
     let points = vec![[said.least, said.mean_m], [said.beyond, said.less_than_m]];
     let mut lines = vec![Line {
@@ -195,11 +222,15 @@ fn chart(published: &PublishedWave, known: &[Rubbed]) -> String {
         colour: 0,
         ..Line::default()
     }];
-    for alike in known.iter().map(|one| &one.otherwise).collect::<BTreeSet<_>>() {
-        let points =
-            known.iter().filter(|one| one.otherwise == *alike).map(|one| [one.friction, one.run.mean_m]).collect();
-        let name = alike.replace('`', "");
-        lines.push(Line { name, points, dots: true, colour: lines.len(), ..Line::default() });
+    for group in groups {
+        let points = group.runs.iter().map(|one| [one.friction, one.run.mean_m]).collect();
+        lines.push(Line {
+            name: group.name(Change::in_brief),
+            points,
+            dots: true,
+            colour: lines.len(),
+            ..Line::default()
+        });
     }
     let measured = published.measured_mean_m();
     LineChart {

@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::case::file::CaseFile;
+use crate::{
+    case::file::CaseFile,
+    sweep::plan::{in_words, short},
+};
 
 /// The cases as they are given: the slices and the whole flume.
 const GIVEN: [&str; 6] = [
@@ -42,12 +45,13 @@ impl Change {
 
     /// The change in words: `flume.mound.crest_width_m 0.36 for 0.32`.
     pub fn in_words(&self) -> String {
-        let words = |value: &Option<Value>| match value {
-            None => "nothing".to_owned(),
-            Some(Value::String(text)) => text.clone(),
-            Some(other) => other.to_string(),
-        };
+        let words = |value: &Option<Value>| value.as_ref().map_or("nothing".to_owned(), in_words);
         format!("`{}` {} for {}", self.key, words(&self.value), words(&self.given))
+    }
+
+    /// The last part of the key and the value, for the legend of a chart: `crest_width_m 0.36`.
+    pub fn in_brief(&self) -> String {
+        format!("{} {}", short(&self.key), self.value.as_ref().map_or("nothing".to_owned(), in_words))
     }
 }
 
@@ -125,6 +129,7 @@ mod tests {
         let words: Vec<String> = changes(&case).iter().map(Change::in_words).collect();
         let friction = "`friction.mortar-pvc.coefficient` 0.1 for 0.32";
         assert_eq!(words, [friction, "`numerics.gap_pressure` false for nothing"]);
+        assert_eq!(changes(&case)[1].in_brief(), "gap_pressure false");
         assert_eq!(changes(&case).iter().filter(|change| change.is_of_friction()).count(), 1);
     }
 }

@@ -32,6 +32,7 @@ mod site;
 mod stl_unit;
 mod template;
 mod terrain;
+mod thickness;
 mod unit_shape;
 mod units;
 mod validate;

@@ -18,6 +18,7 @@ use super::output::{self, Output};
 use super::parse::parse;
 use super::run::{self, Contact, Stop};
 use super::site::Site;
+use super::thickness;
 use super::units::{self, Surroundings, Units};
 use super::wave::{self, Wave};
 use super::wavemaker::{self, Wavemaker};
@@ -206,6 +207,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         stop,
     };
     validate_size(&case, check);
+    thickness::warn(&case, check);
     Some(case)
 }
 

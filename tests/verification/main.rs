@@ -8,6 +8,7 @@ mod convergence;
 mod diffusion;
 mod dry;
 mod femdem;
+mod flow_over_mound;
 mod flume_ends;
 mod flume_order;
 mod flume_shore;
