@@ -22,7 +22,7 @@ struct Scheme {
     domain: [f64; 2],
 }
 
-/// As in the published cases, in a domain of ours.
+/// As in the published cases; the particles end where what the wall sends back does not come in time.
 const STICKING: Scheme = Scheme { slip: "original", alpha: 0.04, sound: 10.0, domain: [36.5, 42.0] };
 /// Water that slides along the bed, with a quarter of that viscosity.
 const SLIDING: Scheme = Scheme { slip: "free_slip", alpha: 0.01, ..STICKING };
@@ -58,10 +58,12 @@ fn push(velocity: impl Fn(f64) -> f64) -> f64 {
 fn share_of_the_push(scheme: Scheme, height: f64, dp: f64) -> f64 {
     let mut flow = over_the_mound(scheme, height, dp);
     let record = flow.flume.clone().unwrap();
-    let speeds: Vec<(f64, f64)> = record.times_s().iter().map(|&t| (t, record.mean_velocity(MIDDLE_X, t))).collect();
-    let fastest = speeds.iter().map(|s| s.1).fold(0.0, f64::max);
-    let fast: Vec<f64> = speeds.iter().filter(|s| s.1 > 0.5 * fastest).map(|s| s.0).collect();
-    let (from, to) = (fast[0], fast[fast.len() - 1]);
+    let times = record.times_s();
+    let speed: Vec<f64> = times.iter().map(|&t| record.mean_velocity(MIDDLE_X, t)).collect();
+    let fastest = (0..times.len()).max_by(|&a, &b| speed[a].total_cmp(&speed[b])).unwrap();
+    let is_slow = |k: &usize| speed[*k] < 0.5 * speed[fastest];
+    let from = times[(0..fastest).rev().find(is_slow).unwrap()];
+    let to = times[(fastest..times.len()).find(is_slow).unwrap()];
     let (mut ours, mut expected, mut before) = (0.0, 0.0, None);
     let end = to - flow.start;
     run_until(&mut flow, end, |now| {
