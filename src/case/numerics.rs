@@ -39,6 +39,8 @@ pub struct Numerics {
     pub boundary: Boundary,
     /// Velocity that boundary particles show to the water.
     pub wall_slip: WallSlip,
+    /// Whether water slides along units too, where it slides along walls.
+    pub slip_on_units: bool,
     /// Whether bed, walls and other units press on units through gaps that hold no water particle.
     pub gap_pressure: bool,
     /// Layers of particles in walls and bed.
@@ -148,6 +150,7 @@ pub(super) fn validate_numerics(
         cfl: file.cfl,
         boundary: file.boundary,
         wall_slip,
+        slip_on_units: file.slip_on_units,
         gap_pressure: file.gap_pressure,
         boundary_layers: file.boundary_layers as usize,
         hold_units: file.hold_units_s,
@@ -188,6 +191,7 @@ fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
 fn warn_of_what_has_no_effect(file: &NumericsFile, check: &mut Checker) {
     let usual = NumericsFile::default();
     let artificial = file.viscosity == Viscosity::Artificial;
+    let slides = file.boundary == Boundary::Mdbc && matches!(file.wall_slip, None | Some(WallSlip::FreeSlip));
     let no_diffusion = file.density_diffusion == DensityDiffusion::None;
     let unread = [
         (!artificial && file.viscosity_alpha != usual.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
@@ -202,6 +206,7 @@ fn warn_of_what_has_no_effect(file: &NumericsFile, check: &mut Checker) {
             "density_diffusion is none",
         ),
         (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
+        (file.slip_on_units && !slides, "slip_on_units", "wall_slip is not free_slip"),
     ];
     for (_, key, reason) in unread.iter().filter(|(unread, ..)| *unread) {
         check.warn(format!("numerics.{key} has no effect: numerics.{reason}"));
@@ -239,6 +244,9 @@ mod tests {
             file.diffusion_delta = 0.2;
         });
         assert!(accepted && of_delta[0].starts_with("numerics.diffusion_delta has no effect"), "{of_delta:?}");
+        let (accepted, of_slip) = warnings(|file| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::Original)));
+        assert!(accepted && of_slip[0].starts_with("numerics.slip_on_units has no effect"), "{of_slip:?}");
+        assert_eq!(warnings(|file| file.slip_on_units = true), (true, vec![]));
         let (accepted, inviscid) = warnings(|file| {
             file.viscosity = Viscosity::Laminar;
             file.kinematic_viscosity_m2_s = 0.0;

@@ -293,13 +293,15 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
 /// cuboid fills the width of a periodic flume, none of them looks across, at its own image.
 fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let case::Domain { dp, width, sides, .. } = case.domain;
-    match (shape.as_box(), sides) {
+    let mut particles = match (shape.as_box(), sides) {
         (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
         (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
             box_particles(&bounds.closed_across(), dp, f64::INFINITY)
         }
         _ => particles_of(shape, dp),
-    }
+    };
+    particles.iter_mut().for_each(|particle| particle.slides = case.numerics.slip_on_units);
+    particles
 }
 
 /// Particles of one unit in its own axes.
@@ -328,6 +330,24 @@ fn clear_units(water: &mut Water, units: &Units, case: &Case) {
                 let (nearest, distance) = solid.project(state.rotation.inverse() * from_centre);
                 (centre + state.rotation * nearest, distance)
             });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn water_slides_along_units_only_where_a_case_says_so() {
+        let given = include_str!("../../cases/fudo/H4.5-slice.json");
+        for slides in [false, true] {
+            let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);
+            let text = given.replace(r#""wall_slip": "original""#, &wanted);
+            let case = Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
+            let units = case.units.as_ref().expect("the slice has two units");
+            let particles = unit_in_place(units.shape.unit(), &case);
+            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.slides == slides));
         }
     }
 }

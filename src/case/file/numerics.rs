@@ -28,9 +28,12 @@ pub struct NumericsFile {
     /// Velocity that boundary particles show to the water; by default free slip under mDBC.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
+    // This and the next are left out where they are usual: the fingerprints of older cases stay.
+    /// Whether water slides along the surfaces of units too; of `wall_slip` `free_slip` only. false: they hold it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub slip_on_units: bool,
     /// Whether bed, walls and other units press on a unit through gaps that hold no water particle, as the water there
     /// would; false: water alone acts on units, as far as described that of the published runs. Of mDBC only.
-    // Left out where it is usual: the fingerprints of older cases stay.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
     /// Layers of particles in walls and bed.
@@ -52,6 +55,7 @@ impl Default for NumericsFile {
             cfl: 0.2,
             boundary: Boundary::Mdbc,
             wall_slip: None,
+            slip_on_units: false,
             gap_pressure: true,
             boundary_layers: 3,
             hold_units_s: 0.2,
