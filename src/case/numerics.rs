@@ -244,7 +244,8 @@ mod tests {
             file.diffusion_delta = 0.2;
         });
         assert!(accepted && of_delta[0].starts_with("numerics.diffusion_delta has no effect"), "{of_delta:?}");
-        let (accepted, of_slip) = warnings(|file| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::Original)));
+        let (accepted, of_slip) =
+            warnings(|file| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::Original)));
         assert!(accepted && of_slip[0].starts_with("numerics.slip_on_units has no effect"), "{of_slip:?}");
         assert_eq!(warnings(|file| file.slip_on_units = true), (true, vec![]));
         let (accepted, inviscid) = warnings(|file| {
