@@ -7,7 +7,7 @@ use super::{
 };
 use crate::output::{
     RunResult,
-    plot::{BarChart, Bars, short},
+    plot::{Lever, TornadoChart, short},
 };
 
 /// Whether a run is that of a given case, at whatever distance between particles.
@@ -27,7 +27,6 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
     };
     page.heading(3, &format!("What hangs on what is assumed, under the wave of {centimetres} cm"));
     let head = [
-        "number",
         "run",
         "has",
         "particles every [mm]",
@@ -36,10 +35,9 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
         "against the case as given [%]",
         "damaged [%]",
     ];
-    let row = |(number, (run, entry)): (usize, &(&RunResult, &Entry))| {
-        let percent = |given: f64| format!("{:+.0}", 100.0 * (run.mean_m / given - 1.0)).replace('-', "\u{2212}");
+    let row = |(run, entry): &(&RunResult, &Entry)| {
+        let percent = |given: f64| signed(100.0 * (run.mean_m / given - 1.0));
         vec![
-            (number + 1).to_string(),
             run.name.clone(),
             changes(&entry.case).iter().map(Change::in_words).collect::<Vec<_>>().join(", "),
             short(1000.0 * run.summary.dp_m, 2),
@@ -49,26 +47,46 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
             short(100.0 * run.damage_ratio, 0),
         ]
     };
-    page.table(&head.map(str::to_owned), &changed.iter().enumerate().map(row).collect::<Vec<_>>());
-    let mut marks: Vec<(f64, String)> = (given.iter())
-        .filter(|(given, _)| changed.iter().any(|(run, _)| run.summary.dp_m == given.summary.dp_m))
-        .map(|(run, _)| (run.mean_m, format!("as given, {} mm", short(1000.0 * run.summary.dp_m, 2))))
-        .collect();
-    marks.dedup_by(|a, b| a.1 == b.1);
-    let chart = BarChart {
-        title: "Mean displacement where something is not as given".to_owned(),
-        x_label: "number in the table".to_owned(),
-        y_label: "mean displacement [m]".to_owned(),
-        groups: (1..=changed.len()).map(|number| number.to_string()).collect(),
-        bars: vec![Bars { values: changed.iter().map(|(run, _)| run.mean_m).collect(), colour: 1, ..Bars::default() }],
-        marks,
-        size: [920.0, 300.0],
-        ..BarChart::default()
-    };
-    page.figure(
-        &format!("fudo-{centimetres}-assumed.svg"),
-        &chart.svg(),
-        "Mean displacement where something is not as given, by the numbers of the table.",
-        &Entry::again(changed.iter().map(|(_, entry)| *entry)),
-    );
+    page.table(&head.map(str::to_owned), &changed.iter().map(row).collect::<Vec<_>>());
+    let levers = levers(&changed, beside);
+    let alike = |run: &RunResult| changed.iter().any(|(other, _)| other.summary.dp_m == run.summary.dp_m);
+    let shown = given.iter().filter(|(run, _)| alike(run)).chain(&changed);
+    if !levers.is_empty() {
+        let chart = TornadoChart {
+            title: "How much the mean displacement hangs on what is assumed".to_owned(),
+            x_label: "mean displacement against the case as given [%]".to_owned(),
+            levers,
+            width: 920.0,
+        };
+        page.figure(
+            &format!("fudo-{centimetres}-assumed.svg"),
+            &chart.svg(),
+            "How much the mean displacement hangs on what is assumed; at each bar the value that the run has instead.",
+            &Entry::again(shown.map(|(_, entry)| *entry)),
+        );
+    }
+}
+
+/// Change of the mean displacement [%] by each key that a run has otherwise, beside the run as given with the same
+/// particles; runs with several such keys go by their names.
+fn levers<'a>(changed: &[(&'a RunResult, &'a Entry)], beside: impl Fn(&RunResult) -> Option<f64>) -> Vec<Lever> {
+    let distance = |run: &RunResult| format!("{} mm", short(1000.0 * run.summary.dp_m, 2));
+    let one_distance = changed.iter().all(|(run, _)| run.summary.dp_m == changed[0].0.summary.dp_m);
+    let mut levers: Vec<Lever> = Vec::new();
+    for &(run, entry) in changed {
+        let Some(given) = beside(run) else { continue };
+        let (mut name, value) = match &changes(&entry.case)[..] {
+            [change] => (change.given_in_brief(), change.value_in_words()),
+            _ => (run.name.clone(), String::new()),
+        };
+        if !one_distance {
+            name += &format!(", {}", distance(run));
+        }
+        let value = (value, 100.0 * (run.mean_m / given - 1.0));
+        match levers.iter_mut().find(|lever| lever.name == name) {
+            Some(lever) => lever.values.push(value),
+            None => levers.push(Lever { name, values: vec![value] }),
+        }
+    }
+    levers
 }

@@ -77,7 +77,29 @@ fn add_words<'a>(page: &mut Page, heading: &str, entries: &'a [Entry], of: impl 
         return;
     }
     page.heading(2, heading);
-    page.list(said.into_iter().map(|(words, runs)| {
-        if runs.len() == entries.len() { words.to_owned() } else { format!("{words} ({})", runs.join(", ")) }
-    }));
+    let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+    page.list(said.into_iter().map(|(words, runs)| words.to_owned() + &whose(&runs, &names)));
+}
+
+/// Of which runs something is said, whichever way takes fewer names; nothing if of all.
+fn whose(runs: &[&str], all: &[&str]) -> String {
+    let others: Vec<&str> = all.iter().copied().filter(|name| !runs.contains(name)).collect();
+    match others.len() {
+        0 => String::new(),
+        few if few < runs.len() => format!(" (all but {})", others.join(", ")),
+        _ => format!(" ({})", runs.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_of_most_runs_names_the_others() {
+        let all = ["a", "b", "c"];
+        assert_eq!(whose(&all, &all), "");
+        assert_eq!(whose(&["a", "c"], &all), " (all but b)");
+        assert_eq!(whose(&["b"], &all), " (b)");
+    }
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::{
     case::file::CaseFile,
-    sweep::plan::{in_words, short},
+    sweep::plan::{brief, in_words, short},
 };
 
 /// The cases as they are given: the slices and the whole flume.
@@ -45,13 +45,38 @@ impl Change {
 
     /// The change in words: `flume.mound.crest_width_m 0.36 for 0.32`.
     pub fn in_words(&self) -> String {
-        let words = |value: &Option<Value>| value.as_ref().map_or("nothing".to_owned(), in_words);
-        format!("`{}` {} for {}", self.key, words(&self.value), words(&self.given))
+        let value = words(self.value.as_ref());
+        match &self.given {
+            Some(given) => format!("`{}` {value} for {}", self.key, words(Some(given))),
+            None => format!("`{}` {value}, not set as given", self.key),
+        }
     }
 
     /// The last part of the key and the value, for the legend of a chart: `crest_width_m 0.36`.
     pub fn in_brief(&self) -> String {
-        format!("{} {}", short(&self.key), self.value.as_ref().map_or("nothing".to_owned(), in_words))
+        format!("{} {}", short(&self.key), words(self.value.as_ref()))
+    }
+
+    /// The last two parts of the key and the value as given, for a chart of what hangs on it: `mound.crest_width_m 0.32`.
+    pub fn given_in_brief(&self) -> String {
+        match &self.given {
+            Some(given) => format!("{} {}", brief(&self.key), words(Some(given))),
+            None => brief(&self.key).to_owned(),
+        }
+    }
+
+    /// The value in the run, in words.
+    pub fn value_in_words(&self) -> String {
+        words(self.value.as_ref())
+    }
+}
+
+/// A value as people write it: large numbers with a power of ten.
+fn words(value: Option<&Value>) -> String {
+    match value.map(|value| (value, value.as_f64())) {
+        None => "not set".to_owned(),
+        Some((_, Some(number))) if number.abs() >= 1e6 => format!("{number:e}"),
+        Some((value, _)) => in_words(value),
     }
 }
 
@@ -128,8 +153,13 @@ mod tests {
         case["numerics"]["gap_pressure"] = json!(false);
         let words: Vec<String> = changes(&case).iter().map(Change::in_words).collect();
         let friction = "`friction.mortar-pvc.coefficient` 0.1 for 0.32";
-        assert_eq!(words, [friction, "`numerics.gap_pressure` false for nothing"]);
+        assert_eq!(words, [friction, "`numerics.gap_pressure` false, not set as given"]);
         assert_eq!(changes(&case)[1].in_brief(), "gap_pressure false");
+        assert_eq!(changes(&case)[0].given_in_brief(), "mortar-pvc.coefficient 0.32");
+        assert_eq!(changes(&case)[1].given_in_brief(), "numerics.gap_pressure");
+        assert_eq!(changes(&case)[1].value_in_words(), "false");
+        case["materials"][1]["young_modulus_pa"] = json!(1.5e9);
+        assert_eq!(changes(&case)[1].in_words(), "`materials.pvc.young_modulus_pa` 1.5e9 for 1e8");
         assert_eq!(changes(&case).iter().filter(|change| change.is_of_friction()).count(), 1);
     }
 }

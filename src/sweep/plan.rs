@@ -305,6 +305,11 @@ pub fn short(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
+/// The last two parts of a key's path: `mound.crest_width_m`.
+pub fn brief(key: &str) -> &str {
+    key.rmatch_indices('.').nth(1).map_or(key, |(dot, _)| &key[dot + 1..])
+}
+
 /// A value without quotes; nothing for null.
 pub fn in_words(value: &Value) -> String {
     match value {

@@ -6,19 +6,19 @@ use serde_json::Value;
 
 use super::{
     member::Outcome,
-    plan::{Combine, Sweep, Varied, in_words, short},
+    plan::{Combine, Sweep, Varied, brief, in_words, short},
 };
 use crate::output::{
     OutputError,
-    plot::{BarChart, Bars, Line, LineChart, standalone},
+    plot::{Lever, Line, LineChart, TornadoChart, standalone},
     write_atomically,
 };
 
 /// Size of the chart [px].
 const SIZE: [f64; 2] = [720.0, 420.0];
 
-/// Write `sweep.csv`, a row a run, and `sweep.svg`, the mean displacement against the first key that is a number, or a bar
-/// for each run if one value varies at a time; returns what was written.
+/// Write `sweep.csv`, a row a run, and `sweep.svg`, the mean displacement against the first key that is a number, or how
+/// much each value changes it if one varies at a time; returns what was written.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -29,7 +29,7 @@ pub fn write(sweep: &Sweep, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let mut written = vec![csv];
     let chart = match sweep.combine {
         Combine::All => chart(sweep, &outcomes).map(|chart| chart.svg()),
-        Combine::OneAtATime => bars(sweep, &outcomes).map(|chart| chart.svg()),
+        Combine::OneAtATime => tornado(sweep, &outcomes).map(|chart| chart.svg()),
     };
     if let Some(chart) = chart {
         let path = dir.join("sweep.svg");
@@ -127,25 +127,25 @@ fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
     })
 }
 
-/// Mean displacement of each run, and as a mark that of the case as it is.
-fn bars(sweep: &Sweep, outcomes: &[Outcome]) -> Option<BarChart> {
+/// How much each value changes the mean displacement of the case as it is, the first run; nothing before that has ended.
+fn tornado(sweep: &Sweep, outcomes: &[Outcome]) -> Option<TornadoChart> {
     let of = |outcome: &Outcome| match outcome {
         Outcome::Finished(summary) => summary.mean_displacement_m,
         Outcome::Missing | Outcome::Failed(_) => None,
     };
-    let (runs, values): (Vec<String>, Vec<f64>) = (sweep.members.iter().zip(outcomes))
-        .filter_map(|(member, outcome)| Some((member.number.to_string(), of(outcome)?)))
-        .unzip();
-    let as_given = outcomes.first().and_then(of);
-    (!values.is_empty()).then(|| BarChart {
+    let (given, as_given) = (&sweep.members.first()?.values, of(outcomes.first()?)?);
+    let lever = |(k, one): (usize, &Varied)| Lever {
+        name: format!("{} {}", brief(&one.key), in_words(&given[k])).trim_end().to_owned(),
+        values: (sweep.members.iter().zip(outcomes))
+            .filter(|(member, _)| member.values[k] != given[k])
+            .filter_map(|(member, outcome)| Some((in_words(&member.values[k]), of(outcome)? - as_given)))
+            .collect(),
+    };
+    Some(TornadoChart {
         title: sweep.title.clone(),
-        x_label: "number of the run in sweep.csv".to_owned(),
-        y_label: "mean displacement [m]".to_owned(),
-        groups: runs,
-        bars: vec![Bars { name: String::new(), values, colour: 1, hollow: false }],
-        stacked: false,
-        marks: as_given.map(|value| (value, "as given".to_owned())).into_iter().collect(),
-        size: SIZE,
+        x_label: format!("change of the mean displacement [m] from {as_given:.3} m"),
+        levers: sweep.varied.iter().enumerate().map(lever).filter(|lever| !lever.values.is_empty()).collect(),
+        width: SIZE[0],
     })
 }
 
@@ -155,7 +155,7 @@ mod tests {
     use crate::output::Summary;
 
     #[test]
-    fn one_value_at_a_time_is_a_bar_each_beside_the_case_as_it_is() {
+    fn one_value_at_a_time_is_held_against_the_case_as_it_is() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/sensitivity-sweep.json");
         let sweep = Sweep::load(&file).unwrap();
         let moved = |mean: f64| {
@@ -164,12 +164,12 @@ mod tests {
         };
         // Nobody has made the others yet.
         let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
-        let chart = bars(&sweep, &outcomes).unwrap();
-        assert_eq!(
-            (chart.groups, &chart.bars[0].values[..]),
-            (vec!["1".to_owned(), "3".to_owned()], &[0.25, 0.28][..])
-        );
-        assert_eq!(chart.marks, [(0.25, "as given".to_owned())]);
-        assert!(bars(&sweep, &[Outcome::Missing]).is_none());
+        let chart = tornado(&sweep, &outcomes).unwrap();
+        let [lever] = &chart.levers[..] else { panic!("{:?}", chart.levers) };
+        assert_eq!(lever.name, "mound.crest_width_m 0.32");
+        let [(words, change)] = &lever.values[..] else { panic!("{lever:?}") };
+        assert!(words == "0.36" && (change - 0.03).abs() < 1e-12, "{lever:?}");
+        assert!(chart.x_label.ends_with("from 0.250 m"), "{}", chart.x_label);
+        assert!(tornado(&sweep, &[Outcome::Missing, moved(0.28)]).is_none());
     }
 }

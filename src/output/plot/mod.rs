@@ -7,10 +7,12 @@
 mod axis;
 mod bar;
 mod line;
+mod tornado;
 
 pub use axis::Axis;
 pub use bar::{BarChart, Bars};
 pub use line::{Line, LineChart};
+pub use tornado::{Lever, TornadoChart};
 
 /// Style sheet of charts, with the palette for light and dark pages.
 pub const CHART_STYLE: &str = include_str!("chart.css");

@@ -1,0 +1,146 @@
+//! How much a result hangs on each of several inputs: bars to the left and right of the result as it is.
+
+use super::{Axis, Frame, LETTER, escape, short, text};
+
+/// Height of a bar with the space about it [px].
+const BAR: f64 = 19.0;
+/// Space between the inputs [px].
+const GAP: f64 = 7.0;
+
+/// An input of a tornado chart.
+#[derive(Debug, Clone, Default)]
+pub struct Lever {
+    /// Name of the input.
+    pub name: String,
+    /// Its values in words, and what each changes; what is not finite is left out.
+    pub values: Vec<(String, f64)>,
+}
+
+/// A tornado chart: one group of bars an input, that which changes most on top.
+#[derive(Debug, Clone, Default)]
+pub struct TornadoChart {
+    /// What it shows, for readers who do not see it.
+    pub title: String,
+    /// Quantity and unit of the changes.
+    pub x_label: String,
+    /// The inputs, in any order.
+    pub levers: Vec<Lever>,
+    /// Width [px]; the height follows from the number of bars.
+    pub width: f64,
+}
+
+impl TornadoChart {
+    /// The chart as an `<svg>` element.
+    pub fn svg(&self) -> String {
+        let most = |lever: &Lever| lever.values.iter().map(|(_, change)| change.abs()).fold(0.0, f64::max);
+        let mut levers: Vec<&Lever> = self.levers.iter().collect();
+        // Stable: inputs that change as much stay in their order.
+        levers.sort_by(|a, b| most(b).total_cmp(&most(a)));
+        let letters = |words: &str| LETTER * words.chars().count() as f64;
+        let names = levers.iter().map(|lever| letters(&lever.name)).fold(0.0, f64::max);
+        let rows: usize = levers.iter().map(|lever| lever.values.len()).sum();
+        let height = 14.0 + BAR * rows as f64 + GAP * levers.len() as f64 + 42.0;
+        let mut frame = Frame::new([self.width, height], &[], &[]);
+        frame.left = names + 24.0;
+        let bars =
+            levers.iter().flat_map(|lever| &lever.values).map(|(words, change)| (letters(words) + 12.0, *change));
+        let axis = self.axis(frame.right - frame.left, &bars.collect::<Vec<_>>());
+
+        let mut svg = frame.open(&self.title);
+        let zero = frame.x(&axis, 0.0);
+        svg += &format!("<path class=\"zero\" d=\"M{zero:.1} {:.1}V{:.1}\"/>", frame.top, frame.bottom);
+        let mut y = frame.top + 0.5 * GAP;
+        for lever in levers {
+            let middle = y + 0.5 * BAR * lever.values.len() as f64;
+            svg += &text(frame.left - 8.0, middle + 4.0, "label end", &lever.name);
+            for (words, change) in &lever.values {
+                if change.is_finite() {
+                    svg += &bar(zero, y, frame.x(&axis, *change) - zero, &lever.name, words, *change);
+                }
+                y += BAR;
+            }
+            y += GAP;
+        }
+        svg += &frame.horizontal_axis(&axis);
+        svg + "</svg>\n"
+    }
+
+    /// An axis of a length [px] with room for the words at the ends of the bars, which are as wide [px] as each bar says
+    /// beside its change. Words take pixels whatever the scale, so that their range follows from the scale they leave.
+    fn axis(&self, length: f64, bars: &[(f64, f64)]) -> Axis {
+        let most = |of: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(of).fold(0.0, f64::max);
+        let (below, above) = (most(&|(_, change)| -change), most(&|(_, change)| *change));
+        let range = if below + above > 0.0 { below + above } else { 1.0 };
+        let left = most(&|(words, change)| if *change < 0.0 { *words } else { 0.0 });
+        let right = most(&|(words, change)| if *change < 0.0 { 0.0 } else { *words });
+        // Never less than a third of the picture for the bars.
+        let scale = (length - left - right).max(length / 3.0) / range;
+        Axis::tight(&self.x_label, [-below - left / scale, above + right / scale], (length / 90.0) as usize)
+    }
+}
+
+/// A bar from zero with its words at the end.
+fn bar(zero: f64, y: f64, pixels: f64, name: &str, words: &str, change: f64) -> String {
+    let (left, class) = if pixels < 0.0 { (zero + pixels, "note end") } else { (zero, "note") };
+    let end = zero + pixels + if pixels < 0.0 { -5.0 } else { 5.0 };
+    let colour = usize::from(pixels >= 0.0);
+    format!(
+        "<rect class=\"bar c{colour}\" x=\"{left:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\"><title>{} {}: {}</title></rect>",
+        y + 2.0,
+        pixels.abs().max(1.0),
+        BAR - 4.0,
+        escape(name),
+        escape(words),
+        short(change, 2)
+    ) + &text(end, y + 0.5 * BAR + 4.0, class, words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart(levers: &[(&str, &[(&str, f64)])]) -> TornadoChart {
+        let lever = |(name, values): &(&str, &[(&str, f64)])| Lever {
+            name: (*name).to_owned(),
+            values: values.iter().map(|(words, change)| ((*words).to_owned(), *change)).collect(),
+        };
+        TornadoChart { levers: levers.iter().map(lever).collect(), width: 800.0, ..TornadoChart::default() }
+    }
+
+    /// Left and right edges of the bars, in their order from the top.
+    fn edges(svg: &str) -> Vec<[f64; 2]> {
+        let number = |rest: &str, name: &str| -> f64 {
+            let after = rest.split_once(&format!(" {name}=\"")).unwrap().1;
+            after.split_once('"').unwrap().0.parse().unwrap()
+        };
+        svg.split("<rect ").skip(1).map(|rest| [number(rest, "x"), number(rest, "x") + number(rest, "width")]).collect()
+    }
+
+    #[test]
+    fn what_changes_most_is_on_top_and_bars_are_in_proportion() {
+        let svg = chart(&[("small", &[("1", 2.0)]), ("large", &[("low", -8.0), ("high", 4.0)])]).svg();
+        let [low, high, small] = edges(&svg)[..] else { panic!("{svg}") };
+        assert!(svg.find(">large<").unwrap() < svg.find(">small<").unwrap());
+        let zero = low[1];
+        // Written to a tenth of a pixel.
+        assert!((high[0] - zero).abs() < 0.2 && (small[0] - zero).abs() < 0.2);
+        assert!(((zero - low[0]) / (high[1] - zero) - 2.0).abs() < 0.01, "{svg}");
+        assert!(((high[1] - zero) / (small[1] - zero) - 2.0).abs() < 0.01, "{svg}");
+    }
+
+    #[test]
+    fn words_at_the_ends_stay_inside_the_picture() {
+        let long = "[35.5,41.0] instead";
+        let svg = chart(&[("key", &[(long, -3.0), (long, 1.0)])]).svg();
+        let [low, high] = edges(&svg)[..] else { panic!("{svg}") };
+        let words = LETTER * long.len() as f64 + 5.0;
+        assert!(low[0] - words > 0.0 && high[1] + words < 800.0, "{svg}");
+    }
+
+    #[test]
+    fn nothing_to_show_is_still_a_picture() {
+        for chart in [chart(&[]), chart(&[("key", &[("a", 0.0), ("b", f64::NAN)])])] {
+            assert!(!chart.svg().contains("NaN") && chart.svg().ends_with("</svg>\n"));
+        }
+    }
+}
