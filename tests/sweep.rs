@@ -107,6 +107,9 @@ fn one_value_at_a_time_shows_what_hangs_on_each() {
     let case = fs::read_to_string(out.join("003_x_m=_0.0_0.4_/case.json")).unwrap();
     let case: Value = serde_json::from_str(&case).unwrap();
     assert_eq!((&case["numerics"]["cfl"], &case["numerics"]["viscosity_alpha"]), (&json!(0.1), &Value::Null));
+    let said = "Not as in the case that the sweep varies: domain.dp_m = 0.04 (there 0.05), \
+                numerics.cfl = 0.1 (there not set), domain.x_m = [0.0,0.4] (there [0.0,0.5]).";
+    assert_eq!(case["assumptions"], json!([said]));
 }
 
 #[test]
@@ -140,6 +143,19 @@ fn a_key_to_set_that_a_case_does_not_have_is_refused() {
         assert_eq!(ended.status.code(), Some(2), "{key}: {message}");
         assert!(message.contains(expected), "{key}: {message}");
     }
+}
+
+#[test]
+fn a_case_to_vary_that_is_no_object_is_refused() {
+    let (folder, sweep) = sweep_of(&json!([{ "key": "domain.dp_m", "values": [0.05] }]));
+    let mut file: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
+    file["combine"] = json!("one_at_a_time");
+    fs::write(&sweep, file.to_string()).unwrap();
+    fs::write(folder.path().join("tank.json"), "[]").unwrap();
+    let ended = breakwater(&["check", sweep.to_str().unwrap()]);
+    let message = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(2), "{message}");
+    assert!(message.contains("tank.json: must hold an object"), "{message}");
 }
 
 #[test]

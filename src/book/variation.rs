@@ -6,7 +6,10 @@ use serde_json::Value;
 
 use crate::{
     case::file::CaseFile,
-    sweep::plan::{brief, in_words, short},
+    sweep::{
+        key::{brief, short},
+        plan::in_words,
+    },
 };
 
 /// The cases as they are given: the slices and the whole flume.

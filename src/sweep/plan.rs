@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
+use super::key::{get, set, short};
 use crate::{
     case::{Case, CaseErrors},
     simulation::branch::difference,
@@ -169,11 +170,17 @@ impl Sweep {
         let case = path.parent().unwrap_or(Path::new("")).join(&file.case);
         let mut base: Value = serde_json::from_str(&read(&case)?)
             .map_err(|error| SweepError::Content { path: case.clone(), what: error.to_string() })?;
+        if !base.is_object() {
+            return Err(SweepError::Content { path: case, what: "must hold an object, { ... }".to_owned() });
+        }
         let varied = file.vary.iter().enumerate().map(|(k, vary)| vary.values(k)).collect::<Result<Vec<_>, _>>();
         let varied = varied.map_err(&content)?;
         if varied.is_empty() {
             return Err(content("vary: must hold at least one key".to_owned()));
         }
+        let given = base.clone();
+        let set_alone = file.set.keys().filter(|key| varied.iter().all(|one| one.key != **key));
+        let keys: Vec<&str> = set_alone.chain(varied.iter().map(|one| &one.key)).map(String::as_str).collect();
         for (key, value) in &file.set {
             set(&mut base, key, value.clone()).map_err(|what| content(format!("set: {key}: {what}")))?;
         }
@@ -188,6 +195,7 @@ impl Sweep {
                 set(&mut text, &one.key, value.clone())
                     .map_err(|what| content(format!("vary: {}: {what}", one.key)))?;
             }
+            say_what_differs(&mut text, &given, &keys);
             let label = label(&varied, &changes);
             let values = varied.iter().map(|one| get(&text, &one.key)).collect();
             // The title of the case that is varied would be wrong for most runs.
@@ -292,22 +300,32 @@ fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     values
 }
 
+/// Add to the assumptions of a run in which of the keys it differs from the case as given: what is assumed there is said
+/// of the values given, and reports would carry it on.
+fn say_what_differs(run: &mut Value, given: &Value, keys: &[&str]) {
+    let differs = |key: &&str| {
+        let (now, before) = (get(run, key), get(given, key));
+        let before = if before.is_null() { "not set".to_owned() } else { in_words(&before) };
+        (in_words(&now) != before).then(|| format!("{key} = {} (there {before})", in_words(&now)))
+    };
+    let differences: Vec<String> = keys.iter().filter_map(differs).collect();
+    if differences.is_empty() {
+        return;
+    }
+    let sentence = format!("Not as in the case that the sweep varies: {}.", differences.join(", "));
+    match &mut run["assumptions"] {
+        Value::Array(assumptions) => assumptions.push(sentence.into()),
+        none @ Value::Null => *none = json!([sentence]),
+        _ => (), // Refused when the case is read.
+    }
+}
+
 /// What a run changes in words: `coefficient=0.32 height_m=0.045`.
 fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
     let one =
         |(one, value): (&Varied, &Option<Value>)| Some(format!("{}={}", short(&one.key), in_words(value.as_ref()?)));
     let words: Vec<String> = varied.iter().zip(changes).filter_map(one).collect();
     if words.is_empty() { "as_given".to_owned() } else { words.join(" ") }
-}
-
-/// The last part of a key's path.
-pub fn short(key: &str) -> &str {
-    key.rsplit('.').next().unwrap_or(key)
-}
-
-/// The last two parts of a key's path: `mound.crest_width_m`.
-pub fn brief(key: &str) -> &str {
-    key.rmatch_indices('.').nth(1).map_or(key, |(dot, _)| &key[dot + 1..])
 }
 
 /// A value without quotes; nothing for null.
@@ -325,54 +343,9 @@ fn file_name(text: &str) -> String {
     text.chars().map(plain).take(80).collect()
 }
 
-/// The value at a path that [`set`] takes; null if there is none.
-fn get(root: &Value, path: &str) -> Value {
-    let pointer = path.replace(['.', '['], "/").replace(']', "");
-    root.pointer(&format!("/{pointer}")).cloned().unwrap_or_default()
-}
-
-/// Set the value at a path such as `friction[1].coefficient`; objects on the way that are missing are made.
-fn set(root: &mut Value, path: &str, value: Value) -> Result<(), String> {
-    let mut place = root;
-    for part in path.split('.') {
-        let (key, indices) = part.split_once('[').map_or((part, ""), |(key, rest)| (key, rest));
-        if key.is_empty() {
-            return Err("a part of the path is empty; write it as in friction[1].coefficient".to_owned());
-        }
-        if place.is_null() {
-            *place = Value::Object(Map::new());
-        }
-        let object = place.as_object_mut().ok_or_else(|| format!("what stands before {key} is no object"))?;
-        place = object.entry(key).or_insert(Value::Null);
-        for index in indices.split('[').filter(|index| !index.is_empty()) {
-            let number: Option<usize> = index.strip_suffix(']').and_then(|number| number.parse().ok());
-            let number = number.ok_or_else(|| format!("[{index} is no index"))?;
-            let length = place.as_array().map_or(0, Vec::len);
-            place = place.get_mut(number).ok_or_else(|| format!("{key} has {length} entries, from [0] on"))?;
-        }
-    }
-    *place = value;
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn paths_reach_into_lists_and_missing_objects() {
-        let mut case =
-            json!({ "friction": [{ "coefficient": 0.5 }, { "coefficient": 0.3 }], "wave": { "height_m": 0.1 } });
-        set(&mut case, "friction[1].coefficient", json!(0.4)).unwrap();
-        set(&mut case, "wave.height_m", json!(0.2)).unwrap();
-        set(&mut case, "numerics.cfl", json!(0.1)).unwrap();
-        assert_eq!(case["friction"][1]["coefficient"], 0.4);
-        assert_eq!((&case["wave"]["height_m"], &case["numerics"]["cfl"]), (&json!(0.2), &json!(0.1)));
-        assert_eq!((get(&case, "friction[1].coefficient"), get(&case, "numerics.h")), (json!(0.4), Value::Null));
-        for wrong in ["", "friction[2].coefficient", "friction[x]", "wave.height_m.deep", "wave..height_m"] {
-            assert!(set(&mut case, wrong, json!(1)).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn ranges_have_their_ends_and_no_crooked_digits() {
@@ -381,6 +354,23 @@ mod tests {
         assert_eq!(values, [0.1, 0.21, 0.32, 0.43, 0.54, 0.65, 0.76, 0.87, 0.98]);
         let both = VaryFile { values: Some(vec![json!(1)]), ..vary };
         assert!(both.values(3).unwrap_err().contains("vary[3] (a.b)"));
+    }
+
+    #[test]
+    fn what_is_assumed_of_the_case_is_corrected_in_a_run() {
+        let given = json!({ "assumptions": ["The crest is 0.32 m wide."], "crest_width_m": 0.32, "dp_m": 0.007 });
+        let mut run = given.clone();
+        say_what_differs(&mut run, &given, &["crest_width_m", "dp_m"]);
+        assert_eq!(run, given);
+        run["crest_width_m"] = json!(0.28);
+        set(&mut run, "numerics.cfl", json!(0.4)).unwrap();
+        say_what_differs(&mut run, &given, &["crest_width_m", "dp_m", "numerics.cfl"]);
+        let said = "Not as in the case that the sweep varies: crest_width_m = 0.28 (there 0.32), \
+                    numerics.cfl = 0.4 (there not set).";
+        assert_eq!(run["assumptions"], json!(["The crest is 0.32 m wide.", said]));
+        let mut silent = json!({ "dp_m": 0.014 });
+        say_what_differs(&mut silent, &given, &["dp_m"]);
+        assert_eq!(silent["assumptions"][0], "Not as in the case that the sweep varies: dp_m = 0.014 (there 0.007).");
     }
 
     #[test]

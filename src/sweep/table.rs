@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::{
+    key::{brief, short},
     member::Outcome,
-    plan::{Combine, Sweep, Varied, brief, in_words, short},
+    plan::{Combine, Sweep, Varied, in_words},
 };
 use crate::output::{
     OutputError,

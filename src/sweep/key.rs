@@ -1,0 +1,68 @@
+//! Paths of keys in a case file, as in `friction[1].coefficient`.
+
+use serde_json::{Map, Value};
+
+/// The last part of a key's path.
+pub fn short(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}
+
+/// The last two parts of a key's path: `mound.crest_width_m`.
+pub fn brief(key: &str) -> &str {
+    key.rmatch_indices('.').nth(1).map_or(key, |(dot, _)| &key[dot + 1..])
+}
+
+/// The value at a path that [`set`] takes; null if there is none.
+pub fn get(root: &Value, path: &str) -> Value {
+    let pointer = path.replace(['.', '['], "/").replace(']', "");
+    root.pointer(&format!("/{pointer}")).cloned().unwrap_or_default()
+}
+
+/// Set the value at a path such as `friction[1].coefficient`; objects on the way that are missing are made.
+///
+/// # Errors
+/// If the path leads through something that is no object, or to an entry that a list does not have.
+pub fn set(root: &mut Value, path: &str, value: Value) -> Result<(), String> {
+    let mut place = root;
+    for part in path.split('.') {
+        let (key, indices) = part.split_once('[').map_or((part, ""), |(key, rest)| (key, rest));
+        if key.is_empty() {
+            return Err("a part of the path is empty; write it as in friction[1].coefficient".to_owned());
+        }
+        if place.is_null() {
+            *place = Value::Object(Map::new());
+        }
+        let object = place.as_object_mut().ok_or_else(|| format!("what stands before {key} is no object"))?;
+        place = object.entry(key).or_insert(Value::Null);
+        for index in indices.split('[').filter(|index| !index.is_empty()) {
+            let number: Option<usize> = index.strip_suffix(']').and_then(|number| number.parse().ok());
+            let number = number.ok_or_else(|| format!("[{index} is no index"))?;
+            let length = place.as_array().map_or(0, Vec::len);
+            place = place.get_mut(number).ok_or_else(|| format!("{key} has {length} entries, from [0] on"))?;
+        }
+    }
+    *place = value;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn paths_reach_into_lists_and_missing_objects() {
+        let mut case =
+            json!({ "friction": [{ "coefficient": 0.5 }, { "coefficient": 0.3 }], "wave": { "height_m": 0.1 } });
+        set(&mut case, "friction[1].coefficient", json!(0.4)).unwrap();
+        set(&mut case, "wave.height_m", json!(0.2)).unwrap();
+        set(&mut case, "numerics.cfl", json!(0.1)).unwrap();
+        assert_eq!(case["friction"][1]["coefficient"], 0.4);
+        assert_eq!((&case["wave"]["height_m"], &case["numerics"]["cfl"]), (&json!(0.2), &json!(0.1)));
+        assert_eq!((get(&case, "friction[1].coefficient"), get(&case, "numerics.h")), (json!(0.4), Value::Null));
+        for wrong in ["", "friction[2].coefficient", "friction[x]", "wave.height_m.deep", "wave..height_m"] {
+            assert!(set(&mut case, wrong, json!(1)).is_err(), "{wrong}");
+        }
+    }
+}
