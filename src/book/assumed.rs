@@ -21,10 +21,10 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
     if changed.is_empty() {
         return;
     }
-    let beside = |run: &RunResult| {
-        let of_its_distance = given.iter().find(|(given, _)| given.summary.dp_m == run.summary.dp_m);
-        of_its_distance.map(|(given, _)| given.mean_m)
+    let is_like = |run: &RunResult, other: &RunResult| {
+        (run.summary.dp_m, run.summary.units.len()) == (other.summary.dp_m, other.summary.units.len())
     };
+    let beside = |run: &RunResult| given.iter().find(|(given, _)| is_like(run, given)).map(|(given, _)| given.mean_m);
     page.heading(3, &format!("What hangs on what is assumed, under the wave of {centimetres} cm"));
     let head = [
         "run",
@@ -49,8 +49,7 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
     };
     page.table(&head.map(str::to_owned), &changed.iter().map(row).collect::<Vec<_>>());
     let levers = levers(&changed, beside);
-    let alike = |run: &RunResult| changed.iter().any(|(other, _)| other.summary.dp_m == run.summary.dp_m);
-    let shown = given.iter().filter(|(run, _)| alike(run)).chain(&changed);
+    let shown = given.iter().filter(|(run, _)| changed.iter().any(|(other, _)| is_like(run, other))).chain(&changed);
     if !levers.is_empty() {
         let chart = TornadoChart {
             title: "How much the mean displacement hangs on what is assumed".to_owned(),

@@ -8,7 +8,7 @@ use std::{
 use serde_json::Value;
 
 use crate::{
-    case::Handover,
+    case::{Handover, file::CaseFile},
     handover::breakage::Breakage,
     output::{OutputError, Summary, Table, write_atomically},
 };
@@ -130,6 +130,12 @@ impl Entry {
             _ => format!("for run in {}; do {}; done", names.join(" "), run("\"$run\"")),
         };
         format!("{make}; breakwater book again/* --out .")
+    }
+
+    /// Share of the time that sound takes across a particle which a step may last; none if the case cannot be read.
+    pub fn courant_number(&self) -> Option<f64> {
+        let file: CaseFile = serde_json::from_value(self.case.clone()).ok()?;
+        Some(file.numerics.cfl)
     }
 
     /// Points of a series against the time, where there is one.

@@ -6,20 +6,13 @@ use serde_json::Value;
 use super::{
     entry::Entry,
     markdown::Page,
+    standing::{self, MEAN_OVER_S, STILL_M},
     variation::{Change, changes},
 };
-use crate::{
-    output::{
-        FRICTION_ON_MOUND, PublishedWave, RunResult, UNIT_HEIGHT_M, UnitSummary,
-        plot::{Line, LineChart, short},
-    },
-    simulation::branch::STILL,
+use crate::output::{
+    FRICTION_ON_MOUND, PublishedWave, RunResult, UnitSummary,
+    plot::{Line, LineChart, short},
 };
-
-/// A unit that has moved less than this stands still [m].
-const STILL_M: f64 = STILL * UNIT_HEIGHT_M;
-/// Forces of the water are means over this time [s]: one that lasts shorter does not move a unit by a millimetre.
-const MEAN_OVER_S: f64 = 0.1;
 
 /// Friction of the units on the mound in a case, if it has it.
 pub fn on_mound(case: &Value) -> Option<f64> {
@@ -47,6 +40,7 @@ struct Rubbed<'a> {
 /// Runs that differ in friction alone, by friction; at least two.
 struct Alike<'a> {
     dp_m: f64,
+    units: usize,
     /// What they have otherwise than the case as given, but for friction.
     changes: Vec<Change>,
     runs: Vec<Rubbed<'a>>,
@@ -61,9 +55,11 @@ impl<'a> Alike<'a> {
             let mut changes = changes(&entry.case);
             changes.retain(|change| !change.is_of_friction());
             let (rubbed, dp_m) = (Rubbed { friction, run, entry }, run.summary.dp_m);
-            match groups.iter_mut().find(|group| group.dp_m == dp_m && group.changes == changes) {
+            let units = run.summary.units.len();
+            let is_alike = |group: &&mut Self| (group.dp_m, group.units) == (dp_m, units) && group.changes == changes;
+            match groups.iter_mut().find(is_alike) {
                 Some(group) => group.runs.push(rubbed),
-                None => groups.push(Self { dp_m, changes, runs: vec![rubbed] }),
+                None => groups.push(Self { dp_m, units, changes, runs: vec![rubbed] }),
             }
         }
         for group in &mut groups {
@@ -128,7 +124,7 @@ fn add_table(page: &mut Page, runs: &[Rubbed]) {
             format!("{:.3}", run.mean_m),
             short(100.0 * run.damage_ratio, 0),
             run.summary.units.iter().map(|unit| short(unit.rotation_deg, 0)).collect::<Vec<_>>().join(", "),
-            mobilised(entry).iter().map(|most| format!("{most:.3}")).collect::<Vec<_>>().join(", "),
+            standing::of(entry).iter().map(|unit| format!("{:.3}", unit.mobilised)).collect::<Vec<_>>().join(", "),
         ]
     };
     page.table(&head.map(str::to_owned), &runs.iter().map(row).collect::<Vec<_>>());
@@ -176,38 +172,11 @@ fn stands_still(unit: &UnitSummary) -> bool {
 
 /// What the water mobilises at most under each unit of a run that stands still, in words.
 fn asked_for(Rubbed { run, entry, .. }: &Rubbed) -> Vec<String> {
-    let units = run.summary.units.iter().zip(mobilised(entry));
+    let units = run.summary.units.iter().zip(standing::of(entry));
     units
         .filter(|(unit, _)| stands_still(unit))
-        .map(|(unit, most)| format!("{most:.2} to hold unit {}", unit.unit))
+        .map(|(unit, standing)| format!("{:.2} to hold unit {}", standing.mobilised, unit.unit))
         .collect()
-}
-
-/// The largest friction that the water mobilises under each unit while it stands; empty if the case does not say what a
-/// unit weighs.
-fn mobilised(entry: &Entry) -> Vec<f64> {
-    let Some(mass) = entry.case.pointer("/units/mass_kg").and_then(Value::as_f64) else { return Vec::new() };
-    let gravity = entry.case.pointer("/fluid/gravity_m_s2").and_then(Value::as_f64).unwrap_or(9.81);
-    let of_unit = |unit: usize| {
-        let column = |what: &str| entry.series.get(&format!("unit_{unit}_{what}"));
-        most_mobilised(
-            entry.series.get("time_s")?,
-            [column("fx_n")?, column("fz_n")?],
-            column("moved_m")?,
-            mass * gravity,
-        )
-    };
-    (1..=entry.summary.units.len()).filter_map(of_unit).collect()
-}
-
-/// Largest mean force towards the shore over the weight less the mean uplift, until the unit moves.
-fn most_mobilised(times: &[f64], [fx, fz]: [&[f64]; 2], moved: &[f64], weight_n: f64) -> Option<f64> {
-    let standing = moved.iter().position(|moved| *moved >= STILL_M).unwrap_or(moved.len());
-    let interval = (times.last()? - times[0]) / (times.len() - 1).max(1) as f64;
-    let rows = (MEAN_OVER_S / interval).round().max(1.0) as usize;
-    let sum = |values: &[f64]| values.iter().sum::<f64>() / rows as f64;
-    let windows = fx[..standing].windows(rows).zip(fz[..standing].windows(rows));
-    windows.map(|(fx, fz)| sum(fx) / (weight_n - sum(fz))).reduce(f64::max)
 }
 
 /// Mean displacement against friction, a line for each group, beside the published numbers.
@@ -258,22 +227,5 @@ mod tests {
         });
         assert_eq!(on_mound(&case), Some(0.43));
         assert_eq!(on_mound(&json!({})), None);
-    }
-
-    #[test]
-    fn the_friction_asked_for_is_that_of_a_lasting_force_before_the_unit_moves() {
-        let times: Vec<f64> = (0..200).map(|row| 0.01 * f64::from(row)).collect();
-        // A steady 0.6 N for half a second, a blow of 3 N for one row, and 2 N once the unit has gone.
-        let force = |row: usize| match row {
-            20 => 3.0,
-            101..=150 => 0.6,
-            151.. => 2.0,
-            _ => 0.0,
-        };
-        let fx: Vec<f64> = (0..200).map(force).collect();
-        let (fz, moved) = (vec![1.0; 200], (0..200).map(|row| if row > 150 { 0.1 } else { 0.0 }).collect::<Vec<_>>());
-        let most = most_mobilised(&times, [&fx, &fz], &moved, 2.5).unwrap();
-        assert!((most - 0.4).abs() < 1e-9, "{most}");
-        assert_eq!(most_mobilised(&[0.0, 0.01], [&[0.1, 0.1], &[1.0, 1.0]], &[0.1, 0.1], 2.5), None);
     }
 }

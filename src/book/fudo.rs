@@ -25,7 +25,9 @@ pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
         "run",
         "wave [cm]",
         "particles every [mm]",
+        "units",
         "particles",
+        "Courant number",
         "steps",
         "mean step [ms]",
         "simulated [s]",
@@ -42,8 +44,20 @@ pub fn page(comparison: &Comparison, entries: &[Entry]) -> Page {
     for of_wave in &comparison.waves {
         wave::add_section(&mut page, of_wave, entries);
     }
-    add_words(&mut page, "Assumed", entries, |entry| &entry.summary.assumptions);
-    add_words(&mut page, "Warnings of the runs", entries, |entry| &entry.summary.warnings);
+    add_words(
+        &mut page,
+        "Assumed",
+        "A run that has a key otherwise than the case as given, by the tables above, keeps the words of that case.",
+        entries,
+        |entry| &entry.summary.assumptions,
+    );
+    add_words(
+        &mut page,
+        "Warnings of the runs",
+        "Each with the runs that gave it, unless all did.",
+        entries,
+        |entry| &entry.summary.warnings,
+    );
     page
 }
 
@@ -55,7 +69,9 @@ fn run_row(entry: &Entry) -> Vec<String> {
         entry.name.clone(),
         short(100.0 * height, 1),
         short(1000.0 * summary.dp_m, 2),
+        summary.units.len().to_string(),
         summary.particles.to_string(),
+        entry.courant_number().map(|number| short(number, 2)).unwrap_or_default(),
         summary.steps.to_string(),
         format!("{:.2}", 1000.0 * summary.simulated_s / summary.steps as f64),
         short(summary.simulated_s, 2),
@@ -68,7 +84,13 @@ fn run_row(entry: &Entry) -> Vec<String> {
 }
 
 /// Sentences of the summaries, and which of the runs they are from if not from all.
-fn add_words<'a>(page: &mut Page, heading: &str, entries: &'a [Entry], of: impl Fn(&'a Entry) -> &'a [String]) {
+fn add_words<'a>(
+    page: &mut Page,
+    heading: &str,
+    about: &str,
+    entries: &'a [Entry],
+    of: impl Fn(&'a Entry) -> &'a [String],
+) {
     let mut said: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for entry in entries {
         of(entry).iter().for_each(|words| said.entry(words).or_default().push(&entry.name));
@@ -77,6 +99,7 @@ fn add_words<'a>(page: &mut Page, heading: &str, entries: &'a [Entry], of: impl 
         return;
     }
     page.heading(2, heading);
+    page.paragraph(about);
     let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
     page.list(said.into_iter().map(|(words, runs)| words.to_owned() + &whose(&runs, &names)));
 }

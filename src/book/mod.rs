@@ -8,6 +8,7 @@
 //! | `overview` | how near the runs are to the experiment, and what they cost |
 //! | `markdown` | tables and figures of a page |
 //! | `friction` | what the friction of the mound does under one wave |
+//! | `standing` | forces of the water on units before they move |
 //! | `fudo` | the page beside the experiment of Mitsui et al. (2023) |
 //! | `wave` | its section on one wave height |
 //!
@@ -20,6 +21,7 @@ mod friction;
 mod fudo;
 mod markdown;
 mod overview;
+mod standing;
 mod variation;
 mod wave;
 
@@ -119,7 +121,7 @@ mod tests {
         assert!(files.iter().all(|file| file.exists()));
         let page = fs::read_to_string(book.join("fudo.md")).unwrap();
         for words in [
-            "\n| 4.5 | 9 | 0.242 | 0.110 | \u{2212}54.6 | \u{2212}32.5 | 100 | 100 | 0 s | 6.78 h |\n",
+            "\n| 4.5 | 9 | 2 | 0.242 | 0.110 | \u{2212}54.6 | \u{2212}32.5 | 100 | 100 | 0 s | 6.78 h |\n",
             "![Mean displacement under each wave](fudo-means.svg)",
             "## Solitary wave of 4.5 cm",
             "| EXP, mean of the three | 15 |  | 0.242 | 100 |  |  |",

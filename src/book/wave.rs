@@ -5,6 +5,7 @@ use super::{
     entry::Entry,
     friction,
     markdown::{Page, signed},
+    standing,
 };
 use crate::output::{
     PublishedWave, RunResult, WaveComparison,
@@ -42,6 +43,7 @@ pub fn add_section(page: &mut Page, wave: &WaveComparison, entries: &[Entry]) {
     friction::add(page, &wave.published, &all, &centimetres);
     let of_friction: Vec<_> = all.iter().copied().filter(|(_, entry)| friction::is_measured(entry)).collect();
     assumed::add(page, &of_friction, &centimetres);
+    standing::add(page, &all, &centimetres);
 }
 
 /// Means, damage ratios and deviations: Tables 3, 4 and 6 of the paper.
