@@ -153,7 +153,7 @@ fn findings(runs: &[Rubbed]) -> Vec<String> {
     let held = runs.iter().filter(|one| stands(one.run)).map(|one| one.friction).reduce(f64::min);
     let mut found = Vec::new();
     if let Some(friction) = moved {
-        found.push(format!("Units move with a friction of {} and less.", short(friction, 2)));
+        found.push(format!("A unit or more moves with every friction up to {}.", short(friction, 2)));
     }
     if let Some(friction) = held {
         found.push(format!("All stand still with {} and more.", short(friction, 2)));

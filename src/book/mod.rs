@@ -134,7 +134,7 @@ mod tests {
             "![Mean displacement against the friction of the mound](fudo-4.5-friction.svg)",
             "| mu_0.1 | 0.1 | 0.330 | 100 |",
             "\nParticles every 9 mm:\n",
-            "* Units move with a friction of 0.32 and less.\n* All stand still with 0.54 and more.\n",
+            "* A unit or more moves with every friction up to 0.32.\n* All stand still with 0.54 and more.\n",
             "\nPublished, with particles of 5 mm: 0.37 m with a friction of 0.1; with more than 0.54 no unit moves.\n",
             "\n    breakwater run runs/mu_0.32/case.json --out again/mu_0.32; breakwater book again/* --out .\n",
             "\n    for run in mu_0.1 mu_0.32 mu_0.54; do breakwater run",
