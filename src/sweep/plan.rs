@@ -305,8 +305,8 @@ fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
 fn say_what_differs(run: &mut Value, given: &Value, keys: &[&str]) {
     let differs = |key: &&str| {
         let (now, before) = (get(run, key), get(given, key));
-        let before = if before.is_null() { "not set".to_owned() } else { in_words(&before) };
-        (in_words(&now) != before).then(|| format!("{key} = {} (there {before})", in_words(&now)))
+        let there = if before.is_null() { "not set".to_owned() } else { in_words(&before) };
+        (now != before).then(|| format!("{key} = {} (there {there})", in_words(&now)))
     };
     let differences: Vec<String> = keys.iter().filter_map(differs).collect();
     if differences.is_empty() {
@@ -360,7 +360,7 @@ mod tests {
     fn what_is_assumed_of_the_case_is_corrected_in_a_run() {
         let given = json!({ "assumptions": ["The crest is 0.32 m wide."], "crest_width_m": 0.32, "dp_m": 0.007 });
         let mut run = given.clone();
-        say_what_differs(&mut run, &given, &["crest_width_m", "dp_m"]);
+        say_what_differs(&mut run, &given, &["crest_width_m", "dp_m", "numerics.cfl"]);
         assert_eq!(run, given);
         run["crest_width_m"] = json!(0.28);
         set(&mut run, "numerics.cfl", json!(0.4)).unwrap();
