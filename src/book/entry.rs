@@ -132,10 +132,9 @@ impl Entry {
         format!("{make}; breakwater book again/* --out .")
     }
 
-    /// Share of the time that sound takes across a particle which a step may last; none if the case cannot be read.
-    pub fn courant_number(&self) -> Option<f64> {
-        let file: CaseFile = serde_json::from_value(self.case.clone()).ok()?;
-        Some(file.numerics.cfl)
+    /// The case with the defaults that it does not write; none if it is no case of this version.
+    pub fn case_file(&self) -> Option<CaseFile> {
+        serde_json::from_value(self.case.clone()).ok()
     }
 
     /// Points of a series against the time, where there is one.

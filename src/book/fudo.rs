@@ -71,7 +71,7 @@ fn run_row(entry: &Entry) -> Vec<String> {
         short(1000.0 * summary.dp_m, 2),
         summary.units.len().to_string(),
         summary.particles.to_string(),
-        entry.courant_number().map(|number| short(number, 2)).unwrap_or_default(),
+        entry.case_file().map(|file| short(file.numerics.cfl, 2)).unwrap_or_default(),
         summary.steps.to_string(),
         format!("{:.2}", 1000.0 * summary.simulated_s / summary.steps as f64),
         short(summary.simulated_s, 2),

@@ -131,6 +131,7 @@ fn bars(
         let of_wave = |wave: &PublishedWave| {
             let is_one = |one: &&Given| one.published.height_m == wave.height_m && kind(one) == (units, dp_m);
             let values: Vec<f64> = known.iter().filter(is_one).map(|one| here(one.run)).collect();
+            // Not a number, and no bar, where there is none.
             values.iter().sum::<f64>() / values.len() as f64
         };
         let distance = short(1000.0 * dp_m, 2);

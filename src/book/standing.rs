@@ -1,7 +1,5 @@
 //! Forces of the water on units that stand: how much of their weight it carries, how hard it pushes before they go.
 
-use serde_json::Value;
-
 use super::{entry::Entry, markdown::Page};
 use crate::{
     output::{RunResult, UNIT_HEIGHT_M, plot::short},
@@ -31,21 +29,24 @@ pub struct Standing {
     pub mobilised: f64,
 }
 
-/// Each unit of a run; empty if the case does not say what a unit weighs or the units move at once.
+/// Each unit of a run; empty if the case does not say what a unit weighs or one of them moves at once.
 pub fn of(entry: &Entry) -> Vec<Standing> {
-    let Some(weight_n) = weight_n(&entry.case) else { return Vec::new() };
+    let Some(weight_n) = weight_n(entry) else { return Vec::new() };
     let of_unit = |unit: usize| {
         let column = |what: &str| entry.series.get(&format!("unit_{unit}_{what}"));
         while_it_stands(entry.series.get("time_s")?, [column("fx_n")?, column("fz_n")?], column("moved_m")?, weight_n)
     };
-    (1..=entry.summary.units.len()).filter_map(of_unit).collect()
+    // All or none: what is said of a unit goes by its place in the list.
+    (1..=entry.summary.units.len()).map(of_unit).collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-fn weight_n(case: &Value) -> Option<f64> {
-    let gravity = case.pointer("/fluid/gravity_m_s2").and_then(Value::as_f64).unwrap_or(9.81);
-    Some(gravity * case.pointer("/units/mass_kg")?.as_f64()?)
+/// Weight of a unit in air [N].
+fn weight_n(entry: &Entry) -> Option<f64> {
+    let file = entry.case_file()?;
+    Some(file.fluid.gravity_m_s2 * file.units?.mass_kg)
 }
 
+/// Largest means over [`MEAN_OVER_S`] until the unit moves; none if it moves before.
 fn while_it_stands(times: &[f64], [fx, fz]: [&[f64]; 2], moved: &[f64], weight_n: f64) -> Option<Standing> {
     let standing = moved.iter().position(|moved| *moved >= STILL_M).unwrap_or(moved.len());
     let interval = (times.last()? - times[0]) / (times.len() - 1).max(1) as f64;
@@ -79,7 +80,7 @@ pub fn add(page: &mut Page, runs: &[(&RunResult, &Entry)], centimetres: &str) {
     ];
     let row = |(run, entry, units): &(&RunResult, &Entry, Vec<Standing>)| {
         let each = |of: fn(&Standing) -> f64| listed(&units.iter().map(of).collect::<Vec<_>>(), 2);
-        let weight_n = weight_n(&entry.case).unwrap_or(f64::NAN);
+        let weight_n = weight_n(entry).unwrap_or(f64::NAN);
         let on_ground: Vec<f64> = units.iter().map(|unit| weight_n - unit.lift_in_still_water_n).collect();
         let moved: Vec<f64> = run.summary.units.iter().map(|unit| unit.displacement_m).collect();
         vec![
