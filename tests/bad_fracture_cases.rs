@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use breakwater::case::FractureCase;
-use breakwater::fracture::run::world;
+use breakwater::simulation::fracture::run::world;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 

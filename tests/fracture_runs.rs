@@ -8,8 +8,8 @@ use breakwater::case::FractureCase;
 use breakwater::femdem::snapshot::Snapshot;
 use breakwater::femdem::watch::StepError;
 use breakwater::femdem::world::World;
-use breakwater::fracture::failure::Failure;
-use breakwater::fracture::run::world;
+use breakwater::simulation::fracture::failure::Failure;
+use breakwater::simulation::fracture::run::world;
 use glam::DVec3;
 use serde_json::{Value, json};
 

@@ -8,9 +8,9 @@
 use std::{path::Path, sync::Arc};
 
 use breakwater::case::Case;
-use breakwater::simulation::Simulation;
-use breakwater::simulation::checkpoint::{self, Checkpoint};
-use breakwater::simulation::recorder::RecorderState;
+use breakwater::simulation::flume::Simulation;
+use breakwater::simulation::flume::checkpoint::{self, Checkpoint};
+use breakwater::simulation::flume::recorder::RecorderState;
 use breakwater::sph::backend::Surfaces;
 use breakwater::sph::device::{Device, DeviceChoice};
 use glam::DVec3;

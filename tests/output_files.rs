@@ -3,10 +3,16 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use breakwater::output::{
-    Cells, ContactSummary, CsvSeries, EnergySummary, Execution, FieldKind, FieldValues, Fudo, GaugeSummary,
-    OutputError, ParticleCounts, PolyDataSeries, Stopped, Summary, TimeStepSummary, UnitSummary, UnitSurface,
-    WaveSummary, columns, compare, write_report,
+use breakwater::{
+    output::{
+        Cells, ContactSummary, CsvSeries, EnergySummary, Execution, FieldKind, FieldValues, GaugeSummary, OutputError,
+        ParticleCounts, PolyDataSeries, Stopped, Summary, TimeStepSummary, UnitSummary, UnitSurface, WaveSummary,
+        columns,
+    },
+    report::{
+        compare::{Fudo, compare},
+        run::write_report,
+    },
 };
 
 const DAMAGE_DISTANCE_M: f64 = 0.077;

@@ -2,14 +2,16 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{
+use crate::sph::{
+    lanes::InstructionSet,
+    parameters::Parameters,
     particles::{
         bed::{Across, Outline, outline_particles},
         boundary::{Boundary, BoundaryParticle},
         fill::Basin,
         water::Water,
     },
-    sph::{lanes::InstructionSet, parameters::Parameters, step::Solver},
+    step::Solver,
 };
 
 /// Layers of particles in bed and walls.

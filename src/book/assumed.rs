@@ -5,8 +5,8 @@ use super::{
     markdown::{Page, signed},
     variation::{Change, changes},
 };
-use crate::output::{
-    RunResult,
+use crate::report::{
+    compare::RunResult,
     plot::{Lever, TornadoChart, short},
 };
 

@@ -9,8 +9,8 @@ use serde_json::Value;
 
 use crate::{
     case::{Handover, file::CaseFile},
-    handover::breakage::Breakage,
     output::{OutputError, Summary, Table, write_atomically},
+    simulation::breakage::results::Breakage,
 };
 
 /// Rows that the series of a run has at most: all of them in the runs of the paper, 8 s at 10 ms.

@@ -9,9 +9,12 @@ use super::{
     standing::{self, MEAN_OVER_S, STILL_M},
     variation::{Change, changes},
 };
-use crate::output::{
-    FRICTION_ON_MOUND, PublishedWave, RunResult, UnitSummary,
-    plot::{Line, LineChart, short},
+use crate::{
+    output::UnitSummary,
+    report::{
+        compare::{FRICTION_ON_MOUND, PublishedWave, RunResult},
+        plot::{Line, LineChart, short},
+    },
 };
 
 /// Friction of the units on the mound in a case, if it has it.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{entry::Entry, markdown::Page, overview, wave};
-use crate::output::{Comparison, clock, plot::short};
+use crate::report::{compare::Comparison, plot::short, run::clock};
 
 /// Name of the page.
 pub const FILE: &str = "fudo.md";

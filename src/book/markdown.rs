@@ -1,6 +1,6 @@
 //! A page in Markdown with figures beside it.
 
-use crate::output::plot::standalone;
+use crate::report::plot::standalone;
 
 /// A number of per cent with its sign.
 pub fn signed(percent: f64) -> String {

@@ -27,7 +27,10 @@ mod wave;
 
 use std::path::{Path, PathBuf};
 
-use crate::output::{Fudo, OutputError, compare, write_atomically};
+use crate::{
+    output::{OutputError, write_atomically},
+    report::compare::{Fudo, compare},
+};
 use entry::Entry;
 
 /// Takes finished runs into the book and writes its pages; returns the files written, the page last.

@@ -6,9 +6,10 @@ use super::{
     entry::Entry,
     markdown::{Page, signed},
 };
-use crate::output::{
-    Comparison, PublishedWave, Resolution, RunResult, clock,
+use crate::report::{
+    compare::{Comparison, PublishedWave, Resolution, RunResult},
     plot::{BarChart, Bars, short},
+    run::clock,
 };
 
 /// A run of a case as it is given, and what was published for its wave.

@@ -2,8 +2,11 @@
 
 use super::{entry::Entry, markdown::Page};
 use crate::{
-    output::{RunResult, UNIT_HEIGHT_M, plot::short},
-    simulation::branch::STILL,
+    report::{
+        compare::{RunResult, UNIT_HEIGHT_M},
+        plot::short,
+    },
+    simulation::flume::branch::STILL,
 };
 
 /// A unit that has moved less than this stands still [m].

@@ -7,8 +7,8 @@ use super::{
     markdown::{Page, signed},
     standing,
 };
-use crate::output::{
-    PublishedWave, RunResult, WaveComparison,
+use crate::report::{
+    compare::{PublishedWave, RunResult, WaveComparison},
     plot::{Line, LineChart, short},
 };
 

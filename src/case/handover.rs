@@ -9,7 +9,7 @@ use super::fracture::validate_concrete;
 use super::unit_shape::UnitShape;
 use crate::case::file::Joints;
 use crate::femdem::mesh;
-use crate::handover::UnitMesh;
+use crate::femdem::mesh::UnitMesh;
 
 /// Impacts computed at the same time, at most.
 const MOST_CORES: usize = 1024;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Trouble;
-use crate::{book, output::Fudo};
+use crate::{book, report::compare::Fudo};
 
 /// Take finished runs into the validation book and write its pages: tables and figures beside the published experiment.
 ///

@@ -7,9 +7,13 @@ use clap::Args;
 use super::{AnyCase, Trouble, is_fracture, is_sweep, load_any, placement};
 use crate::{
     case::{Case, DryCase, DryTest, Handover, Hardness, Sides, Units, Wave},
-    dry::DryRun,
+    output::progress::readable,
     rigid::{RigidError, RigidSetup, RigidWorld},
-    simulation::{bodies::rigid_setup, incoming::particle_start, progress::readable, setup::check_times},
+    simulation::{
+        bodies::rigid_setup,
+        dry_test::DryRun,
+        flume::{incoming::particle_start, setup::check_times},
+    },
     sweep::plan::{Sweep, in_words},
 };
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Trouble;
-use crate::output::{Fudo, compare};
+use crate::report::compare::{Fudo, compare};
 
 /// Set finished runs beside published measurements: displacement of each unit, mean, damage ratio.
 #[derive(Args)]

@@ -5,7 +5,7 @@ use clap::Args;
 use super::Trouble;
 use crate::{
     case::Case,
-    simulation::scheme::not_on_cards,
+    simulation::flume::scheme::not_on_cards,
     sph::device::{Device, DeviceChoice},
 };
 

@@ -5,11 +5,11 @@ use std::path::Path;
 use super::Trouble;
 use crate::{
     case::DryCase,
-    dry::{
+    output::progress::readable,
+    simulation::dry_test::{
         run::DryError,
         summary::{DrySummary, Ended},
     },
-    simulation::progress::readable,
 };
 
 /// Units whose motion is printed: a pile is not read unit by unit.

@@ -8,14 +8,14 @@ use super::{Trouble, fresh_folder, run::MachineArguments, show_warnings, stem};
 use crate::{
     case::FractureCase,
     femdem::world::World,
-    fracture::{
+    output::progress::readable,
+    report::fracture::write_fracture_report,
+    simulation::fracture::{
         checkpoint,
         detail::tets_bytes,
-        report::write_fracture_report,
         run::{FractureError, resume, run, world},
         summary::FractureSummary,
     },
-    simulation::progress::readable,
 };
 
 /// Will the units break? Runs a fracture case: tetrahedral bodies that deform, touch and crack. Energy book, surfaces with

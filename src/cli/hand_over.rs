@@ -7,13 +7,16 @@ use clap::Args;
 use super::{AnyCase, Trouble, load_any, run::MachineArguments};
 use crate::{
     case::{Case, DryCase, Handover},
-    dry::summary::DrySummary,
-    handover::{
-        breakage::{Breakage, Moved, state_in_words},
-        model::Model,
-        run::{FOLDER, hand_over},
+    output::{BreakageSummary, OutputError, Summary},
+    report::run::write_report,
+    simulation::{
+        breakage::{
+            model::Model,
+            results::{Breakage, Moved, state_in_words},
+            run::{FOLDER, hand_over},
+        },
+        dry_test::summary::DrySummary,
     },
-    output::{BreakageSummary, OutputError, Summary, write_report},
 };
 
 /// Do the units break? Computes the hardest impacts of a finished run again, at the scale of the prototype, with units that
@@ -74,8 +77,10 @@ fn tell_in_files(summary: &Summary, dir: &Path) -> Result<(), OutputError> {
 pub(super) fn of_dry_run(case: &DryCase, summary: &DrySummary, dir: &Path, quiet: bool) -> Result<(), Trouble> {
     let Some(handover) = &case.fracture else { return Ok(()) };
     let limit = case.units.damage_distance;
-    let moved =
-        |unit: &crate::dry::summary::DryUnit| Moved { displacement: unit.moved_m, damaged: unit.moved_m > limit };
+    let moved = |unit: &crate::simulation::dry_test::summary::DryUnit| Moved {
+        displacement: unit.moved_m,
+        damaged: unit.moved_m > limit,
+    };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     go(&Model::of_dry(case), handover, &moved, dir, quiet)
 }

@@ -24,7 +24,7 @@ use std::{fmt::Display, path::Path, process::ExitCode, sync::Arc};
 use clap::{Parser, Subcommand};
 
 use crate::case::{Case, DryCase, FractureCase, PlacementFile};
-use crate::{handover, sweep::plan::Sweep};
+use crate::{simulation::breakage, sweep::plan::Sweep};
 
 /// Will this wave move the armour units, and will the units break?
 ///
@@ -239,7 +239,7 @@ fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), Trouble> {
     for file in RESULT_FILES.map(|name| dir.join(name)).iter().filter(|file| file.exists()) {
         std::fs::remove_file(file).map_err(cannot)?;
     }
-    let impacts = dir.join(handover::run::FOLDER);
+    let impacts = dir.join(breakage::run::FOLDER);
     if impacts.exists() {
         std::fs::remove_dir_all(&impacts).map_err(cannot)?;
     }

@@ -8,7 +8,7 @@ use super::Trouble;
 use crate::{
     case::PlacementJob,
     output::write_atomically,
-    placement::{PlacementError, place},
+    simulation::armour_layer::{PlacementError, place},
 };
 
 /// Deepest overlap over the height of a unit that is called good [-].

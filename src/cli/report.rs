@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Trouble, is_fracture};
-use crate::{fracture::report::write_fracture_report, output::write_report};
+use crate::report::{fracture::write_fracture_report, run::write_report};
 
 /// Make the report of a finished run anew.
 #[derive(Args)]

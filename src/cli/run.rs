@@ -10,13 +10,14 @@ use super::{
 };
 use crate::{
     case::Case,
-    dry::{self, recorder::DryRecorder},
-    output::Summary,
+    output::{Summary, progress::readable},
     simulation::{
-        branch::Start,
-        checkpoint::{Checkpoint, device_of},
-        progress::readable,
-        run::{RunError, RunOptions, resume, run},
+        dry_test::{self, recorder::DryRecorder},
+        flume::{
+            branch::Start,
+            checkpoint::{Checkpoint, device_of},
+            run::{RunError, RunOptions, resume, run},
+        },
     },
     sph::device::DeviceChoice,
 };
@@ -91,7 +92,7 @@ impl RunArguments {
             AnyCase::Dry(case) => {
                 self.device.refuse_card()?;
                 dry_report::introduce(&case, &dir, options.quiet);
-                let summary = dry_report::finish(dry::run::run(case.clone(), &dir, options.quiet), &dir)?;
+                let summary = dry_report::finish(dry_test::run::run(case.clone(), &dir, options.quiet), &dir)?;
                 hand_over::of_dry_run(&case, &summary, &dir, options.quiet)
             }
         }
@@ -128,7 +129,8 @@ impl ResumeArguments {
             AnyCase::Dry(case) => {
                 DeviceArgument { device: self.device.unwrap_or_default() }.refuse_card()?;
                 dry_report::introduce(&case, &self.dir, options.quiet);
-                let summary = dry_report::finish(dry::run::resume(case.clone(), &self.dir, options.quiet), &self.dir)?;
+                let summary =
+                    dry_report::finish(dry_test::run::resume(case.clone(), &self.dir, options.quiet), &self.dir)?;
                 hand_over::of_dry_run(&case, &summary, &self.dir, options.quiet)
             }
         }

@@ -18,7 +18,7 @@ use super::{
 use crate::{
     case::Case,
     output::Summary,
-    simulation::{
+    simulation::flume::{
         branch::Start,
         checkpoint::Checkpoint,
         run::{resume, run},

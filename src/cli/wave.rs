@@ -7,8 +7,9 @@ use clap::Args;
 use super::{Trouble, fresh_folder, load, stem};
 use crate::{
     case::{Quantity, Wave},
-    output::{OutputError, write_atomically, write_flume_gauges, write_flume_piston, write_wave_page},
-    simulation::incoming::{ml_piston, particle_start, run_flume},
+    output::{OutputError, write_atomically},
+    report::wave_page::{write_flume_gauges, write_flume_piston, write_wave_page},
+    simulation::flume::incoming::{ml_piston, particle_start, run_flume},
     waves::external::{
         comparison::Comparison,
         openfoam::{Frame, Up, gauges},

@@ -16,31 +16,22 @@
 
 mod atomic;
 pub mod columns;
-mod compare;
 mod error;
 mod execution;
 mod impacts;
-pub mod plot;
-pub mod raster;
-mod report;
+pub mod progress;
 mod series;
 pub(crate) mod state_file;
 mod summary;
 mod table;
 mod unit_surface;
 mod vtkhdf;
-mod wave_page;
 mod writer;
 
 pub use atomic::write_atomically;
-pub use compare::{
-    Comparison, FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution, RunResult, UNIT_HEIGHT_M,
-    WaveComparison, compare,
-};
 pub use error::OutputError;
 pub use execution::Execution;
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
-pub use report::{clock, grouped, page, section, write_report};
 pub use series::CsvSeries;
 pub use summary::{
     BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
@@ -51,5 +42,4 @@ pub use unit_surface::UnitSurface;
 pub use vtkhdf::{
     Cells, FieldKind, FieldValues, PolyDataSeries, TetMoment, TetSeries, TriangleMoments, WaterSnapshot, WaterSnapshots,
 };
-pub use wave_page::{write_flume_gauges, write_flume_piston, write_wave_page};
 pub use writer::Writer;

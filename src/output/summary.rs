@@ -5,7 +5,7 @@ use std::{fmt, path::Path};
 use serde::{Deserialize, Serialize};
 
 use super::{Execution, OutputError, write_atomically};
-use crate::handover::breakage::Breakage;
+use crate::simulation::breakage::results::Breakage;
 
 /// `summary.json`: damage and displacements first, then what they rest on.
 ///

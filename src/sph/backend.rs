@@ -14,7 +14,7 @@ use super::{
     step::Solver,
     time_step::Limits,
 };
-use crate::particles::{boundary::Boundary, water::Water};
+use crate::sph::particles::{boundary::Boundary, water::Water};
 
 /// Name of the processor as a device.
 pub const PROCESSOR: &str = "CPU";
@@ -62,7 +62,7 @@ pub struct Watched {
     pub astray: bool,
 }
 
-/// Surfaces that water does not go through, as [`crate::simulation`] has them at the end of a step. Lengths [m].
+/// Surfaces that water does not go through, as [`crate::simulation::flume`] has them at the end of a step. Lengths [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
     /// Distance at which the approach of a particle ends.

@@ -17,7 +17,7 @@ use super::{
     parameters::Parameters,
     records::Record,
 };
-use crate::particles::boundary::Boundary;
+use crate::sph::particles::boundary::Boundary;
 
 /// Velocity of the water at a ghost node.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -31,7 +31,7 @@ use super::{
     records::{Record, split_position},
     solve::solve,
 };
-use crate::particles::boundary::Boundary;
+use crate::sph::particles::boundary::Boundary;
 
 /// Smallest determinant of the scaled matrix, as a share of the determinant of a full neighbourhood with the same sum
 /// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles

@@ -42,6 +42,7 @@ pub mod momentum;
 pub mod neighbours;
 mod pair_sums;
 pub mod parameters;
+pub mod particles;
 pub mod power;
 pub mod rates;
 pub mod records;

@@ -10,7 +10,7 @@
 use glam::DVec3;
 
 use super::{density_diffusion::Diffusion, equation_of_state::Tait, rates::Rate, step::Solver, viscosity::Viscosity};
-use crate::particles::water::Water;
+use crate::sph::particles::water::Water;
 
 /// Power received by the water [W].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -8,7 +8,7 @@ use super::{
     kernel::Wendland,
     solve::solve,
 };
-use crate::particles::water::Water;
+use crate::sph::particles::water::Water;
 
 /// Sum of W V at which the water ends: half a neighbourhood.
 const SURFACE: f64 = 0.5;

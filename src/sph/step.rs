@@ -1,4 +1,4 @@
-//! The symplectic position Verlet step (equations 7 to 9) as verbs; [`crate::simulation`] puts them in order:
+//! The symplectic position Verlet step (equations 7 to 9) as verbs; [`crate::simulation::flume`] puts them in order:
 //!
 //! sort - list - boundary densities - rates - time step - predict - rates - correct
 //!
@@ -25,7 +25,7 @@ use super::{
     viscosity::Viscosity,
     wall_slip::WallSlip,
 };
-use crate::particles::{boundary::Boundary, water::Water};
+use crate::sph::particles::{boundary::Boundary, water::Water};
 
 /// Smallest piece of an array that is worth a task of the thread pool.
 const PIECE: usize = 4096;

@@ -21,7 +21,7 @@ impl WallSlip {
     /// met by what it does itself bounces. Where it does not slide ([`Boundary::slides`]) free slip keeps the wall's
     /// velocity along the surface.
     ///
-    /// [`Boundary::slides`]: crate::particles::boundary::Boundary::slides
+    /// [`Boundary::slides`]: crate::sph::particles::boundary::Boundary::slides
     pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, slides: bool) -> DVec3 {
         let Some(GhostVelocity { velocity, trust }) = ghost else { return wall };
         let relative = velocity - wall;

@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::key::{get, set, short};
 use crate::{
     case::{Case, CaseErrors},
-    simulation::branch::difference,
+    simulation::flume::branch::difference,
 };
 
 /// Most runs of one sweep.

@@ -9,10 +9,9 @@ use super::{
     member::Outcome,
     plan::{Combine, Sweep, Varied, in_words},
 };
-use crate::output::{
-    OutputError,
-    plot::{Lever, Line, LineChart, TornadoChart, standalone},
-    write_atomically,
+use crate::{
+    output::{OutputError, write_atomically},
+    report::plot::{Lever, Line, LineChart, TornadoChart, standalone},
 };
 
 /// Size of the chart [px].

@@ -7,7 +7,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use breakwater::{case::Case, simulation::Simulation};
+use breakwater::{case::Case, simulation::flume::Simulation};
 use serde_json::{Value, json};
 
 use super::data;

@@ -8,7 +8,7 @@
 
 use std::{f64::consts::TAU, path::Path, sync::Arc};
 
-use breakwater::{case::Case, simulation::Simulation};
+use breakwater::{case::Case, simulation::flume::Simulation};
 use glam::{DMat4, DVec4};
 
 use super::data;

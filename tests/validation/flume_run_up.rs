@@ -5,7 +5,7 @@
 //! X1 = 19.85 + arccosh(sqrt(20)) / sqrt(3H/4d), half a wave length before the toe.
 
 use breakwater::geometry::profile::Profile;
-use breakwater::output::plot::{Line, LineChart, standalone};
+use breakwater::report::plot::{Line, LineChart, standalone};
 use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
 use breakwater::waves::incoming::IncomingWave;
 use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};

@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use breakwater::{case::Case, simulation::Simulation};
+use breakwater::{case::Case, simulation::flume::Simulation};
 use glam::DVec3;
 use serde_json::Value;
 

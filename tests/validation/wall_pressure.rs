@@ -7,7 +7,7 @@ use std::{f64::consts::TAU, sync::Arc};
 
 use breakwater::{
     case::Case,
-    simulation::{Simulation, failure::Failure},
+    simulation::flume::{Simulation, failure::Failure},
 };
 use glam::DVec3;
 use serde_json::json;

@@ -1,6 +1,6 @@
 //! Blocks of water without weight and walls, and what the solver computes in them.
 
-use breakwater::particles::{boundary::Boundary, water::Water};
+use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
     density_diffusion::{DensityDiffusion, Diffusion},
     gradients::Gradients,

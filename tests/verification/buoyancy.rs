@@ -2,7 +2,7 @@
 //! of it, submerged or half out of the water.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
-use breakwater::simulation::setup::particles_of;
+use breakwater::simulation::flume::setup::particles_of;
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 

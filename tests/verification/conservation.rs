@@ -1,7 +1,7 @@
 //! What the scheme may not create or lose: mass, energy, momentum, angular momentum.
 
-use breakwater::particles::{boundary::Boundary, water::Water};
-use breakwater::simulation::balance::Balance;
+use breakwater::simulation::flume::balance::Balance;
+use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
     density_diffusion::{DensityDiffusion, Diffusion},
     parameters::Parameters,

@@ -1,6 +1,6 @@
 //! Which water density diffusion acts on.
 
-use breakwater::particles::boundary::{Boundary, BoundaryParticle};
+use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
     density_diffusion::{DensityDiffusion, Diffusion},
     parameters::BoundaryCondition,

@@ -4,9 +4,11 @@ use std::{path::Path, sync::Arc};
 
 use breakwater::{
     case::{DryCase, PlacementJob},
-    dry::{DryRun, run::run},
     output::Impacts,
-    placement::place,
+    simulation::{
+        armour_layer::place,
+        dry_test::{DryRun, run::run},
+    },
 };
 use serde_json::{Value, json};
 
@@ -48,7 +50,7 @@ fn a_broken_dry_run_goes_on_with_the_same_bits() {
         run(dry_case(&case), dir, true).unwrap();
     }
     // The last checkpoint is of 0.6 s: going on from there writes the end once more.
-    breakwater::dry::run::resume(dry_case(&case), &dirs[1], true).unwrap();
+    breakwater::simulation::dry_test::run::resume(dry_case(&case), &dirs[1], true).unwrap();
     for file in ["units.csv", "energy.csv", "contacts.csv"] {
         let [whole, broken] = dirs.each_ref().map(|dir| std::fs::read(dir.join(file)).unwrap());
         assert_eq!(whole, broken, "{file}");

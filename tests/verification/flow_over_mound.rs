@@ -5,7 +5,7 @@
 use serde_json::json;
 
 use super::tanks::{UNIT_HEIGHT, run_until, simulation};
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use glam::DVec3;
 
 const CREST_Z: f64 = 0.717;

@@ -5,8 +5,8 @@ use std::{fs, sync::Arc};
 
 use breakwater::case::Case;
 use breakwater::output::Stopped;
-use breakwater::simulation::Simulation;
-use breakwater::simulation::run::{RunOptions, run};
+use breakwater::simulation::flume::Simulation;
+use breakwater::simulation::flume::run::{RunOptions, run};
 use breakwater::sph::device::Device;
 use glam::DVec2;
 use serde_json::{Value, json};

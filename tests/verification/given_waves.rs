@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use breakwater::case::{Case, ROWS_FILE, Wave};
-use breakwater::simulation::{Simulation, incoming::run_flume};
+use breakwater::simulation::flume::{Simulation, incoming::run_flume};
 use breakwater::waves::external::openfoam::{Frame, Up, probes};
 use breakwater::waves::external::swash::{self, Heading};
 use breakwater::waves::external::table::{Layers, Place, VelocityTable};

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use breakwater::case::{DryCase, FractureCase, HandoverWay};
-use breakwater::dry::run::run;
-use breakwater::fracture::run::world;
-use breakwater::handover::breakage::{Breakage, Moved, Outcome};
-use breakwater::handover::model::Model;
-use breakwater::handover::run::{FOLDER, hand_over};
 use breakwater::output::Impacts;
+use breakwater::simulation::breakage::model::Model;
+use breakwater::simulation::breakage::results::{Breakage, Moved, Outcome};
+use breakwater::simulation::breakage::run::{FOLDER, hand_over};
+use breakwater::simulation::dry_test::run::run;
+use breakwater::simulation::fracture::run::world;
 use glam::DVec3;
 use serde_json::{Value, json};
 

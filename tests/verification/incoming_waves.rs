@@ -1,7 +1,7 @@
 //! Waves of the flume model as a case orders them, and the rows of the multi-layer piston that follow them.
 
 use breakwater::case::{Case, Wave};
-use breakwater::simulation::incoming::{ml_piston, particle_start, run_flume};
+use breakwater::simulation::flume::incoming::{ml_piston, particle_start, run_flume};
 use breakwater::waves::record::FlumeRecord;
 use serde_json::{Value, json};
 

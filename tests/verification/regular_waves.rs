@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use breakwater::simulation::{Simulation, balance::Balance};
+use breakwater::simulation::flume::{Simulation, balance::Balance};
 use breakwater::waves::regular::RegularWave;
 use breakwater::waves::solitary::SolitaryWave;
 use glam::DVec2;

@@ -1,6 +1,6 @@
 //! The same bits for any number of threads; the same numbers to rounding on any processor.
 
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use breakwater::sph::lanes::InstructionSet;
 use serde_json::{Value, json};
 

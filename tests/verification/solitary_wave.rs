@@ -1,6 +1,6 @@
 //! A solitary wave along a flat bed keeps its height; what it loses in particles is the scheme's error.
 
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use serde_json::{Value, json};
 
 use super::tanks::{run_until, simulation};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use glam::DVec3;
 use serde_json::{Value, json};
 

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use breakwater::bench::tank::Tank;
 use breakwater::case::Case;
 use breakwater::geometry::{armour_unit::ArmourUnit, solid::Solid};
-use breakwater::particles::bed::{Across, Outline, outline_particles};
-use breakwater::particles::boundary::{Boundary, BoundaryParticle};
-use breakwater::particles::fill::{Basin, clear_solid};
-use breakwater::particles::unit::LEAST_DEPTH;
-use breakwater::particles::water::Water;
 use breakwater::rigid::BodyState;
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
+use breakwater::sph::particles::bed::{Across, Outline, outline_particles};
+use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
+use breakwater::sph::particles::fill::{Basin, clear_solid};
+use breakwater::sph::particles::unit::LEAST_DEPTH;
+use breakwater::sph::particles::water::Water;
 use breakwater::sph::{
     density_diffusion::{DensityDiffusion, Diffusion},
     lanes::InstructionSet,

@@ -1,6 +1,6 @@
 //! A layer of particles, computed in two dimensions, is what a slice of the same flume is.
 
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! Units in two dimensions: slices of cuboids that lie across the flume.
 
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use serde_json::{Value, json};
 
 use super::{

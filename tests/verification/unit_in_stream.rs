@@ -5,7 +5,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use breakwater::geometry::armour_unit::ArmourUnit;
-use breakwater::simulation::setup::particles_of;
+use breakwater::simulation::flume::setup::particles_of;
 use breakwater::sph::{
     parameters::BoundaryCondition::{self, Dynamic, ModifiedDynamic},
     viscosity::Viscosity,

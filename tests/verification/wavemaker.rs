@@ -1,6 +1,6 @@
 //! From the flume model to the particles: the wavemaker's rows and the water at a hot start.
 
-use breakwater::simulation::{Simulation, incoming::ml_piston};
+use breakwater::simulation::flume::{Simulation, incoming::ml_piston};
 use glam::DVec2;
 use serde_json::{Value, json};
 

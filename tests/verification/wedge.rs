@@ -1,6 +1,6 @@
 //! The still wedge of English et al. (2022): water of 0.5 m over a wedge 0.25 m high, at rest for seconds.
 
-use breakwater::simulation::Simulation;
+use breakwater::simulation::flume::Simulation;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 

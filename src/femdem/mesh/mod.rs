@@ -26,11 +26,13 @@ pub mod faces;
 pub mod msh;
 pub mod order;
 pub mod quality;
+pub mod unit_mesh;
 
 use defect::MeshDefect;
 use faces::Faces;
 use msh::MshError;
 use quality::BodyQuality;
+pub use unit_mesh::UnitMesh;
 
 /// Why a mesh file cannot be used.
 #[derive(Debug, Error)]

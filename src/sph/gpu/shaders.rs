@@ -18,7 +18,7 @@ pub const RATES: &str = shader!("../parameters.wgsl", "../kernel.wgsl", "../neig
 /// Predictor and corrector.
 pub const STEP: &str = shader!("../parameters.wgsl", "../step.wgsl");
 /// Water near to surfaces.
-pub const IMPERMEABLE: &str = shader!("../parameters.wgsl", "../../simulation/impermeable.wgsl");
+pub const IMPERMEABLE: &str = shader!("../parameters.wgsl", "../impermeable.wgsl");
 
 /// A function of a shader, ready to run.
 #[derive(Debug)]

@@ -12,17 +12,15 @@ use super::{
     near::NearSearch,
     state::CardState,
 };
-use crate::{
+use crate::sph::{
+    backend::{Backend, DeviceError, NearWater, Surfaces, Watched},
+    device::not_on_cards,
+    grid::{Bins, Grid},
+    parameters::Parameters,
     particles::{boundary::Boundary, water::Water},
-    sph::{
-        backend::{Backend, DeviceError, NearWater, Surfaces, Watched},
-        device::not_on_cards,
-        grid::{Bins, Grid},
-        parameters::Parameters,
-        power::Powers,
-        rates::Rate,
-        time_step::Limits,
-    },
+    power::Powers,
+    rates::Rate,
+    time_step::Limits,
 };
 
 /// Extremes before any water has been looked at; see `step.wgsl`.

@@ -3,9 +3,9 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::{
+use crate::sph::{
+    grid::Grid,
     particles::{boundary::Boundary, water::Water},
-    sph::grid::Grid,
 };
 
 /// Smallest piece of an array that is worth a task of the thread pool.

@@ -3,7 +3,7 @@
 use breakwater::case::FractureCase;
 use breakwater::femdem::book::BodyEnergy;
 use breakwater::femdem::world::World;
-use breakwater::fracture::run::world;
+use breakwater::simulation::fracture::run::world;
 
 fn five_core_locs(joints: &str) -> (World, usize) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/fracture/core-loc-five.json");

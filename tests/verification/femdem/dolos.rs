@@ -2,7 +2,7 @@
 
 use breakwater::case::FractureCase;
 use breakwater::femdem::world::World;
-use breakwater::fracture::run::world;
+use breakwater::simulation::fracture::run::world;
 
 fn drop_test() -> World {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/fracture/dolos-drop.json");

@@ -1,0 +1,131 @@
+//! What the report reads from the folder of a fracture run.
+
+use std::path::{Path, PathBuf};
+
+use crate::case::FractureCase;
+use crate::output::{OutputError, Table, TriangleMoments};
+use crate::report::plot::short;
+use crate::simulation::fracture::summary::{FractureSummary, InitiationSummary};
+
+/// The contents of a run folder; what a run does not write is absent.
+pub struct FractureFolder {
+    /// The folder.
+    pub dir: PathBuf,
+    /// The case with its mesh.
+    pub case: FractureCase,
+    /// `summary.json`.
+    pub summary: FractureSummary,
+    /// The energy book.
+    pub energy: Option<Table>,
+    /// The faces that failed.
+    pub cracks: Option<Table>,
+    /// Outsides of the bodies, crack faces, cut plane.
+    pub pictures: Option<[TriangleMoments; 3]>,
+}
+
+impl FractureFolder {
+    /// Reads a run folder.
+    ///
+    /// # Errors
+    /// If case, mesh or summary are missing, or a file that is there cannot be understood.
+    pub fn read(dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join("case.json");
+        let case = FractureCase::load(&path).map_err(|error| OutputError::content(&path, error.to_string()))?;
+        let files = ["surfaces.vtkhdf", "cracks.vtkhdf", "section.vtkhdf"].map(|name| dir.join(name));
+        let pictures = if files.iter().all(|file| file.exists()) {
+            let [surfaces, cracks, section] = files.each_ref().map(|file| TriangleMoments::open(file));
+            Some([surfaces?, cracks?, section?])
+        } else {
+            None
+        };
+        Ok(Self {
+            summary: FractureSummary::read(dir)?,
+            energy: Table::read_if_present(&dir.join("energy.csv"))?,
+            cracks: Table::read_if_present(&dir.join("cracks.csv"))?,
+            dir: dir.to_owned(),
+            case,
+            pictures,
+        })
+    }
+
+    /// Whether a face failed by sliding.
+    pub fn has_slid_faces(&self) -> bool {
+        self.cracks.as_ref().and_then(|table| table.get("mode")).is_some_and(|modes| modes.contains(&2.0))
+    }
+
+    /// Whether the folder holds a file of this name.
+    pub fn has(&self, file: &str) -> bool {
+        self.dir.join(file).exists()
+    }
+
+    /// Numbers of the bodies that the pictures are about: those that can crack; if there are none, those that nothing
+    /// holds; if there are none, all.
+    pub fn shown_bodies(&self) -> Vec<usize> {
+        let setup = &self.case.setup;
+        let held = |body: usize| {
+            let nodes = || setup.tets[setup.bodies[body].tets.clone()].iter().flatten();
+            setup.constraints.iter().any(|constraint| nodes().any(|node| constraint.nodes.contains(node)))
+        };
+        let all = 0..setup.bodies.len();
+        let cracking: Vec<usize> = all.clone().filter(|body| setup.bodies[*body].cohesion.is_some()).collect();
+        if !cracking.is_empty() {
+            return cracking;
+        }
+        let free: Vec<usize> = all.clone().filter(|body| !held(*body)).collect();
+        if free.is_empty() { all.collect() } else { free }
+    }
+
+    /// A time of the run as the report counts it [ms]: since the impact, or since the start if no bodies touched.
+    pub fn clock_ms(&self, time_s: f64) -> f64 {
+        (time_s - self.summary.impact_s.unwrap_or(0.0)) * 1e3
+    }
+
+    /// A moment in words.
+    pub fn time_in_words(&self, time_s: f64) -> String {
+        let clock = self.clock_ms(time_s);
+        match (self.summary.impact_s, clock < 0.0) {
+            (Some(_), false) => format!("{clock:.2} ms after the impact"),
+            (Some(_), true) => format!("{:.2} ms before the impact", -clock),
+            (None, _) => format!("{clock:.2} ms after the start"),
+        }
+    }
+
+    /// Name of the clock for axes and tables.
+    pub fn clock_name(&self) -> &'static str {
+        if self.summary.impact_s.is_some() { "time since the impact" } else { "time since the start" }
+    }
+}
+
+/// Where a crack began, in words.
+pub fn place_in_words(initiation: &InitiationSummary) -> String {
+    match (&initiation.near, initiation.distance_m) {
+        (Some(near), Some(0.0)) => format!("at the {}", bare(near)),
+        (Some(near), Some(distance)) => format!("{} mm from the {}", short(distance * 1e3, 0), bare(near)),
+        _ => {
+            let [x, y, z] = initiation.place.map(|c| short(c, 3));
+            format!("at ({x}, {y}, {z}) m")
+        }
+    }
+}
+
+/// A name without its article.
+fn bare(name: &str) -> &str {
+    name.strip_prefix("the ").unwrap_or(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_told_in_words() {
+        let told = |near: Option<&str>, distance_m: Option<f64>| {
+            let (body, mode, near) = ("unit".to_owned(), "opening".to_owned(), near.map(str::to_owned));
+            let (place, since_impact_s, t_s, area_m2) = ([0.1, -0.2, 0.0], None, 0.0, 0.0);
+            place_in_words(&InitiationSummary { t_s, since_impact_s, body, place, near, distance_m, mode, area_m2 })
+        };
+        assert_eq!(told(Some("upper corner"), Some(0.0)), "at the upper corner");
+        assert_eq!(told(Some("the upper corner"), Some(0.0684)), "68 mm from the upper corner");
+        assert_eq!(told(None, None), "at (0.1, \u{2212}0.2, 0) m");
+    }
+}

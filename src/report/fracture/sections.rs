@@ -1,0 +1,216 @@
+//! The page in order.
+
+use super::folder::{FractureFolder, place_in_words};
+use super::{charts, pictures, tables};
+use crate::report::plot::{escape, short};
+use crate::{
+    output::OutputError,
+    report::run::{clock, grouped, section},
+};
+
+/// What stands between `<main>` and `</main>`.
+///
+/// # Errors
+/// If a file of the run cannot be read.
+pub fn body(run: &FractureFolder) -> Result<String, OutputError> {
+    let mut html = header(run);
+    html += &key_figures(run);
+    html += &cracks(run);
+    html += &section("What it looked like", &pictures::pictures(run)?);
+    html += &energy(run);
+    html += &fragments(run);
+    html += &made(run);
+    html += &list("Warnings", "These may make the result doubtful.", &run.summary.warnings);
+    let words = "No source gives these; they were chosen and belong to the result.";
+    html += &list("Assumptions", words, &run.summary.assumptions);
+    Ok(html + &files(run))
+}
+
+fn header(run: &FractureFolder) -> String {
+    let summary = &run.summary;
+    let lead = format!(
+        "{} bodies, {} tetrahedra \u{b7} {} \u{b7} {} ms",
+        run.case.names.len(),
+        grouped(summary.tets as u64),
+        joints_in_words(run),
+        short(summary.simulated_s * 1e3, 2)
+    );
+    format!("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape(&summary.title), escape(&lead))
+}
+
+fn joints_in_words(run: &FractureFolder) -> &'static str {
+    match run.case.setup.bodies.iter().find_map(|body| body.cohesion) {
+        Some(cohesion) if cohesion.tied => "cracks run along faces that are tied until they reach their strength",
+        Some(_) => "joints at all faces from the start",
+        None => "nothing can crack",
+    }
+}
+
+fn key_figures(run: &FractureFolder) -> String {
+    let summary = &run.summary;
+    let first = summary.initiation.first();
+    let pieces = summary.fragments.len();
+    let heaviest = summary.fragments.first().map_or(String::new(), |piece| {
+        let whole: f64 = summary.fragments.iter().filter(|f| f.body == piece.body).map(|f| f.mass_kg).sum();
+        format!("the heaviest has {} % of {}", short(100.0 * piece.mass_kg / whole, 1), piece.body)
+    });
+    let faces =
+        run.cracks.as_ref().map_or(String::new(), |table| format!("{} faces failed", grouped(table.rows() as u64)));
+    let keys = [
+        (
+            "First crack",
+            first.map_or("none".to_owned(), |crack| format!("{:.2} ms", run.clock_ms(crack.t_s))),
+            first.map_or("nothing has cracked".to_owned(), |crack| {
+                format!("{}, {}", run.clock_name(), place_in_words(crack))
+            }),
+        ),
+        ("Cracked area", format!("{} cm\u{b2}", short(summary.crack_area_m2 * 1e4, 1)), faces),
+        ("Pieces", pieces.to_string(), heaviest),
+        (
+            "Energy book",
+            format!("{} %", short(100.0 * summary.energy_residual_ratio, 2)),
+            "largest residual, of the largest kinetic energy".to_owned(),
+        ),
+    ];
+    let cells: String = (keys.iter())
+        .map(|(name, value, note)| {
+            format!("<div><dt>{name}</dt><dd>{value}<small>{}</small></dd></div>\n", escape(note))
+        })
+        .collect();
+    format!("<dl class=\"keys\">\n{cells}</dl>\n")
+}
+
+fn cracks(run: &FractureFolder) -> String {
+    if run.summary.initiation.is_empty() {
+        return section("Where and when it cracked", "<p>Nothing has cracked.</p>\n");
+    }
+    let since = match run.summary.impact_s {
+        Some(impact) => format!(
+            "Times count from the impact, when two bodies first touched, {} \u{b5}s after the start of the run. ",
+            short(impact * 1e6, 1)
+        ),
+        None => "No two bodies touched; times count from the start of the run. ".to_owned(),
+    };
+    let content = format!(
+        "<p>{since}A crack begins where the nearest face that failed before it is more than four edges away; what fails \
+         nearer belongs to that crack. Places are those of the middle of its first face in the unit as it stood at the \
+         start: a face of this mesh is some {} mm long, and no place is known better than that.</p>\n{}<figure>{}</figure>\n",
+        short(face_length(run) * 1e3, 0),
+        tables::cracks(run),
+        charts::crack_area(run)
+    );
+    section("Where and when it cracked", &content)
+}
+
+/// Mean edge of the bodies that can crack [m].
+fn face_length(run: &FractureFolder) -> f64 {
+    let lengths = run.shown_bodies().into_iter().map(|body| run.case.mesh.quality[body].edge_mean);
+    lengths.fold(0.0, f64::max)
+}
+
+fn energy(run: &FractureFolder) -> String {
+    let chart = charts::energy(run);
+    if chart.is_empty() {
+        return String::new();
+    }
+    let taken = run.summary.energy_over_g_f.map_or(String::new(), |ratio| {
+        format!(" The cracked faces took {} times their area times the fracture energy.", short(ratio, 3))
+    });
+    let content = format!(
+        "<p>What there is, what was lost and what was given since the start. The height is counted from the start.</p>\n\
+         <figure>{chart}</figure>\n<figure>{}<figcaption>The losses alone, on a scale of their own.</figcaption></figure>\n\
+         <figure>{}<figcaption>What the book leaves unexplained: all that there is and all that \
+         was lost, less what was given, against its value at the start. At most {} % of the largest kinetic energy.{taken}\
+         </figcaption></figure>\n",
+        charts::losses(run),
+        charts::residual(run),
+        short(100.0 * run.summary.energy_residual_ratio, 3)
+    );
+    section("Energy", &content)
+}
+
+fn fragments(run: &FractureFolder) -> String {
+    if run.summary.fragments.is_empty() {
+        return String::new();
+    }
+    let words = "<p>What unbroken faces hold together at the end of the run, the heaviest first. A body in one piece may \
+                 still have deep cracks.</p>\n";
+    section("Pieces", &format!("{words}{}", tables::fragments(run)))
+}
+
+fn made(run: &FractureFolder) -> String {
+    let (summary, case) = (&run.summary, &run.case);
+    let friction = |a: usize, b: usize| {
+        let coefficient = case.setup.friction([a, b]);
+        (coefficient > 0.0).then(|| format!("{} \u{2013} {}: {}", case.names[a], case.names[b], short(coefficient, 3)))
+    };
+    let count = case.names.len();
+    let pairs: Vec<String> = (0..count).flat_map(|a| (a..count).filter_map(move |b| friction(a, b))).collect();
+    let moving = case.names.iter().zip(&case.setup.bodies).filter_map(|(name, body)| {
+        let (velocity, turn) = (body.velocity.length(), body.angular_velocity.length());
+        let both = [(velocity, "m/s"), (turn, "rad/s")].into_iter().filter(|(size, _)| *size > 0.0);
+        let words: Vec<String> = both.map(|(size, unit)| format!("{} {unit}", short(size, 4))).collect();
+        (!words.is_empty()).then(|| format!("{name} with {}", words.join(" and ")))
+    });
+    let moving: Vec<String> = moving.collect();
+    let or_none = |words: Vec<String>| if words.is_empty() { "none".to_owned() } else { words.join("; ") };
+    let rows = [
+        ("Faces between tetrahedra", format!("{}; {}", grouped(summary.joints as u64), joints_in_words(run))),
+        ("Moving at the start", or_none(moving)),
+        ("Friction", or_none(pairs)),
+        (
+            "Time step",
+            format!(
+                "{:.3} \u{b5}s, {} steps, {} ms",
+                summary.dt_s * 1e6,
+                grouped(summary.steps),
+                short(summary.simulated_s * 1e3, 3)
+            ),
+        ),
+        (
+            "Wall clock",
+            format!(
+                "{} with {} threads, {} million tetrahedra a second",
+                clock(summary.execution.wall_s),
+                summary.execution.threads,
+                short(summary.tet_steps_per_s * 1e-6, 2)
+            ),
+        ),
+        ("breakwater", format!("version {}", summary.breakwater_version)),
+    ];
+    let mut html: String =
+        rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{}</td></tr>\n", escape(value))).collect();
+    html += &format!("<tr><td>Case</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
+    let facts = format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n");
+    section("How the run was made", &(tables::bodies(run) + &facts))
+}
+
+fn list(heading: &str, words: &str, items: &[String]) -> String {
+    let items: String = items.iter().map(|item| format!("<li>{}</li>\n", escape(item))).collect();
+    let content = if items.is_empty() { items } else { format!("<p>{words}</p>\n<ul>\n{items}</ul>\n") };
+    section(heading, &content)
+}
+
+/// What the files of a run folder hold, in the order of the list.
+const FILES: [(&str, &str); 11] = [
+    ("cracks.csv", "every face that failed: time, place, area, mode (1 opening, 2 sliding)"),
+    ("fragments.csv", "the pieces at the end: mass, centre, velocity"),
+    ("energy.csv", "the energy book, crack area, pairs of tetrahedra that press each other"),
+    ("bodies.csv", "the energies of each body at the times of the energy book"),
+    ("surfaces.vtkhdf", "outsides of the bodies with velocity and stress: open in ParaView 5.12 or later"),
+    ("cracks.vtkhdf", "crack faces with time and mode: open in ParaView together with the surfaces"),
+    ("section.vtkhdf", "the cut plane with velocity and stress"),
+    ("tets.vtkhdf", "all tetrahedra with stress tensor, principal stresses, body and piece"),
+    ("summary.json", "the numbers of this page for other programs"),
+    ("case.json", "the case as it was run"),
+    ("mesh.msh", "its mesh"),
+];
+
+fn files(run: &FractureFolder) -> String {
+    let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
+        .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
+        .collect();
+    let words = "<p>Tables are plain CSV in SI units, the unit is in each column's name; their times count from the start of \
+                 the run.</p>\n";
+    section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
+}

@@ -1,0 +1,8 @@
+//! Everything that a person reads: pages, charts, pictures, and comparison with measurements.
+
+pub mod compare;
+pub mod fracture;
+pub mod plot;
+pub mod raster;
+pub mod run;
+pub mod wave_page;

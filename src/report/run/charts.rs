@@ -1,0 +1,204 @@
+//! The charts of the report.
+
+use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
+use super::folder::RunFolder;
+use super::motion::{UnitMotion, mean_and_deviation};
+use crate::output::Table;
+
+/// A chart over the whole width [px].
+const WIDE: [f64; 2] = [920.0, 300.0];
+/// One of two charts side by side [px].
+const HALF: [f64; 2] = [452.0, 250.0];
+/// Units up to this number get a colour each; more are told apart by odd and even numbers.
+const COLOURED_UNITS: usize = 6;
+
+/// Displacement of each unit against the damage distance.
+pub fn displacements(run: &RunFolder) -> String {
+    let summary = &run.summary;
+    if summary.units.is_empty() {
+        return String::new();
+    }
+    let heights = |damaged: bool| -> Vec<f64> {
+        summary.units.iter().map(|u| if u.damaged == damaged { u.displacement_m } else { f64::NAN }).collect()
+    };
+    let mut marks = Vec::new();
+    if let Some(distance) = summary.damage_distance_m {
+        marks.push((distance, format!("damage {} m", short(distance, 3))));
+    }
+    if let Some(mean) = summary.mean_displacement_m {
+        marks.push((mean, format!("mean {} m", short(mean, 3))));
+    }
+    let set = |name: &str, damaged: bool, colour: usize| Bars {
+        name: name.to_owned(),
+        values: heights(damaged),
+        colour,
+        ..Bars::default()
+    };
+    BarChart {
+        title: "Displacement of each unit".to_owned(),
+        x_label: "unit".to_owned(),
+        y_label: "displacement [m]".to_owned(),
+        groups: summary.units.iter().map(|u| u.unit.to_string()).collect(),
+        bars: vec![set("damaged", true, 1), set("not damaged", false, 0)],
+        stacked: true,
+        marks,
+        size: WIDE,
+    }
+    .svg()
+}
+
+/// Way of each unit towards the shore against time.
+pub fn paths(run: &RunFolder) -> String {
+    let way = |motion: &UnitMotion| -> Vec<[f64; 2]> {
+        let start = motion.position_m.first().map_or(0.0, |p| p[0]);
+        motion.time_s.iter().zip(&motion.position_m).map(|(t, p)| [*t, p[0] - start]).collect()
+    };
+    let lines = unit_lines(&run.motions, way);
+    line_chart("Way of the units towards the shore", "way shoreward x \u{2212} x(0) [m]", lines, WIDE)
+}
+
+/// One line a unit: a colour each for a few, odd and even numbers for many.
+fn unit_lines(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 2]>) -> Vec<Line> {
+    let few = motions.len() <= COLOURED_UNITS;
+    let mut lines: Vec<Line> = Vec::new();
+    for (index, motion) in motions.iter().enumerate() {
+        let odd = motion.unit % 2 == 1;
+        let name = match (few, index) {
+            (true, _) => format!("unit {}", motion.unit),
+            (false, 0 | 1) => if odd { "odd units" } else { "even units" }.to_owned(),
+            (false, _) => String::new(),
+        };
+        let colour = if few { index } else { usize::from(!odd) };
+        lines.push(Line { name, points: points(motion), colour, ..Line::default() });
+    }
+    lines
+}
+
+/// Force of the water along and up, and force of bed and neighbours: mean over the units with the standard deviation
+/// as a band, and the single units where there are few.
+pub fn forces(run: &RunFolder) -> [String; 3] {
+    let force = |title: &str, label: &str, colour: usize, histories: Vec<Vec<f64>>, size| {
+        let Some(first) = run.motions.first() else { return String::new() };
+        let with_time = |values: &[f64]| first.time_s.iter().zip(values).map(|(t, v)| [*t, *v]).collect::<Vec<_>>();
+        let (mean, deviation) = mean_and_deviation(&histories);
+        let mut lines = Vec::new();
+        if histories.len() > 1 && histories.len() <= COLOURED_UNITS {
+            lines.extend(histories.iter().map(|h| Line {
+                points: with_time(h),
+                colour: 5,
+                faint: true,
+                ..Line::default()
+            }));
+            lines[0].name = "single units".to_owned();
+        }
+        let name = if histories.len() > 1 { "mean of the units" } else { "the unit" };
+        let band = if histories.len() > COLOURED_UNITS { deviation } else { Vec::new() };
+        lines.push(Line { name: name.to_owned(), points: with_time(&mean), colour, band, ..Line::default() });
+        line_chart(title, label, lines, size)
+    };
+    let change = |component: usize| run.motions.iter().map(|m| m.fluid_change_n(component)).collect::<Vec<_>>();
+    [
+        force("Force of the water along the flume", "\u{0394}Fx [N]", 0, change(0), HALF),
+        force("Force of the water upwards", "\u{0394}Fz [N]", 2, change(2), HALF),
+        force(
+            "Contact force",
+            "contact force [N]",
+            1,
+            run.motions.iter().map(UnitMotion::contact_size_n).collect(),
+            WIDE,
+        ),
+    ]
+}
+
+/// One chart for each elevation gauge, particles beside flume model, then one for each other quantity.
+pub fn gauges(run: &RunFolder) -> Vec<String> {
+    let mut names: Vec<&str> = Vec::new();
+    for table in [&run.gauges, &run.flume_gauges].into_iter().flatten() {
+        for name in table.names().iter().filter(|n| n.ends_with("_eta_m")) {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+    }
+    let place = |gauge: &str| run.summary.gauges.iter().find(|g| g.name == gauge).map(|g| g.x_m);
+    let mut charts: Vec<String> = Vec::new();
+    for name in names {
+        let gauge = name.trim_end_matches("_eta_m");
+        let mut lines = Vec::new();
+        let particles = column_line(run.gauges.as_ref(), name, "particles", 0, false);
+        let shown = shown_time(run.gauges.as_ref(), particles.is_some());
+        lines.extend(column_line(run.flume_gauges.as_ref(), name, "flume model", 5, true).map(|mut line| {
+            line.points.retain(|p| shown[0] <= p[0] && p[0] <= shown[1]);
+            line
+        }));
+        lines.extend(particles);
+        let at = place(gauge).map_or(String::new(), |x| format!(" at x = {} m", short(x, 3)));
+        let chart = line_chart(&format!("{gauge}{at}"), "elevation \u{03b7} [m]", lines, HALF);
+        charts.push(format!("<figure><figcaption>{}{at}</figcaption>{chart}</figure>", escape(gauge)));
+    }
+    charts.extend(other_gauges(run.gauges.as_ref()));
+    charts
+}
+
+/// The time over which the flume model is shown [s]: that of the particles and half as long before and after it; where
+/// there are no particles at the gauge, all that came before the end of the run.
+fn shown_time(particles: Option<&Table>, at_gauge: bool) -> [f64; 2] {
+    let times = particles.and_then(|table| table.get("time_s")).unwrap_or_default();
+    let (Some(start), Some(end)) = (times.first(), times.last()) else { return [f64::MIN, f64::MAX] };
+    let beside = 0.5 * (end - start);
+    if at_gauge { [start - beside, end + beside] } else { [f64::MIN, *end] }
+}
+
+/// Pressure and velocity gauges.
+fn other_gauges(table: Option<&Table>) -> Vec<String> {
+    let Some(table) = table else { return Vec::new() };
+    let mut charts = Vec::new();
+    let figure =
+        |chart: String, name: &str| format!("<figure><figcaption>{}</figcaption>{chart}</figure>", escape(name));
+    for column in table.names() {
+        if let Some(gauge) = column.strip_suffix("_p_pa") {
+            let lines = column_line(Some(table), column, "", 0, false).into_iter().collect();
+            charts.push(figure(line_chart(gauge, "pressure [Pa]", lines, HALF), gauge));
+        } else if let Some(gauge) = column.strip_suffix("_u_m_s") {
+            let lines = [("u", 0), ("v", 2), ("w", 1)].into_iter().filter_map(|(component, colour)| {
+                column_line(Some(table), &format!("{gauge}_{component}_m_s"), component, colour, false)
+            });
+            charts.push(figure(line_chart(gauge, "velocity [m/s]", lines.collect(), HALF), gauge));
+        }
+    }
+    charts
+}
+
+fn column_line(table: Option<&Table>, column: &str, name: &str, colour: usize, dashed: bool) -> Option<Line> {
+    let table = table?;
+    let (times, values) = (table.get("time_s")?, table.get(column)?);
+    let points = times.iter().zip(values).map(|(t, v)| [*t, *v]).collect();
+    Some(Line { name: name.to_owned(), points, colour, dashed, ..Line::default() })
+}
+
+/// Every energy column against time, less its first value.
+pub fn energy(run: &RunFolder) -> String {
+    let Some(table) = &run.energy else { return String::new() };
+    let lines: Vec<Line> = (table.names().iter().filter(|n| n.ends_with("_j")).enumerate())
+        .filter_map(|(index, column)| {
+            let name = column.trim_end_matches("_j").replace('_', " ");
+            let mut line = column_line(Some(table), column, &name, index, false)?;
+            let first = line.points.first().map_or(0.0, |p| p[1]);
+            line.points.iter_mut().for_each(|p| p[1] -= first);
+            Some(line)
+        })
+        .collect();
+    line_chart("Change of energy", "change of energy [J]", lines, WIDE)
+}
+
+fn line_chart(title: &str, y_label: &str, lines: Vec<Line>, size: [f64; 2]) -> String {
+    LineChart {
+        title: title.to_owned(),
+        x_label: "flume time [s]".to_owned(),
+        y_label: y_label.to_owned(),
+        lines,
+        marks: Vec::new(),
+        size,
+    }
+    .svg()
+}

@@ -1,0 +1,68 @@
+//! What the report reads from a run folder.
+
+use std::path::{Path, PathBuf};
+
+use super::motion::{UnitMotion, motions};
+use crate::output::{OutputError, Summary, Table, UnitSurface};
+use crate::simulation::breakage::results::Breakage;
+
+/// The contents of a run folder; what a run does not write is absent.
+#[derive(Debug)]
+pub struct RunFolder {
+    /// The folder.
+    pub dir: PathBuf,
+    /// `summary.json`.
+    pub summary: Summary,
+    /// Bed with mound as corner points [x, z] [m].
+    pub profile: Vec<[f64; 2]>,
+    /// Water at the gauges, by the particles.
+    pub gauges: Option<Table>,
+    /// Water at the elevation gauges, by the flume model.
+    pub flume_gauges: Option<Table>,
+    /// Motion and forces of each unit.
+    pub motions: Vec<UnitMotion>,
+    /// Energy.
+    pub energy: Option<Table>,
+    /// Surface of a unit about its centre of mass.
+    pub surface: Option<UnitSurface>,
+    /// What came of the impacts that were handed over.
+    pub breakage: Option<Breakage>,
+}
+
+impl RunFolder {
+    /// The particles of the water.
+    pub const WATER: &str = "fluid.vtkhdf";
+    /// One moment of the run as a picture of its own.
+    pub const PICTURE: &str = "picture.svg";
+
+    /// Reads a run folder; only `summary.json` must be there.
+    ///
+    /// # Errors
+    /// If the summary is missing, or a file that is there cannot be understood.
+    pub fn read(run_dir: &Path) -> Result<Self, OutputError> {
+        let summary = Summary::read(run_dir)?;
+        let table = |name: &str| Table::read_if_present(&run_dir.join(name));
+        let profile = match table("profile.csv")? {
+            Some(table) => table.column("x_m")?.iter().zip(table.column("z_m")?).map(|(x, z)| [*x, *z]).collect(),
+            None => Vec::new(),
+        };
+        let surface_path = run_dir.join(UnitSurface::FILE);
+        let surface = surface_path.exists().then(|| UnitSurface::read(&surface_path)).transpose()?;
+        Ok(Self {
+            summary,
+            profile,
+            gauges: table("gauges.csv")?,
+            flume_gauges: table("flume_gauges.csv")?,
+            motions: table("units.csv")?.map_or(Ok(Vec::new()), |units| motions(&units))?,
+            energy: table("energy.csv")?,
+            surface,
+            breakage: Breakage::read_if_present(run_dir)?,
+            dir: run_dir.to_owned(),
+        })
+    }
+
+    /// Whether the folder holds a file of this name.
+    pub fn has(&self, file: &str) -> bool {
+        self.dir.join(file).exists()
+    }
+}

@@ -1,0 +1,53 @@
+//! The report of a run: one page that can be printed, mailed and signed.
+//!
+//! Everything is in the one file `report.html`: style sheet and charts are inline, there are no scripts. Beside it lies
+//! `picture.svg`, one moment of the run as a picture of its own.
+
+mod breakage;
+mod charts;
+mod cover;
+mod folder;
+mod moments;
+mod motion;
+mod scene;
+mod sections;
+mod solids;
+mod views;
+mod water;
+mod window;
+
+use std::path::{Path, PathBuf};
+
+use super::plot::{CHART_STYLE, escape};
+use crate::output::{OutputError, write_atomically};
+use folder::RunFolder;
+use moments::Moments;
+
+pub use sections::{clock, grouped, section};
+
+/// Writes `report.html` into the run folder from the files that are there; only `summary.json` must be. Where the water
+/// of a moment is there, `picture.svg` too.
+///
+/// # Errors
+/// If the summary is missing, a file cannot be understood, or the report cannot be written.
+pub fn write_report(run_dir: &Path) -> Result<PathBuf, OutputError> {
+    let run = RunFolder::read(run_dir)?;
+    let moments = Moments::read(&run)?;
+    if let Some(picture) = moments.as_ref().and_then(Moments::picture) {
+        write_atomically(&run_dir.join(RunFolder::PICTURE), picture.as_bytes())?;
+    }
+    let path = run_dir.join("report.html");
+    write_atomically(&path, page(&run.summary.title, &sections::body(&run, moments.as_ref())).as_bytes())?;
+    Ok(path)
+}
+
+/// A whole page with the style sheet in it.
+pub fn page(title: &str, body: &str) -> String {
+    let title = escape(title);
+    let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css")].concat();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>\n{style}</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n"
+    )
+}

@@ -1,0 +1,386 @@
+//! The words and tables of the report, section by section.
+
+use super::super::plot::{escape, short};
+use super::folder::RunFolder;
+use super::moments::Moments;
+use super::{breakage, charts, views};
+use crate::output::{Summary, UnitSummary};
+
+/// What stands between `<main>` and `</main>`.
+pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
+    let mut html = header(&run.summary);
+    html += &key_figures(&run.summary);
+    html += &section("Units before and after the wave", &views::views(run));
+    html += &moments.map_or(String::new(), |moments| section(moments.heading(), &moments.section()));
+    html += &displacement(run);
+    html += &water(run);
+    html += &forces(run);
+    html += &section("Which units break", &breakage::breakage(run));
+    html += &energy(run);
+    html += &warnings(&run.summary);
+    html += &assumptions(&run.summary);
+    html += &facts(&run.summary);
+    html + &files(run)
+}
+
+/// A section with its heading; nothing if there is no content.
+pub fn section(heading: &str, content: &str) -> String {
+    if content.is_empty() { String::new() } else { format!("<section>\n<h2>{heading}</h2>\n{content}</section>\n") }
+}
+
+fn header(summary: &Summary) -> String {
+    let mut parts = Vec::new();
+    parts.push(match &summary.wave {
+        Some(wave) => format!("{} wave, H = {} cm offshore", capitalised(&wave.kind), short(100.0 * wave.height_m, 2)),
+        None => "No wave from the wavemaker".to_owned(),
+    });
+    match summary.units.len() {
+        0 => parts.push("no armour units".to_owned()),
+        1 => parts.push("one armour unit".to_owned()),
+        n => parts.push(format!("{n} armour units in one row")),
+    }
+    parts.push(match summary.two_dimensional {
+        true => "two-dimensional".to_owned(),
+        false => format!("{} m of flume width", short(summary.domain_width_m, 3)),
+    });
+    format!("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape(&summary.title), escape(&parts.join(" \u{b7} ")))
+}
+
+/// Width and sides of the domain.
+fn across(summary: &Summary) -> String {
+    let sides = if summary.side_walls { "between side walls" } else { "periodic across the flume" };
+    match summary.two_dimensional {
+        true => "two-dimensional".to_owned(),
+        false => format!("{} m wide, {sides}", short(summary.domain_width_m, 3)),
+    }
+}
+
+fn key_figures(summary: &Summary) -> String {
+    let mut keys: Vec<(&str, String, String)> = Vec::new();
+    if let (Some(ratio), Some(mean), Some(distance)) =
+        (summary.damage_ratio, summary.mean_displacement_m, summary.damage_distance_m)
+    {
+        let count = format!("{} of {} units", summary.damaged(), summary.units.len());
+        keys.push(("Damage ratio", format!("{} %", short(100.0 * ratio, 0)), count));
+        let in_distances =
+            format!("{} times the damage distance of {} m", short(mean / distance, 2), short(distance, 3));
+        keys.push(("Mean displacement", format!("{mean:.3} m"), in_distances));
+        let furthest = summary.units.iter().max_by(|a, b| a.displacement_m.total_cmp(&b.displacement_m));
+        if let Some(unit) = furthest {
+            keys.push(("Largest displacement", format!("{:.3} m", unit.displacement_m), format!("unit {}", unit.unit)));
+        }
+        let force = summary.units.iter().max_by(|a, b| a.peak_fluid_force_n.total_cmp(&b.peak_fluid_force_n));
+        if let Some(unit) = force {
+            let weightless = "beyond the mean force of the still water".to_owned();
+            keys.push(("Largest force of the water", format!("{} N", short(unit.peak_fluid_force_n, 2)), weightless));
+        }
+    } else {
+        let crest = |of: fn(&crate::output::GaugeSummary) -> Option<f64>| {
+            summary.gauges.iter().filter_map(|g| Some((of(g)?, g.name.clone()))).max_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        if let Some((crest, name)) = crest(|g| g.crest_sph_m) {
+            keys.push(("Highest water", format!("{crest:.3} m"), format!("above still water, at {name}")));
+        }
+        keys.push(("Simulated time", format!("{} s", short(summary.simulated_s, 2)), String::new()));
+        keys.push(("Particles", grouped(summary.particles), format!("{} mm apart", short(1000.0 * summary.dp_m, 2))));
+        keys.push(("Time steps", grouped(summary.steps), String::new()));
+    }
+    let cells: String = (keys.iter())
+        .map(|(name, value, note)| {
+            format!("<div><dt>{name}</dt><dd>{value}<small>{}</small></dd></div>\n", escape(note))
+        })
+        .collect();
+    format!("<dl class=\"keys\">\n{cells}</dl>\n")
+}
+
+fn displacement(run: &RunFolder) -> String {
+    if run.summary.units.is_empty() {
+        return String::new();
+    }
+    let mut content = format!(
+        "<p>Displacement is the horizontal distance between first and last position, seen from above. A unit counts as \
+         damaged when it has moved further than {} m.</p>\n<figure>{}</figure>\n",
+        short(run.summary.damage_distance_m.unwrap_or(0.0), 3),
+        charts::displacements(run)
+    );
+    if !run.motions.is_empty() {
+        content += &format!("<figure>{}</figure>\n", charts::paths(run));
+    }
+    section("Displacement", &(content + &unit_table(&run.summary)))
+}
+
+fn unit_table(summary: &Summary) -> String {
+    let row = |u: &UnitSummary| {
+        let damaged = if u.damaged { "<td class=\"yes\">yes</td>" } else { "<td>no</td>" };
+        format!(
+            "<tr><td>{}</td><td>{:.3}</td>{damaged}<td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            u.unit,
+            u.displacement_m,
+            short(u.direction_deg, 0),
+            u.end_m[0] - u.start_m[0],
+            u.end_m[2] - u.start_m[2],
+            short(u.rotation_deg, 0),
+            short(u.peak_fluid_force_n, 2),
+            short(u.peak_contact_force_n, 1),
+            u.bed_contacts,
+            u.unit_contacts
+        )
+        .replace(">-", ">\u{2212}")
+    };
+    let rows: String = summary.units.iter().map(row).collect();
+    let mean = summary.mean_displacement_m.unwrap_or(0.0);
+    format!(
+        "<div class=\"scroll\"><table>\n<thead><tr><th>Unit</th><th>Displace&shy;ment [m]</th><th>Damaged</th><th>Direction [&deg;]</th>\
+         <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Turned by [&deg;]</th><th>Peak force of water [N]</th>\
+         <th>Peak contact force [N]</th><th>Contacts with bed</th><th>Contacts with units</th></tr></thead>\n<tbody>\n{rows}\
+         <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"8\"></td></tr>\n</tbody></table></div>\n\
+         <figcaption>Direction seen from above: 0 is straight to the shore, positive towards larger y. The force of the \
+         water is that beyond the mean force of the still water.</figcaption>\n",
+        summary.damaged(),
+        summary.units.len()
+    )
+}
+
+fn water(run: &RunFolder) -> String {
+    let charts = charts::gauges(run);
+    if charts.is_empty() {
+        return String::new();
+    }
+    let mut content = String::from("<p>Elevation \u{3b7} is counted from the still water level.");
+    if run.flume_gauges.is_some() {
+        content += " The flume model carries the wave from the wavemaker through the whole flume; it knows neither units nor \
+                    breaking. Where it and the particles agree before the wave meets the units, the wave has entered the \
+                    particles as intended.";
+    }
+    content += "</p>\n";
+    content += &gauge_table(&run.summary);
+    content += &format!("<div class=\"pair\">\n{}\n</div>\n", charts.join("\n"));
+    section("Water at the gauges", &content)
+}
+
+fn gauge_table(summary: &Summary) -> String {
+    if summary.gauges.is_empty() {
+        return String::new();
+    }
+    let centimetres = |crest: Option<f64>| crest.map_or("\u{2013}".to_owned(), |c| format!("{:.2}", 100.0 * c));
+    let rows: String = (summary.gauges.iter())
+        .map(|g| {
+            let difference = match (g.crest_sph_m, g.crest_flume_m) {
+                (Some(sph), Some(flume)) if flume != 0.0 => {
+                    format!("{:+.1}", 100.0 * (sph / flume - 1.0)).replace('-', "\u{2212}")
+                }
+                _ => "\u{2013}".to_owned(),
+            };
+            format!(
+                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{difference}</td></tr>\n",
+                escape(&g.name),
+                short(g.x_m, 3),
+                centimetres(g.crest_sph_m),
+                centimetres(g.crest_flume_m)
+            )
+        })
+        .collect();
+    format!(
+        "<div class=\"scroll\"><table>\n<thead><tr><th>Gauge</th><th>x [m]</th><th>Crest, particles [cm]</th>\
+         <th>Crest, flume model [cm]</th><th>Difference [%]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+fn forces(run: &RunFolder) -> String {
+    let [along, up, contact] = charts::forces(run);
+    if along.is_empty() {
+        return String::new();
+    }
+    let contacts = &run.summary.contacts;
+    let content = format!(
+        "<p>Force of the water beyond that of the still water, which is here the mean over the first 0.2 s. Where there are \
+         many units, the band is one standard deviation to either side of their mean.</p>\n\
+         <div class=\"pair\">\n<figure><figcaption>Along the flume, positive to the shore</figcaption>{along}</figure>\n\
+         <figure><figcaption>Upwards</figcaption>{up}</figure>\n</div>\n\
+         <figure>{contact}<figcaption>Force of bed and neighbours together. {} contact events with the bed and {} between \
+         units; largest force in one event {} N, largest approach velocity {} m/s.</figcaption></figure>\n",
+        grouped(contacts.with_bed),
+        grouped(contacts.between_units),
+        short(contacts.peak_force_n, 1),
+        short(contacts.peak_normal_velocity_m_s, 3)
+    );
+    section("Forces on the units", &content)
+}
+
+fn energy(run: &RunFolder) -> String {
+    let chart = charts::energy(run);
+    if chart.is_empty() {
+        return String::new();
+    }
+    let mut words = String::from("Each kind of energy less its value at the start.");
+    if let Some(energy) = &run.summary.energy {
+        let change = energy.end_j - energy.start_j;
+        words += &format!(
+            " Over the run the sum changed by {} J: the wavemaker's work less what is dissipated.",
+            short(change, 2)
+        );
+    }
+    section("Energy", &format!("<figure>{chart}<figcaption>{words}</figcaption></figure>\n"))
+}
+
+fn warnings(summary: &Summary) -> String {
+    let items: String = summary.warnings.iter().map(|warning| format!("<li>{}</li>\n", escape(warning))).collect();
+    let words = "<p>These may make the result doubtful.</p>\n";
+    section("Warnings", &if items.is_empty() { items } else { format!("{words}<ul>\n{items}</ul>\n") })
+}
+
+fn assumptions(summary: &Summary) -> String {
+    let items: String = summary.assumptions.iter().map(|a| format!("<li>{}</li>\n", escape(a))).collect();
+    if items.is_empty() {
+        return section("Assumptions", "<p>The case file names none.</p>\n");
+    }
+    let words = "<p>No source gives these; they were chosen and belong to the result.</p>\n";
+    section("Assumptions", &format!("{words}<ul>\n{items}</ul>\n"))
+}
+
+fn facts(summary: &Summary) -> String {
+    let (counts, step, execution) = (&summary.particle_counts, &summary.time_step_s, &summary.execution);
+    let mut rows = vec![
+        (
+            "Particles",
+            format!(
+                "{} ({} water, {} bed and walls, {} wavemaker, {} units)",
+                grouped(summary.particles),
+                grouped(counts.water),
+                grouped(counts.bed),
+                grouped(counts.wavemaker),
+                grouped(counts.units)
+            ),
+        ),
+        ("Distance between particles", format!("{} mm", short(1000.0 * summary.dp_m, 3))),
+        (
+            "Domain",
+            format!(
+                "x = {} to {} m, {}",
+                short(summary.domain_x_m[0], 3),
+                short(summary.domain_x_m[1], 3),
+                across(summary)
+            ),
+        ),
+        (
+            "Time",
+            format!(
+                "{} s simulated from flume time {} s; end: {}",
+                short(summary.simulated_s, 3),
+                short(summary.start_s, 3),
+                summary.stopped
+            ),
+        ),
+        (
+            "Time steps",
+            format!(
+                "{}, {} \u{b5}s on average ({} to {} \u{b5}s)",
+                grouped(summary.steps),
+                short(1e6 * step.mean, 1),
+                short(1e6 * step.min, 1),
+                short(1e6 * step.max, 1)
+            ),
+        ),
+        ("Speed of sound", format!("{} m/s (artificial)", short(summary.speed_of_sound_m_s, 2))),
+        (
+            "Wall clock",
+            format!(
+                "{} with {} threads, water on the {}, {} steps a second",
+                clock(execution.wall_s),
+                execution.threads,
+                execution.device.as_deref().unwrap_or("processor"),
+                short(execution.steps_per_s, 2)
+            ),
+        ),
+    ];
+    if let Some(mach) = summary.largest_mach {
+        let words =
+            format!("{} times the speed of sound; up to 0.1 the water counts as incompressible", short(mach, 3));
+        rows.push(("Fastest water", words));
+    }
+    if let Some(wave) = &summary.wave {
+        let theory = if wave.theory.is_empty() { String::new() } else { format!(" ({})", wave.theory) };
+        rows.push(("Wave", format!("{}{theory}, H = {} m", wave.kind, short(wave.height_m, 4))));
+    }
+    rows.push(("breakwater", format!("version {}", summary.breakwater_version)));
+    rows.extend(execution.processor.clone().map(|name| ("Processor", name)));
+    let mut html: String =
+        rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{}</td></tr>\n", escape(value))).collect();
+    html += &format!("<tr><td>Case</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
+    section("How the run was made", &format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n"))
+}
+
+/// What the files of a run folder hold, in the order of the list.
+const FILES: [(&str, &str); 16] = [
+    (RunFolder::PICTURE, "one moment of the wave at the units as a picture of its own"),
+    (
+        RunFolder::WATER,
+        "particles of the water with velocity, pressure and density: open in ParaView 5.12 or later, show as <em>Point Gaussian</em>, colour by velocity",
+    ),
+    ("units.vtkhdf", "moving surfaces of the units: open in ParaView together with the water"),
+    ("units.csv", "place, orientation, velocity, force of the water and contact force of each unit against time"),
+    ("contacts.csv", "every contact event with its place, velocity, peak force and impulse"),
+    ("impacts.h5", "the hardest impacts of each unit with their forces against time: HDF5, for other programs"),
+    (
+        "breakage.csv",
+        "displacement, hardest hit, stresses, cracks and pieces of each unit, forces and stresses of the prototype",
+    ),
+    ("breakage.json", "the same with the impacts that were computed again"),
+    ("impacts", "folder with a fracture case and its results for each of these impacts"),
+    ("gauges.csv", "water at the gauges, by the particles"),
+    ("flume_gauges.csv", "water at the gauges, by the flume model"),
+    ("energy.csv", "energy of water and units"),
+    ("diagnostics.csv", "whether the run is sound: volume, Mach number and densities of the water, time steps"),
+    ("profile.csv", "bed with mound"),
+    ("summary.json", "the numbers of this page for other programs"),
+    ("case.json", "the case as it was run"),
+];
+
+fn files(run: &RunFolder) -> String {
+    let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
+        .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
+        .collect();
+    let words = "<p>Tables are plain CSV in SI units, the unit is in each column's name; times are flume times, 0 when the \
+                 paddle starts.</p>\n";
+    section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
+}
+
+/// A whole number with thin spaces between groups of three figures.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A duration [s] in the unit that suits it.
+pub fn clock(seconds: f64) -> String {
+    match seconds {
+        s if s < 100.0 => format!("{} s", short(s, 1)),
+        s if s < 5400.0 => format!("{} min", short(s / 60.0, 1)),
+        s => format!("{} h", short(s / 3600.0, 2)),
+    }
+}
+
+fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_grouped_and_times_readable() {
+        assert_eq!(grouped(17541570), "17\u{2009}541\u{2009}570");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(clock(12.34), "12.3 s");
+        assert_eq!(clock(107_640.0), "29.9 h");
+    }
+}

@@ -1,0 +1,147 @@
+//! Units as shaded solids on paper.
+
+use std::collections::BTreeMap;
+
+use super::cover::Cover;
+use super::motion::Pose;
+use super::window::{Window, path_point};
+use crate::output::UnitSurface;
+
+/// Levels of light on a surface.
+const SHADES: f64 = 7.0;
+/// Finest detail of a surface that is drawn [px].
+const DETAIL: f64 = 1.8;
+/// Layers of a unit, from back to front, in which faces of one shade are drawn together.
+const LAYERS: f64 = 16.0;
+
+/// Direction from which a view looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Eye {
+    /// Along y: x to the right, z upwards.
+    Side,
+    /// Along -z: x to the right, y upwards.
+    Above,
+}
+
+impl Eye {
+    /// Horizontal and vertical coordinate on the paper, and distance towards the eye [m].
+    pub fn project(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        match self {
+            Self::Side => [x, z, -y],
+            Self::Above => [x, y, z],
+        }
+    }
+
+    fn on_paper(self, window: &Window, point: [f64; 3]) -> [f64; 2] {
+        let [x, up, _] = self.project(point);
+        window.at(x, up)
+    }
+}
+
+/// The surface with no more detail than can be seen at `scale` [px/m]: vertices in one cell of a grid become their
+/// mean.
+pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
+    let cell = |v: &[f64; 3]| v.map(|c| (c * scale / DETAIL).floor() as i64);
+    let mut cells: BTreeMap<[i64; 3], (u32, [f64; 3], f64)> = BTreeMap::new();
+    let mut merged = Vec::with_capacity(surface.vertices_m.len());
+    for vertex in &surface.vertices_m {
+        let next = cells.len() as u32;
+        let (number, sum, count) = cells.entry(cell(vertex)).or_insert((next, [0.0; 3], 0.0));
+        *sum = [0, 1, 2].map(|i| sum[i] + vertex[i]);
+        *count += 1.0;
+        merged.push(*number);
+    }
+    let mut vertices_m = vec![[0.0; 3]; cells.len()];
+    for (number, sum, count) in cells.into_values() {
+        vertices_m[number as usize] = sum.map(|c| c / count);
+    }
+    let triangles = (surface.triangles.iter())
+        .map(|t| t.map(|corner| merged[corner as usize]))
+        .filter(|[a, b, c]| a != b && b != c && c != a)
+        .collect();
+    UnitSurface { vertices_m, triangles }
+}
+
+/// Half the size of a unit: the distance of its furthest vertex from its centre of mass [m].
+pub fn reach(surface: &UnitSurface) -> f64 {
+    surface.vertices_m.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max)
+}
+
+/// A face on paper: its layer from back to front, its level of light, its corners [px].
+type Face = (i64, usize, [[f64; 2]; 3]);
+
+/// The faces of a unit that look towards the eye, shaded by a light from above left, but for those that are covered;
+/// what is drawn covers what is drawn behind it later.
+pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cover: &mut Cover) -> String {
+    let reach = reach(surface).max(f64::MIN_POSITIVE);
+    let middle = eye.project(pose.position_m)[2];
+    let mut faces: Vec<Face> = (placed(surface, pose))
+        .filter_map(|corners| {
+            let [nx, nup, towards] = eye.project(normal(corners));
+            let light = (-0.35 * nx + 0.62 * nup + 0.70 * towards).max(0.0);
+            let depth = corners.iter().map(|c| eye.project(*c)[2] - middle).sum::<f64>() / 3.0;
+            let layer = (0.5 * LAYERS * depth / reach).floor() as i64;
+            let shade = ((light * SHADES) as usize).min(SHADES as usize - 1);
+            (towards > 0.0).then(|| (layer, shade, corners.map(|c| eye.on_paper(window, c))))
+        })
+        .collect();
+    faces.sort_by_key(|(layer, shade, _)| (*layer, *shade));
+    let mut layers: Vec<String> = Vec::new();
+    for layer in faces.chunk_by(|a, b| a.0 == b.0).rev() {
+        let seen: Vec<&Face> = layer.iter().filter(|face| !cover.hides(face.2)).collect();
+        let path = |same: &[&Face]| {
+            let data: String = same.iter().map(|face| triangle(face.2)).collect();
+            format!("<path class=\"s{}\" d=\"{data}\"/>", same[0].1)
+        };
+        layers.push(seen.chunk_by(|a, b| a.1 == b.1).map(path).collect());
+        cover.add(layer.iter().map(|face| face.2));
+    }
+    layers.into_iter().rev().collect()
+}
+
+/// The silhouette of a unit as path data: all faces that look towards the eye.
+pub fn silhouette(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye) -> String {
+    (placed(surface, pose))
+        .filter(|corners| eye.project(normal(*corners))[2] > 0.0)
+        .map(|corners| triangle(corners.map(|c| eye.on_paper(window, c))))
+        .collect()
+}
+
+/// The triangles of a unit where it is [m].
+fn placed(surface: &UnitSurface, pose: Pose) -> impl Iterator<Item = [[f64; 3]; 3]> {
+    let points: Vec<[f64; 3]> = surface.vertices_m.iter().map(|v| pose.place(*v)).collect();
+    surface.triangles.iter().map(move |t| t.map(|i| points[i as usize]))
+}
+
+/// A triangle as path data: its first corner, and the way to the others.
+fn triangle(corners: [[f64; 2]; 3]) -> String {
+    let tenths = corners.map(|corner| corner.map(|c| (10.0 * c).round()));
+    let way = |i: usize| [0, 1].map(|axis| 0.1 * (tenths[i][axis] - tenths[i - 1][axis]));
+    format!("M{}l{} {}z", path_point(corners[0]), path_point(way(1)), path_point(way(2)))
+}
+
+/// Unit normal of a triangle; zero for one without area.
+fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    let (u, v) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
+    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+    if length > 0.0 { n.map(|c| c / length) } else { [0.0; 3] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn detail_that_cannot_be_seen_is_left_out() {
+        // Two triangles of 1 m, and one of 1 mm between them.
+        let surface = UnitSurface {
+            vertices_m: vec![[0.5; 3], [0.501, 0.5, 0.5], [0.5, 0.501, 0.5], [1.5, 0.5, 0.5], [0.5, 1.5, 0.5]],
+            triangles: vec![[0, 1, 2], [0, 3, 4], [1, 3, 4]],
+        };
+        assert_eq!(coarsened(&surface, 1e4), surface);
+        let coarse = coarsened(&surface, 100.0);
+        assert_eq!((coarse.vertices_m.len(), coarse.triangles.len()), (3, 2));
+        assert!((coarse.vertices_m[0][0] - 1.501 / 3.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,130 @@
+//! The flume model's wave: gauges as a table, and a page of charts.
+
+use std::path::{Path, PathBuf};
+
+use super::plot::{Line, LineChart, escape, short};
+use crate::{
+    case::{Case, Quantity},
+    waves::{external::surface::SurfaceSeries, ml_piston::MlPiston, record::FlumeRecord, solitary::SolitaryWave},
+};
+use crate::{
+    output::{CsvSeries, OutputError, columns, write_atomically},
+    report::run::page,
+};
+
+/// Time between rows of the piston's motion, at most [s].
+const PISTON_INTERVAL: f64 = 0.02;
+
+/// Elevations of the flume model at the elevation gauges of the case.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Result<(), OutputError> {
+    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let names: Vec<String> =
+        ["time_s".to_owned()].into_iter().chain(gauges.map(|gauge| columns::elevation(&gauge.name))).collect();
+    let mut series = CsvSeries::create(path, &names)?;
+    let row = |(k, &time): (usize, &f64)| -> Vec<f64> {
+        [time].into_iter().chain(record.gauge_elevations_m.iter().map(|gauge| gauge[k])).collect()
+    };
+    series.append_rows(record.times_s().iter().enumerate().map(row))
+}
+
+/// Motion of the flume's own piston, from the start to the end of its stroke.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_flume_piston(wave: &SolitaryWave, path: &Path) -> Result<(), OutputError> {
+    let mut series = CsvSeries::create(path, &["time_s", "displacement_m", "velocity_m_s"])?;
+    let steps = (wave.duration_s() / PISTON_INTERVAL).ceil();
+    let time = |k: u32| f64::from(k) / steps * wave.duration_s();
+    let row = |t: f64| [t, wave.piston_displacement_m(t), wave.piston_velocity_m_s(t)];
+    series.append_rows((0..=steps as u32).map(|k| row(time(k))))
+}
+
+/// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston; another program's
+/// surface at the gauges `beside` it, if there are any.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_wave_page(
+    case: &Case,
+    record: &FlumeRecord,
+    piston: &MlPiston,
+    beside: &[SurfaceSeries],
+    dir: &Path,
+) -> Result<PathBuf, OutputError> {
+    let path = dir.join("wave.html");
+    let lead = format!(
+        "Layered model of the whole flume, {} layers; wavemaker of the particles at x = {} m from flume time {} s",
+        record.layers,
+        short(piston.place_m(), 3),
+        short(piston.start_s(), 2)
+    );
+    let charts = [gauge_chart(case, record, beside), profile_chart(record), piston_chart(piston)];
+    let figures: String = charts.iter().map(|chart| format!("<figure>{}</figure>\n", chart.svg())).collect();
+    let body = format!("<h1>{}</h1>\n<p class=\"lead\">{lead}</p>\n{figures}", escape(&case.title));
+    write_atomically(&path, page(&case.title, &body).as_bytes())?;
+    Ok(path)
+}
+
+fn chart(title: &str, x_label: &str, y_label: &str, lines: Vec<Line>) -> LineChart {
+    LineChart {
+        title: title.to_owned(),
+        x_label: x_label.to_owned(),
+        y_label: y_label.to_owned(),
+        lines,
+        marks: Vec::new(),
+        size: [860.0, 300.0],
+    }
+}
+
+fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> LineChart {
+    let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let mut lines: Vec<Line> = gauges
+        .zip(&record.gauge_elevations_m)
+        .enumerate()
+        .map(|(colour, (gauge, eta))| Line {
+            name: format!("{} at x = {} m", gauge.name, short(gauge.at[0], 2)),
+            points: record.times_s().iter().zip(eta).map(|(t, eta)| [*t, *eta]).collect(),
+            colour,
+            ..Line::default()
+        })
+        .collect();
+    lines.extend(beside.iter().enumerate().map(|(colour, series)| Line {
+        name: if colour == 0 { "dashed: beside it".to_owned() } else { String::new() },
+        points: series.points().map(|[t, z]| [t, z - case.flume.still_level]).collect(),
+        colour,
+        dashed: true,
+        ..Line::default()
+    }));
+    chart("Surface at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines)
+}
+
+/// The surface over the recorded window at five moments about the highest crest.
+fn profile_chart(record: &FlumeRecord) -> LineChart {
+    let crest = |t: f64| record.window_x_m.iter().map(|&x| record.elevation(x, t)).fold(f64::MIN, f64::max);
+    let highest = record.times_s().iter().copied().max_by(|a, b| crest(*a).total_cmp(&crest(*b))).unwrap_or(0.0);
+    let moments = (-2..=2).map(|k| highest + f64::from(k)).filter(|t| (0.0..=record.end_s()).contains(t));
+    let lines = moments.enumerate().map(|(colour, t)| Line {
+        name: format!("{} s", short(t, 1)),
+        points: record.window_x_m.iter().map(|&x| [x, record.elevation(x, t)]).collect(),
+        colour,
+        ..Line::default()
+    });
+    chart("Surface along the flume", "x [m]", "elevation \u{03b7} [m]", lines.collect())
+}
+
+/// Displacement of the lowest, a middle and the highest row that is in the water at rest.
+fn piston_chart(piston: &MlPiston) -> LineChart {
+    let heights = piston.row_heights_m();
+    let samples = 200;
+    let time = |k: i32| piston.start_s() + f64::from(k) / f64::from(samples) * (piston.end_s() - piston.start_s());
+    let lines = [0, heights.len() / 2, heights.len() - 1].into_iter().enumerate().map(|(colour, row)| Line {
+        name: format!("row at z = {} m", short(heights[row], 3)),
+        points: (0..=samples).map(time).map(|t| [t, piston.displacement_m(row, t)]).collect(),
+        colour,
+        ..Line::default()
+    });
+    chart("Rows of the multi-layer piston", "flume time [s]", "displacement [m]", lines.collect())
+}

@@ -1,0 +1,287 @@
+//! What came of the impacts, a row for each unit: how far it moved, how hard it was hit, whether it broke.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::blow::{Balance, Blow};
+use super::fracture_case::is_unit;
+use super::model::{Model, Role};
+use super::reenact::PARTNER;
+use crate::case::{Handover, HandoverWay};
+use crate::output::{CsvSeries, Impacts, OutputError, columns, write_atomically};
+use crate::simulation::fracture::summary::FractureSummary;
+
+/// A unit is broken when its heaviest piece has less than this share of its mass [-]: what is chipped off at an edge or
+/// crushed under a foot does not count.
+pub const BROKEN: f64 = 0.95;
+
+/// How far a unit moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moved {
+    /// Displacement [m].
+    pub displacement: f64,
+    /// Whether it is further than the damage distance.
+    pub damaged: bool,
+}
+
+/// `breakage.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Breakage {
+    /// Lengths of the prototype over those of the run [-].
+    pub scale: f64,
+    /// Share of the units that moved further than the damage distance [-].
+    pub damaged_ratio: f64,
+    /// Share of the units that broke [-].
+    pub broken_ratio: f64,
+    /// The units.
+    pub units: Vec<UnitBreakage>,
+    /// The impacts that were computed again, the hardest first.
+    pub impacts: Vec<Outcome>,
+}
+
+/// A unit. Forces, stresses and areas are those of the prototype.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnitBreakage {
+    /// Number from 1.
+    pub unit: usize,
+    /// Displacement in the run [m].
+    pub displacement_m: f64,
+    /// Whether that is further than the damage distance.
+    pub damaged: bool,
+    /// Hardest impact recorded, as in the prototype by Hertz's law [N]; 0 without one.
+    pub peak_force_n: f64,
+    /// Largest stress that the recorded impacts mean by the theory of bars [Pa]; none for units from STL.
+    pub nominal_stress_pa: Option<f64>,
+    /// Largest first principal stress computed [Pa]; none if none of its impacts was handed over.
+    pub sigma_1_pa: Option<f64>,
+    /// Largest area of cracks [m2].
+    pub crack_area_m2: Option<f64>,
+    /// Most pieces.
+    pub pieces: Option<usize>,
+    /// Share of the heaviest piece in its mass, the least of all impacts [-].
+    pub heaviest_share: Option<f64>,
+    /// Whether it broke: that share is below 0.95.
+    pub broken: Option<bool>,
+}
+
+/// An impact that was computed again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Name of its case and folder in `impacts/`.
+    pub name: String,
+    /// How it was computed.
+    pub way: HandoverWay,
+    /// Number of the unit from 1.
+    pub unit: usize,
+    /// Number of the unit that it hit; none for bed and walls.
+    pub partner: Option<usize>,
+    /// When, in the run [s].
+    pub t_s: f64,
+    /// Velocity of approach in the run [m/s].
+    pub approach_m_s: f64,
+    /// Largest force in the run [N].
+    pub peak_force_n: f64,
+    /// What it becomes in the prototype by Hertz's law [N].
+    pub prototype_force_n: f64,
+    /// How long the blow lasts there by that law [s].
+    pub blow_s: f64,
+    /// Mass, momentum and energy of the unit as the run and as the fracture computation have them, at the prototype's scale.
+    pub balance: Balance,
+    /// What was found for the unit and its partner.
+    pub found: Vec<Found>,
+    /// Largest residual of the energy book over the largest kinetic energy [-].
+    pub energy_residual_ratio: Option<f64>,
+    /// Why the computation went astray, if it did.
+    pub failure: Option<String>,
+}
+
+/// What an impact did to a unit of the prototype.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Found {
+    /// Number from 1.
+    pub unit: usize,
+    /// Largest first principal stress [Pa].
+    pub sigma_1_pa: f64,
+    /// Area of its cracks [m2].
+    pub crack_area_m2: f64,
+    /// Pieces, 1 for a whole unit.
+    pub pieces: usize,
+    /// Share of the heaviest piece in its mass [-].
+    pub heaviest_share: f64,
+    /// Change of its momentum by the end [N s].
+    pub impulse_n_s: [f64; 3],
+}
+
+impl Outcome {
+    /// The outcome of a blow whose computation ended with a summary or went astray.
+    pub fn of(
+        name: &str,
+        way: HandoverWay,
+        blow: &Blow,
+        balance: Balance,
+        ended: Result<FractureSummary, String>,
+    ) -> Self {
+        let touched = |summary: &FractureSummary| way == HandoverWay::LoadHistory || summary.impact_s.is_some();
+        let ended = match ended {
+            Ok(summary) if !touched(&summary) => Err("the bodies did not touch; give a longer duration_s".to_owned()),
+            ended => ended,
+        };
+        let event = &blow.impact.event;
+        let unit = event.body as usize + 1;
+        let partner = event.partner_unit().map(|unit| unit as usize + 1);
+        let found = |summary: &FractureSummary| {
+            let (mover, other) = blow.movers();
+            let bodies = summary.bodies.iter().filter(|body| is_unit(&body.name));
+            let of = |body: &crate::simulation::fracture::summary::BodySummary| {
+                let is_partner = body.name == PARTNER;
+                let pieces: Vec<_> = summary.fragments.iter().filter(|piece| piece.body == body.name).collect();
+                let heaviest = pieces.iter().map(|piece| piece.mass_kg).fold(0.0, f64::max);
+                let before =
+                    if is_partner { other.map_or(mover.velocity, |other| other.velocity) } else { mover.velocity };
+                Found {
+                    unit: if is_partner { partner.unwrap_or(unit) } else { unit },
+                    sigma_1_pa: body.peak.sigma_1_pa,
+                    crack_area_m2: body.crack_area_m2,
+                    // Where nothing can crack there are no pieces.
+                    pieces: pieces.len().max(1),
+                    heaviest_share: if pieces.is_empty() { 1.0 } else { heaviest / body.mass_kg },
+                    impulse_n_s: std::array::from_fn(|axis| body.mass_kg * (body.velocity_m_s[axis] - before[axis])),
+                }
+            };
+            bodies.map(of).collect()
+        };
+        Self {
+            name: name.to_owned(),
+            way,
+            unit,
+            partner,
+            t_s: event.start,
+            approach_m_s: event.approach_normal,
+            peak_force_n: event.peak_force,
+            prototype_force_n: event.peak_force * blow.scale.force,
+            blow_s: blow.duration,
+            balance,
+            found: ended.as_ref().map(found).unwrap_or_default(),
+            energy_residual_ratio: ended.as_ref().ok().map(|summary| summary.energy_residual_ratio),
+            failure: ended.err(),
+        }
+    }
+
+    /// In a line.
+    pub fn in_words(&self) -> String {
+        if let Some(failure) = &self.failure {
+            return format!("not computed: {failure}");
+        }
+        let of = |found: &Found| {
+            let state = state_in_words(found.heaviest_share < BROKEN, found.crack_area_m2);
+            format!(
+                "unit {} {state}, sigma_1 {:.2} MPa, {:.3} m2 of cracks, {} pieces",
+                found.unit,
+                found.sigma_1_pa * 1e-6,
+                found.crack_area_m2,
+                found.pieces
+            )
+        };
+        self.found.iter().map(of).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Broken, cracked or whole.
+pub fn state_in_words(broken: bool, crack_area: f64) -> &'static str {
+    match (broken, crack_area > 0.0) {
+        (true, _) => "broken",
+        (false, true) => "cracked, not broken",
+        (false, false) => "whole",
+    }
+}
+
+impl Breakage {
+    /// Name of the file in a run's folder.
+    pub const FILE: &str = "breakage.json";
+    /// Name of its table.
+    pub const TABLE: &str = "breakage.csv";
+
+    /// The units of a run with what was found.
+    pub fn of(model: &Model, handover: &Handover, impacts: &Impacts, moved: &[Moved], outcomes: Vec<Outcome>) -> Self {
+        let mut peaks = vec![0.0f64; moved.len()];
+        for impact in &impacts.impacts {
+            let force = impact.event.peak_force * Blow::new(model, handover, impact).scale.force;
+            for role in Role::of(impact) {
+                peaks[role.unit] = peaks[role.unit].max(force);
+            }
+        }
+        let nominal = model.nominal_stresses(handover, impacts);
+        let is_known = !model.sections().is_empty();
+        let unit = |(index, moved): (usize, &Moved)| {
+            let found = || outcomes.iter().flat_map(|outcome| &outcome.found).filter(|f| f.unit == index + 1);
+            let most = |of: fn(&Found) -> f64| found().map(of).reduce(f64::max);
+            let share = found().map(|found| found.heaviest_share).reduce(f64::min);
+            UnitBreakage {
+                unit: index + 1,
+                displacement_m: moved.displacement,
+                damaged: moved.damaged,
+                peak_force_n: peaks[index],
+                nominal_stress_pa: is_known.then_some(nominal[index]),
+                sigma_1_pa: most(|found| found.sigma_1_pa),
+                crack_area_m2: most(|found| found.crack_area_m2),
+                pieces: found().map(|found| found.pieces).max(),
+                heaviest_share: share,
+                broken: share.map(|share| share < BROKEN),
+            }
+        };
+        let units: Vec<UnitBreakage> = moved.iter().enumerate().map(unit).collect();
+        let ratio = |is: fn(&UnitBreakage) -> bool| {
+            units.iter().filter(|unit| is(unit)).count() as f64 / units.len().max(1) as f64
+        };
+        Self {
+            scale: handover.scale,
+            damaged_ratio: ratio(|unit| unit.damaged),
+            broken_ratio: ratio(|unit| unit.broken == Some(true)),
+            units,
+            impacts: outcomes,
+        }
+    }
+
+    /// Read `breakage.json` of a run folder, `None` if there is none.
+    ///
+    /// # Errors
+    /// If it cannot be read or is not what it should be.
+    pub fn read_if_present(dir: &Path) -> Result<Option<Self>, OutputError> {
+        let path = dir.join(Self::FILE);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let text = std::fs::read_to_string(&path).map_err(OutputError::io(&path))?;
+        serde_json::from_str(&text).map(Some).map_err(OutputError::json(&path))
+    }
+
+    /// Write `breakage.json` and `breakage.csv`.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, dir: &Path) -> Result<(), OutputError> {
+        let path = dir.join(Self::FILE);
+        let mut text = serde_json::to_string_pretty(self).map_err(OutputError::json(&path))?;
+        text.push('\n');
+        write_atomically(&path, text.as_bytes())?;
+        let mut table = CsvSeries::create(&dir.join(Self::TABLE), &columns::BREAKAGE)?;
+        let yes = |given: bool| f64::from(u8::from(given));
+        for unit in &self.units {
+            let or_nothing = |value: Option<f64>| value.unwrap_or(f64::NAN);
+            table.append(&[
+                unit.unit as f64,
+                unit.displacement_m,
+                yes(unit.damaged),
+                unit.peak_force_n,
+                or_nothing(unit.nominal_stress_pa),
+                or_nothing(unit.sigma_1_pa),
+                or_nothing(unit.crack_area_m2),
+                or_nothing(unit.pieces.map(|pieces| pieces as f64)),
+                or_nothing(unit.heaviest_share),
+                or_nothing(unit.broken.map(yes)),
+            ])?;
+        }
+        Ok(())
+    }
+}

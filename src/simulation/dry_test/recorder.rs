@@ -1,0 +1,226 @@
+//! Tables and surfaces of a dry run, and its checkpoints.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::{DryRun, Measured};
+use crate::{
+    case::{Handover, SiteTerrain},
+    output::{Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically},
+    rigid::{ContactEvent, RigidSnapshot},
+    simulation::flume::{
+        recorder::{contact_row, is_due},
+        snapshots::{Frame, UNIT_FIELDS},
+    },
+};
+
+/// Where each output stands.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct Counts {
+    series: u64,
+    surfaces: u64,
+    checkpoints: u64,
+    /// Bytes of the tables.
+    bytes: [u64; 3],
+}
+
+/// State of a run to go on from.
+#[derive(Debug, Serialize, Deserialize)]
+struct Checkpoint {
+    version: u32,
+    case_hash: String,
+    world: RigidSnapshot,
+    measured: Measured,
+    counts: Counts,
+}
+
+/// Layout of the checkpoint; raised when it changes.
+const VERSION: u32 = 3;
+
+const UNITS_FILE: &str = "units.csv";
+const CONTACTS_FILE: &str = "contacts.csv";
+const ENERGY_FILE: &str = "energy.csv";
+const SURFACES_FILE: &str = "units.vtkhdf";
+
+/// Open output files of a dry run.
+pub struct DryRecorder {
+    dir: PathBuf,
+    counts: Counts,
+    units: CsvSeries,
+    contacts: CsvSeries,
+    energy: CsvSeries,
+    surfaces: Option<PolyDataSeries>,
+}
+
+impl DryRecorder {
+    /// Name of the checkpoint in a run folder.
+    pub const CHECKPOINT: &str = "checkpoint.json";
+
+    /// Name of the state at which a run failed.
+    pub const FAILED: &str = "failed.json";
+
+    /// New files in the run folder, and those that do not change.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(run: &DryRun, dir: &Path) -> Result<Self, OutputError> {
+        let case = &run.case;
+        write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        for (name, content) in case.units.files() {
+            write_atomically(&dir.join(name), content)?;
+        }
+        if let Some(handover) = &case.fracture {
+            write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
+        }
+        if let Some(terrain) = &case.site.terrain {
+            write_atomically(&dir.join(SiteTerrain::FILE), &terrain.content)?;
+        }
+        CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?.append_rows(case.site.profile.points())?;
+        UnitSurface::of(case.units.shape.unit().solid()).write(&dir.join(UnitSurface::FILE))?;
+        let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
+        let mut recorder = Self {
+            dir: dir.to_owned(),
+            counts: Counts::default(),
+            units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
+            contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
+            energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::DRY_ENERGY)?,
+            surfaces: case.output.units_interval.map(surfaces).transpose()?,
+        };
+        recorder.note_lengths();
+        Ok(recorder)
+    }
+
+    /// Put a run of the same case into the state of its checkpoint, and cut its files to where they stood.
+    ///
+    /// # Errors
+    /// If there is no checkpoint, it is damaged, or one of another case; if a file is missing or shorter than it was.
+    pub fn reopen(run: &mut DryRun, dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join(Self::CHECKPOINT);
+        let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
+        let state: Checkpoint = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
+        if state.version != VERSION {
+            let what = format!("was written by another version of breakwater (layout {})", state.version);
+            return Err(OutputError::content(&path, what));
+        }
+        if state.case_hash != run.case.hash {
+            return Err(OutputError::content(&path, "belongs to another case than case.json beside it".to_owned()));
+        }
+        run.world.restore(&state.world).map_err(|error| OutputError::content(&path, error.to_string()))?;
+        run.measured = state.measured;
+        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        let counts = state.counts;
+        let surfaces = |_| {
+            let steps = counts.surfaces as usize;
+            PolyDataSeries::open_and_truncate(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS, steps)
+        };
+        Ok(Self {
+            dir: dir.to_owned(),
+            units: table(UNITS_FILE, counts.bytes[0])?,
+            contacts: table(CONTACTS_FILE, counts.bytes[1])?,
+            energy: table(ENERGY_FILE, counts.bytes[2])?,
+            surfaces: run.case.output.units_interval.map(surfaces).transpose()?,
+            counts,
+        })
+    }
+
+    /// Write what is due now.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_due(&mut self, run: &mut DryRun) -> Result<(), OutputError> {
+        let (time, output) = (run.time(), run.case.output);
+        if is_due(self.counts.series, Some(output.series_interval), time) {
+            self.record_series(run)?;
+            self.counts.series += 1;
+        }
+        if is_due(self.counts.surfaces, output.units_interval, time) {
+            self.record_surfaces(run)?;
+            self.counts.surfaces += 1;
+        }
+        self.note_lengths();
+        if is_due(self.counts.checkpoints + 1, output.checkpoint_interval, time) {
+            self.counts.checkpoints += 1;
+            self.record_state(run, Self::CHECKPOINT)?;
+        }
+        Ok(())
+    }
+
+    /// Write everything once more at the end.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_end(&mut self, run: &mut DryRun) -> Result<(), OutputError> {
+        self.record_series(run)?;
+        if self.surfaces.is_some() {
+            self.record_surfaces(run)?;
+        }
+        let running: Vec<ContactEvent> = run.world.running_events().copied().collect();
+        self.record_contacts(run, &running)?;
+        let impacts = run.world.impacts().iter().map(|contact| Impact::new(contact, 0.0, None)).collect();
+        Impacts { places: Vec::new(), impacts }.write(&self.dir.join(Impacts::FILE))
+    }
+
+    /// Keep the state of the run in `file` of its folder.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record_state(&self, run: &DryRun, file: &str) -> Result<(), OutputError> {
+        let path = self.dir.join(file);
+        let state = Checkpoint {
+            version: VERSION,
+            case_hash: run.case.hash.clone(),
+            world: run.world.snapshot(),
+            measured: run.measured.clone(),
+            counts: self.counts.clone(),
+        };
+        let bytes = serde_json::to_vec(&state).map_err(OutputError::json(&path))?;
+        write_atomically(&path, &bytes)
+    }
+
+    fn note_lengths(&mut self) {
+        self.counts.bytes = [&self.units, &self.contacts, &self.energy].map(CsvSeries::bytes);
+    }
+
+    fn record_series(&mut self, run: &mut DryRun) -> Result<(), OutputError> {
+        let time = run.time();
+        let rows =
+            run.world.states().iter().zip(run.world.contact_loads()).enumerate().map(|(number, (state, load))| {
+                let mut row = vec![time, (number + 1) as f64];
+                row.extend(state.position.to_array());
+                row.extend(state.rotation.to_array());
+                let still = glam::DVec3::ZERO;
+                let vectors = [state.velocity, state.angular_velocity, still, still, load.force, load.torque];
+                row.extend(vectors.iter().flat_map(|v| v.to_array()));
+                row
+            });
+        self.units.append_rows(rows)?;
+        let energy = run.world.energy();
+        self.energy.append(&[
+            time,
+            run.slope().to_degrees(),
+            energy.kinetic,
+            energy.potential,
+            energy.elastic,
+            energy.friction,
+            energy.damping,
+        ])?;
+        let ended = run.world.take_events();
+        self.record_contacts(run, &ended)
+    }
+
+    fn record_contacts(&mut self, run: &mut DryRun, events: &[ContactEvent]) -> Result<(), OutputError> {
+        for event in events {
+            let between = usize::from(event.partner_unit().is_some());
+            run.measured.contacts[between] += 1;
+            run.measured.peak_force = run.measured.peak_force.max(event.peak_force);
+        }
+        self.contacts.append_rows(events.iter().map(|event| contact_row(event, 0.0)))
+    }
+
+    fn record_surfaces(&mut self, run: &DryRun) -> Result<(), OutputError> {
+        let Some(series) = &mut self.surfaces else { return Ok(()) };
+        let solid = run.case.units.shape.unit().solid();
+        Frame::of_surfaces(solid, run.world.states(), run.world.time()).append_to(series)
+    }
+}

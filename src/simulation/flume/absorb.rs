@@ -1,0 +1,54 @@
+//! Active absorption of the waves that come back to a piston, rigid or in rows.
+
+use glam::DVec2;
+
+use super::Simulation;
+use crate::{
+    sph::particles::boundary::Boundary,
+    waves::{absorption::AbsorptionState, wavemaker::Wavemaker},
+};
+
+impl Simulation {
+    /// Read the surface before the piston, and let it take up what comes back over the step of length `dt` [s].
+    pub(super) fn absorb(&mut self, dt: f64) {
+        let Some(wavemaker) = &self.wavemaker else { return };
+        let Some(absorption) = wavemaker.absorption() else { return };
+        let excess = self.excess(wavemaker, absorption.gauge_m, self.flume_time());
+        absorption.advance(&mut self.absorbed, excess, dt);
+    }
+
+    /// Elevation beyond that of the wave that is made [m], at a distance from the piston [m]; nothing where it is dry.
+    fn excess(&self, wavemaker: &Wavemaker, distance: f64, t: f64) -> f64 {
+        let (domain, flume) = (&self.case.domain, &self.case.flume);
+        let x = wavemaker.surface_m(t) + self.absorbed.displacement_m + distance;
+        let surface = self.sampler().surface(DVec2::new(x, 0.5 * domain.width), flume.profile.z(x), domain.top_z);
+        let made = match (wavemaker, &self.flume) {
+            (Wavemaker::Paddle(paddle), _) => paddle.elevation_m(distance, t),
+            (Wavemaker::MlPiston(_), Some(record)) => record.elevation(x, t),
+            (Wavemaker::MlPiston(_), None) => {
+                unreachable!("a case with this gauge and without the flume model is refused")
+            }
+        };
+        surface.map_or(0.0, |z| z - flume.still_level - made)
+    }
+}
+
+/// Displacement [m] and velocity [m/s] of the wavemaker's rows at t [s], `before_end` [s] before the end of the step
+/// that absorption has moved over.
+pub(super) fn rows(wavemaker: &Wavemaker, absorbed: &AbsorptionState, t: f64, before_end: f64) -> Vec<[f64; 2]> {
+    let offset = absorbed.displacement_m - before_end * absorbed.velocity_m_s;
+    wavemaker.rows_at(t).into_iter().map(|[x, v]| [x + offset, v + absorbed.velocity_m_s]).collect()
+}
+
+/// Put the wavemaker where its [`rows`] are.
+pub(super) fn move_wavemaker(
+    boundary: &mut Boundary,
+    wavemaker: Option<&Wavemaker>,
+    absorbed: &AbsorptionState,
+    t: f64,
+    before_end: f64,
+) {
+    if let Some(wavemaker) = wavemaker {
+        boundary.move_piston(&rows(wavemaker, absorbed, t, before_end));
+    }
+}

@@ -1,0 +1,222 @@
+//! State of a run to and from HDF5, to the last bit.
+//!
+//! Arrays are datasets; bodies with their contacts, statistics and the state of the outputs are JSON texts, in which
+//! every number is the shortest text that reads back to the same bits.
+
+use std::path::Path;
+
+use glam::DVec3;
+use hdf5_metno::{File, Group};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use super::{
+    Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics,
+    water_at_impacts::WaterAtImpacts,
+};
+use crate::{
+    output::{
+        FluidAtPeak, OutputError,
+        state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
+    },
+    rigid::{Load, RigidSnapshot},
+    sph::particles::water::Water,
+    waves::absorption::AbsorptionState,
+};
+
+/// Layout of the file; raised when it changes.
+const VERSION: u32 = 13;
+
+/// Everything but the arrays.
+#[derive(Serialize, Deserialize)]
+struct Scalars {
+    version: u32,
+    case_hash: String,
+    /// Name of the device that computed the water.
+    device: String,
+    time: f64,
+    steps: u64,
+    statistics: Statistics,
+    recorder: RecorderState,
+    rigid: Option<RigidSnapshot>,
+    fluid_loads: Vec<[[f64; 3]; 2]>,
+    mean_loads: MeanLoads,
+    absorbed: AbsorptionState,
+}
+
+/// A copy of the state of a run, to be written while the run goes on.
+pub struct Checkpoint {
+    scalars: Scalars,
+    water: Water,
+    boundary_density: Vec<f64>,
+    water_at_impacts: WaterAtImpacts,
+}
+
+impl Checkpoint {
+    /// Name of the checkpoint in a run folder.
+    pub const FILE: &str = "checkpoint.h5";
+
+    /// Name of the state at which a run failed.
+    pub const FAILED_FILE: &str = "failed.h5";
+
+    /// The state of now, with that of the outputs.
+    pub fn of(simulation: &Simulation, recorder: &RecorderState) -> Self {
+        let units = simulation.units.as_ref();
+        let scalars = Scalars {
+            version: VERSION,
+            case_hash: simulation.case.hash.clone(),
+            device: simulation.solver.name().to_owned(),
+            time: simulation.time,
+            steps: simulation.steps,
+            statistics: simulation.statistics.clone(),
+            recorder: recorder.clone(),
+            rigid: units.map(|units| units.world.snapshot()),
+            fluid_loads: units.map_or_else(Vec::new, |units| {
+                units.fluid_loads.iter().map(|load| [load.force.to_array(), load.torque.to_array()]).collect()
+            }),
+            mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
+            absorbed: simulation.absorbed,
+        };
+        Self {
+            scalars,
+            water: simulation.water.clone(),
+            boundary_density: simulation.boundary.density.clone(),
+            water_at_impacts: units.map_or_else(WaterAtImpacts::default, |units| units.water_at_impacts.clone()),
+        }
+    }
+
+    /// Write the state to `file` in the run folder: to a temporary name first, synced, then renamed.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, dir: &Path, file: &str) -> Result<(), OutputError> {
+        let path = dir.join(file);
+        let text = serde_json::to_string(&self.scalars).map_err(OutputError::json(&path))?;
+        write_state(&path, &text, |file| {
+            let group = file.create_group("water")?;
+            write_vectors(&group, "position_m", &self.water.position)?;
+            write_vectors(&group, "velocity_m_s", &self.water.velocity)?;
+            write_column(&group, "density_kg_m3", &self.water.density)?;
+            write_column(&group, "mass_kg", &self.water.mass)?;
+            write_column(&group, "id", &self.water.id)?;
+            write_column(&file.create_group("boundary")?, "density_kg_m3", &self.boundary_density)?;
+            write_impacts(&file.create_group("impacts")?, &self.water_at_impacts)
+        })
+    }
+}
+
+/// Name of the device that computed the run of a folder, if it has a checkpoint that can be read.
+pub fn device_of(dir: &Path) -> Option<String> {
+    let path = dir.join(Checkpoint::FILE);
+    let (text, ()) = read_state(&path, |_| Ok(())).ok()?;
+    parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
+}
+
+/// Put a simulation of the same case into the state of the checkpoint; returns the state of the outputs.
+///
+/// # Errors
+/// If there is no checkpoint, it is damaged, or it is one of another case.
+pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
+    let hash = simulation.case.hash.clone();
+    read_of(simulation, dir, &hash)
+}
+
+/// The same from a checkpoint of a case with the given fingerprint, which has the same particles and units.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_of(simulation: &mut Simulation, dir: &Path, case_hash: &str) -> Result<RecorderState, OutputError> {
+    let checkpoint = Checkpoint::read(dir)?;
+    if checkpoint.scalars.case_hash != case_hash {
+        let what = "belongs to another case than case.json beside it".to_owned();
+        return Err(OutputError::content(&dir.join(Checkpoint::FILE), what));
+    }
+    checkpoint.restore(simulation, dir)
+}
+
+impl Checkpoint {
+    fn read(dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join(Self::FILE);
+        let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
+        let scalars: Scalars = parse(&text, &path)?;
+        if scalars.version != VERSION {
+            let what = format!("was written by another version of breakwater (layout {})", scalars.version);
+            return Err(OutputError::content(&path, what));
+        }
+        Ok(Self { scalars, water, boundary_density, water_at_impacts })
+    }
+
+    fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
+        let Self { scalars, water, boundary_density, water_at_impacts } = self;
+        let path = dir.join(Self::FILE);
+        if boundary_density.len() != simulation.boundary.len() {
+            return Err(OutputError::content(&path, "does not match the particles of the case".to_owned()));
+        }
+        simulation.water = water;
+        simulation.boundary.density = boundary_density;
+        simulation.time = scalars.time;
+        simulation.steps = scalars.steps;
+        simulation.statistics = scalars.statistics;
+        let now = simulation.solver.name();
+        if scalars.device != now {
+            simulation.statistics.warnings.push(format!(
+                "went on at {:.3} s on another device, {now} instead of {}: as exact, but not with the same bits",
+                simulation.flume_time(),
+                scalars.device
+            ));
+        }
+        simulation.absorbed = scalars.absorbed;
+        if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
+            units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
+            for (load, [force, torque]) in units.fluid_loads.iter_mut().zip(scalars.fluid_loads) {
+                load.force = DVec3::from_array(force);
+                load.torque = DVec3::from_array(torque);
+            }
+            units.mean_loads = scalars.mean_loads;
+            let places = simulation.boundary.places_in_unit().count();
+            if water_at_impacts.0.values().any(|water| water.pressure.len() != places) {
+                return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
+            }
+            units.water_at_impacts = water_at_impacts;
+        }
+        simulation.place_boundary();
+        Ok(scalars.recorder)
+    }
+}
+
+fn parse<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, OutputError> {
+    serde_json::from_str(text).map_err(OutputError::json(path))
+}
+
+fn write_impacts(group: &Group, water: &WaterAtImpacts) -> Hdf5Result<()> {
+    let of = |load: fn(&FluidAtPeak) -> DVec3| water.0.values().map(load).collect::<Vec<_>>();
+    let pressures: Vec<f32> = water.0.values().flat_map(|water| &water.pressure).copied().collect();
+    write_column(group, "contact", &water.0.keys().copied().collect::<Vec<u64>>())?;
+    write_vectors(group, "force_n", &of(|water| water.load.force))?;
+    write_vectors(group, "torque_n_m", &of(|water| water.load.torque))?;
+    write_column(group, "pressure_pa", &pressures)
+}
+
+fn read_impacts(group: &Group) -> Hdf5Result<WaterAtImpacts> {
+    let contacts: Vec<u64> = group.dataset("contact")?.read_raw()?;
+    let (forces, torques) = (read_vectors(group, "force_n")?, read_vectors(group, "torque_n_m")?);
+    let pressures: Vec<f32> = group.dataset("pressure_pa")?.read_raw()?;
+    let places = pressures.len() / contacts.len().max(1);
+    let loads = forces.into_iter().zip(torques).map(|(force, torque)| Load { force, torque });
+    // Without particles at the units there is no pressure either.
+    let pressures = pressures.chunks(places.max(1)).map(<[f32]>::to_vec).chain(std::iter::repeat(Vec::new()));
+    let water = loads.zip(pressures).map(|(load, pressure)| FluidAtPeak { load, pressure });
+    Ok(WaterAtImpacts(contacts.into_iter().zip(water).collect()))
+}
+
+/// Water, densities of the boundary, water at the impacts.
+fn read_arrays(file: &File) -> Hdf5Result<(Water, Vec<f64>, WaterAtImpacts)> {
+    let group = file.group("water")?;
+    let water = Water {
+        position: read_vectors(&group, "position_m")?,
+        velocity: read_vectors(&group, "velocity_m_s")?,
+        density: group.dataset("density_kg_m3")?.read_raw()?,
+        mass: group.dataset("mass_kg")?.read_raw()?,
+        id: group.dataset("id")?.read_raw()?,
+    };
+    Ok((water, file.dataset("boundary/density_kg_m3")?.read_raw()?, read_impacts(&file.group("impacts")?)?))
+}

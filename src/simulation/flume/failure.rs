@@ -1,0 +1,316 @@
+//! What can go wrong in a step, and finding out where.
+
+use std::fmt;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::{Simulation, extremes::Extremes};
+use crate::{
+    rigid::RigidError,
+    sph::{backend::DeviceError, particles::water::Water},
+};
+
+/// Change of density at which the water is no longer water [-]: particles outside 700 to 1300 kg/m3 are what
+/// DualSPHysics drops from a run by default. A coarse dam break that struck a unit at Mach 0.17 stayed within 5 %.
+pub(super) const LARGEST_COMPRESSION: f64 = 0.3;
+
+/// What is usually behind water that has become unstable.
+const UNSTABLE_ADVICE: &str = "likely causes: a time step too long (lower numerics.cfl), a speed of sound too low for the \
+     flow (raise fluid.sound_speed_factor), or particles too coarse for the geometry there (lower domain.dp_m); \
+     diagnostics.csv shows whether speeds and densities went astray before";
+
+/// A water particle as messages name it; what is not known is not a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Particle {
+    /// Number that it keeps throughout the run.
+    pub id: u32,
+    /// Where it is [m].
+    pub place: DVec3,
+    /// Its speed [m/s].
+    pub speed: f64,
+    /// Its density [kg/m3].
+    pub density: f64,
+}
+
+impl Particle {
+    /// The particle at an index of the arrays.
+    pub(super) fn of(water: &Water, index: usize) -> Self {
+        Self {
+            id: water.id[index],
+            place: water.position[index],
+            speed: water.velocity[index].length(),
+            density: water.density[index],
+        }
+    }
+}
+
+impl fmt::Display for Particle {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let DVec3 { x, y, z } = self.place;
+        write!(
+            out,
+            "water particle {} at x = {x:.3}, y = {y:.3}, z = {z:.3} m, with {:.2} m/s and {:.1} kg/m3",
+            self.id, self.speed, self.density
+        )
+    }
+}
+
+/// Why a run cannot go on. Times [s] count from the start of the particles; lengths [m], speeds [m/s].
+#[derive(Debug, Error)]
+pub enum Failure {
+    /// A number is no longer finite.
+    #[error("the water has become unstable after {time:.4} s (step {step}): {what}: {particle}; {UNSTABLE_ADVICE}")]
+    Unstable { time: f64, step: u64, what: &'static str, particle: Particle },
+    /// The water is compressed or torn as no water is.
+    #[error(
+        "the water has become unstable after {time:.4} s (step {step}): {particle}, {change:+.0} % off the {rho0} kg/m3 of \
+         water at rest; {UNSTABLE_ADVICE}"
+    )]
+    Density { time: f64, step: u64, particle: Particle, change: f64, rho0: f64 },
+    /// A particle has left the domain.
+    #[error("after {time:.4} s (step {step}) {particle} has left the domain: {advice}")]
+    Escaped { time: f64, step: u64, particle: Particle, advice: &'static str },
+    /// A unit has gone deeper into something than its contact law knows.
+    #[error(
+        "after {time:.4} s (step {step}) unit {unit} at x = {:.3}, y = {:.3}, z = {:.3} m, with {speed:.2} m/s, has gone \
+         {:.3} mm deep into {partner}, more than the {:.3} mm that its rounding allows: it strikes too hard for a contact so \
+         soft; raise young_modulus_pa of its material or contact.rounding_share, and see in diagnostics.csv whether the \
+         water that carries it is sound", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
+    )]
+    TooDeep {
+        time: f64,
+        step: u64,
+        /// Number of the unit, from 1.
+        unit: usize,
+        place: DVec3,
+        speed: f64,
+        partner: String,
+        depth: f64,
+        allowed: f64,
+    },
+    /// A unit's motion is no longer a number.
+    #[error(
+        "after {time:.4} s (step {step}) the motion of unit {unit}, last at x = {:.3}, y = {:.3}, z = {:.3} m with \
+         {speed:.2} m/s, is no longer a finite number; the water round it has probably become unstable; {UNSTABLE_ADVICE}",
+        place.x, place.y, place.z
+    )]
+    UnitNotFinite { time: f64, step: u64, unit: usize, place: DVec3, speed: f64 },
+    /// The device that computes the water is of no use any more.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The units cannot go on for another reason.
+    #[error("after {time:.4} s (step {step}): {source}")]
+    Units { time: f64, step: u64, source: RigidError },
+}
+
+/// Name the particle whose state is not finite, if possible one whose place is still known, or, where only a rate is
+/// not, the fastest.
+pub(super) fn not_finite(simulation: &Simulation) -> Failure {
+    let water = &simulation.water;
+    let first = |bad: &dyn Fn(usize) -> bool| (0..water.len()).find(|&i| bad(i));
+    let bad =
+        first(&|i| !is_finite(water, i) && water.position[i].is_finite()).or_else(|| first(&|i| !is_finite(water, i)));
+    let speed = |i: usize| water.velocity[i].length_squared();
+    let (what, index) = match bad {
+        Some(i) => ("place, velocity or density is no longer a finite number", Some(i)),
+        None => (
+            "an acceleration or a rate of density is no longer a finite number; the fastest is",
+            (0..water.len()).max_by(|&a, &b| speed(a).total_cmp(&speed(b))),
+        ),
+    };
+    let unknown = Particle { id: 0, place: DVec3::NAN, speed: f64::NAN, density: f64::NAN };
+    let particle = index.map_or(unknown, |i| Particle::of(water, i));
+    Failure::Unstable { time: simulation.time, step: simulation.steps, what, particle }
+}
+
+fn is_finite(water: &Water, i: usize) -> bool {
+    water.position[i].is_finite() && water.velocity[i].is_finite() && water.density[i].is_finite()
+}
+
+/// The first particle outside the domain or without a finite state, if any.
+pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
+    use rayon::prelude::*;
+    let [low, high] = simulation.bounds;
+    let water = &simulation.water;
+    let inside = |p: DVec3| p.cmpge(low).all() && p.cmple(high).all();
+    let particles = (0..water.len()).into_par_iter().with_min_len(4096);
+    let i = particles.find_first(|&i| !inside(water.position[i]) || !is_finite(water, i))?;
+    if !is_finite(water, i) {
+        return Some(not_finite(simulation));
+    }
+    let advice = if water.position[i].z > high.z {
+        "splash higher than the walls: raise domain.top_z_m"
+    } else {
+        "it has gone through a wall or the bed: lower domain.dp_m, raise numerics.boundary_layers, or check that walls \
+         reach above the water"
+    };
+    let (time, step) = (simulation.time, simulation.steps);
+    Some(Failure::Escaped { time, step, particle: Particle::of(water, i), advice })
+}
+
+/// The lightest or densest particle, if its density is impossible.
+pub(super) fn find_wrong_density(simulation: &Simulation, extremes: &Extremes) -> Option<Failure> {
+    let rho0 = simulation.case.fluid.rho0;
+    let change = |density: f64| density / rho0 - 1.0;
+    let (density, i) =
+        [extremes.densest, extremes.lightest].into_iter().find(|(rho, _)| change(*rho).abs() > LARGEST_COMPRESSION)?;
+    Some(Failure::Density {
+        time: simulation.time,
+        step: simulation.steps,
+        particle: Particle::of(&simulation.water, i),
+        change: 100.0 * change(density),
+        rho0,
+    })
+}
+
+/// What an error of the bodies means for the run; the clock of the bodies starts when they are let go.
+pub(super) fn of_units(simulation: &Simulation, error: RigidError) -> Failure {
+    let (time, step) = (simulation.time, simulation.steps);
+    let last = |body: usize| {
+        let state = simulation.units.as_ref().and_then(|units| units.states().get(body));
+        state.map_or((DVec3::NAN, f64::NAN), |state| (state.position, state.velocity.length()))
+    };
+    match error {
+        RigidError::TooDeep { body, partner, depth, allowed, .. } => {
+            let (place, speed) = last(body);
+            Failure::TooDeep { time, step, unit: body + 1, place, speed, partner, depth, allowed }
+        }
+        RigidError::NotFinite { body, .. } => {
+            let (place, speed) = last(body);
+            Failure::UnitNotFinite { time, step, unit: body + 1, place, speed }
+        }
+        source => Failure::Units { time, step, source },
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use std::sync::Arc;
+
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::case::Case;
+
+    /// A tank of still water, 25 x 10 x 10 particles.
+    fn tank_case() -> Value {
+        json!({
+            "title": "Still water",
+            "flume": { "bed_m": [[0.0, 0.0], [0.5, 0.0]], "still_water_level_m": 0.2, "material": "mortar" },
+            "domain": { "x_m": [0.0, 0.5], "width_m": 0.2, "sides": "periodic", "top_z_m": 0.4, "dp_m": 0.02 },
+            "numerics": { "hold_units_s": 0.0 },
+            "materials": [{ "name": "mortar", "young_modulus_pa": 1e8, "poisson_ratio": 0.2, "restitution": 0.5 }],
+            "friction": [{ "between": ["mortar", "mortar"], "coefficient": 0.5 }],
+            "stop": { "duration_s": 1.0 }
+        })
+    }
+
+    fn simulation(case: &Value) -> Simulation {
+        let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
+        Simulation::new(Arc::new(case)).unwrap()
+    }
+
+    pub fn tank() -> Simulation {
+        simulation(&tank_case())
+    }
+
+    /// The same with a Tetrapod that is free from the start.
+    fn tank_with_unit() -> Simulation {
+        let mut case = tank_case();
+        case["units"] = json!({
+            "shape": "tetrapod", "height_m": 0.16, "mass_kg": 2.5, "material": "mortar",
+            "count": 1, "pitch_m": 0.2, "x_m": 0.25
+        });
+        simulation(&case)
+    }
+
+    /// Steps until the run cannot go on; what it says.
+    fn failure(simulation: &mut Simulation) -> String {
+        for _ in 0..3 {
+            let done = simulation.begin_step().and_then(|dt| simulation.finish_step(dt));
+            if let Err(failure) = done {
+                return failure.to_string();
+            }
+        }
+        panic!("the run goes on");
+    }
+
+    fn assert_names(message: &str, parts: &[&str]) {
+        parts.iter().for_each(|part| assert!(message.contains(part), "\"{part}\" is missing:\n{message}"));
+    }
+
+    #[test]
+    fn a_state_that_is_no_number_stops_the_run() {
+        let mut simulation = tank();
+        let dt = simulation.begin_step().unwrap();
+        simulation.finish_step(dt).unwrap();
+        let (id, place) = (simulation.water.id[400], simulation.water.position[400]);
+        let named = format!("water particle {id} at x = {:.3}, y = {:.3}, z = {:.3} m", place.x, place.y, place.z);
+        // At the end of a step, in the speed of one particle, while the place of another is lost already.
+        simulation.water.velocity[400].x = f64::NAN;
+        simulation.water.position[100].y = f64::NAN;
+        let message = simulation.watch_water().unwrap_err().to_string();
+        assert_names(&message, &["after 0.0", "(step 1)", &named, "NaN m/s", "lower numerics.cfl"]);
+    }
+
+    #[test]
+    fn a_rate_that_is_no_number_stops_the_run() {
+        let mut simulation = tank();
+        simulation.water.density[400] = f64::INFINITY;
+        let id = simulation.water.id[400];
+        let message = failure(&mut simulation);
+        assert_names(
+            &message,
+            &["(step 0)", &format!("water particle {id} at x = "), "inf kg/m3", "lower domain.dp_m"],
+        );
+    }
+
+    #[test]
+    fn a_particle_above_the_walls_stops_the_run() {
+        let mut simulation = tank();
+        simulation.water.position[0].z = 2.0;
+        let id = simulation.water.id[0];
+        let message = failure(&mut simulation);
+        assert_names(&message, &[&format!("water particle {id} at x = "), "z = 2.000 m", "raise domain.top_z_m"]);
+    }
+
+    #[test]
+    fn a_particle_below_the_bed_stops_the_run() {
+        let mut simulation = tank();
+        simulation.water.position[0].z = -1.0;
+        let message = find_escape(&simulation).unwrap().to_string();
+        assert_names(&message, &["z = -1.000 m", "through a wall or the bed", "lower domain.dp_m"]);
+    }
+
+    #[test]
+    fn a_density_far_off_stops_the_run() {
+        for (density, change) in [(1500.0, "+50 %"), (600.0, "-40 %")] {
+            let mut simulation = tank();
+            let id = simulation.water.id[30];
+            simulation.water.density[30] = density;
+            let message = simulation.watch_water().unwrap_err().to_string();
+            let particle = format!("water particle {id} at x = ");
+            let has = format!("0.00 m/s and {density:.1} kg/m3, {change} off the 1000 kg/m3");
+            assert_names(&message, &["after 0.0000 s (step 0)", &particle, &has, "raise fluid.sound_speed_factor"]);
+        }
+    }
+
+    #[test]
+    fn a_unit_too_deep_in_the_bed_stops_the_run() {
+        let mut simulation = tank_with_unit();
+        // Thrown at the bed a hundred times faster than it could fall.
+        let units = simulation.units.as_mut().unwrap();
+        units.world.set_gravity(DVec3::NEG_Z * 1e6);
+        let message = failure(&mut simulation);
+        assert_names(&message, &["unit 1 at x = 0.250", "mm deep into the ground", "raise young_modulus_pa"]);
+    }
+
+    #[test]
+    fn a_load_that_is_no_number_stops_the_run() {
+        let mut simulation = tank_with_unit();
+        simulation.units.as_mut().unwrap().world.set_gravity(DVec3::NAN);
+        let message = failure(&mut simulation);
+        assert_names(&message, &["the motion of unit 1, last at x = 0.250", "no longer a finite number"]);
+    }
+}

@@ -1,0 +1,374 @@
+//! Series and snapshots of a run: gauges, units, contacts, energy, diagnostics as tables; water and units for ParaView.
+//!
+//! Rows of the tables are short and written at once. Snapshots and checkpoints are long: a thread of their own writes
+//! them, in the order in which they were given (see [`Writer`]), so that a checkpoint never counts a snapshot that is
+//! not in its file yet.
+//!
+//! Every time is that of the flume: 0 when the paddle starts.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Simulation, Units,
+    checkpoint::Checkpoint,
+    snapshots::{Frame, SURFACES_FILE, SnapshotFiles, WATER_FILE},
+    water_at_impacts::pressure_places,
+};
+use crate::{
+    case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Wave},
+    output::{CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically},
+    report::wave_page::write_flume_gauges,
+    rigid::{ContactEvent, RecordedContact},
+    sph::power::Powers,
+};
+
+/// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RecorderState {
+    /// Rows of the series.
+    series: u64,
+    /// Steps of the moving surfaces.
+    surfaces: u64,
+    /// Steps of the water.
+    water: u64,
+    /// Checkpoints.
+    pub checkpoints: u64,
+    /// Bytes of the tables.
+    bytes: [u64; 5],
+}
+
+/// Open output files of a run.
+pub struct Recorder {
+    dir: PathBuf,
+    state: RecorderState,
+    gauges: CsvSeries,
+    units: CsvSeries,
+    contacts: CsvSeries,
+    energy: CsvSeries,
+    diagnostics: CsvSeries,
+    writer: Writer<SnapshotFiles>,
+}
+
+const GAUGES_FILE: &str = "gauges.csv";
+const UNITS_FILE: &str = "units.csv";
+const CONTACTS_FILE: &str = "contacts.csv";
+const ENERGY_FILE: &str = "energy.csv";
+const DIAGNOSTICS_FILE: &str = "diagnostics.csv";
+
+impl Recorder {
+    /// New files in the run folder, and those that do not change: case, bed profile, shape of the unit, flume gauges.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
+        let case = &simulation.case;
+        write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        if let Some(handover) = &case.fracture {
+            write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
+        }
+        if let Wave::Given(wave) = &case.wave {
+            write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;
+        }
+        let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
+        profile.append_rows(case.flume.profile.points())?;
+        if let (Some(units), Some(of_case)) = (&simulation.units, &case.units) {
+            UnitSurface::of(units.shape.solid()).write(&dir.join(UnitSurface::FILE))?;
+            for (name, content) in of_case.files() {
+                write_atomically(&dir.join(name), content)?;
+            }
+        }
+        if let Some(record) = &simulation.flume {
+            write_flume_gauges(case, record, &dir.join("flume_gauges.csv"))?;
+        }
+        let mut recorder = Self {
+            dir: dir.to_owned(),
+            state: RecorderState::default(),
+            gauges: CsvSeries::create(&dir.join(GAUGES_FILE), &gauge_columns(case))?,
+            units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
+            contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
+            energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::ENERGY)?,
+            diagnostics: CsvSeries::create(&dir.join(DIAGNOSTICS_FILE), &columns::DIAGNOSTICS)?,
+            writer: Writer::spawn(SnapshotFiles::create(simulation, dir)?),
+        };
+        recorder.note_lengths();
+        Ok(recorder)
+    }
+
+    /// The files of an interrupted run, cut to where they stood at its checkpoint.
+    ///
+    /// # Errors
+    /// If a file is missing or shorter than it was.
+    pub fn reopen(simulation: &Simulation, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        Ok(Self {
+            dir: dir.to_owned(),
+            gauges: table(GAUGES_FILE, state.bytes[0])?,
+            units: table(UNITS_FILE, state.bytes[1])?,
+            contacts: table(CONTACTS_FILE, state.bytes[2])?,
+            energy: table(ENERGY_FILE, state.bytes[3])?,
+            diagnostics: table(DIAGNOSTICS_FILE, state.bytes[4])?,
+            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water, state.surfaces)?),
+            state,
+        })
+    }
+
+    /// The files of a run that begins where that of another folder stands: its own, with the tables and snapshots of the
+    /// other up to there.
+    ///
+    /// # Errors
+    /// If a file cannot be read or written.
+    pub fn branch(simulation: &Simulation, from: &Path, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+        drop(Self::create(simulation, dir)?);
+        let tables = [GAUGES_FILE, UNITS_FILE, CONTACTS_FILE, ENERGY_FILE, DIAGNOSTICS_FILE];
+        for file in tables.into_iter().chain([WATER_FILE, SURFACES_FILE]) {
+            let (from, to) = (from.join(file), dir.join(file));
+            if to.exists() {
+                fs::copy(&from, to).map_err(OutputError::io(&from))?;
+            }
+        }
+        Self::reopen(simulation, dir, state)
+    }
+
+    /// Where the outputs stand.
+    pub fn state(&self) -> &RecorderState {
+        &self.state
+    }
+
+    /// Write what is due at the present time, between the two halves of a step of length `dt` [s].
+    ///
+    /// # Errors
+    /// If a file cannot be written, a snapshot or checkpoint given before could not, or the device is lost.
+    pub fn record_due(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        self.writer.check()?;
+        let (time, case) = (simulation.time, simulation.case.clone());
+        if self.is_anything_due(&case, time) {
+            simulation.fetch()?;
+        }
+        if is_due(self.state.series, Some(case.output.series_interval), time) {
+            self.record_series(simulation, dt)?;
+            self.state.series += 1;
+        }
+        if is_due(self.state.surfaces, case.output.units_interval, time) {
+            self.record_surfaces(simulation)?;
+            self.state.surfaces += 1;
+        }
+        if is_due(self.state.water, case.output.fluid_interval, time) {
+            self.record_water(simulation)?;
+            self.state.water += 1;
+        }
+        self.note_lengths();
+        // The first one is due at the first interval: the start can be made anew from the case.
+        if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
+            // Its number is part of it.
+            self.state.checkpoints += 1;
+            self.record_checkpoint(simulation)?;
+        }
+        Ok(())
+    }
+
+    /// Write everything once more at the end of the run, and wait until all of it is in the files; `dt` is the length
+    /// of the step that would come [s].
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_end(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        simulation.fetch()?;
+        // Before a row of its own and the end of contacts that go on: the run may go on from here.
+        self.record_checkpoint(simulation)?;
+        self.record_series(simulation, dt)?;
+        if simulation.case.output.units_interval.is_some() {
+            self.record_surfaces(simulation)?;
+        }
+        if simulation.case.output.fluid_interval.is_some() {
+            self.record_water(simulation)?;
+        }
+        if let Some(units) = &simulation.units {
+            let offset = contact_clock(simulation, units);
+            let running: Vec<ContactEvent> = units.world.running_events().copied().collect();
+            for event in &running {
+                self.contacts.append(&contact_row(event, offset))?;
+            }
+            impacts_of(simulation, units, offset).write(&self.dir.join(Impacts::FILE))?;
+            running.iter().for_each(|event| count_contact(simulation, event));
+        }
+        self.writer.drain()
+    }
+
+    /// Wait until all snapshots and checkpoints given so far are in their files.
+    ///
+    /// # Errors
+    /// If one of them cannot be written.
+    pub fn drain(&mut self) -> Result<(), OutputError> {
+        self.writer.drain()
+    }
+
+    /// Whether something is due at a time [s] that shows the water.
+    fn is_anything_due(&self, case: &Case, time: f64) -> bool {
+        let (state, output) = (&self.state, &case.output);
+        is_due(state.series, Some(output.series_interval), time)
+            || is_due(state.water, output.fluid_interval, time)
+            || is_due(state.checkpoints + 1, output.checkpoint_interval, time)
+    }
+
+    fn note_lengths(&mut self) {
+        let tables = [&self.gauges, &self.units, &self.contacts, &self.energy, &self.diagnostics];
+        self.state.bytes = tables.map(CsvSeries::bytes);
+    }
+
+    fn record_series(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+        let time = simulation.flume_time();
+        self.gauges.append(&gauge_row(simulation))?;
+        let powers = simulation.powers()?;
+        self.energy.append(&energy_row(simulation, powers))?;
+        self.diagnostics.append(&simulation.diagnostics_row(dt, powers.divergence))?;
+        let Some(units) = &mut simulation.units else { return Ok(()) };
+        let events = units.world.take_events();
+        let means = units.mean_loads.take();
+        let free = simulation.time > simulation.case.numerics.hold_units;
+        for (number, state) in units.states().iter().enumerate() {
+            // No step has been made before the first row.
+            let now = || [units.fluid_loads[number], units.world.contact_loads()[number]];
+            let loads = means.as_ref().map_or_else(now, |means| means[number]);
+            if free {
+                simulation.statistics.count_mean_loads(number, loads);
+            }
+            let [fluid, contact] = loads;
+            let mut row = vec![time, (number + 1) as f64];
+            row.extend(state.position.to_array());
+            row.extend(state.rotation.to_array());
+            let vectors =
+                [state.velocity, state.angular_velocity, fluid.force, fluid.torque, contact.force, contact.torque];
+            row.extend(vectors.iter().flat_map(|v| v.to_array()));
+            self.units.append(&row)?;
+        }
+        let offset = simulation.units.as_ref().map_or(0.0, |units| contact_clock(simulation, units));
+        for event in &events {
+            self.contacts.append(&contact_row(event, offset))?;
+            count_contact(simulation, event);
+        }
+        Ok(())
+    }
+
+    fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let Some(units) = &simulation.units else { return Ok(()) };
+        let frame = Frame::of_surfaces(units.shape.solid(), units.states(), simulation.flume_time());
+        self.writer.give(move |files| files.append_surfaces(&frame))
+    }
+
+    fn record_water(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let frame = Frame::of_water(simulation);
+        self.writer.give(move |files| files.append_water(&frame))
+    }
+
+    fn record_checkpoint(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let (checkpoint, dir) = (Checkpoint::of(simulation, &self.state), self.dir.clone());
+        self.writer.give(move |_| checkpoint.write(&dir, Checkpoint::FILE))
+    }
+}
+
+/// Whether an output that was written `count` times at an interval [s] is due.
+pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
+    // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
+    interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
+}
+
+/// Gauges that the particles can read.
+fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
+    case.gauges.iter().filter(|gauge| gauge.in_domain)
+}
+
+fn gauge_columns(case: &Case) -> Vec<String> {
+    let names = wet_gauges(case).flat_map(|gauge| match gauge.quantity {
+        Quantity::Elevation => vec![columns::elevation(&gauge.name)],
+        Quantity::Pressure => vec![columns::pressure(&gauge.name)],
+        Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
+    });
+    ["time_s".to_owned()].into_iter().chain(names).collect()
+}
+
+/// Dry gauges leave their fields empty, and so do those that the wavemaker has come near to or passed.
+fn gauge_row(simulation: &Simulation) -> Vec<f64> {
+    let (case, sampler) = (&simulation.case, simulation.sampler());
+    let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
+    let mut row = vec![simulation.flume_time()];
+    for gauge in wet_gauges(case) {
+        let at = simulation.place_of(gauge);
+        let sample = || sampler.sample(at).filter(|_| at.x > wet_from);
+        match gauge.quantity {
+            Quantity::Elevation => {
+                let (bed, top) = (case.flume.profile.z(at.x), case.domain.top_z);
+                let level = sampler.surface(at.truncate(), bed, top).filter(|_| at.x > wet_from);
+                row.push(level.map_or(f64::NAN, |z| z - case.flume.still_level));
+            }
+            Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),
+            Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),
+        }
+    }
+    row
+}
+
+fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
+    simulation.statistics.balance.add(simulation.time, powers);
+    let balance = simulation.statistics.balance;
+    let energy = simulation.energy();
+    [
+        simulation.flume_time(),
+        energy.kinetic,
+        energy.potential,
+        energy.internal,
+        energy.units_kinetic,
+        energy.units_potential,
+        balance.boundary,
+        balance.viscosity,
+        balance.diffusion,
+        balance.zones,
+    ]
+}
+
+/// From the clock of the contacts, which starts when the units are let go, to that of the flume [s].
+fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
+    simulation.flume_time() - units.world.time()
+}
+
+/// The hardest impacts so far; `offset` leads from their clock to that of the file [s].
+fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
+    let water = &units.water_at_impacts.0;
+    let contacts = units.world.impacts();
+    let impact = |contact: &RecordedContact| Impact::new(contact, offset, water.get(&contact.event.number).cloned());
+    Impacts { places: pressure_places(&simulation.boundary), impacts: contacts.iter().map(impact).collect() }
+}
+
+/// A row of the contacts; `offset` leads from their clock to that of the table [s].
+pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 15] {
+    let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
+    [
+        event.start + offset,
+        event.end + offset,
+        f64::from(event.body + 1),
+        event.partner_unit().map_or(0.0, |unit| f64::from(unit + 1)),
+        x,
+        y,
+        z,
+        event.approach_normal,
+        event.approach_tangential,
+        event.peak_force,
+        glam::DVec3::from_array(event.impulse).length(),
+        bx,
+        by,
+        bz,
+        event.rebound,
+    ]
+}
+
+fn count_contact(simulation: &mut Simulation, event: &ContactEvent) {
+    let statistics = &mut simulation.statistics;
+    let with_unit = usize::from(event.partner_unit().is_some());
+    statistics.contacts[event.body as usize][with_unit] += 1;
+    statistics.peak_contact = statistics.peak_contact.max(event.peak_force);
+    statistics.fastest_contact = statistics.fastest_contact.max(event.approach_normal);
+}

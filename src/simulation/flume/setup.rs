@@ -1,0 +1,356 @@
+//! From a validated case to particles, bodies and wavemaker at the start.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use thiserror::Error;
+
+use super::{
+    Simulation, Units,
+    incoming::{crest_time, particle_start, run_flume, wavemaker},
+    mean_loads::MeanLoads,
+    scheme::{parameters, tait},
+    statistics::Statistics,
+    water_at_impacts::WaterAtImpacts,
+};
+use crate::simulation::bodies::rigid_setup;
+use crate::{
+    case::{self, Case},
+    geometry::{armour_unit::ArmourUnit, profile::Profile},
+    rigid::{Load, RigidError, RigidWorld},
+    sph::{
+        backend::DeviceError,
+        device::Device,
+        particles::{
+            bed::{Across, Outline, outline_particles, side_wall_particles},
+            boundary::{Boundary, BoundaryParticle},
+            fill::{Basin, clear_solid},
+            obstacle::{box_particles, cover},
+            unit::{LEAST_DEPTH, unit_particles},
+            water::Water,
+        },
+    },
+    waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
+};
+
+/// Between a unit and its own image no water goes through a gap narrower than this, in particle distances: that in which
+/// water particles at rest would touch both.
+const NARROWEST_GAP: f64 = 0.5;
+
+/// Why a case cannot be set up.
+#[derive(Debug, Error)]
+pub enum SetupError {
+    /// The flume model failed.
+    #[error(transparent)]
+    Flume(#[from] FlumeError),
+    /// The water carries the wavemaker onto the mound or an obstacle.
+    #[error(
+        "domain.x_m[0] = {place}: the wavemaker follows the water and would travel {travel:.2} m, to x = {:.2} m, over the \
+         toe of the mound or an obstacle at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
+    )]
+    WavemakerReachesMound {
+        /// Where it starts [m].
+        place: f64,
+        /// How far it would travel [m].
+        travel: f64,
+        /// Toe of the mound, or seaward face of an obstacle [m].
+        toe: f64,
+    },
+    /// The files with the wave end too early.
+    #[error(
+        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, and the particles start at {start:.3} s; \
+         shorten the run to {:.3} s, start earlier with `domain.start_s`, or let the other program run on", end - start
+    )]
+    WaveEnds {
+        /// Time of the run [s].
+        duration: f64,
+        /// When the particles start [s].
+        start: f64,
+        /// When the files end [s].
+        end: f64,
+    },
+    /// The units cannot stand where the case puts them.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+    /// The device cannot compute the case.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+}
+
+impl Simulation {
+    /// The case at its start, on the processor.
+    ///
+    /// # Errors
+    /// If the flume model fails or the units cannot stand where they should.
+    pub fn new(case: Arc<Case>) -> Result<Self, SetupError> {
+        Self::on(&Device::Cpu, case)
+    }
+
+    /// The case at its start, its water computed by a device.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and if the device does not know the scheme of the case or has not enough memory.
+    pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
+        let flume = run_flume(&case)?;
+        let start = particle_start(&case, flume.as_ref());
+        check_times(&case, start)?;
+        let wavemaker = wavemaker(&case, flume.as_ref(), start);
+        if let Some(wavemaker) = &wavemaker {
+            check_travel(&case, wavemaker)?;
+        }
+        let seaward_reach = wavemaker.as_ref().map(Wavemaker::seaward_reach_m);
+        let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
+
+        let (across, outline) = (across(&case), outline(&case, seaward_reach));
+        let shape_particles = units.as_ref().map_or_else(Vec::new, |units| unit_in_place(&units.shape, &case));
+        let count = units.as_ref().map_or(0, |units| units.states().len());
+        let boundary = Boundary::new(
+            &fixed_particles(&case, &outline, &across, seaward_reach),
+            &wavemaker.as_ref().map_or_else(Vec::new, |wavemaker| wavemaker_particles(&case, &across, wavemaker)),
+            &shape_particles,
+            count,
+            case.fluid.rho0,
+        );
+        let mut water = fill(&case, &across, flume.as_ref(), start);
+        for obstacle in &case.domain.obstacles {
+            clear_solid(&mut water, LEAST_DEPTH * case.domain.dp, |point| obstacle.locate(point));
+        }
+        if let Some(units) = &units {
+            clear_units(&mut water, units, &case);
+        }
+
+        let shoreward = units.iter().flat_map(Units::states).map(|state| state.position.x).reduce(f64::max);
+        let crest = shoreward.map_or(0.0, |x| crest_time(&case, flume.as_ref(), start, x));
+        let [low, high] = bounds(&case, seaward_reach);
+        let allowed = [low, high + DVec3::Z * (case.domain.top_z - case.domain.bottom_z)];
+        let mut simulation = Self {
+            solver: device.solver(parameters(&case), [low, high], allowed)?,
+            statistics: Statistics::new(count),
+            bounds: allowed,
+            case,
+            flume,
+            water,
+            boundary,
+            units,
+            time: 0.0,
+            steps: 0,
+            start,
+            crest,
+            wavemaker,
+            absorbed: AbsorptionState::default(),
+            outline,
+        };
+        simulation.place_boundary();
+        simulation.load()?;
+        Ok(simulation)
+    }
+}
+
+/// Refuse a run that goes on after the files with its wave, if its particles start at a time [s] of theirs.
+///
+/// # Errors
+/// If the files end before the run.
+pub fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
+    let case::Wave::Given(wave) = &case.wave else { return Ok(()) };
+    let ([_, end], duration) = (wave.times(), case.stop.duration);
+    if start + duration <= end { Ok(()) } else { Err(SetupError::WaveEnds { duration, start, end }) }
+}
+
+/// Refuse a wavemaker that would go over the seaward toe of the mound or an obstacle before the run ends.
+fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
+    let place = case.domain.x[0];
+    let toe_of = |mound: &case::Mound| {
+        let before_crest = case.flume.profile.points().iter().rfind(|point| point[0] < mound.crest_x[0]);
+        before_crest.map_or(mound.crest_x[0], |point| point[0])
+    };
+    let toes = case.flume.mound.iter().map(toe_of).chain(case.domain.obstacles.iter().map(|obstacle| obstacle.low.x));
+    let toe = toes.fold(f64::INFINITY, f64::min);
+    let travel = wavemaker.shoreward_reach_m();
+    if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
+}
+
+fn across(case: &Case) -> Across {
+    Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
+}
+
+/// Box round everything that can hold water or boundary particles [m]; a wavemaker goes seaward by its reach [m].
+fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
+    let margin = (case.numerics.boundary_layers as f64 + 2.0) * case.domain.dp;
+    let beyond = if case.domain.sides == case::Sides::Walls { margin } else { 0.0 };
+    let [x0, x1] = case.domain.x;
+    [
+        DVec3::new(x0 - margin - seaward_reach.unwrap_or(0.0), -beyond, case.domain.bottom_z - margin),
+        DVec3::new(x1 + margin, case.domain.width + beyond, case.domain.top_z + margin),
+    ]
+}
+
+/// Corner points of the bed between two x, the ends included.
+fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DVec2> {
+    let inner = profile.points().iter().filter(move |p| p[0] > from && p[0] < to);
+    let points: Vec<DVec2> = inner.map(|&p| DVec2::from_array(p)).collect();
+    let end = |x: f64| DVec2::new(x, profile.z(x));
+    [end(from)].into_iter().chain(points).chain([end(to)])
+}
+
+/// Bed, mound and end walls; where a wavemaker stands, the bed goes on under its layers as far as they reach [m]
+/// instead of the seaward wall.
+fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
+    let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
+    let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
+    let bed_start = seaward_reach.map_or(x0, |reach| x0 - thickness - reach);
+    let mut points: Vec<DVec2> = Vec::new();
+    if seaward_reach.is_none() {
+        points.push(DVec2::new(x0, top));
+    }
+    points.extend(bed_between(&case.flume.profile, bed_start, x1));
+    points.push(DVec2::new(x1, top));
+    Outline::new(points)
+}
+
+/// Particles of bed, mound, end walls, side walls and obstacles; side walls begin where the wavemaker's reach [m] does.
+fn fixed_particles(
+    case: &Case,
+    outline: &Outline,
+    across: &Across,
+    seaward_reach: Option<f64>,
+) -> Vec<BoundaryParticle> {
+    let (domain, layers) = (&case.domain, case.numerics.boundary_layers as u32);
+    let mut particles = outline_particles(outline, across, domain.dp, layers, 2.0 * case.numerics.h);
+    let bed = |x: f64| case.flume.profile.z(x);
+    let (top, at_rest) = (|_: f64| domain.top_z, |_: f64, _: f64| DVec2::ZERO);
+    let mut sides = basin(case, across, &bed, &top, &at_rest);
+    sides.x = [domain.x[0] - seaward_reach.unwrap_or(0.0), domain.x[1]];
+    particles.extend(side_wall_particles(&sides.side_section(domain.top_z), across, layers));
+    for obstacle in &domain.obstacles {
+        cover(&mut particles, obstacle);
+    }
+    let thickness = f64::from(layers) * domain.dp;
+    for obstacle in &domain.obstacles {
+        let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
+        // On a slope the lower corner of the box is under the ground, which has particles of its own.
+        particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
+    }
+    particles
+}
+
+/// The layers of the wavemaker with their rows.
+fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> Vec<(u32, BoundaryParticle)> {
+    let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
+    let mut particles = Vec::new();
+    for (row, &z) in wavemaker.row_heights_m().iter().enumerate() {
+        for layer in 0..layers {
+            let behind = (f64::from(layer) + 0.5) * dp;
+            for y in across.rows(layers) {
+                particles.push((
+                    row as u32,
+                    BoundaryParticle {
+                        position: DVec3::new(case.domain.x[0] - behind, y, z),
+                        to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
+                        volume: dp * dp * across.spacing(),
+                        slides: true,
+                    },
+                ));
+            }
+        }
+    }
+    particles
+}
+
+fn basin<'a>(
+    case: &Case,
+    across: &Across,
+    bed: &'a dyn Fn(f64) -> f64,
+    surface: &'a dyn Fn(f64) -> f64,
+    velocity: &'a dyn Fn(f64, f64) -> DVec2,
+) -> Basin<'a> {
+    let x = match case.domain.water {
+        case::Water::StillLevel => case.domain.x,
+        case::Water::Block { x, .. } => x,
+    };
+    Basin { x, across: *across, dp: case.domain.dp, bed, surface, velocity, gravity: case.fluid.gravity }
+}
+
+/// The water: a block, still water, or the flow of the flume model at the start.
+fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -> Water {
+    let bed = |x: f64| case.flume.profile.z(x);
+    let surface = |x: f64| match (case.domain.water, flume) {
+        (case::Water::Block { top_z, .. }, _) => top_z,
+        (case::Water::StillLevel, Some(record)) => record.surface_level_m(x, start),
+        (case::Water::StillLevel, None) => case.flume.still_level,
+    };
+    let velocity = |x: f64, z: f64| flume.map_or(DVec2::ZERO, |record| record.velocity(x, z, start).into());
+    basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
+}
+
+/// Bodies of the units.
+fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
+    let shape = units.shape.unit().clone();
+    let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
+    let start = setup.bodies.clone();
+    let world = RigidWorld::new(setup)?;
+    let (fluid_loads, mean_loads) = (vec![Load::default(); start.len()], MeanLoads::new(start.len()));
+    Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
+}
+
+/// Particles of one unit of the case in its own axes: in two dimensions those of its slice in the layer; and where a
+/// cuboid fills the width of a periodic flume, none of them looks across, at its own image.
+fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
+    let case::Domain { dp, width, sides, .. } = case.domain;
+    let mut particles = match (shape.as_box(), sides) {
+        (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
+        (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
+            box_particles(&bounds.closed_across(), dp, f64::INFINITY)
+        }
+        _ => particles_of(shape, dp),
+    };
+    particles.iter_mut().for_each(|particle| particle.slides = case.numerics.slip_on_units);
+    particles
+}
+
+/// Particles of one unit in its own axes.
+pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
+    if let Some(bounds) = shape.as_box() {
+        return box_particles(&bounds, dp, f64::INFINITY);
+    }
+    let solid = shape.solid();
+    let [low, high] = solid.bounds();
+    unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)
+}
+
+/// Take out the water where the units stand, periodic images included.
+fn clear_units(water: &mut Water, units: &Units, case: &Case) {
+    let (solid, least) = (units.shape.solid(), LEAST_DEPTH * case.domain.dp);
+    let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
+    let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
+    for state in units.states() {
+        for image in &images {
+            let centre = state.position + DVec3::Y * (image * case.domain.width);
+            clear_solid(water, least, |point| {
+                let from_centre = point - centre;
+                if from_centre.length_squared() > reach * reach {
+                    return (point, f64::INFINITY);
+                }
+                let (nearest, distance) = solid.project(state.rotation.inverse() * from_centre);
+                (centre + state.rotation * nearest, distance)
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn water_slides_along_units_only_where_a_case_says_so() {
+        let given = include_str!("../../../cases/fudo/H4.5-slice.json");
+        for slides in [false, true] {
+            let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);
+            let text = given.replace(r#""wall_slip": "original""#, &wanted);
+            let case = Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
+            let units = case.units.as_ref().expect("the slice has two units");
+            let particles = unit_in_place(units.shape.unit(), &case);
+            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.slides == slides));
+        }
+    }
+}
