@@ -5,6 +5,7 @@ use std::{path::Path, sync::Arc};
 use breakwater::{
     case::DryCase,
     geometry::{armour_unit::ArmourUnit, stl},
+    output::driver::Control,
     simulation::dry_test::DryRun,
 };
 use glam::DVec3;
@@ -244,7 +245,7 @@ fn a_run_on_terrain_keeps_the_surface_beside_its_case() {
     let parsed = DryCase::from_str(&case.to_string(), &name).unwrap();
     let run = folder.path().join("run");
     std::fs::create_dir(&run).unwrap();
-    breakwater::simulation::dry_test::run::run(Arc::new(parsed.clone()), &run, true).unwrap();
+    breakwater::simulation::dry_test::run::run(Arc::new(parsed.clone()), &run, &Control::quiet()).unwrap();
     let kept = DryCase::load(run.join("case.json")).unwrap();
     assert_eq!(kept.site.terrain, parsed.site.terrain);
     assert_eq!(

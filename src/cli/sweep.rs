@@ -11,9 +11,9 @@ use clap::{Args, ValueEnum};
 use super::{
     Trouble,
     devices::DeviceArgument,
-    fresh_folder, hand_over,
-    run::{MachineArguments, finish},
-    stem,
+    folder::{fresh_folder, stem},
+    machine::MachineArguments,
+    run::{breakage, flume},
 };
 use crate::{
     case::Case,
@@ -21,7 +21,7 @@ use crate::{
     simulation::flume::{
         branch::Start,
         checkpoint::Checkpoint,
-        run::{resume, run},
+        run::{RunOptions, resume, run},
     },
     sweep::{
         member::Outcome,
@@ -162,9 +162,8 @@ impl SweepArguments {
         let name = sweep.case.display().to_string();
         let case = Arc::new(Case::from_str(&member.text, &name).map_err(Trouble::refused)?);
         let machine = MachineArguments { threads: Some(self.threads as usize), quiet: false };
-        let mut options = machine.prepare()?;
-        options.device = self.device.open(&case, options.quiet)?;
-        options.until = member.until;
+        let control = machine.prepare()?;
+        let options = RunOptions { device: self.device.open(&case, control.quiet)?, control, until: member.until };
         let begun = fs::read_to_string(dir.join("case.json")).is_ok_and(|text| text == member.text);
         let ended = if begun && dir.join(Checkpoint::FILE).exists() {
             resume(case.clone(), &dir, &options)
@@ -182,11 +181,11 @@ impl SweepArguments {
                 }
             }
         };
-        let summary = finish(ended, &dir)?;
+        let summary = flume::finish(ended, &dir)?;
         if member.until.is_some() {
             return Ok(());
         }
-        hand_over::of_run(&case, &summary, &dir, options.quiet)
+        breakage::after_flume_run(&case, &summary, &dir, &options.control)
     }
 }
 

@@ -9,7 +9,7 @@ use super::fracture_case::is_unit;
 use super::model::{Model, Role};
 use super::reenact::PARTNER;
 use crate::case::{Handover, HandoverWay};
-use crate::output::{CsvSeries, Impacts, OutputError, columns, write_atomically};
+use crate::output::{BreakageSummary, CsvSeries, Impacts, OutputError, columns, write_atomically};
 use crate::simulation::fracture::summary::FractureSummary;
 
 /// A unit is broken when its heaviest piece has less than this share of its mass [-]: what is chipped off at an edge or
@@ -111,6 +111,13 @@ pub struct Found {
     pub heaviest_share: f64,
     /// Change of its momentum by the end [N s].
     pub impulse_n_s: [f64; 3],
+}
+
+impl From<&Breakage> for BreakageSummary {
+    fn from(breakage: &Breakage) -> Self {
+        let Breakage { scale, damaged_ratio, broken_ratio, .. } = *breakage;
+        Self { scale, damaged_ratio, broken_ratio }
+    }
 }
 
 impl Outcome {

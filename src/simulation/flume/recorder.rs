@@ -21,8 +21,10 @@ use super::{
 };
 use crate::{
     case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Wave},
-    output::{CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically},
-    report::wave_page::write_flume_gauges,
+    output::{
+        CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, is_due, write_atomically,
+        write_flume_gauges,
+    },
     rigid::{ContactEvent, RecordedContact},
     sph::power::Powers,
 };
@@ -191,12 +193,22 @@ impl Recorder {
             let offset = contact_clock(simulation, units);
             let running: Vec<ContactEvent> = units.world.running_events().copied().collect();
             for event in &running {
-                self.contacts.append(&contact_row(event, offset))?;
+                self.contacts.append(&columns::contact_row(event, offset))?;
             }
             impacts_of(simulation, units, offset).write(&self.dir.join(Impacts::FILE))?;
             running.iter().for_each(|event| count_contact(simulation, event));
         }
         self.writer.drain()
+    }
+
+    /// Write a checkpoint of a run that the user stops between the two halves of a step, and wait until it is in its file.
+    ///
+    /// # Errors
+    /// If a file cannot be written, or the device is lost.
+    pub fn record_interruption(&mut self, simulation: &mut Simulation) -> Result<(), OutputError> {
+        simulation.fetch()?;
+        self.record_checkpoint(simulation)?;
+        self.drain()
     }
 
     /// Wait until all snapshots and checkpoints given so far are in their files.
@@ -248,7 +260,7 @@ impl Recorder {
         }
         let offset = simulation.units.as_ref().map_or(0.0, |units| contact_clock(simulation, units));
         for event in &events {
-            self.contacts.append(&contact_row(event, offset))?;
+            self.contacts.append(&columns::contact_row(event, offset))?;
             count_contact(simulation, event);
         }
         Ok(())
@@ -269,12 +281,6 @@ impl Recorder {
         let (checkpoint, dir) = (Checkpoint::of(simulation, &self.state), self.dir.clone());
         self.writer.give(move |_| checkpoint.write(&dir, Checkpoint::FILE))
     }
-}
-
-/// Whether an output that was written `count` times at an interval [s] is due.
-pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
-    // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
-    interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
 }
 
 /// Gauges that the particles can read.
@@ -341,28 +347,6 @@ fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
     let contacts = units.world.impacts();
     let impact = |contact: &RecordedContact| Impact::new(contact, offset, water.get(&contact.event.number).cloned());
     Impacts { places: pressure_places(&simulation.boundary), impacts: contacts.iter().map(impact).collect() }
-}
-
-/// A row of the contacts; `offset` leads from their clock to that of the table [s].
-pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 15] {
-    let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
-    [
-        event.start + offset,
-        event.end + offset,
-        f64::from(event.body + 1),
-        event.partner_unit().map_or(0.0, |unit| f64::from(unit + 1)),
-        x,
-        y,
-        z,
-        event.approach_normal,
-        event.approach_tangential,
-        event.peak_force,
-        glam::DVec3::from_array(event.impulse).length(),
-        bx,
-        by,
-        bz,
-        event.rebound,
-    ]
 }
 
 fn count_contact(simulation: &mut Simulation, event: &ContactEvent) {
