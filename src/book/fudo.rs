@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{entry::Entry, markdown::Page, overview, wave};
-use crate::report::{compare::Comparison, plot::short, run::clock};
+use crate::report::{compare::Comparison, page::clock, plot::short};
 
 /// Name of the page.
 pub const FILE: &str = "fudo.md";

@@ -8,8 +8,8 @@ use super::{
 };
 use crate::report::{
     compare::{Comparison, PublishedWave, Resolution, RunResult},
+    page::clock,
     plot::{BarChart, Bars, short},
-    run::clock,
 };
 
 /// A run of a case as it is given, and what was published for its wave.

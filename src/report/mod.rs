@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod fracture;
+pub mod page;
 pub mod plot;
 pub mod raster;
 pub mod run;

@@ -9,7 +9,7 @@ use crate::{
 };
 use crate::{
     output::{OutputError, write_atomically},
-    report::run::page,
+    report::page::page,
 };
 
 /// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston; another program's

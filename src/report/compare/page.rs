@@ -3,7 +3,7 @@
 use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
 use super::published::{DAMAGE_DISTANCE_M, MEASURED, SERIES};
 use super::{Comparison, WaveComparison};
-use crate::report::run::page;
+use crate::report::page::page;
 
 /// The whole page.
 pub fn html(comparison: &Comparison) -> String {
