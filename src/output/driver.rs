@@ -1,10 +1,6 @@
 //! The loop that every run shares: steps, progress, the last outputs, a failed or interrupted run.
 //!
-//! A run of any kind implements [`Run`]; [`drive`] takes it to its end:
-//!
-//! 1. [`Run::prepare_step`] evaluates the present state and decides whether the run is over;
-//! 2. [`Run::advance`] writes the outputs that are due and makes one time step;
-//! 3. at the end, [`Run::finish`] writes the last outputs and the summary.
+//! A run of any kind implements [`Run`]; [`drive`] takes it to its end.
 
 use std::{
     error::Error,
@@ -18,7 +14,7 @@ use std::{
 
 use thiserror::Error;
 
-use super::{OutputError, Stopped, progress::Progress};
+use super::{OutputError, progress::Progress};
 
 /// Why a run of any kind ended early.
 #[derive(Debug, Error)]
@@ -115,38 +111,40 @@ pub struct Clock {
     pub steps: u64,
 }
 
+/// What the driver tells a run before each step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Session {
+    /// Wall clock since this session began [s].
+    pub wall: f64,
+    /// Whether the user wants the run to stop with a checkpoint.
+    pub stop: bool,
+}
+
+/// What a step came to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step<Summary> {
+    /// The run continues.
+    Made,
+    /// The run is over, and all its files are written.
+    Ended(Summary),
+    /// The user has stopped the run, and its checkpoint is written.
+    Stopped,
+}
+
 /// A run as the driver sees it.
 pub trait Run {
-    /// What stays of the run in a few numbers.
+    /// The run in a few numbers.
     type Summary;
 
     /// Where the run stands.
     fn clock(&self) -> Clock;
 
-    /// Evaluates the present state; returns why the run is over, if it is. `wall` is the time since this session began
-    /// [s].
-    ///
-    /// # Errors
-    /// If the state has become impossible.
-    fn prepare_step(&mut self, wall: f64) -> Result<Option<Stopped>, StepFailure>;
-
-    /// Writes the outputs that are due and makes one time step.
+    /// Evaluates the present state. Then it writes the outputs that are due and makes one time step, or writes the last
+    /// outputs and the summary, or writes a checkpoint because the user stops the run.
     ///
     /// # Errors
     /// If a file cannot be written or the state has become impossible.
-    fn advance(&mut self) -> Result<(), StepFailure>;
-
-    /// Writes the last outputs and the summary.
-    ///
-    /// # Errors
-    /// If a file cannot be written or the state has become impossible.
-    fn finish(&mut self, stopped: Stopped) -> Result<Self::Summary, StepFailure>;
-
-    /// Writes a checkpoint of the present state.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    fn write_checkpoint(&mut self) -> Result<(), OutputError>;
+    fn step(&mut self, session: Session) -> Result<Step<Self::Summary>, StepFailure>;
 
     /// Writes the state before a failing step to a file of its own, whose path it returns.
     ///
@@ -172,24 +170,22 @@ pub fn drive<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Sum
     let mut progress = Progress::new(clock.end, clock.time, clock.steps, control.quiet);
     let mut warnings_shown = run.warnings().len();
     loop {
-        let stopped = match run.prepare_step(progress.wall()) {
-            Ok(stopped) => stopped,
-            Err(error) => return Err(keep_failed(&mut run, error)),
-        };
-        if let Some(stopped) = stopped {
-            progress.finish();
-            return run.finish(stopped).map_err(|error| keep_failed(&mut run, error));
-        }
-        if control.stop.load(Ordering::Relaxed) {
-            progress.finish();
-            run.write_checkpoint()?;
-            return Err(RunError::Interrupted { time: run.clock().time, dir: dir.to_owned() });
-        }
-        run.advance().map_err(|error| keep_failed(&mut run, error))?;
+        let session = Session { wall: progress.wall(), stop: control.stop.load(Ordering::Relaxed) };
+        let step = run.step(session).map_err(|error| keep_failed(&mut run, error))?;
         run.warnings()[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
         warnings_shown = run.warnings().len();
         let clock = run.clock();
-        progress.update(clock.time, clock.steps, || run.details());
+        match step {
+            Step::Made => progress.update(clock.time, clock.steps, || run.details()),
+            Step::Ended(summary) => {
+                progress.finish();
+                return Ok(summary);
+            }
+            Step::Stopped => {
+                progress.finish();
+                return Err(RunError::Interrupted { time: clock.time, dir: dir.to_owned() });
+            }
+        }
     }
 }
 

@@ -78,11 +78,12 @@ fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
         if !now.steps.is_multiple_of(20) {
             return;
         }
-        let (time, record) = (now.flume_time(), now.flume.as_ref().unwrap());
+        let time = now.flume_time();
         for (k, distance) in DISTANCES.iter().enumerate() {
             let x = PISTON_X + distance;
             // The piston passes the nearest place after the crest: it travels 0.76 m.
-            if let Some(level) = now.sampler().surface(DVec2::new(x, 0.0), 0.45, 1.1) {
+            let level = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.45, 1.1);
+            if let (Some(level), Some(record)) = (level, &now.flume) {
                 particles[k].push([time, level - STILL_LEVEL]);
                 flume[k].push([time, record.elevation(x, time)]);
             }

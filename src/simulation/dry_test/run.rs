@@ -10,7 +10,7 @@ use crate::{
     case::{DryCase, DryTest},
     output::{
         OutputError, Stopped,
-        driver::{Clock, Control, Run, RunError, StepFailure, drive},
+        driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
     },
 };
 
@@ -21,7 +21,7 @@ use crate::{
 pub fn run(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
     let run = DryRun::new(case).map_err(RunError::setup)?;
     let recorder = DryRecorder::create(&run, dir)?;
-    drive(RecordedRun { run, recorder, wall: 0.0 }, dir, control)
+    drive(RecordedRun { run, recorder }, dir, control)
 }
 
 /// Continue a dry test from its last checkpoint.
@@ -31,15 +31,13 @@ pub fn run(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySumma
 pub fn resume(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
     let mut run = DryRun::new(case).map_err(RunError::setup)?;
     let recorder = DryRecorder::reopen(&mut run, dir)?;
-    drive(RecordedRun { run, recorder, wall: 0.0 }, dir, control)
+    drive(RecordedRun { run, recorder }, dir, control)
 }
 
 /// A dry test with its open files.
 struct RecordedRun {
     run: DryRun,
     recorder: DryRecorder,
-    /// Wall clock of this session [s].
-    wall: f64,
 }
 
 impl Run for RecordedRun {
@@ -49,25 +47,20 @@ impl Run for RecordedRun {
         Clock { time: self.run.time(), end: self.run.case.stop.duration, steps: self.run.world.substeps() }
     }
 
-    fn prepare_step(&mut self, wall: f64) -> Result<Option<Stopped>, StepFailure> {
-        self.wall = wall;
-        Ok(stop_rule(&self.run))
-    }
-
-    fn advance(&mut self) -> Result<(), StepFailure> {
+    fn step(&mut self, session: Session) -> Result<Step<DrySummary>, StepFailure> {
+        if let Some(stopped) = stop_rule(&self.run) {
+            self.recorder.record_end(&mut self.run)?;
+            let summary = DrySummary::of(&self.run, stopped, session.wall);
+            summary.write(self.recorder.dir())?;
+            return Ok(Step::Ended(summary));
+        }
+        if session.stop {
+            self.recorder.record_state(&self.run, DryRecorder::CHECKPOINT)?;
+            return Ok(Step::Stopped);
+        }
         self.recorder.record_due(&mut self.run)?;
-        self.run.advance(self.run.case.stop.duration).map_err(StepFailure::failure)
-    }
-
-    fn finish(&mut self, stopped: Stopped) -> Result<DrySummary, StepFailure> {
-        self.recorder.record_end(&mut self.run)?;
-        let summary = DrySummary::of(&self.run, stopped, self.wall);
-        summary.write(self.recorder.dir())?;
-        Ok(summary)
-    }
-
-    fn write_checkpoint(&mut self) -> Result<(), OutputError> {
-        self.recorder.record_state(&self.run, DryRecorder::CHECKPOINT)
+        self.run.advance(self.run.case.stop.duration).map_err(StepFailure::failure)?;
+        Ok(Step::Made)
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {

@@ -7,7 +7,8 @@ use serde_json::{Map, Value};
 use super::{
     Simulation, Units,
     checkpoint::{self, Checkpoint},
-    recorder::{Recorder, RecorderState},
+    recorder::Recorder,
+    recorder_state::RecorderState,
     rest::Rest,
     run::{FlumeRun, RunOptions},
     setup::SetupError,

@@ -17,10 +17,10 @@ use crate::{
     case::Case,
     output::{
         OutputError, Stopped, Summary,
-        driver::{Clock, Control, Run, RunError, StepFailure, drive},
+        driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
     },
     rigid::BodyState,
-    sph::{backend::DeviceError, device::Device},
+    sph::device::Device,
 };
 
 /// How a run is made.
@@ -65,10 +65,8 @@ pub(super) struct FlumeRun {
     end: f64,
     /// Wall clock of earlier sessions [s].
     wall_before: f64,
-    /// Length of the time step that is being made [s].
+    /// Length of the last time step [s].
     dt: f64,
-    /// Whether the state was lost with the device.
-    lost: bool,
 }
 
 impl FlumeRun {
@@ -81,38 +79,9 @@ impl FlumeRun {
             wall_before: simulation.statistics.wall_s,
             dir: dir.to_owned(),
             dt: 0.0,
-            lost: false,
             simulation,
             recorder,
         }
-    }
-
-    fn failure(&mut self, failure: Failure) -> StepFailure {
-        self.lost = matches!(failure, Failure::Device(_));
-        StepFailure::failure(failure)
-    }
-
-    fn begin_step(&mut self) -> Result<(), StepFailure> {
-        self.dt = self.simulation.begin_step().map_err(|failure| self.failure(failure))?;
-        Ok(())
-    }
-
-    /// Why the run is over, if it is.
-    fn stop_rule(&mut self) -> Option<Stopped> {
-        let simulation = &mut self.simulation;
-        if simulation.time >= self.end {
-            return Some(Stopped::Duration);
-        }
-        let (rule, units) = (simulation.case.stop.at_rest.as_ref()?, simulation.units.as_ref()?);
-        // The tips of a unit are about half its height away from its centre.
-        let tips = 0.5 * units.shape.height();
-        let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
-        // Units that have just begun to move have not gone far yet.
-        let slow = units.states().iter().all(|state| speed(state) < rule.speed);
-        let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
-        // Units that the wave has not reached are at rest, too.
-        let reached = simulation.time >= rule.not_before.max(simulation.crest);
-        (reached && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
     }
 }
 
@@ -123,43 +92,36 @@ impl Run for FlumeRun {
         Clock { time: self.simulation.time, end: self.end, steps: self.simulation.steps }
     }
 
-    fn prepare_step(&mut self, wall: f64) -> Result<Option<Stopped>, StepFailure> {
-        self.begin_step()?;
-        self.simulation.statistics.wall_s = self.wall_before + wall;
-        Ok(self.stop_rule())
-    }
-
-    fn advance(&mut self) -> Result<(), StepFailure> {
-        let checkpoints = self.recorder.state().checkpoints;
-        self.recorder.record_due(&mut self.simulation, self.dt)?;
-        if self.simulation.is_on_card() && self.recorder.state().checkpoints > checkpoints {
-            // The checkpoint does not hold the card's positions to the last bit: continue as a resumed run will.
-            self.simulation.load().map_err(|error: DeviceError| self.failure(error.into()))?;
-            self.begin_step()?;
+    fn step(&mut self, session: Session) -> Result<Step<Summary>, StepFailure> {
+        let mut now = self.simulation.begin_step().map_err(StepFailure::failure)?;
+        now.statistics.wall_s = self.wall_before + session.wall;
+        if let Some(stopped) = stop_rule(&mut now, self.end) {
+            self.recorder.record_end(&mut now)?;
+            let summary = summarise(&now, stopped, &self.dir)?;
+            summary.write(&self.dir)?;
+            return Ok(Step::Ended(summary));
         }
-        self.simulation.finish_step(self.dt).map_err(|failure| self.failure(failure))
-    }
-
-    fn finish(&mut self, stopped: Stopped) -> Result<Summary, StepFailure> {
-        self.recorder.record_end(&mut self.simulation, self.dt)?;
-        let summary = summarise(&self.simulation, stopped, &self.dir)?;
-        summary.write(&self.dir)?;
-        Ok(summary)
-    }
-
-    fn write_checkpoint(&mut self) -> Result<(), OutputError> {
-        self.recorder.record_interruption(&mut self.simulation)
+        if session.stop {
+            self.recorder.record_interruption(&mut now)?;
+            return Ok(Step::Stopped);
+        }
+        let checkpoints = self.recorder.state().checkpoints;
+        self.recorder.record_due(&mut now)?;
+        if now.is_on_card() && self.recorder.state().checkpoints > checkpoints {
+            // The checkpoint does not hold the card's positions to the last bit: continue as a resumed run will.
+            now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;
+            now = self.simulation.begin_step().map_err(StepFailure::failure)?;
+        }
+        self.dt = now.dt();
+        now.finish().map_err(StepFailure::failure)?;
+        Ok(Step::Made)
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
-        let path = self.dir.join(Checkpoint::FAILED_FILE);
-        if self.lost {
-            return Err(OutputError::content(&path, "the state was on the device, which is lost"));
-        }
         self.simulation.fetch()?;
         self.recorder.drain()?;
         Checkpoint::of(&self.simulation, self.recorder.state()).write(&self.dir, Checkpoint::FAILED_FILE)?;
-        Ok(path)
+        Ok(self.dir.join(Checkpoint::FAILED_FILE))
     }
 
     fn details(&self) -> String {
@@ -174,4 +136,21 @@ impl Run for FlumeRun {
     fn warnings(&self) -> &[String] {
         &self.simulation.statistics.warnings
     }
+}
+
+/// Why a run that lasts until `end` [s] at most is over, if it is.
+fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
+    if simulation.time >= end {
+        return Some(Stopped::Duration);
+    }
+    let (rule, units) = (simulation.case.stop.at_rest.as_ref()?, simulation.units.as_ref()?);
+    // The tips of a unit are about half its height away from its centre.
+    let tips = 0.5 * units.shape.height();
+    let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
+    // Units that have just begun to move have not gone far yet.
+    let slow = units.states().iter().all(|state| speed(state) < rule.speed);
+    let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
+    // Units that the wave has not reached are at rest, too.
+    let reached = simulation.time >= rule.not_before.max(simulation.crest);
+    (reached && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

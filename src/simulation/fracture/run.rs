@@ -16,8 +16,8 @@ use crate::{
     case::FractureCase,
     femdem::{energy::Ledger, watch::StepError, world::World},
     output::{
-        OutputError, Stopped,
-        driver::{Clock, Control, Run, RunError, StepFailure, drive},
+        OutputError,
+        driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
         is_due,
     },
 };
@@ -116,20 +116,8 @@ impl<'a> FractureRun<'a> {
         self.state.frames += 1;
         Ok(())
     }
-}
 
-impl Run for FractureRun<'_> {
-    type Summary = FractureSummary;
-
-    fn clock(&self) -> Clock {
-        Clock { time: self.world.time, end: self.case.duration, steps: self.state.watched.steps }
-    }
-
-    fn prepare_step(&mut self, wall: f64) -> Result<Option<Stopped>, StepFailure> {
-        self.state.watched.wall = self.wall_before + wall;
-        Ok((self.world.time >= self.case.duration).then_some(Stopped::Duration))
-    }
-
+    /// Writes the outputs that are due and makes one time step.
     fn advance(&mut self) -> Result<(), StepFailure> {
         let time = self.world.time;
         if self.case.surfaces_interval.is_some_and(|interval| time >= self.state.frames as f64 * interval) {
@@ -157,7 +145,8 @@ impl Run for FractureRun<'_> {
         Ok(())
     }
 
-    fn finish(&mut self, _: Stopped) -> Result<FractureSummary, StepFailure> {
+    /// Writes the last outputs; the energies of the end take one more step.
+    fn finish(&mut self) -> Result<FractureSummary, StepFailure> {
         if self.case.surfaces_interval.is_some() {
             self.record_surfaces()?;
         }
@@ -173,6 +162,27 @@ impl Run for FractureRun<'_> {
     fn write_checkpoint(&mut self) -> Result<(), OutputError> {
         self.state.detail = self.recorder.detail.lengths();
         checkpoint::write(self.case, &self.world, &self.state, &self.dir.join(checkpoint::FILE))
+    }
+}
+
+impl Run for FractureRun<'_> {
+    type Summary = FractureSummary;
+
+    fn clock(&self) -> Clock {
+        Clock { time: self.world.time, end: self.case.duration, steps: self.state.watched.steps }
+    }
+
+    fn step(&mut self, session: Session) -> Result<Step<FractureSummary>, StepFailure> {
+        self.state.watched.wall = self.wall_before + session.wall;
+        if self.world.time >= self.case.duration {
+            return self.finish().map(Step::Ended);
+        }
+        if session.stop {
+            self.write_checkpoint()?;
+            return Ok(Step::Stopped);
+        }
+        self.advance()?;
+        Ok(Step::Made)
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
