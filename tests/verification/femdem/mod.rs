@@ -5,7 +5,7 @@ mod contact;
 mod continuum;
 mod core_locs;
 mod dolos;
-mod energy_book;
+mod energy_balance;
 mod joints;
 mod loads;
 mod rigid;
