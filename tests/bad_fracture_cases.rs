@@ -122,7 +122,10 @@ fn every_corrupted_mesh_is_refused_with_its_message() {
         (replaced("\n29 1 2 3 4\n", "\n29 2 1 3 4\n"), "1 of 72 tetrahedra have a negative volume, the first 29 at ("),
         (replaced("\n29 1 2 3 4\n", "\n29 1 2 3 3\n"), "1 of 72 tetrahedra are flat"),
         (replaced("\n29 1 2 3 4\n", "\n29 1 2 3 77\n"), "element 29 names node 77, which is not in section $Nodes"),
-        (with_detached_triangle(&mesh), "physical surface \"plate_bottom\": 1 of 12 triangles are no face of a tetrahedron"),
+        (
+            with_detached_triangle(&mesh),
+            "physical surface \"plate_bottom\": 1 of 12 triangles are no face of a tetrahedron",
+        ),
         (replaced("3 2 \"plate\"\n", "").replacen("\n5\n2 1", "\n4\n2 1", 1), "physical Volume 2 has no name"),
         (
             replaced("\n2 0 0 0 0 0 0 1 2 0\n$EndEntities", "\n2 0 0 0 0 0 0 0 0\n$EndEntities"),

@@ -88,7 +88,10 @@ fn runs_from_a_common_start_equal_uninterrupted_runs() {
     assert_succeeded(&run(&path_of("surge.json"), &path_of("whole"), None));
     let (uninterrupted, summary) = (summary(&path_of("whole")), summary(&branched));
     for key in ["steps", "simulated_s", "mean_displacement_m", "damage_ratio", "units", "contacts", "largest_mach"] {
-        assert!(!uninterrupted[key].is_null() && uninterrupted[key] == summary[key], "{key}: {uninterrupted:#} {summary:#}");
+        assert!(
+            !uninterrupted[key].is_null() && uninterrupted[key] == summary[key],
+            "{key}: {uninterrupted:#} {summary:#}"
+        );
     }
     for file in ["gauges.csv", "units.csv", "contacts.csv", "energy.csv", "diagnostics.csv"] {
         let text = |dir: &Path| fs::read_to_string(dir.join(file)).unwrap();
@@ -109,7 +112,10 @@ fn starting_at_an_unsuitable_checkpoint_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path_of = |name: &str| folder.path().join(name);
     let case = write(folder.path(), "case.json", &surge(0.1, 0.3));
-    assert_refused(&run(&case, &path_of("out"), Some(&path_of("none"))), "the run cannot begin there: there is no checkpoint.h5");
+    assert_refused(
+        &run(&case, &path_of("out"), Some(&path_of("none"))),
+        "the run cannot begin there: there is no checkpoint.h5",
+    );
     assert!(!path_of("out").exists());
 
     // In this run the surge has moved the unit.
@@ -122,7 +128,10 @@ fn starting_at_an_unsuitable_checkpoint_is_refused() {
     let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);
     let deeper = write(folder.path(), "deeper.json", &deeper);
-    assert_refused(&run(&deeper, &path_of("deeper"), Some(&path_of("moved"))), "the cases differ in flume, stop; only title,");
+    assert_refused(
+        &run(&deeper, &path_of("deeper"), Some(&path_of("moved"))),
+        "the cases differ in flume, stop; only title,",
+    );
     let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
     assert_refused(&run(&dry, &path_of("dry"), Some(&path_of("moved"))), "only runs with water can begin at another");
     assert!(!path_of("rough").exists() && !path_of("deeper").exists() && !path_of("dry").exists());

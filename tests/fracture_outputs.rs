@@ -112,7 +112,8 @@ fn a_fracture_run_writes_tables_paraview_files_and_a_report() {
 
     let section = TriangleMoments::open(&dir.join("section.vtkhdf")).unwrap();
     assert_eq!(section.times_s().len(), 11);
-    let section_area: f64 = section.triangles(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
+    let section_area: f64 =
+        section.triangles(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
     // The section cuts both bodies along their middle; positions are in single precision.
     assert!((section_area - 0.08).abs() < 1e-6, "{section_area}");
     let tets = File::open(dir.join("tets.vtkhdf")).unwrap();

@@ -60,8 +60,8 @@ fn steps(simulation: &mut Simulation, count: u32) {
     }
 }
 
-/// Returns acceleration and density rate of each particle by its number, and force and torque on each unit, in the first
-/// half of a time step. `before` time steps on the processor move the water off its lattice.
+/// Returns acceleration and density rate of each particle by its number, and force and torque on each unit, in the
+/// first half of a time step. `before` time steps on the processor move the water off its lattice.
 fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>, Vec<[DVec3; 2]>) {
     let mut start = Simulation::new(case.clone()).unwrap();
     steps(&mut start, before);
@@ -266,7 +266,8 @@ fn units_and_wavemaker_move_like_those_on_the_processor() {
     }
     let apart = furthest_apart(&gpu, &cpu);
     let [gpu_result, cpu_result] = [&gpu, &cpu].map(|simulation| simulation.units.as_ref().unwrap().states().to_vec());
-    let units = gpu_result.iter().zip(&cpu_result).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
+    let units =
+        gpu_result.iter().zip(&cpu_result).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
     let units = units.fold(0.0, f64::max);
     println!("water positions {apart:.1e} m apart, relative difference of unit velocities {units:.1e}");
     // As above; the loads of the units agree to 1e-5.

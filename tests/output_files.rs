@@ -176,7 +176,20 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
             let mut row = vec![t, f64::from(unit), x, y, z, q[0], q[1], q[2], q[3]];
             let after = pose(unit, t + 0.01).0;
             row.extend([(after[0] - x) / 0.01, (after[1] - y) / 0.01, (after[2] - z) / 0.01, 0.0, 0.0, 0.0]);
-            row.extend([drag, 0.0, 1.0 + 0.4 * drag, 0.0, 0.0, 0.0, -0.3 * contact_force, 0.0, contact_force, 0.0, 0.0, 0.0]);
+            row.extend([
+                drag,
+                0.0,
+                1.0 + 0.4 * drag,
+                0.0,
+                0.0,
+                0.0,
+                -0.3 * contact_force,
+                0.0,
+                contact_force,
+                0.0,
+                0.0,
+                0.0,
+            ]);
             if let Some(motion) = &mut motion {
                 motion.append(&row)?;
             }
@@ -261,7 +274,10 @@ fn the_report_shows_units_gauges_and_assumptions() {
             assert!(html.contains(words), "{words}");
         }
         assert!(!html.contains("NaN") && !html.contains("inf "), "the report contains a number that is not finite");
-        assert!(!html.contains("http://") && !html.contains("https://") && !html.contains("<script"), "the report refers to another file");
+        assert!(
+            !html.contains("http://") && !html.contains("https://") && !html.contains("<script"),
+            "the report refers to another file"
+        );
         assert_eq!(html.matches("<svg").count(), html.matches("</svg>").count());
         // The report must be small enough for an e-mail.
         assert!(html.len() < 3_000_000, "{} bytes", html.len());
@@ -287,7 +303,10 @@ fn the_report_shows_the_wave_at_the_units() {
 
     let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
     assert!(picture.starts_with("<svg xmlns=") && picture.contains("Flume time 2.6 s. Near the largest"));
-    assert!(!picture.contains("var(") && !picture.contains("NaN"), "colours must not depend on the page, and numbers must be finite");
+    assert!(
+        !picture.contains("var(") && !picture.contains("NaN"),
+        "colours must not depend on the page, and numbers must be finite"
+    );
     let classes = picture.split("class=\"").skip(1).flat_map(|rest| rest.split('"').next().unwrap().split(' '));
     for class in classes.filter(|class| *class != "unit") {
         let styled = [" {", ","].iter().any(|after| picture.contains(&format!(".{class}{after}")));

@@ -93,8 +93,8 @@ fn stress_grows_with_the_scale_as_hertz_has_it() {
     let [one, fifty] = [1.0, 50.0].map(stress);
     let exponent = (fifty / one).ln() / 50f64.ln();
     println!("{:.2} MPa at 50, {:.2} at 1: exponent {exponent:.3}", fifty * 1e-6, one * 1e-6);
-    // By Hertz the force goes as R^(1/5) m^(3/5) v^(6/5), v with the root of the scale: the stress with the exponent 0.6.
-    // 0.05: the contact is an element or two wide; a bar, whose stress is sqrt(E rho) v, would have 0.5.
+    // By Hertz the force goes as R^(1/5) m^(3/5) v^(6/5), v with the root of the scale: the stress with the exponent
+    // 0.6. 0.05: the contact is an element or two wide; a bar, whose stress is sqrt(E rho) v, would have 0.5.
     assert!((exponent - 0.6).abs() < 0.05);
 }
 

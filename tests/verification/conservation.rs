@@ -17,9 +17,9 @@ use super::two_dimensional::in_two_dimensions;
 
 #[test]
 fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
-    // 5e-5 and 3.4e-4 are reached, in the first 50 ms: the pressure wave of the release runs to and fro through the column,
-    // does work on bed and wall and gets it back. Walls that mirror the water's velocity take part in it: they give 0.3 %
-    // of the energy in that time, and nothing afterwards.
+    // 5e-5 and 3.4e-4 are reached, in the first 50 ms: the pressure wave of the release runs to and fro through the
+    // column, does work on bed and wall and gets it back. Walls that mirror the water's velocity take part in it: they
+    // give 0.3 % of the energy in that time, and nothing afterwards.
     for (slip, most) in [("original", 3e-4), ("free_slip", 6e-4)] {
         let mut case = in_two_dimensions(dam_break(0.025, 0.5));
         case["numerics"] = serde_json::json!({ "wall_slip": slip });

@@ -1,6 +1,6 @@
-//! The flow of the Fudo waves over the bare mound, beside the flume model, whose water has no viscosity: what pushes the
-//! units is the square of the velocity at their height. In the flume of the experiment only a layer of some millimetres
-//! at the bed is slowed down, sqrt(nu t) = 2 mm; in particles nu = alpha h c0 / 8 decides how much.
+//! The flow of the Fudo waves over the bare mound, beside the flume model, whose water has no viscosity: what pushes
+//! the units is the square of the velocity at their height. In the flume of the experiment only a layer of some
+//! millimetres at the bed is slowed down, sqrt(nu t) = 2 mm; in particles nu = alpha h c0 / 8 decides how much.
 
 use serde_json::json;
 
@@ -53,8 +53,8 @@ fn push(velocity: impl Fn(f64) -> f64) -> f64 {
     (0..parts).map(|k| velocity(height(k))).map(|u| u * u.abs()).sum::<f64>() / f64::from(parts)
 }
 
-/// Impulse of u |u| on the middle of the crest over that of the flume model, from half of the largest velocity to half of it
-/// again: what of the wave's push is left in the particles.
+/// Impulse of u |u| on the middle of the crest over that of the flume model, from half of the largest velocity to half
+/// of it again: what of the wave's push is left in the particles.
 fn share_of_the_push(scheme: Scheme, height: f64, dp: f64) -> f64 {
     let mut flow = over_the_mound(scheme, height, dp);
     let record = flow.flume.clone().unwrap();
@@ -86,7 +86,8 @@ fn share_of_the_push(scheme: Scheme, height: f64, dp: f64) -> f64 {
 #[test]
 fn a_bed_that_holds_the_water_takes_the_push() {
     let [sticking, sliding] = [STICKING, SLIDING].map(|scheme| share_of_the_push(scheme, 0.045, 0.014));
-    // 0.61 and 0.91. A tenth is what the drag of a unit is known to; with two fifths lost a run says little about a flume.
+    // 0.61 and 0.91. A tenth is what the drag of a unit is known to; with two fifths lost a run says little about a
+    // flume.
     assert!(sliding > 0.87 && sliding < 1.03 && sticking < 0.7);
 }
 

@@ -96,8 +96,8 @@ fn still_water_stays_still_with_every_scheme() {
             fastest / wave,
             (centre - 0.5 * depth) / dp
         );
-        // 0.004 with the viscosity of water alone, 0.0025 with DBC, 0.002 at most with the others: what is left of the sound
-        // of the start.
+        // 0.004 with the viscosity of water alone, 0.0025 with DBC, 0.002 at most with the others: what is left of the
+        // sound of the start.
         assert!(rms < 0.005 && (centre - 0.5 * depth).abs() < 0.1 * dp, "{numerics}");
     }
 }

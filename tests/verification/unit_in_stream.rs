@@ -26,8 +26,8 @@ const C0: f64 = 10.0;
 /// Pressure of the water at rest [Pa], above what the wake lacks: as if under 0.1 m of water.
 const PRESSURE: f64 = 1000.0;
 
-/// Added mass over the mass of the displaced water, by finite elements (tools/potential-flow/tetrapod): 0.583, 0.612 and
-/// 0.618 with elements of 0.06, 0.03 and 0.02 heights at the unit, 0.622 by their squares.
+/// Added mass over the mass of the displaced water, by finite elements (tools/potential-flow/tetrapod): 0.583, 0.612
+/// and 0.618 with elements of 0.06, 0.03 and 0.02 heights at the unit, 0.622 by their squares.
 const BY_POTENTIAL_FLOW: f64 = 0.622;
 
 /// How a unit is held.
@@ -191,8 +191,8 @@ fn on_the_bed_drag_falls_and_lift_grows_with_resolution() {
     }
 }
 
-/// What a unit gets whose surface lets the water slide, beside one that holds it, with a quarter of the viscosity of the Fudo runs:
-/// `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::where_it_slides`
+/// What a unit gets whose surface lets the water slide, beside one that holds it, with a quarter of the viscosity of
+/// the Fudo runs: `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::where_it_slides`
 #[test]
 #[ignore = "7 minutes on one core"]
 fn where_it_slides_water_drags_less() {

@@ -82,9 +82,9 @@ fn stillness(boundary: &str, dp: f64, duration: f64) -> Stillness {
 #[test]
 fn water_over_a_wedge_is_still() {
     let seen = stillness("mdbc", 0.02, 2.0);
-    // 2 %: half of what a particle distance of water weighs here; over five seconds it is half of that. With dp = 0.025 m,
-    // ten particles in the height of the wedge, the toes have 3 %. When the layers behind the surface held too much at the
-    // apex and too little at the toes, it was -7 % and +6 % there.
+    // 2 %: half of what a particle distance of water weighs here; over five seconds it is half of that. With dp = 0.025
+    // m, ten particles in the height of the wedge, the toes have 3 %. When the layers behind the surface held too much
+    // at the apex and too little at the toes, it was -7 % and +6 % there.
     assert!(seen.pressure < 0.02, "{seen:?}");
     // 0.5 %: what is asked of the five seconds.
     assert!(seen.velocity < 0.005, "{seen:?}");

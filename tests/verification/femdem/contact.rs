@@ -138,7 +138,8 @@ fn a_block_slides_to_rest_over_the_way_of_coulomb() {
 
 /// Speed of a block down a slope of so many degrees after 0.05 and 0.1 s [m/s].
 fn down_a_slope(degrees: f64) -> [f64; 2] {
-    // Viscous enough that the block does not ring on its contacts for long: each time that they part, friction begins anew.
+    // Viscous enough that the block does not ring on its contacts for long: each time that they part, friction begins
+    // anew.
     let soft = Elastic { young_modulus: 1e8, density: 2340.0, poisson_ratio: 0.2, viscosity: 1e4 };
     let mesh = two([
         // About as deep as its weight presses it: let go deeper, it would hop, and slide while it is in the air.

@@ -27,7 +27,8 @@ fn compare(until: f64) {
         let each = |e: BodyEnergy| [e.kinetic, e.strain, e.gravity];
         apart = each(a).iter().zip(each(b)).fold(apart, |apart, (a, b)| apart.max((a - b).abs()));
         largest = largest.max(b.kinetic).max(b.gravity.abs());
-        // What it has does not change: neither does it touch anything nor crack, and nothing damps but its own viscosity.
+        // What it has does not change: neither does it touch anything nor crack, and nothing damps but its own
+        // viscosity.
         for _ in 0..100 {
             cracks.step().unwrap();
             twin.step().unwrap();

@@ -25,7 +25,8 @@ fn a_dropped_dolos_cracks_first_at_the_upper_corner_of_stem_and_fluke() {
         crack.place,
         world.failures.len()
     );
-    // The paper: 0.45 to 0.5 ms after the impact, which comes 0.044 ms after the start here; a mesh three times as coarse.
+    // The paper: 0.45 to 0.5 ms after the impact, which comes 0.044 ms after the start here; a mesh three times as
+    // coarse.
     assert!((4e-4..6.5e-4).contains(&crack.time));
     // The stem lies along x about z = 0, its fluke stands from x = 0.2 m on.
     assert!((0.1..0.3).contains(&crack.place.x) && crack.place.z > 0.1, "{}", crack.place);

@@ -70,7 +70,8 @@ fn a_block_that_shatters_keeps_its_book_and_the_better_the_shorter_the_step() {
             100.0 * long.lost[0],
             100.0 * long.lost[1]
         );
-        // 1 %: asked for. A quarter of the step makes a sixteenth of it, but with friction on pieces that turn a quarter.
+        // 1 %: asked for. A quarter of the step makes a sixteenth of it, but with friction on pieces that turn a
+        // quarter.
         assert!(long.residual < 0.01 && short.residual < 0.5 * long.residual && short.residual < 1e-3);
         assert!(long.failed > 20 && long.lost[0] > 0.02);
     }

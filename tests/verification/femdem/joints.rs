@@ -59,8 +59,8 @@ fn a_bar_breaks_at_its_strength_and_takes_its_fracture_energy() {
         // The section between the cells, in opening.
         assert!((area / 25e-4 - 1.0).abs() < 1e-9);
         assert!(world.failures.iter().all(|failure| !failure.by_sliding));
-        // The stress by the energy, which counts that the ends cannot contract and that joints are soft: 5 %. Exact for a
-        // point: see the tests of the law.
+        // The stress by the energy, which counts that the ends cannot contract and that joints are soft: 5 %. Exact for
+        // a point: see the tests of the law.
         assert!((strongest / 3.3e6 - 1.0).abs() < 0.05);
         // What the inclined faces take is below 3 %.
         assert!((taken / 50.0 - 1.0).abs() < 0.03);

@@ -138,8 +138,8 @@ fn a_finer_prism_is_crushed_at_the_uniaxial_strength() {
     assert!((found / uniaxial() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
 }
 
-/// Beam of 320 x 40 x 20 mm on supports 314 mm apart, as Guo's mesh: cells of 24 tetrahedra, so many over the height. Half
-/// of the width, y = 0 is a plane of symmetry.
+/// Beam of 320 x 40 x 20 mm on supports 314 mm apart, as Guo's mesh: cells of 24 tetrahedra, so many over the height.
+/// Half of the width, y = 0 is a plane of symmetry.
 fn beam(cells: usize) -> PreparedMesh {
     let (length, height, span) = (0.32, 0.04, 0.314);
     let mut mesh = block(DVec3::new(length, 0.01, height), [8 * cells, cells / 4, cells], Pattern::Centred);
@@ -214,8 +214,8 @@ fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     [peak, stiffness]
 }
 
-/// Load of this beam by a fictitious crack with the same softening, in plane stress (tools/fictitious-crack/beam) [N]. Guo
-/// found 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
+/// Load of this beam by a fictitious crack with the same softening, in plane stress (tools/fictitious-crack/beam) [N].
+/// Guo found 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
 /// 334.5 N on cells of 10 mm, 9 % more than theory; with 20 E 331 and 328 N on 10 and 5 mm.
@@ -228,7 +228,8 @@ fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     assert!((peak / BY_FICTITIOUS_CRACK - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
-/// Guo's beam bends half as stiffly as a beam, 2.0 MN/m: his joints are soft. With such joints it breaks where his does.
+/// Guo's beam bends half as stiffly as a beam, 2.0 MN/m: his joints are soft. With such joints it breaks where his
+/// does.
 ///
 /// cargo test --release --test verification strength::a_beam_of -- --ignored --nocapture
 #[test]
@@ -239,9 +240,9 @@ fn a_beam_of_soft_joints_breaks_at_the_published_load() {
     assert!((peak / 279.3 - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
-/// The load is not asserted: tied faces come free by the mean stress of two tetrahedra, which is less than the
-/// largest on the section between them, and a node splits only when the faces around it have. On cells of 10 and 5 mm the
-/// beam breaks at 429 and 360 N, 39 and 17 % more than by theory.
+/// The load is not asserted: tied faces come free by the mean stress of two tetrahedra, which is less than the largest
+/// on the section between them, and a node splits only when the faces around it have. On cells of 10 and 5 mm the beam
+/// breaks at 429 and 360 N, 39 and 17 % more than by theory.
 ///
 /// cargo test --release --test verification strength::a_beam_bends -- --nocapture
 #[test]
@@ -288,8 +289,8 @@ fn split(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
     curve.peak()
 }
 
-/// Does not hold yet, and need not: E G_f / f_t^2 is 144 mm, the disc is too small to split at its tensile strength. With
-/// G_f = 5 J/m2 and joints in the middle plane alone, the load is 1.1 times that of the strength.
+/// Does not hold yet, and need not: E G_f / f_t^2 is 144 mm, the disc is too small to split at its tensile strength.
+/// With G_f = 5 J/m2 and joints in the middle plane alone, the load is 1.1 times that of the strength.
 ///
 /// cargo test --release --test verification strength::a_disc -- --ignored --nocapture
 #[test]

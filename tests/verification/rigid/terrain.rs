@@ -53,8 +53,9 @@ fn a_tetrapod_slides_over_the_lee_edge_as_on_exact_planes() {
         let [a, b] = [0, 1].map(|k| worlds[k].states()[0]);
         let apart = a.position.distance(b.position);
         println!("{:.3} s: x = {:.5} m, {apart:.1e} m apart", worlds[0].time(), a.position.x);
-        // The same planes to rounding on the crest; over its edge, which is touched while the legs are pressed into the crest,
-        // a contact with triangles counts from its first overlap on: a unit then rolls by up to a millimetre otherwise.
+        // The same planes to rounding on the crest; over its edge, which is touched while the legs are pressed into the
+        // crest, a contact with triangles counts from its first overlap on: a unit then rolls by up to a millimetre
+        // otherwise.
         assert!(apart < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
     }
     assert!(worlds[0].states()[0].position.x > 0.25);
