@@ -73,10 +73,10 @@ fn displacement(dir: &Path) -> f64 {
 #[test]
 fn runs_from_a_common_start_equal_uninterrupted_runs() {
     let folder = tempfile::tempdir().unwrap();
-    let path_of = |name: &str| folder.path().join(name);
+    let at = |name: &str| folder.path().join(name);
     let friction = json!([{ "key": "friction[0].coefficient", "values": [0.5, 0.1] }]);
     let sweep = sweep_of(folder.path(), &friction, 0.06);
-    let out = path_of("out");
+    let out = at("out");
     assert_succeeded(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]));
     let start_time = summary(&out.join("000_start"))["simulated_s"].as_f64().unwrap();
     assert!((0.06..0.065).contains(&start_time), "{start_time}");
@@ -85,17 +85,14 @@ fn runs_from_a_common_start_equal_uninterrupted_runs() {
 
     // This run has the friction coefficient of the start.
     let branched = out.join("001_coefficient=0.5");
-    assert_succeeded(&run(&path_of("surge.json"), &path_of("whole"), None));
-    let (uninterrupted, summary) = (summary(&path_of("whole")), summary(&branched));
+    assert_succeeded(&run(&at("surge.json"), &at("whole"), None));
+    let (unbroken, summary) = (summary(&at("whole")), summary(&branched));
     for key in ["steps", "simulated_s", "mean_displacement_m", "damage_ratio", "units", "contacts", "largest_mach"] {
-        assert!(
-            !uninterrupted[key].is_null() && uninterrupted[key] == summary[key],
-            "{key}: {uninterrupted:#} {summary:#}"
-        );
+        assert!(!unbroken[key].is_null() && unbroken[key] == summary[key], "{key}: {unbroken:#} {summary:#}");
     }
     for file in ["gauges.csv", "units.csv", "contacts.csv", "energy.csv", "diagnostics.csv"] {
         let text = |dir: &Path| fs::read_to_string(dir.join(file)).unwrap();
-        assert!(text(&path_of("whole")) == text(&branched), "{file}");
+        assert!(text(&at("whole")) == text(&branched), "{file}");
     }
     assert!(summary["warnings"].to_string().contains("with the friction of another run"));
     let slippery = out.join("002_coefficient=0.1");
@@ -103,38 +100,32 @@ fn runs_from_a_common_start_equal_uninterrupted_runs() {
 
     // The same run started from the command line.
     let case = write(folder.path(), "slippery.json", &surge(0.1, 0.25));
-    assert_succeeded(&run(&case, &path_of("slippery"), Some(&out.join("000_start"))));
-    assert_eq!(displacement(&path_of("slippery")), displacement(&slippery));
+    assert_succeeded(&run(&case, &at("slippery"), Some(&out.join("000_start"))));
+    assert_eq!(displacement(&at("slippery")), displacement(&slippery));
 }
 
 #[test]
 fn starting_at_an_unsuitable_checkpoint_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let path_of = |name: &str| folder.path().join(name);
+    let at = |name: &str| folder.path().join(name);
     let case = write(folder.path(), "case.json", &surge(0.1, 0.3));
-    assert_refused(
-        &run(&case, &path_of("out"), Some(&path_of("none"))),
-        "the run cannot begin there: there is no checkpoint.h5",
-    );
-    assert!(!path_of("out").exists());
+    assert_refused(&run(&case, &at("out"), Some(&at("none"))), "the run cannot begin there: there is no checkpoint.h5");
+    assert!(!at("out").exists());
 
     // In this run the surge has moved the unit.
-    assert_succeeded(&run(&case, &path_of("moved"), None));
-    assert_refused(&run(&case, &path_of("moved"), Some(&path_of("moved"))), "is the folder of the results");
-    assert!(path_of("moved").join("summary.json").exists());
+    assert_succeeded(&run(&case, &at("moved"), None));
+    assert_refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
+    assert!(at("moved").join("summary.json").exists());
     let rough = write(folder.path(), "rough.json", &surge(0.4, 0.3));
-    assert_refused(&run(&rough, &path_of("rough"), Some(&path_of("moved"))), "begin while all stand still");
+    assert_refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all stand still");
 
     let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);
     let deeper = write(folder.path(), "deeper.json", &deeper);
-    assert_refused(
-        &run(&deeper, &path_of("deeper"), Some(&path_of("moved"))),
-        "the cases differ in flume, stop; only title,",
-    );
+    assert_refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "the cases differ in flume, stop; only title,");
     let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
-    assert_refused(&run(&dry, &path_of("dry"), Some(&path_of("moved"))), "only runs with water can begin at another");
-    assert!(!path_of("rough").exists() && !path_of("deeper").exists() && !path_of("dry").exists());
+    assert_refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only runs with water can begin at another");
+    assert!(!at("rough").exists() && !at("deeper").exists() && !at("dry").exists());
 }
 
 #[test]

@@ -83,8 +83,8 @@ fn errors_of(boundary: &str, dp: f64, duration: f64) -> Errors {
 fn water_over_a_wedge_stays_still() {
     let errors_found = errors_of("mdbc", 0.02, 2.0);
     // 2 %: half of the hydrostatic pressure of a particle spacing; over five seconds the error is half of that. With dp
-    // = 0.025 m, ten particles in the height of the wedge, the toes have 3 %. If
-    // the boundary layers have too much volume at the apex and too little at the toes, they have -7 % and +6 %.
+    // = 0.025 m, ten particles in the height of the wedge, the toes have 3 %. Boundary layers with too much volume at
+    // the apex and too little at the toes have -7 % and +6 % there.
     assert!(errors_found.pressure < 0.02, "{errors_found:?}");
     // 0.5 %: the target for five seconds.
     assert!(errors_found.velocity < 0.005, "{errors_found:?}");
