@@ -175,11 +175,11 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     let is_load = |x: DVec3| x.x.abs() < near && (x.z - 0.04).abs() < near;
     let on_plane = |x: DVec3| x.y < near;
     let constrain = |is_there: &dyn Fn(DVec3) -> bool, velocity: [Option<History<1>>; 3]| {
-        let split_disc = |plane: bool| Constraint {
+        let split_by_plane = |plane: bool| Constraint {
             nodes: nodes_where(&mesh, |x| is_there(x) && on_plane(x) == plane),
             velocity: [velocity[0].clone(), plane.then(|| 0.0.into()), velocity[2].clone()],
         };
-        [split_disc(true), split_disc(false)]
+        [split_by_plane(true), split_by_plane(false)]
     };
     let plane = nodes_where(&mesh, |x| on_plane(x) && !is_support(x) && !is_load(x));
     setup.constraints = [
