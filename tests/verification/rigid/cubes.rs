@@ -71,7 +71,7 @@ fn a_stack_of_cubes_stands_for_any_rotation() {
             // 0.01 mm in two seconds.
             assert!((a.position - b.position).length() < 1e-5, "{turn}: {}", a.position - b.position);
         }
-        // The contact force is the weight of the cube; 1e-3 allows for residual motion.
+        // The net contact force on the lowest cube is its own weight; 1e-3 allows for residual motion.
         let on_lowest = world.contact_loads()[0].force.z;
         assert!((on_lowest / (MASS * G) - 1.0).abs() < 1e-3, "{turn}: {on_lowest}");
     }
