@@ -21,6 +21,6 @@ pub enum RigidError {
     )]
     TooDeep { time: f64, body: usize, partner: String, depth: f64, allowed: f64 },
     /// Position, rotation or angular momentum of a body is not finite.
-    #[error("at {time:.6} s the motion of unit {} is not finite: the simulation has diverged", body + 1)]
+    #[error("at {time:.6} s the motion of unit {} is no longer a finite number: the simulation has diverged", body + 1)]
     NotFinite { time: f64, body: usize },
 }

@@ -204,11 +204,11 @@ impl Laws {
             if -touch.overlap <= closing * step.horizon {
                 let expected = touch.overlap.max(law.impact_overlap(closing));
                 let s_n = law.normal_stiffness(expected);
-                let effective_stiffness = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
+                let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
                 // Two bodies on one spring: twice the stiffness bounds the frequency (Gershgorin).
-                stiffness[a] += if b.is_some() { 2.0 } else { 1.0 } * effective_stiffness(arm_a);
+                stiffness[a] += if b.is_some() { 2.0 } else { 1.0 } * stiffness_at(arm_a);
                 if let Some(b) = b {
-                    stiffness[b] += 2.0 * effective_stiffness(arm_b);
+                    stiffness[b] += 2.0 * stiffness_at(arm_b);
                 }
             }
             if touch.overlap <= 0.0 {
@@ -230,7 +230,7 @@ impl Laws {
                 book.begin(touch, Beginning { time: step.time, body, partner, v_n, v_t, mass })
             });
             let moved = if known { v_t_over * step.dt } else { DVec3::ZERO };
-            let kept = if law.remembers() { rotated_spring(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
+            let kept = if law.remembers() { rotate(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
             contact.sunk = contact.sunk.min(touch.overlap);
             let overlap = touch.overlap - contact.sunk;
             if overlap <= 0.0 {
@@ -256,7 +256,7 @@ impl Laws {
             };
             let (omega, omega_over) = (tangential_spin(now), tangential_spin(over));
             let rolled = if known { omega_over * step.dt } else { DVec3::ZERO };
-            let roll = rotated_spring(contact.roll, contact.normal, touch.normal) + rolled;
+            let roll = rotate(contact.roll, contact.normal, touch.normal) + rolled;
             let rolling = law.roll(overlap, response.normal, omega, roll);
             let mut rolling_energy = 0.0;
             if let Some(rolling) = rolling {
@@ -334,7 +334,7 @@ fn are_neighbours(old: Feature, new: Feature) -> bool {
 }
 
 /// Rotates a tangential spring with the contact normal and keeps its length.
-fn rotated_spring(spring: DVec3, old_normal: DVec3, normal: DVec3) -> DVec3 {
+fn rotate(spring: DVec3, old_normal: DVec3, normal: DVec3) -> DVec3 {
     if old_normal == normal || spring == DVec3::ZERO {
         return spring;
     }

@@ -2,8 +2,8 @@
 //!
 //! The force is stored in bins, each with its impulse. When there are too many bins, neighbouring bins are merged. The
 //! pair with the smallest least-squares change of the force is merged first: int (f - f_merged)^2 dt =
-//! |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2), with mean forces f and durations d of the two bins. Merging adds impulses, so the
-//! total impulse is conserved.
+//! |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2), with mean forces f and durations d of the two bins. Impulses add up, so merging
+//! conserves the total impulse.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

@@ -47,10 +47,10 @@ pub fn near_places(
         return Vec::new();
     }
     let (from_a, from_b) = (|p: DVec3| q_a * p + x_a, |p: DVec3| q_b * p + x_b);
-    let mut points_near = Vec::new();
+    let mut found = Vec::new();
     let mut keep = |near: Near| {
         if near.points[0].distance_squared(near.points[1]) < reach * reach {
-            points_near.push(near);
+            found.push(near);
         }
     };
     for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
@@ -76,7 +76,7 @@ pub fn near_places(
             }
         }
     }
-    points_near
+    found
 }
 
 /// Whether a face of the first body separates the corners of the second by more than `reach` [m].
@@ -147,9 +147,9 @@ mod tests {
 
     #[test]
     fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
-        let points_near = above(0.3, 1.0, 0.0);
+        let points = above(0.3, 1.0, 0.0);
         // Two corners of each box lie over the other's face; the others are 0.3 away. Edges that only meet bend back.
-        let bear = points_near.iter().filter(|near| near.bent == 0.0);
+        let bear = points.iter().filter(|near| near.bent == 0.0);
         assert_eq!(bear.clone().count(), 4);
         for near in bear {
             assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12);
@@ -158,11 +158,11 @@ mod tests {
 
     #[test]
     fn rotated_boxes_touch_where_their_edges_cross() {
-        let points_near = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
+        let points = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
         // Two squares rotated by 45 degrees share an octagon; no corner of one lies over the other.
-        let crossings = points_near.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
-        assert_eq!((crossings.count(), points_near.len()), (8, 8));
-        for near in points_near {
+        let crossings = points.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
+        assert_eq!((crossings.count(), points.len()), (8, 8));
+        for near in points {
             assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12 && near.bent == 0.0);
         }
     }
@@ -174,8 +174,8 @@ mod tests {
             let lower = (edge_up, DVec3::ZERO);
             let across = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
             let upper = (across * edge_up, DVec3::new(shift, 0.0, 0.9 * 2f64.sqrt() + 0.1));
-            let points_near = near_places((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
-            let near = points_near.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
+            let points = near_places((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
+            let near = points.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
             let past = (shift - 0.4f64).max(0.0);
             assert!((near.bent - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.bent);
         }
