@@ -2,8 +2,8 @@
 //!
 //! Assumed, relative to the height: width 1.086 at the foot and 1.005 at the top, grooves of radius 0.12. These are the
 //! usual proportions of Antifer blocks (Frens 2007, relative to the cube root of the volume). They are consistent: the
-//! volume is 1.003 H^3. Convex blocks cannot form a half-round groove; it is replaced by a rectangular groove of the same
-//! width and sectional area.
+//! volume is 1.003 H^3. Convex blocks cannot form a half-round groove; a rectangular one of the same width and
+//! sectional area replaces it.
 
 use std::f64::consts::PI;
 

@@ -55,8 +55,7 @@ pub struct Polyhedron {
 }
 
 impl Polyhedron {
-    /// Intersection of the half-spaces with the cube of half-edge `bound` [m] about the origin; `None` if it is empty or
-    /// flat.
+    /// Intersection of the half-spaces with the cube of half-edge `bound` [m] about 0; `None` if it is empty or flat.
     pub fn from_planes(planes: &[HalfSpace], bound: f64) -> Option<Self> {
         let mut faces = cube(bound);
         for plane in planes {

@@ -49,9 +49,9 @@ impl Profile {
         (z1 - z0) / (x1 - x0)
     }
 
-    /// Returns the bed with a trapezoidal mound: crest between `crest_x` [m] at level `crest_z` [m], slopes of the given
-    /// horizontal run per unit of rise. `None` if the crest lies below the bed, or a slope does not meet the bed inside
-    /// the profile.
+    /// Returns the bed with a trapezoidal mound: crest between `crest_x` [m] at level `crest_z` [m], slopes with the
+    /// given horizontal run per unit of rise. `None` if the crest lies below the bed, or a slope does not meet the bed
+    /// inside the profile.
     pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<Self> {
         if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
             return None;

@@ -1,8 +1,8 @@
 //! A body bounded by a closed triangle surface: signed distance, volume, inertia tensor.
 //!
 //! Distances come from parry's oriented triangle mesh; its pseudo-normals give the correct sign at edges and vertices
-//! (Baerentzen & Aanaes 2005). Volume and inertia are exact: sums over the tetrahedra between a reference point and each
-//! triangle (Tonon 2004).
+//! (Baerentzen & Aanaes 2005). Volume and inertia are exact: sums over the tetrahedra between a reference point and
+//! each triangle (Tonon 2004).
 
 use std::collections::HashMap;
 
@@ -42,7 +42,7 @@ pub enum SolidError {
     )]
     NotOriented { a: DVec3, b: DVec3 },
     /// The surface encloses no volume, or its triangles face inwards.
-    #[error("the surface encloses {0:.3e} m3, not a positive volume: orient its triangles counter-clockwise seen from outside")]
+    #[error("the surface encloses {0:.3e} m3: its triangles must be counter-clockwise seen from outside")]
     InsideOut(f64),
     /// parry refused the mesh.
     #[error("the surface cannot be used: {0}")]

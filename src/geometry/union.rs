@@ -1,6 +1,6 @@
 //! Closed surface of the union of convex polyhedra that overlap or share faces.
 //!
-//! The part of each face outside all other blocks is kept: the planes of each block split the face, and the piece inside
+//! The part of each face outside all other blocks is kept: the planes of each block split the face, and the inner piece
 //! is dropped. Where faces of two blocks coincide, the first block keeps it. A corner that lies on the edge of another
 //! piece is inserted there, so every edge has exactly two triangles.
 

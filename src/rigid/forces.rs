@@ -306,7 +306,13 @@ impl Laws {
 
 /// Index of the previous contact that continues as `touch`: the same contact, or that of the same part on a
 /// neighbouring ground element that it has just left.
-fn find_previous(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch, least_radius: f64) -> Option<usize> {
+fn find_previous(
+    before: &[Contact],
+    used: &mut [bool],
+    touches: &[Touch],
+    touch: &Touch,
+    least_radius: f64,
+) -> Option<usize> {
     let key = touch.key;
     let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
         let touching =
@@ -318,7 +324,10 @@ fn find_previous(before: &[Contact], used: &mut [bool], touches: &[Touch], touch
             next.then(|| c.core.distance(touch.core)).filter(|distance| *distance < least_radius)
         };
         let distances = before.iter().zip(used.iter()).map(left).enumerate();
-        distances.filter_map(|(index, distance)| Some((index, distance?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+        distances
+            .filter_map(|(index, distance)| Some((index, distance?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(index, _)| index)
     })?;
     used[index] = true;
     Some(index)
