@@ -58,8 +58,7 @@ fn polyhedra(blocks: &[Polyhedron], text: &mut String) -> usize {
         for face in block.faces() {
             faces += 1;
             let next = face.ring.iter().cycle().skip(1);
-            let sides: Vec<String> =
-                face.ring.iter().zip(next).map(|(a, b)| line_of(block, first_line, *a, *b)).collect();
+            let sides: Vec<String> = face.ring.iter().zip(next).map(|(a, b)| line(block, first_line, *a, *b)).collect();
             let _ = writeln!(text, "Curve Loop({faces}) = {{{}}};", sides.join(", "));
             let _ = writeln!(surfaces, "Plane Surface({faces}) = {{{faces}}};");
         }
@@ -73,7 +72,7 @@ fn polyhedra(blocks: &[Polyhedron], text: &mut String) -> usize {
 }
 
 /// Number of the line from corner `a` to corner `b`, negative if the line has the opposite direction.
-fn line_of(block: &Polyhedron, first_line: usize, a: usize, b: usize) -> String {
+fn line(block: &Polyhedron, first_line: usize, a: usize, b: usize) -> String {
     let forward = block.edges().iter().position(|edge| edge.ends == [a, b]);
     let backward = block.edges().iter().position(|edge| edge.ends == [b, a]);
     match (forward, backward) {

@@ -83,7 +83,6 @@ mod tests {
         (0..count).map(|i| DVec3::new(share(i, 0.618), 4.0 * share(i, 0.414) - 2.0, share(i, 0.732))).collect()
     }
 
-    /// All pairs, found by brute force.
     fn brute_force(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
         let mut pairs = Vec::new();
         for first in 0..position.len() {

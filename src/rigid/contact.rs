@@ -297,8 +297,7 @@ impl Surfaces {
     }
 }
 
-/// Collects the output of `find` for each item, in the order of the items. Chunks of `length` items are tasks of the
-/// thread pool.
+/// Collects the output of `find` in the order of the items. Each chunk of `length` items is a task of the thread pool.
 fn map_chunks<T: Sync, U: Send>(
     items: &[T],
     length: usize,

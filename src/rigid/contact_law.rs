@@ -168,8 +168,7 @@ impl ContactLaw {
         kinetic_friction + (static_friction - kinetic_friction) * (-(speed / TRANSITION_SPEED).powi(2)).exp()
     }
 
-    /// Computes the forces for an overlap d > 0, normal velocity v_n (positive when separating), tangential velocity
-    /// and spring.
+    /// Computes the forces for an overlap d > 0, normal velocity v_n (positive on separation), v_t and spring.
     pub fn respond(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> Response {
         let s_n = self.normal_stiffness(overlap);
         let s_t = self.tangential_stiffness(overlap);

@@ -166,9 +166,8 @@ impl Laws {
         }
     }
 
-    /// Computes the forces at the given contact points. `before` holds the contacts of the previous evaluation, `book`
-    /// their records. `now` are the velocities at this instant; `over` are the mean velocities of the substep, which
-    /// stretch the tangential springs and do the work.
+    /// Computes the forces at the contact points. `before` are the previous contacts and `book` their records. `now` are
+    /// the current velocities; `over`, the mean velocities of the substep, stretch the springs and do the work.
     #[allow(clippy::too_many_arguments)]
     pub fn evaluate(
         &self,
@@ -215,7 +214,7 @@ impl Laws {
                 continue;
             }
 
-            let previous = find_previous(before, &mut used, touches, touch, self.least_radius);
+            let previous = find(before, &mut used, touches, touch, self.least_radius);
             let known = previous.is_some();
             let mut contact = previous.map_or_else(|| Contact::started(touch, step), |i| before[i].continued_as(touch));
             let mut record = previous.and_then(|index| records[index].take()).unwrap_or_else(|| {
@@ -306,13 +305,7 @@ impl Laws {
 
 /// Index of the previous contact that continues as `touch`: the same contact, or that of the same part on a
 /// neighbouring ground element that it has just left.
-fn find_previous(
-    before: &[Contact],
-    used: &mut [bool],
-    touches: &[Touch],
-    touch: &Touch,
-    least_radius: f64,
-) -> Option<usize> {
+fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch, least_radius: f64) -> Option<usize> {
     let key = touch.key;
     let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
         let touching =
@@ -321,13 +314,10 @@ fn find_previous(
             let same_part = (c.key.body, c.key.part) == (key.body, key.part);
             let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
             // Ground elements join continuously, so a foot point that changes element moves only a short distance.
-            next.then(|| c.core.distance(touch.core)).filter(|distance| *distance < least_radius)
+            next.then(|| c.core.distance(touch.core)).filter(|path| *path < least_radius)
         };
-        let distances = before.iter().zip(used.iter()).map(left).enumerate();
-        distances
-            .filter_map(|(index, distance)| Some((index, distance?)))
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(index, _)| index)
+        let paths = before.iter().zip(used.iter()).map(left).enumerate();
+        paths.filter_map(|(index, p)| Some((index, p?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     })?;
     used[index] = true;
     Some(index)

@@ -1,8 +1,7 @@
 //! Rigid armour units and their contact.
 //!
-//! Rounded convex parts are in contact with each other, with the ground and with walls. The contact law includes
-//! Coulomb friction; the default is Hertz-Mindlin (Sunday et al. 2020). The ground is the bed profile, uniform across
-//! the flume, and optionally a triangle surface.
+//! Rounded convex parts touch each other, the ground (bed profile and triangle surface) and walls. The contact law
+//! includes Coulomb friction; the default is Hertz-Mindlin (Sunday et al. 2020).
 //!
 //! | file | contents |
 //! | --- | --- |

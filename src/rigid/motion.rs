@@ -3,7 +3,6 @@
 //! The state variable is the angular momentum L in world axes. The rotation follows
 //! dq/dt = (1/2) omega q, omega = R I^-1 R^T L,
 //! integrated by the classical fourth-order Runge-Kutta method. Free spin therefore conserves L exactly.
-//!
 //! rapier's integrator has an explicit gyroscopic term and conserves only the magnitude of L. For a free asymmetric
 //! body with inertia (1, 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 of its length within
 //! a second (see the test). rapier therefore serves as a reference in the test only.
