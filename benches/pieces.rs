@@ -1,5 +1,5 @@
-//! Benchmarks of the stages of an SPH time step on one thread, for each instruction set of the processor: `cargo bench`.
-//! `breakwater bench` measures complete time steps on all threads.
+//! Benchmarks of the stages of an SPH time step on one thread, for each instruction set of the processor: `cargo
+//! bench`. `breakwater bench` measures complete time steps on all threads.
 
 use breakwater::bench::tank::Tank;
 use breakwater::sph::{

@@ -53,8 +53,8 @@ pub struct ArmourUnit {
 }
 
 impl ArmourUnit {
-    /// Tetrapod of height `height_m` [m]; `rounding_share` is the rounding radius of the contact surface over the height
-    /// [-], here and below.
+    /// Tetrapod of height `height_m` [m]; `rounding_share` is the rounding radius of the contact surface over the
+    /// height [-], here and below.
     pub fn tetrapod(height_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         check_length(height_m)?;
         let largest = tetrapod::LARGEST_ROUNDING;
@@ -275,13 +275,13 @@ mod tests {
     #[test]
     fn rounded_tetrapod_parts_fill_the_surface_from_inside() {
         let unit = unit();
-        let to_parts = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
-        let rim = unit.solid.vertices().iter().map(|v| to_parts(*v)).fold(0.0, f64::max);
+        let distance_to = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
+        let rim = unit.solid.vertices().iter().map(|v| distance_to(*v)).fold(0.0, f64::max);
         // Only the sharp rim protrudes from the parts: R (sqrt 2 - 1) = 0.0207 at a right angle, more here.
         assert!(rim < 0.025, "{rim}");
         for v in unit.solid.vertices() {
             // Vertices lie on the true cones, so they never lie inside the parts, except for rounding errors.
-            assert!(to_parts(*v) > -1e-9);
+            assert!(distance_to(*v) > -1e-9);
         }
         for (leg, part) in unit.parts.iter().enumerate() {
             let axis = tetrapod::leg_axes()[leg];
@@ -395,9 +395,9 @@ mod tests {
                     assert!(unit.solid.signed_distance(part.support(n) + n * part.rounding()) < 1e-9);
                 }
             }
-            let out = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
+            let distance_to = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
             // A corner of three faces at about right angles: R (sqrt 3 - 1) = 0.022.
-            let corner = unit.solid.vertices().iter().map(|v| out(*v)).fold(0.0, f64::max);
+            let corner = unit.solid.vertices().iter().map(|v| distance_to(*v)).fold(0.0, f64::max);
             assert!(corner < 0.022, "{corner}");
         }
     }

@@ -29,29 +29,29 @@ impl Member {
     /// If a block is flat.
     pub fn blocks(&self) -> Result<Vec<Polyhedron>, PolyhedronError> {
         let [middle, end] = [0, 1].map(|k| octagon(self.width[k], self.chamfer[k]));
-        let at = |section: &[DVec2; 8], s: f64| section.map(|p| self.place(p, s)).to_vec();
+        let ring = |section: &[DVec2; 8], s: f64| section.map(|p| self.point(p, s)).to_vec();
         let l = self.half_length;
         if self.width[0] == self.width[1] && self.chamfer[0] == self.chamfer[1] {
-            return Ok(vec![Polyhedron::between(&at(&end, -l), &at(&end, l))?]);
+            return Ok(vec![Polyhedron::between(&ring(&end, -l), &ring(&end, l))?]);
         }
         Ok(vec![
-            Polyhedron::between(&at(&middle, 0.0), &at(&end, l))?,
-            Polyhedron::between(&at(&end, -l), &at(&middle, 0.0))?,
+            Polyhedron::between(&ring(&middle, 0.0), &ring(&end, l))?,
+            Polyhedron::between(&ring(&end, -l), &ring(&middle, 0.0))?,
         ])
     }
 
     /// Sections at a distance [m] from the middle, one towards each end.
     pub fn sections(&self, distance: f64) -> [Section; 2] {
         let share = distance / self.half_length;
-        let at = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * share;
-        let (width, chamfer) = (at(self.width), at(self.chamfer));
+        let interpolate = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * share;
+        let (width, chamfer) = (interpolate(self.width), interpolate(self.chamfer));
         [1.0, -1.0].map(|side| {
             let outwards = self.axis * side;
             Section::chamfered(self.centre + outwards * distance, outwards, [width; 2], chamfer)
         })
     }
 
-    fn place(&self, section: DVec2, along: f64) -> DVec3 {
+    fn point(&self, section: DVec2, along: f64) -> DVec3 {
         self.centre + self.across * section.x + self.axis.cross(self.across) * section.y + self.axis * along
     }
 }

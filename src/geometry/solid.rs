@@ -44,8 +44,8 @@ pub enum SolidError {
     /// The surface encloses no volume, or its triangles face inwards.
     #[error("the surface encloses {0:.3e} m3: its triangles must be counter-clockwise seen from outside")]
     InsideOut(f64),
-    /// parry refused the mesh.
-    #[error("the surface cannot be used: {0}")]
+    /// parry rejected the mesh.
+    #[error("the mesh library parry rejected the surface: {0}")]
     Mesh(String),
 }
 
@@ -104,7 +104,7 @@ impl Solid {
         let triangle = |index: usize| self.mesh.triangle(index as u32);
         let boxes: Vec<Aabb> = (0..self.triangles().len()).map(|index| triangle(index).local_aabb()).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        let cuts = |a: usize, b: usize| {
+        let intersects = |a: usize, b: usize| {
             let [one, other] = [a, b].map(|index| self.triangles()[index]);
             if one.iter().any(|corner| other.contains(corner)) {
                 return false;
@@ -115,7 +115,7 @@ impl Solid {
         };
         (0..boxes.len()).find_map(|a| {
             let near = tree.intersect_aabb(&boxes[a]).map(|b| b as usize);
-            near.filter(|b| *b > a).find(|b| cuts(a, *b)).map(|_| triangle(a).center())
+            near.filter(|b| *b > a).find(|b| intersects(a, *b)).map(|_| triangle(a).center())
         })
     }
 

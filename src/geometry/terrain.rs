@@ -129,10 +129,10 @@ impl Terrain {
         if let Some(bad) = vertices.iter().position(|v| !v.is_finite()) {
             return Err(TerrainError::NotFinite(bad));
         }
-        let at = |triangle: &[u32; 3]| triangle.map(|v| vertices[v as usize]);
+        let corners_of = |triangle: &[u32; 3]| triangle.map(|v| vertices[v as usize]);
         let mut faces = Vec::with_capacity(triangles.len());
         for (index, triangle) in triangles.iter().enumerate() {
-            let corners @ [a, b, c] = at(triangle);
+            let corners @ [a, b, c] = corners_of(triangle);
             let across = (b - a).cross(c - a);
             let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
             if across.length_squared() <= LINE * longest * longest {

@@ -29,8 +29,8 @@ const ROWS: usize = 6;
 /// Axes of the four legs: unit vectors to the corners of a tetrahedron, the first upwards, the second towards -x.
 pub fn leg_axes() -> [DVec3; 4] {
     let (lower, flat) = (-1.0 / 3.0, (8.0f64 / 9.0).sqrt());
-    let around = |angle: f64| DVec3::new(-flat * angle.cos(), -flat * angle.sin(), lower);
-    [DVec3::Z, around(0.0), around(TAU / 3.0), around(2.0 * TAU / 3.0)]
+    let lower_axis = |angle: f64| DVec3::new(-flat * angle.cos(), -flat * angle.sin(), lower);
+    [DVec3::Z, lower_axis(0.0), lower_axis(TAU / 3.0), lower_axis(2.0 * TAU / 3.0)]
 }
 
 /// Radii [m] of a leg's cone at the centre and at the tip, and the length between them [m].
@@ -40,11 +40,11 @@ pub fn cone(height_m: f64) -> ([f64; 2], f64) {
 
 /// Critical sections of a Tetrapod of height H [m], at the roots of the legs.
 pub fn sections(height_m: f64) -> Vec<Section> {
-    let at = |axis: DVec3| {
+    let root_section = |axis: DVec3| {
         let root = (CENTRE_TO_TIP - LEG_LENGTH) * height_m;
         Section::round(axis * root, axis, BASE_RADIUS * height_m)
     };
-    leg_axes().map(at).to_vec()
+    leg_axes().map(root_section).to_vec()
 }
 
 /// Decrease of a leg's radius per unit of length, the tangent of the half-angle [-].

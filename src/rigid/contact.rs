@@ -167,7 +167,7 @@ impl Surfaces {
             self.near_parts_of(pair, placements, margin, out);
             Ok(())
         });
-        // Nothing can fail here.
+        // The search cannot fail.
         near.unwrap_or_default()
     }
 

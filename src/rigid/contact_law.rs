@@ -19,8 +19,8 @@ use super::hertz_mindlin::{self, Material};
 use super::linear;
 use super::setup::{ContactModel, Resistance};
 
-/// Sliding speed v_c of the transition from static to kinetic friction [m/s]. It is five times the fluctuation of a unit
-/// at rest in water (0.2 mm/s), and far below the speeds of moving units.
+/// Sliding speed v_c of the transition from static to kinetic friction [m/s]. It is five times the fluctuation of a
+/// unit at rest in water (0.2 mm/s), and far below the speeds of moving units.
 const TRANSITION_SPEED: f64 = 1e-3;
 /// Radius of every contact under `chrono4` [m].
 const CHRONO_RADIUS: f64 = 0.1;
@@ -109,7 +109,7 @@ impl ContactLaw {
         self.remembers
     }
 
-    /// dF_n/dd at the given overlap [N/m].
+    /// Normal stiffness dF_n/dd at the given overlap [N/m].
     pub fn normal_stiffness(&self, overlap: f64) -> f64 {
         match self.stiffness {
             Stiffness::Hertz { e_star, radius, .. } => hertz_mindlin::normal_stiffness(e_star, radius, overlap),

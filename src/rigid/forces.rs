@@ -10,8 +10,8 @@ use super::motion::{BodyState, Load};
 use super::record::{Beginning, ContactBook, Push};
 use super::setup::RigidSetup;
 
-/// Energy balance of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping - load_work
-/// is constant, except for time-stepping errors and the coupling of tangential stiffness and overlap.
+/// Energy balance of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
+/// load_work is constant, except for time-stepping errors and the coupling of tangential stiffness and overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy of translation and rotation.
@@ -69,8 +69,8 @@ impl Contact {
 
     /// Creates a contact that has just started.
     ///
-    /// On a triangle surface, a part in contact with neighbouring elements can reach another ridge with an overlap. This
-    /// overlap is subtracted, because it would create energy. An overlap at the start of the world counts.
+    /// On a triangle surface, a part in contact with neighbouring elements can reach another ridge with an overlap.
+    /// This overlap is subtracted, because it would create energy. An overlap at the start of the world counts.
     fn started(touch: &Touch, step: Step) -> Self {
         let on_terrain = matches!(touch.key.feature, Feature::Terrain { .. });
         let sunk = if on_terrain && step.dt > 0.0 { touch.overlap } else { 0.0 };
@@ -166,8 +166,8 @@ impl Laws {
         }
     }
 
-    /// Computes the forces at the contact points. `before` are the previous contacts and `book` their records. `now` are
-    /// the current velocities; `over`, the mean velocities of the substep, stretch the springs and do the work.
+    /// Computes the forces at the contact points. `before` are the previous contacts and `book` their records. `now`
+    /// are the current velocities; `over`, the mean velocities of the substep, stretch the springs and do the work.
     #[allow(clippy::too_many_arguments)]
     pub fn evaluate(
         &self,

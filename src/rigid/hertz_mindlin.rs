@@ -1,8 +1,8 @@
 //! Stiffness and damping of the Hertz-Mindlin law (Sunday et al. 2020; Mitsui et al. 2023, equations 10 and 11).
 //!
-//! F_n = (2/3) S_n d - g_n v_n and F_t = S_t d_t + g_t v_t, with overlap d [m], normal velocity v_n [m/s] (positive when
-//! the bodies separate), tangential spring d_t [m] and tangential velocity v_t [m/s]. [`super::contact_law`] limits both
-//! forces.
+//! F_n = (2/3) S_n d - g_n v_n and F_t = S_t d_t + g_t v_t, with overlap d [m], normal velocity v_n [m/s] (positive
+//! when the bodies separate), tangential spring d_t [m] and tangential velocity v_t [m/s]. [`super::contact_law`]
+//! limits both forces.
 //!
 //! Damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the contact may be in tension at its
 //! end. Here tension is cut off, and that formula would give 0.55 for e = 0.5. [`damping_factor`] therefore inverts the
@@ -21,29 +21,29 @@ pub struct Material {
     pub restitution: f64,
 }
 
-/// 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2 [1/Pa], returned as E* [Pa].
+/// Effective Young's modulus E* [Pa]: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
 pub fn effective_young_modulus(a: &Material, b: &Material) -> f64 {
     let compliance = |m: &Material| (1.0 - m.poisson_ratio.powi(2)) / m.young_modulus;
     1.0 / (compliance(a) + compliance(b))
 }
 
-/// 1/G* = 2 (2 - nu_1)(1 + nu_1)/E_1 + 2 (2 - nu_2)(1 + nu_2)/E_2 [1/Pa], returned as G* [Pa].
+/// Effective shear modulus G* [Pa]: 1/G* = 2 (2 - nu_1)(1 + nu_1)/E_1 + 2 (2 - nu_2)(1 + nu_2)/E_2.
 pub fn effective_shear_modulus(a: &Material, b: &Material) -> f64 {
     let compliance = |m: &Material| 2.0 * (2.0 - m.poisson_ratio) * (1.0 + m.poisson_ratio) / m.young_modulus;
     1.0 / (compliance(a) + compliance(b))
 }
 
-/// S_n = 2 E* sqrt(R d) [N/m].
+/// Normal stiffness S_n = 2 E* sqrt(R d) [N/m].
 pub fn normal_stiffness(e_star: f64, radius: f64, overlap: f64) -> f64 {
     2.0 * e_star * (radius * overlap).sqrt()
 }
 
-/// S_t = 8 G* sqrt(R d) [N/m].
+/// Tangential stiffness S_t = 8 G* sqrt(R d) [N/m].
 pub fn tangential_stiffness(g_star: f64, radius: f64, overlap: f64) -> f64 {
     8.0 * g_star * (radius * overlap).sqrt()
 }
 
-/// g = 2 sqrt(5/6) |beta| sqrt(S m*) [N s/m].
+/// Damping coefficient g = 2 sqrt(5/6) |beta| sqrt(S m*) [N s/m].
 pub fn damping(beta: f64, stiffness: f64, mass: f64) -> f64 {
     2.0 * (5.0f64 / 6.0).sqrt() * beta * (stiffness * mass).sqrt()
 }
@@ -53,17 +53,17 @@ pub fn impact_overlap(e_star: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     (15.0 * mass * speed * speed / (16.0 * e_star * radius.sqrt())).powf(0.4)
 }
 
-/// |beta| of Sunday et al.: -ln e / sqrt(ln^2 e + pi^2) [-].
+/// Damping factor |beta| of Sunday et al., with tension: -ln e / sqrt(ln^2 e + pi^2) [-].
 pub fn damping_factor_with_pull(e: f64) -> f64 {
     -e.ln() / (e.ln().powi(2) + PI * PI).sqrt()
 }
 
-/// |beta| for which an impact without tensile force has the restitution `e` [-].
+/// Damping factor |beta| for which an impact without tensile force has the restitution `e` [-].
 pub fn damping_factor(e: f64) -> f64 {
     damping_factor_of(e, |x, v, beta| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v)
 }
 
-/// |beta| for which the law x'' = a(x, x', beta), x >= 0, in units of the impact, has the restitution `e` [-].
+/// Damping factor |beta| for which x'' = a(x, x', beta), x >= 0, in units of the impact, has the restitution `e` [-].
 pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
@@ -78,8 +78,8 @@ pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> 
     0.5 * (low + high)
 }
 
-/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force vanishes. In these units of the impact
-/// the law does not depend on mass, stiffness or speed.
+/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force vanishes. In these units of the
+/// impact the law does not depend on mass, stiffness or speed.
 fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
     let acceleration = |x: f64, v: f64| acceleration(x.max(0.0), v);
     // A contact lasts about 3.2; with this step the fourth-order error is far below the required 1e-4.

@@ -14,8 +14,8 @@ pub const KEPT: usize = 64;
 /// Number of bins that triggers merging.
 const GROWN: usize = 128;
 
-/// A force joins the last bin if it differs from it by less than this fraction of the peak [-]. A body at rest therefore
-/// does not fill the history.
+/// A force joins the last bin if it differs from it by less than this fraction of the peak [-]. A body at rest
+/// therefore does not fill the history.
 const SAME: f64 = 1e-3;
 
 /// The bin with the peak is merged only if it keeps at least this fraction of the peak [-].

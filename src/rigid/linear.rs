@@ -4,17 +4,17 @@
 
 use super::hertz_mindlin::damping_factor_of;
 
-/// k_t / k_n of two materials with mean Poisson's ratio nu [-].
+/// Stiffness ratio k_t / k_n of two materials with mean Poisson's ratio nu [-].
 pub fn stiffness_ratio(nu: f64) -> f64 {
     2.0 * (1.0 - nu) / (2.0 - nu)
 }
 
-/// |beta| of c = 2 |beta| sqrt(k m*) for which an impact without tensile force has the restitution `e` [-].
+/// Damping factor |beta| for which an impact without tensile force has the restitution `e` [-].
 pub fn damping_factor(e: f64) -> f64 {
     damping_factor_of(e, |x, v, beta| -x - 2.0 * beta * v)
 }
 
-/// c = 2 |beta| sqrt(k m*) [N s/m].
+/// Damping coefficient c = 2 |beta| sqrt(k m*) [N s/m].
 pub fn damping(beta: f64, stiffness: f64, mass: f64) -> f64 {
     2.0 * beta * (stiffness * mass).sqrt()
 }
@@ -25,8 +25,8 @@ mod tests {
 
     #[test]
     fn damping_matches_the_closed_form_of_schwager_and_poschel() {
-        // Without tension an underdamped impact ends at phase pi - atan(2 b sqrt(1 - b^2)/(2 b^2 - 1)) for b > 1/sqrt 2.
-        // Below: e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))) (Schwager & Poschel 2007).
+        // Without tension an underdamped impact ends at phase pi - atan(2 b sqrt(1 - b^2)/(2 b^2 - 1)) for b > 1/sqrt
+        // 2. Below: e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))) (Schwager & Poschel 2007).
         for b in [0.05f64, 0.2, 0.5, 0.7] {
             let root = (1.0 - b * b).sqrt();
             let e = (-b / root * (std::f64::consts::PI - (2.0 * b * root).atan2(1.0 - 2.0 * b * b))).exp();

@@ -2,8 +2,8 @@
 //!
 //! Two polyhedra with parallel faces in contact share a contact patch, so a single pair of nearest points is arbitrary.
 //! The patch is a polygon. Its corners are corners of one body over a face of the other, and crossings of two edges.
-//! Each of them is a contact point. The distances of corners are exact and change smoothly. Near the end of an edge, the
-//! edge is assumed to bend back with the rounding radius: the crossing fades out while the corner takes over.
+//! Each of them is a contact point. The distances of corners are exact and change smoothly. Near the end of an edge,
+//! the edge is assumed to bend back with the rounding radius: the crossing fades out while the corner takes over.
 
 use glam::DVec3;
 
@@ -149,9 +149,9 @@ mod tests {
     fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
         let points = above(0.3, 1.0, 0.0);
         // Two corners of each box lie over the other's face; the others are 0.3 away. Edges that only meet bend back.
-        let bear = points.iter().filter(|near| near.bent == 0.0);
-        assert_eq!(bear.clone().count(), 4);
-        for near in bear {
+        let bearing = points.iter().filter(|near| near.bent == 0.0);
+        assert_eq!(bearing.clone().count(), 4);
+        for near in bearing {
             assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12);
         }
     }
