@@ -25,7 +25,7 @@ const STEPS_PER_PERIOD: f64 = 80.0;
 const LONGEST_SUBSTEP: f64 = 1e-3;
 
 /// Safety factor on the travelled distance [-], because a body may rotate slightly faster at one end of a substep.
-const ROUNDING: f64 = 1.01;
+const PATH_SAFETY: f64 = 1.01;
 
 /// Value of `seen` that forces a new search for pairs of parts.
 pub(super) const UNSEEN: f64 = f64::NEG_INFINITY;
@@ -312,7 +312,7 @@ impl RigidWorld {
     fn update_near_pairs(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) {
         let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
-            self.path[body] += ROUNDING * h * (linear[body].length() + angular[body].length() * reach);
+            self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
             // The substep length needs all contacts that may start within the horizon at twice the current speeds.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
             self.margin[body] = 2.0 * speed * horizon;
