@@ -44,7 +44,7 @@ pub struct FlumeSetup {
     pub cell_m: f64,
     /// Positions x of the wave gauges [m].
     pub gauges_x_m: Vec<f64>,
-    /// Times of surface profiles along the whole flume [s]; each is recorded at the first time step after its time.
+    /// Times of surface profiles along the whole flume [s]; each is recorded at the first time step that reaches it.
     pub profile_times_s: Vec<f64>,
     /// Range of x in which the flow is recorded [m], limited to the flume.
     pub window_x_m: [f64; 2],
