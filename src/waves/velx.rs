@@ -54,23 +54,18 @@ impl Velx {
         let mut rows = 0;
         for (index, text) in input.lines().enumerate() {
             let text = text?;
-            let line_error = |problem: String| VelxError::Line { line: index + 1, problem };
+            let error = |problem: String| VelxError::Line { line: index + 1, problem };
             let fields: Vec<&str> = text.trim().split(';').map(str::trim).collect();
-            let number =
-                |field: &str| field.parse::<f64>().map_err(|_| line_error(format!("`{field}` is not a number")));
+            let number = |field: &str| field.parse::<f64>().map_err(|_| error(format!("`{field}` is not a number")));
             match index {
                 0 if fields.len() >= 4 && fields[0] == "px:" && fields[2] == "py:" => {
                     velx.place_m = [number(fields[1])?, number(fields[3])?];
                 }
-                0 => return Err(line_error("expected `px:;<x>;py:;<y>`".to_owned())),
+                0 => return Err(error("expected `px:;<x>;py:;<y>`".to_owned())),
                 1 => rows = fields.iter().filter(|name| name.starts_with("pz")).count(),
                 _ if text.trim().is_empty() => {}
                 _ if fields.len() != 1 + 2 * rows => {
-                    return Err(line_error(format!(
-                        "{} fields, expected {} for {rows} row(s)",
-                        fields.len(),
-                        1 + 2 * rows
-                    )));
+                    return Err(error(format!("{} fields, expected {} for {rows} row(s)", fields.len(), 1 + 2 * rows)));
                 }
                 _ => {
                     let values = fields.iter().map(|field| number(field)).collect::<Result<Vec<f64>, _>>()?;
