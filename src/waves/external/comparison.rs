@@ -23,15 +23,15 @@ impl Comparison {
     /// Compares a series with the flume model at a gauge; still water level z [m]. `None` if they have no time in common
     /// or the flume model has no crest there.
     pub fn new(record: &FlumeRecord, gauge: usize, other: &SurfaceSeries, still_level_m: f64) -> Option<Self> {
-        let (flume_crest_m, flume_crest_s) = record.crest(gauge);
+        let (flume_m, flume_s) = record.crest(gauge);
         let (top_m, crest_s) = other.crest();
         let crest_m = top_m - still_level_m;
         let series = &record.gauge_elevations_m[gauge];
         let common = other.points().filter(|[t, _]| (0.0..=record.end_s()).contains(t));
         let differences = common.map(|[t, z]| z - still_level_m - linear(record.times_s(), series, t));
         let (count, sum) = differences.fold((0, 0.0), |(count, sum), d| (count + 1, sum + d * d));
-        let rms = (sum / f64::from(count)).sqrt() / flume_crest_m;
-        let (height, delay_s) = (crest_m / flume_crest_m - 1.0, crest_s - flume_crest_s);
-        (count > 0 && flume_crest_m > 0.0).then_some(Self { crest_m, crest_s, height, delay_s, rms })
+        let rms = (sum / f64::from(count)).sqrt() / flume_m;
+        let compared = Self { crest_m, crest_s, height: crest_m / flume_m - 1.0, delay_s: crest_s - flume_s, rms };
+        (count > 0 && flume_m > 0.0).then_some(compared)
     }
 }

@@ -35,7 +35,7 @@ impl LayeredFlume {
             let flux = 0.5 * (self.flux[cell * k + m] + self.flux[(cell + 1) * k + m]);
             flux * (self.u_at_centre(cell, m, flux) - u)
         };
-        let vertical = exchange_term(
+        let vertical = exchange(
             0.5 * (self.exchange[left * k + m] + self.exchange[right * k + m]),
             0.5 * (self.exchange_above(left, m) + self.exchange_above(right, m)),
             &self.u[face * k..(face + 1) * k],
@@ -68,12 +68,8 @@ impl LayeredFlume {
             let is_inner = face > 0 && face < self.grid.cells();
             if flux == 0.0 || !is_inner { 0.0 } else { flux * (self.w_at_face(face, m, flux) - w) }
         };
-        let vertical = exchange_term(
-            self.exchange[cell * k + m],
-            self.exchange_above(cell, m),
-            &self.w[cell * k..(cell + 1) * k],
-            m,
-        );
+        let vertical =
+            exchange(self.exchange[cell * k + m], self.exchange_above(cell, m), &self.w[cell * k..(cell + 1) * k], m);
         let layer_depth = self.depth[cell] / k as f64;
         (momentum_flux(cell + 1) - momentum_flux(cell) + vertical) / (layer_depth * self.grid.width[cell])
     }
@@ -99,7 +95,7 @@ fn quick(far: f64, up: f64, down: f64) -> f64 {
 
 /// Vertical exchange term of layer m: omega_above (v_above - v) - omega_below (v_below - v), where the interface values
 /// v_above and v_below are the means of the adjacent layers.
-fn exchange_term(below: f64, above: f64, layers: &[f64], m: usize) -> f64 {
+fn exchange(below: f64, above: f64, layers: &[f64], m: usize) -> f64 {
     let jump = |other: usize| 0.5 * (layers[other] - layers[m]);
     let from_below = if m > 0 { below * jump(m - 1) } else { 0.0 };
     let from_above = if m + 1 < layers.len() { above * jump(m + 1) } else { 0.0 };

@@ -1,5 +1,4 @@
-//! Block tridiagonal solver for symmetric positive definite systems: block elimination without pivoting (Golub & Van
-//! Loan 4.5).
+//! Block tridiagonal solver for symmetric positive definite systems, without pivoting (Golub & Van Loan 4.5).
 
 /// A system of `blocks` x `blocks` blocks of size `size`: matrix, right-hand side and scratch memory.
 ///

@@ -44,9 +44,8 @@ fn manning_coefficient(gravity: f64, n: f64, depth: f64) -> f64 {
     gravity * n * n / depth.cbrt()
 }
 
-/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-].
+/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-]; finite in still water, where it has no effect.
 fn smooth_coefficient(reynolds: f64) -> f64 {
-    // Avoids division by zero in still water, where the coefficient has no effect.
     let reynolds = reynolds.max(1e-6);
     (3.0 / reynolds).max(0.0279 * reynolds.powf(-0.25))
 }

@@ -1,7 +1,6 @@
 //! Non-hydrostatic pressure: Keller box in the vertical (Stelling & Zijlema 2003; Zijlema & Stelling 2005).
 //!
-//! The unknown q is defined at the bottom of each layer, zero at the surface and linear within a layer. It accelerates
-//! the water by
+//! The unknown is q at the bottom of each layer, linear within a layer and zero at the surface. The accelerations are
 //!
 //! ```text
 //! du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
