@@ -42,8 +42,8 @@ pub struct AbsorptionState {
     excess_m: f64,
 }
 
-/// Return time of an absorbing piston in periodic waves, in periods. Absorption then loses no more than
-/// 1 / (2 pi 10) = 1.6 % of its velocity, out of phase, and the mass transport of the waves does not shift the piston.
+/// Return time of an absorbing piston in periodic waves, in periods. It is short enough to stop drift by mass
+/// transport; absorption loses no more than 1 / (2 pi 10) = 1.6 % of its velocity, out of phase.
 pub(super) const RETURN_PERIODS: f64 = 10.0;
 
 impl Absorption {

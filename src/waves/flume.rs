@@ -11,8 +11,8 @@ use crate::waves::solitary::SolitaryWave;
 
 /// Largest number of layers; two or three resolve the vertical profile of long waves.
 pub const MOST_LAYERS: usize = 8;
-/// Courant number of a long wave on the largest depth [-]. The scheme is stable up to 1; up to about 0.4 its time errors
-/// stay below its space errors.
+/// Courant number of a long wave on the largest depth [-]. The scheme is stable up to 1; up to about 0.4 its time
+/// errors stay below its space errors.
 const COURANT: f64 = 0.4;
 /// Length over which the cells follow the piston, in strokes: no cell is compressed by more than 10 %.
 const MAPPED_STROKES: f64 = 10.0;

@@ -187,8 +187,8 @@ impl MlPiston {
         self.absorption.map_or(0.0, |absorption| absorption.reach_m)
     }
 
-    /// Velocity of a row [m/s] at flume time t [s]: 0 before the start and after the end, linear between knots. It jumps
-    /// at start and end if the water moves then.
+    /// Velocity of a row [m/s] at flume time t [s]: 0 before the start and after the end, linear between knots. It
+    /// jumps at start and end if the water moves then.
     pub fn velocity_m_s(&self, row: usize, t: f64) -> f64 {
         let v = &self.velocities[row];
         match self.locate(t) {
@@ -256,8 +256,8 @@ pub fn start_of_rows(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
     rows.times_s[first.unwrap_or(0)]
 }
 
-/// First recorded time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum. Returns the end of the
-/// record if the water never moves.
+/// First recorded time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum. Returns the end of
+/// the record if the water never moves.
 pub fn start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
     let speeds: Vec<f64> = record.times_s().iter().map(|&t| record.mean_velocity(x0_m, t).abs()).collect();
     let largest = speeds.iter().copied().fold(0.0, f64::max);

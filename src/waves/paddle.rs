@@ -81,7 +81,7 @@ pub struct Paddle {
 }
 
 impl Paddle {
-    /// Creates a paddle at x = `place_m` with rows at the levels z [m]; bed level `bed_m` and water depth `depth_m` [m].
+    /// Creates a paddle at x = `place_m` with rows at the levels z [m], for bed level `bed_m` and depth `depth_m` [m].
     pub fn new(
         place_m: f64,
         row_heights_m: Vec<f64>,

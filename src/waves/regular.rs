@@ -108,7 +108,7 @@ pub fn highest_over_depth(length_over_depth: f64) -> f64 {
         / (1.0 + 0.078_834_0 * l + 0.031_756_7 * l * l + 0.009_340_7 * l.powi(3))
 }
 
-/// Solves omega^2 = g k tanh(k d) for the wavenumber k [1/m] by Newton's method, starting from Eckart's (1952) estimate.
+/// Solves omega^2 = g k tanh(k d) for the wavenumber k [1/m] by Newton's method from Eckart's (1952) estimate.
 pub fn linear_wavenumber_per_m(angular_frequency: f64, depth_m: f64, gravity: f64) -> f64 {
     let deep_kd = angular_frequency * angular_frequency * depth_m / gravity;
     // Eckart's estimate is within 5 %; each Newton iteration squares the error: 1e-3, 1e-6, 1e-12, rounding.

@@ -20,8 +20,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares a series with the flume model at a gauge; still water level z [m]. `None` if they have no time in common
-    /// or the flume model has no crest there.
+    /// Compares a series with the flume model at a gauge, with still water level z [m]. `None` if they have no common
+    /// time or the flume model has no crest there.
     pub fn new(record: &FlumeRecord, gauge: usize, other: &SurfaceSeries, still_level_m: f64) -> Option<Self> {
         let (flume_m, flume_s) = record.crest(gauge);
         let (top_m, crest_s) = other.crest();

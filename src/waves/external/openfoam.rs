@@ -10,8 +10,8 @@
 //! | [`interface_height`] | `postProcessing/<name>/<t0>/position.dat` and `height.dat` |
 //!
 //! Probes and `interfaceHeight` write one folder per start of the run. The readers join these folders; where they
-//! overlap, the later start applies. Points outside the mesh have values of about 1e300 and are left out. Velocities are
-//! along x of OpenFOAM.
+//! overlap, the later start applies. Points outside the mesh have values of about 1e300 and are left out. Velocities
+//! are along x of OpenFOAM.
 
 mod frame;
 pub mod gauges;

@@ -1,8 +1,8 @@
 //! SWASH tables: water level and layer velocities at one point over time.
 //!
-//! Commands such as `TABLE 'P' NOHEADER 'level.tbl' TSEC WATL OUTPUT 0 0.1 SEC` and
-//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC` write them, with one point in the set `'P'`. The format
-//! follows the SWASH user manual (11.01A, sections 4.6.2 and 5.1) and source code:
+//! Example commands are `TABLE 'P' NOHEADER 'level.tbl' TSEC WATL OUTPUT 0 0.1 SEC` and
+//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`. The set `'P'` must have one point. The format follows
+//! the SWASH user manual (11.01A, sections 4.6.2 and 5.1) and source code:
 //!
 //! | item | format |
 //! | --- | --- |

@@ -62,7 +62,7 @@ impl VelocityTable {
     /// Returns the table read from `file` if its values are plausible at the position; the last step of every reader.
     ///
     /// # Errors
-    /// If times do not increase or have a gap, a value is not finite, the surface is below the bed, levels do not
+    /// If times do not increase or have a gap, a value is not finite, or the surface is below the bed. If levels do not
     /// increase, are outside the water or too few, or a velocity is too high for the depth.
     ///
     /// # Panics

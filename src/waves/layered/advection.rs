@@ -1,6 +1,6 @@
 //! Momentum-conservative advection of u and w (Stelling & Duinmeijer 2003, section 3). Upwind interpolation is third
-//! order in deep, unbroken water (Leonard 1979), elsewhere limited second order (van Leer 1974), and first order next to
-//! dry cells.
+//! order in deep, unbroken water (Leonard 1979), elsewhere limited second order (van Leer 1974), and first order next
+//! to dry cells.
 
 use super::LayeredFlume;
 use super::surface::van_leer;

@@ -39,7 +39,7 @@ impl BlockTridiagonal {
         self.diagonal[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Adds to `U_block[row, column]`, which couples unknown `row` of the block with unknown `column` of the next block.
+    /// Adds to `U_block[row, column]`, which couples unknown `row` of the block to unknown `column` of the next.
     pub(super) fn add_upper(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.upper[(block * self.size + row) * self.size + column] += value;
     }

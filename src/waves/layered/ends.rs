@@ -1,7 +1,7 @@
 //! Ends of the flume: wall, piston, wave inflow, radiating end and sponge.
 //!
-//! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming wave
-//!   plus that of an outgoing long wave with the excess elevation, u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in).
+//! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming
+//!   wave plus that of an outgoing long wave with the excess elevation, u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in).
 //! * Radiating end: the incoming characteristic is that of still water, U = 2 (sqrt(g H) - sqrt(g d)). Differences
 //!   between layers are copied from the nearest inner face. It is exact for small long waves; higher or shorter waves
 //!   are partly reflected.
@@ -10,8 +10,8 @@
 
 use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
 
-/// Integral of the damping rate over the sponge per long-wave celerity [-]: a reflected long wave keeps exp(-6) = 0.25 %
-/// of its height.
+/// Integral of the damping rate over the sponge per long-wave celerity [-]: a reflected long wave keeps exp(-6) = 0.25
+/// % of its height.
 const SPONGE_STRENGTH: f64 = 6.0;
 /// Node of the two-point Gauss rule on [-1, 1], which is exact for a cubic velocity profile in a layer.
 const GAUSS: f64 = 0.577_350_269_189_625_8;

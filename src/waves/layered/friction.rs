@@ -10,9 +10,9 @@
 //! proportion to their velocity. The model has no turbulence that carries stress upwards: a stress on the lowest layer
 //! alone would let the other layers slide over it. Zijlema, Stelling & Smit (2011), equation 6, for one layer.
 //!
-//! On a smooth bed the stress is 3 mu U / H of a laminar film or, if larger, that of Blasius's (1913) law for smooth
-//! walls, f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law holds for rough beds; it
-//! would slow thin water on glass too much.
+//! On a smooth bed the stress is 3 mu U / H of a laminar film or, if larger, that of Blasius's (1913) law. Blasius's
+//! law for smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law holds for
+//! rough beds; it would slow thin water on glass too much.
 
 use super::{Friction, LayeredFlume, THIN_M};
 

@@ -1,9 +1,9 @@
 //! Cells that follow the piston: an arbitrary Lagrangian-Eulerian (ALE) grid in one dimension.
 //!
-//! Near the piston the faces move in proportion, x = x0 + X (1 - x0 / L) for x0 < L; beyond L they are fixed. The piston
-//! is the first face and all fluxes are relative to the moving faces. So the volume of water is conserved to rounding
-//! for any stroke. (An inflow at x = 0 with the piston's velocity would need a correction for the displaced water and
-//! would start the wave at the wrong position.)
+//! Near the piston the faces move in proportion, x = x0 + X (1 - x0 / L) for x0 < L; beyond L they are fixed. The
+//! piston is the first face and all fluxes are relative to the moving faces. So the volume of water is conserved to
+//! rounding for any stroke. (An inflow at x = 0 with the piston's velocity would need a correction for the displaced
+//! water and would start the wave at the wrong position.)
 
 use crate::geometry::profile::Profile;
 
@@ -33,7 +33,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Creates cells of width about `cell_m` over the whole profile; the faces of the first `mapped_m` follow the piston.
+    /// Creates cells of about `cell_m` over the whole profile; the faces within `mapped_m` follow the piston.
     pub fn new(profile: Profile, cell_m: f64, mapped_m: f64) -> Self {
         let points = profile.points();
         let (start, end) = (points[0][0], points[points.len() - 1][0]);
@@ -74,7 +74,7 @@ impl Grid {
         self.centre_x[face] - self.centre_x[face - 1]
     }
 
-    /// Sets the face velocities that move the faces within `dt` to their positions for a piston displacement `paddle_m`.
+    /// Sets the velocities that move the faces within `dt` to their positions for a piston displacement `paddle_m`.
     pub fn aim(&mut self, paddle_m: f64, dt: f64) {
         for face in 0..self.moving_faces {
             self.face_velocity[face] = (self.mapped(face, paddle_m) - self.face_x[face]) / dt;

@@ -13,8 +13,8 @@
 //! w_m - w_{m-1} + [dx(h u)_{m-1} + dx(h u)_m] / 2 + u_{m-1} dx z_{m-1} - u_m dx z_m = 0
 //! ```
 //!
-//! and at the bed w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0. Hence pressure does no work on the water, the system is symmetric
-//! and positive definite, and corners of the bed cause no trouble.
+//! and at the bed w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0. Hence pressure does no work on the water, the system is
+//! symmetric and positive definite, and corners of the bed cause no trouble.
 
 use super::LayeredFlume;
 

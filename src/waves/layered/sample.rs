@@ -36,8 +36,8 @@ impl LayeredFlume {
         (0..self.grid.cells()).map(point).collect()
     }
 
-    /// Bed level z at the shoreline [m]: where the depth, coming from the left end, first falls to 1/1000 of the largest
-    /// still water depth. Linear between two cell centres.
+    /// Bed level z at the shoreline [m]: where the depth, coming from the left end, first falls to 1/1000 of the
+    /// largest still water depth. Linear between two cell centres.
     pub fn shore_level_m(&self) -> f64 {
         let deepest = self.grid.bed.iter().fold(0.0, |most, bed| f64::max(most, self.still_level_m - bed));
         let film = SHORE_FILM_SHARE * deepest;

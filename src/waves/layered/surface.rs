@@ -2,8 +2,8 @@
 //!
 //! * Depth at a face: in calm deep water the mean of both sides. In shallow, fast or breaking flow the upwind level
 //!   (Stelling & Duinmeijer 2003) above the higher bed of both sides, reconstructed with limited slopes.
-//! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and stays so above 0.3 (Smit, Zijlema
-//!   & Stelling 2013). It steepens into a bore, in which the momentum-conservative scheme dissipates energy.
+//! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and stays so above 0.3 (Smit,
+//!   Zijlema & Stelling 2013). It steepens into a bore, in which the momentum-conservative scheme dissipates energy.
 
 use super::{Breaking, LayeredFlume, Pressure, THIN_M};
 
@@ -91,8 +91,8 @@ impl LayeredFlume {
     }
 
     /// Reconstructs a cell's water at its right (`sign` = 1) or left (-1) face with limited slopes of level and depth
-    /// (Audusse et al. 2004, section 4). On a plane bed both sides get the same bed at the face. At the ends and next to
-    /// dry cells the cell's own values are used.
+    /// (Audusse et al. 2004, section 4). On a plane bed both sides get the same bed at the face. At the ends and next
+    /// to dry cells the cell's own values are used.
     fn reconstruct(&self, cell: usize, sign: f64, depth: &[f64]) -> Side {
         let level = |cell: usize| self.grid.bed[cell] + depth[cell];
         let is_inner = cell > 0 && cell + 1 < depth.len();

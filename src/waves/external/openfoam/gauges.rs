@@ -11,8 +11,8 @@ use super::frame::Frame;
 use super::{interface_height, probes};
 
 /// Reads the surface level at the named gauges. If `folder` has a folder with the name of a gauge, each gauge has a
-/// folder with probes of `water` on a vertical. Otherwise `folder` is that of `interfaceHeight`, whose locations are the
-/// gauges in their order.
+/// folder with probes of `water` on a vertical. Otherwise `folder` is that of `interfaceHeight`, whose locations are
+/// the gauges in their order.
 ///
 /// # Errors
 /// If a folder or file cannot be read or understood.

@@ -2,8 +2,8 @@
 //!
 //! The function object `sets` writes them with `setFormat raw; fields (U alpha.water);` and a line with `axis z` (or y,
 //! the vertical axis) or `axis xyz`; `axis distance` lacks the level. Up to v2112 each type of field has its own file,
-//! `<line>_U.xy` and `<line>_alpha.water.xy`. Later versions write `<line>_alpha.water_U.xy`, with the volume fraction of
-//! water first.
+//! `<line>_U.xy` and `<line>_alpha.water.xy`. Later versions write `<line>_alpha.water_U.xy`, with the volume fraction
+//! of water first.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
-//! Probes: `postProcessing/<name>/<t0>/U` with a line `# Probe 0 (x y z)` per probe and a row `t (ux uy uz) ...` per time.
+//! Probes: `postProcessing/<name>/<t0>/U` with lines `# Probe 0 (x y z)` and one row `t (ux uy uz) ...` per time.
 //!
-//! The volume fraction of water in `alpha.water`, in the same folder, shows which probes are in air. A probe outside the
-//! mesh has `# Not Found` after its position, and either a value of -1e300 or none (`includeOutOfBounds false`).
+//! The volume fraction of water in `alpha.water`, in the same folder, shows which probes are in air. A probe outside
+//! the mesh has `# Not Found` after its position, and either a value of -1e300 or none (`includeOutOfBounds false`).
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -19,8 +19,8 @@ const ONE_PLACE_M: f64 = 1e-3;
 /// Reads probes and leaves out values in air.
 ///
 /// # Errors
-/// If a file cannot be read, a line is wrong, the probes are not on one vertical, velocity and volume fraction differ in
-/// probes or times, or the values are implausible at the position.
+/// If a file cannot be read, a line is wrong, or the probes are not on one vertical. If velocity and volume fraction
+/// differ in probes or times, or the values are implausible at the position.
 pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalError> {
     let velocity = Joined::read(probes.folder, probes.velocity)?;
     let points = Points::from_comments(&velocity, 3, probes.folder, probes.velocity)?;
@@ -38,8 +38,8 @@ pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalE
     VelocityTable { times_s: velocity.times_s, surface_z_m, heights_m, velocities_m_s }.checked(probes.folder, place)
 }
 
-/// Reads the surface level from the volume fraction of water on a vertical: the level of the lowest probe plus the depth
-/// of water between the lowest and highest probe. Below the lowest probe there must be only water.
+/// Reads the surface level from the volume fraction of water on a vertical: the level of the lowest probe plus the
+/// depth of water between the lowest and highest probe. Below the lowest probe there must be only water.
 ///
 /// # Errors
 /// See [`read`].
@@ -131,8 +131,8 @@ pub fn write(table: &VelocityTable, levels_m: &[f64], x_m: f64, frame: Frame, ou
     write_field(&table.times_s, levels_m, x_m, frame, value, out)
 }
 
-/// Writes the volume fraction of water at the probes of [`write()`]: 1 up to the surface and 0 above, or 1 everywhere if
-/// the table has no surface levels.
+/// Writes the volume fraction of water at the probes of [`write()`]: 1 up to the surface and 0 above. It is 1
+/// everywhere if the table has no surface levels.
 ///
 /// # Errors
 /// If writing fails.
