@@ -1,5 +1,5 @@
 //! `_velx` file of DualSPHysics' one-dimensional multi-layer piston (Altomare et al. 2015). Line 1 is `px:;x;py:;y`,
-//! line 2 is `time;pz_0;...;vel_0;...`. Then one line per time lists the time, heights and velocities, separated by `;`.
+//! line 2 is `time;pz_0;...;vel_0;...`. Then one line per time lists the time, heights and velocities, separator `;`.
 
 use std::io::{self, BufRead, Write};
 

@@ -49,7 +49,7 @@ impl Wavemaker {
         }
     }
 
-    /// Position x [m] at flume time t [s]: of a paddle at still water level, of a multi-layer piston at its highest row.
+    /// Position x [m] at flume time t [s]: a paddle at still water level, a multi-layer piston at its highest row.
     pub fn surface_m(&self, t: f64) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.place_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),
