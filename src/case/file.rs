@@ -274,8 +274,8 @@ pub enum Sides {
     Periodic,
     /// Solid walls at y = 0 and y = width.
     Walls,
-    /// Two dimensions: one layer of particles, nothing varies across the flume. Units must be cuboids; they move along x
-    /// and z and rotate about y.
+    /// Two dimensions: one layer of particles, nothing varies across the flume. Units must be cuboids; they move along
+    /// x and z and rotate about y.
     TwoDimensional,
 }
 
@@ -313,8 +313,8 @@ pub struct FluidFile {
     pub density_kg_m3: f64,
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
-    /// Speed of sound as a multiple of sqrt(g d) [-], where d is the largest still water depth in the domain. With 10 the
-    /// density varies by less than 1 % as long as the water is slower than a long wave. With 15 the weight of the
+    /// Speed of sound as a multiple of sqrt(g d) [-], where d is the largest still water depth in the domain. With 10
+    /// the density varies by less than 1 % as long as the water is slower than a long wave. With 15 the weight of the
     /// compressed water is right within 0.25 %.
     pub sound_speed_factor: f64,
     /// Exponent gamma of Tait's equation of state [-].
@@ -411,8 +411,8 @@ pub struct StopFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AtRestFile {
-    /// Largest speed of the centre and the tips of a unit at rest [m/s]. In water a unit at rest must also have moved by
-    /// no more than this speed times `for_s`.
+    /// Largest speed of the centre and the tips of a unit at rest [m/s]. In water a unit at rest must also have moved
+    /// by no more than this speed times `for_s`.
     pub speed_m_s: f64,
     /// Time for which all units must be at rest [s].
     pub for_s: f64,

@@ -113,8 +113,8 @@ pub struct DryFlumeFile {
     pub material: String,
 }
 
-/// An STL file of a surface that carries units, ASCII or binary, open or closed. Seen from the units, its triangles must
-/// run counter-clockwise.
+/// An STL file of a surface that carries units, ASCII or binary, open or closed. Seen from the units, its triangles
+/// must run counter-clockwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TerrainFile {

@@ -130,8 +130,8 @@ pub struct FractureBodyFile {
 pub struct ConstraintFile {
     /// Name of the physical surface, curve or point in the mesh.
     pub set: String,
-    /// Velocity along x, y and z [m/s]; rows of time [s] and velocity [m/s] for a velocity that varies; `null` for a free
-    /// direction. Holding nodes of a rigid body holds the whole body.
+    /// Velocity along x, y and z [m/s]; rows of time [s] and velocity [m/s] for a velocity that varies; `null` for a
+    /// free direction. Holding nodes of a rigid body holds the whole body.
     pub velocity_m_s: [Option<VelocityFile>; 3],
 }
 
@@ -178,8 +178,8 @@ pub enum LoadFile {
         body: String,
         /// The point in the undeformed body [m].
         place_m: [f64; 3],
-        /// Radius around the point [m]. The force acts on the faces whose centre lies within it, or on the nearest face if
-        /// there is none.
+        /// Radius around the point [m]. The force acts on the faces whose centre lies within it, or on the nearest face
+        /// if there is none.
         #[serde(default)]
         radius_m: f64,
         /// Axes of the components in `history`.
@@ -276,7 +276,8 @@ pub struct FractureOutputFile {
     /// Interval of the snapshots of all tetrahedra with their stresses [s]; 0, the default, for none.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub tets_interval_s: f64,
-    /// Plane of the stress pictures; by default the vertical plane along x through the middle of the bodies that can crack.
+    /// Plane of the stress pictures; by default the vertical plane along x through the middle of the bodies that can
+    /// crack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<SectionFile>,
 }

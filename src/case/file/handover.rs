@@ -13,8 +13,8 @@ pub struct HandoverFile {
     /// root, masses with its cube (Froude).
     #[serde(default = "one")]
     pub scale: f64,
-    /// Path of a mesh (MSH 4.1) of one unit, relative to the folder of the case file. The mesh is in the unit's body axes
-    /// and may have any size.
+    /// Path of a mesh (MSH 4.1) of one unit, relative to the folder of the case file. The mesh is in the unit's body
+    /// axes and may have any size.
     pub mesh: String,
     /// Concrete of the prototype units. Their density follows from the mass in `units`.
     pub material: HandoverMaterialFile,
@@ -33,8 +33,8 @@ pub struct HandoverFile {
     /// Joints between the tetrahedra before they crack.
     #[serde(default)]
     pub joints: Joints,
-    /// Simulated time from the start of the impact, at prototype scale [s]. Default: 1.5 times the duration of the impact
-    /// after Hertz, and at least 10 times the unit's height over the speed of sound.
+    /// Simulated time from the start of the impact, at prototype scale [s]. Default: 1.5 times the duration of the
+    /// impact after Hertz, and at least 10 times the unit's height over the speed of sound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
     /// Number of impacts that are computed at the same time; by default the number of threads.

@@ -32,8 +32,8 @@ pub struct NumericsFile {
     /// Whether `free_slip` holds for units, too; false: no slip on units. Only with `wall_slip` `free_slip`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
-    /// Whether the water pressure acts on a unit through gaps that are too narrow for water particles. false: only water
-    /// particles act on units, as in the published runs (as far as described). Only with `mdbc`.
+    /// Whether the water pressure acts on a unit through gaps that are too narrow for water particles. false: only
+    /// water particles act on units, as in the published runs (as far as described). Only with `mdbc`.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
     /// Number of particle layers in walls and bed.

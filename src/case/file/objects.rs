@@ -31,7 +31,8 @@ pub struct UnitsFile {
     /// Pose of each unit, instead of a row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<Vec<PoseFile>>,
-    /// Placement file from `breakwater place`, which lists the poses. Its path is relative to the folder of the case file.
+    /// Placement file from `breakwater place`, which lists the poses. Its path is relative to the folder of the case
+    /// file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement_file: Option<String>,
     /// Armour layers on a slope. `breakwater place` lowers their units onto the slope one by one and writes the
@@ -251,8 +252,8 @@ pub enum ContactLawName {
     HertzMindlin,
     /// Linear springs with the measured stiffness `contact_stiffness_n_m` of the materials.
     Linear,
-    /// Law of the published runs (Chrono 4.0): every contact has a radius of 0.1 m, and its tangential spring lasts only
-    /// one time step, so that units creep.
+    /// Law of the published runs (Chrono 4.0): every contact has a radius of 0.1 m, and its tangential spring lasts
+    /// only one time step, so that units creep.
     Chrono4,
 }
 

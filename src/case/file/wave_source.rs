@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct GivenWaveFile {
     /// The files of the other program.
     pub source: WaveSourceFile,
-    /// Celerity of the wave [m/s]. With it, the rows of the wavemaker follow the moving water. Without it, they move with
-    /// the velocity at a fixed position, and their stroke is too short.
+    /// Celerity of the wave [m/s]. With it, the rows of the wavemaker follow the moving water. Without it, they move
+    /// with the velocity at a fixed position, and their stroke is too short.
     #[serde(default)]
     pub celerity_m_s: Option<f64>,
 }
@@ -77,8 +77,8 @@ pub enum UpFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpenfoamFile {
-    /// Folder of the function object, e.g. `postProcessing/probes`. It has one subfolder per start of the run for probes,
-    /// one per time for a line.
+    /// Folder of the function object, e.g. `postProcessing/probes`. It has one subfolder per start of the run for
+    /// probes, one per time for a line.
     pub folder: PathBuf,
     /// Name of the line; leave it out for probes.
     #[serde(default)]

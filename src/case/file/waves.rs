@@ -53,7 +53,8 @@ pub struct RegularFile {
     pub ramp_periods: f64,
 }
 
-/// Irregular waves with a JONSWAP spectrum. The flume model carries them from the seaward end of the flume to the domain.
+/// Irregular waves with a JONSWAP spectrum. The flume model carries them from the seaward end of the flume to the
+/// domain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IrregularFile {
@@ -133,8 +134,8 @@ impl WavemakerFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
-    /// Distance from the piston to an absorption gauge, which moves with it [m]. The piston absorbs reflected waves: the
-    /// measured elevation minus the generated wave. By default it reflects them.
+    /// Distance from the piston to an absorption gauge, which moves with it [m]. The piston absorbs reflected waves:
+    /// the measured elevation minus the generated wave. By default it reflects them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
 }
@@ -143,7 +144,7 @@ pub struct PistonFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlapFile {
-    /// Level of the hinge [m], in the z of `flume.bed_m`. It may lie below the bed. If it lies above the bed, a wall closes
-    /// the gap.
+    /// Level of the hinge [m], in the z of `flume.bed_m`. It may lie below the bed. If it lies above the bed, a wall
+    /// closes the gap.
     pub hinge_z_m: f64,
 }
