@@ -162,7 +162,7 @@ impl RightEndFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpongeFile {
-    /// Length [m]; two wave lengths absorb a wave.
+    /// Length [m]; two wavelengths absorb a wave.
     pub length_m: f64,
 }
 

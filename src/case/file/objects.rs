@@ -75,7 +75,7 @@ pub struct ArmourFile {
     /// Rotation of the units.
     #[serde(default)]
     pub orientation: ArmourOrientation,
-    /// Seed of the random positions and rotations.
+    /// Seed of the random rotations.
     #[serde(default)]
     pub seed: u64,
 }
