@@ -151,13 +151,7 @@ pub(super) fn validate(
 
 fn validate_start(file: &DomainFile, check: &mut Checker) {
     if let Some(start) = file.start_s {
-        check.number(
-            "domain.start_s",
-            start,
-            from(0.0).up_to(1e4),
-            "s",
-            "write a time of the flume model, which starts at 0",
-        );
+        check.number("domain.start_s", start, from(0.0).up_to(1e4), "s", "write a time of the flume model");
     }
     check.number(
         "domain.start_at_share",
@@ -231,10 +225,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
         check.refuse(
             "domain.width_m",
             show(width),
-            format!(
-                "at least 4h + dp = {} m with periodic sides, because otherwise a particle acts on its own image",
-                show(least)
-            ),
+            format!("at least 4h + dp = {} m with periodic sides; else a particle acts on its own image", show(least)),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }

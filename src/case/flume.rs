@@ -155,10 +155,10 @@ fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
             "write the corner points [x, z] from the wavemaker to the shore, e.g. [[0, 0], [19, 0], [55, 1.2]]",
         );
     }
-    let coordinates = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
+    let allowed = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
     for (index, [x, z]) in points.iter().enumerate() {
-        check.number(&format!("flume.bed_m[{index}][0]"), *x, coordinates, "m", "write x in metres");
-        check.number(&format!("flume.bed_m[{index}][1]"), *z, coordinates, "m", "write z in metres");
+        check.number(&format!("flume.bed_m[{index}][0]"), *x, allowed, "m", "write x in metres");
+        check.number(&format!("flume.bed_m[{index}][1]"), *z, allowed, "m", "write z in metres");
     }
     for (index, pair) in points.windows(2).enumerate() {
         // A segment shorter than a micrometre is a vertical step, whose slope is not defined.
@@ -174,8 +174,8 @@ fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
 }
 
 fn validate_mound_numbers(mound: &MoundFile, check: &mut Checker) {
-    let coordinates = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
-    check.number("flume.mound.centre_x_m", mound.centre_x_m, coordinates, "m", "write x of the middle of the crest");
+    let allowed = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
+    check.number("flume.mound.centre_x_m", mound.centre_x_m, allowed, "m", "write x of the middle of the crest");
     check.number(
         "flume.mound.crest_width_m",
         mound.crest_width_m,
@@ -183,13 +183,7 @@ fn validate_mound_numbers(mound: &MoundFile, check: &mut Checker) {
         "m",
         "write the width of the horizontal crest",
     );
-    check.number(
-        "flume.mound.crest_z_m",
-        mound.crest_z_m,
-        coordinates,
-        "m",
-        "write the crest level in the z of `flume.bed_m`",
-    );
+    check.number("flume.mound.crest_z_m", mound.crest_z_m, allowed, "m", "write z of the crest");
     for (key, run) in
         [("seaward_run_per_rise", mound.seaward_run_per_rise), ("lee_run_per_rise", mound.lee_run_per_rise)]
     {

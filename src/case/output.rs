@@ -84,12 +84,7 @@ fn validate_box([low, high]: [[f64; 3]; 2], domain: &Domain, check: &mut Checker
         if high[axis] <= low[axis] {
             let path = format!("output.fluid_box_m[1][{axis}]");
             let advice = "write the lower corner first, then the upper one";
-            check.refuse(
-                &path,
-                show(high[axis]),
-                format!("> {} m, the {name} of the lower corner", show(low[axis])),
-                advice,
-            );
+            check.refuse(&path, show(high[axis]), format!("> {} m, the lower {name}", show(low[axis])), advice);
         } else if high[axis] <= domain[0] || low[axis] >= domain[1] {
             let advice = "move the box to the water, or remove it to write all water";
             let value = format!("{name} from {} to {}", show(low[axis]), show(high[axis]));

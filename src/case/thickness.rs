@@ -40,9 +40,9 @@ pub(super) fn warn(case: &Case, check: &mut Checker) {
         (reynolds_number(case).filter(|re| *re < LEAST_REYNOLDS), artificial_viscosity(case))
     {
         check.warn(format!(
-            "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number of a unit \
-             {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity instead of its square, so strong waves \
-             exert too little force compared with weak ones. Write a smaller value or a smaller `domain.dp_m`",
+            "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number \
+             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity, not with its square, so \
+             strong waves exert too little force compared with weak ones. Lower it or `domain.dp_m`",
             show(case.numerics.alpha),
             nu / WATER_VISCOSITY,
         ));

@@ -181,11 +181,11 @@ fn validate_solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Che
 }
 
 fn validate_regular(file: &RegularFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
-    let is_period_valid =
+    let is_valid =
         check.number("wave.period_s", file.period_s, from(0.01).up_to(1e4), "s", "write the period in seconds");
     validate_ramp(file.ramp_periods, check);
     let depth = around.wet_depth(check)?;
-    if !is_period_valid || around.gravity.is_nan() || around.gravity <= 0.0 {
+    if !is_valid || around.gravity.is_nan() || around.gravity <= 0.0 {
         return None;
     }
     let (height_m, period_s, gravity) = (file.height_m, file.period_s, around.gravity);
@@ -195,22 +195,19 @@ fn validate_regular(file: &RegularFile, around: &Surroundings, check: &mut Check
         check.refuse(
             "wave.period_s",
             show(period_s),
-            format!(
-                "long enough for a wavelength of at least {} m, a tenth of the depth",
-                show(SHORTEST_LENGTH * depth)
-            ),
+            format!("such that the wavelength is at least {} m, depth / 10", show(SHORTEST_LENGTH * depth)),
             "shorter waves move only the surface: write a longer period or make the domain shallower",
         );
         return None;
     }
-    let is_height_valid = check.number(
+    let is_valid = check.number(
         "wave.height_m",
         height_m,
         above(0.0).up_to(wave.breaking_height_m()),
         "m",
         &format!("higher waves of this period (wavelength {} m, depth {} m) break", show(length), show(depth)),
     );
-    if is_height_valid && around.wavemaker.is_ml_piston() {
+    if is_valid && around.wavemaker.is_ml_piston() {
         let permanent = StreamFunctionWave::new(wave, MeanFlow::NoTransport);
         refuse_impossible(permanent.err(), "wave.height_m", height_m, check);
     }
@@ -221,13 +218,7 @@ fn validate_irregular(file: &IrregularFile, around: &Surroundings, check: &mut C
     let before = check.count();
     let period = "write the peak period of the spectrum in seconds";
     check.number("wave.peak_period_s", file.peak_period_s, from(0.01).up_to(1e4), "s", period);
-    check.number(
-        "wave.peak_enhancement",
-        file.peak_enhancement,
-        from(1.0).up_to(10.0),
-        "",
-        "3.3 is the average; 1 is a Pierson-Moskowitz spectrum",
-    );
+    check.number("wave.peak_enhancement", file.peak_enhancement, from(1.0).up_to(10.0), "", "3.3 is the average");
     // 5,000 wave components allow at most 2000 periods.
     let repeat = "with 200, the waves repeat after 200 peak periods";
     check.number("wave.repeat_periods", file.repeat_periods, from(20.0).up_to(2000.0), "", repeat);

@@ -158,7 +158,7 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
         let particles = height / domain.dp;
         if particles < 5.0 {
             check.warn(format!(
-                "domain.dp_m = {}: {particles:.1} particle spacings per wave height; at least 5 to 10 are needed (Altomare et al. 2017)",
+                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, 5 to 10 needed (Altomare et al. 2017)",
                 show(domain.dp)
             ));
         }
@@ -198,7 +198,7 @@ fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker
     let rise = flume.profile.z(x0 + depth) - flume.profile.z(x0);
     if rise.abs() > EVEN_SLOPE * depth {
         check.warn(format!(
-            "domain.x_m[0] = {}: the bed changes by {} m over one depth at the wavemaker, whose theory assumes a horizontal bed",
+            "domain.x_m[0] = {}: the bed changes by {} m over one depth; the wavemaker theory has a horizontal bed",
             show(x0),
             show(rise)
         ));
