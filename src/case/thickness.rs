@@ -41,7 +41,7 @@ pub(super) fn warn(case: &Case, check: &mut Checker) {
     {
         check.warn(format!(
             "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number \
-             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity, not with its square, so \
+             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity, not its square, so \
              strong waves exert too little force compared with weak ones. Lower it or `domain.dp_m`",
             show(case.numerics.alpha),
             nu / WATER_VISCOSITY,

@@ -158,7 +158,8 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
         let particles = height / domain.dp;
         if particles < 5.0 {
             check.warn(format!(
-                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, 5 to 10 needed (Altomare et al. 2017)",
+                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, 5 to 10 needed \
+                 (Altomare et al. 2017)",
                 show(domain.dp)
             ));
         }
