@@ -51,19 +51,15 @@ impl Case {
     pub fn output_size(&self) -> OutputSize {
         let (estimate, output) = (self.estimate(), &self.output);
         // Two more: one at the start, one at the end.
-        let snapshot_count = |interval: Option<f64>| interval.map_or(0.0, |dt| (self.stop.duration / dt).floor() + 2.0);
+        let count = |interval: Option<f64>| interval.map_or(0.0, |dt| (self.stop.duration / dt).floor() + 2.0);
         let bytes_per_particle =
             BYTES_PER_POINT + output.fluid_fields.iter().map(|field| field_bytes(*field)).sum::<f64>();
         let particles = estimate.fluid * self.share_in_box();
         let fluid_bytes = |snapshots: f64| RESERVED + particles * (snapshots * bytes_per_particle + BYTES_PER_VERTEX);
         OutputSize {
-            fluid: if output.fluid_interval.is_some() {
-                fluid_bytes(snapshot_count(output.fluid_interval))
-            } else {
-                0.0
-            },
-            units: self.surfaces_bytes(snapshot_count(output.units_interval)),
-            tables: self.table_bytes(snapshot_count(Some(output.series_interval))),
+            fluid: if output.fluid_interval.is_some() { fluid_bytes(count(output.fluid_interval)) } else { 0.0 },
+            units: self.surfaces_bytes(count(output.units_interval)),
+            tables: self.table_bytes(count(Some(output.series_interval))),
             checkpoint: BYTES_PER_WATER_STATE * estimate.fluid
                 + BYTES_PER_BOUNDARY_STATE * (estimate.boundary + estimate.units),
         }
