@@ -25,7 +25,7 @@ pub(super) fn place(
         ("first_y_m", file.first_y_m.is_some()),
     ] {
         if written {
-            check.refuse(&format!("units.{key}"), "...", "left out with `centres_m`", "`centres_m` already gives every position");
+            check.refuse(&format!("units.{key}"), "...", "left out with `centres_m`", "it gives every position");
         }
     }
     if !(1..=MOST_UNITS as usize).contains(&centres.len()) {

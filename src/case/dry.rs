@@ -197,7 +197,7 @@ fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTest, f64) {
     match file {
         DryTestFile::Settle {} => (DryTest::Settle, 0.0),
         DryTestFile::Drop(drop) => {
-            check.number("dry.height_m", drop.height_m, above(0.0).up_to(100.0), "m", "write the lift height in metres");
+            check.number("dry.height_m", drop.height_m, above(0.0).up_to(100.0), "m", "write the lift height");
             (DryTest::Drop, drop.height_m)
         }
         DryTestFile::Tilt(tilt) => {

@@ -90,7 +90,7 @@ pub(super) fn validate(file: &HandoverFile, shape: &UnitShape, name: &str, check
         check.refuse("fracture.cores", cores, allowed, "leave it out for one impact per thread");
     }
     if file.select.worst == Some(0) {
-        check.refuse("fracture.select.worst", 0, "at least 1", "leave out `fracture` for a run without breakage analysis");
+        check.refuse("fracture.select.worst", 0, "at least 1", "leave out `fracture` to skip the analysis");
     }
     let (mesh_file, mesh) = read_mesh(file, shape, name, check)?;
     if check.count() > before {

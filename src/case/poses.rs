@@ -22,7 +22,7 @@ pub(super) fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut 
         ("centres_m", file.centres_m.is_some()),
     ] {
         if written {
-            check.refuse(&format!("units.{key}"), "...", "left out with poses", "the poses already give every position");
+            check.refuse(&format!("units.{key}"), "...", "left out with poses", "poses give every position");
         }
     }
     let (poses, path) = match (&file.poses, &file.placement_file) {

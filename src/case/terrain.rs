@@ -45,7 +45,7 @@ pub(super) fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker)
     };
     let content = match std::fs::read(&path) {
         Ok(content) => content,
-        Err(error) => return refuse(format!("a file that can be read ({error})"), "paths are relative to the case file"),
+        Err(error) => return refuse(format!("a file that can be read ({error})"), "paths start at the case file"),
     };
     let surface = match stl::parse_terrain(&content, &path, file.scale) {
         Ok(surface) => surface,
@@ -56,7 +56,7 @@ pub(super) fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker)
         }
     };
     if surface.triangles().len() > MOST_TRIANGLES {
-        return refuse(format!("at most {MOST_TRIANGLES} triangles"), "simplify the surface; triangles as large as a leg are fine enough");
+        return refuse(format!("at most {MOST_TRIANGLES} triangles"), "use triangles of the size of a leg");
     }
     Some(SiteTerrain { surface: Arc::new(surface), content: Arc::new(content), scale: file.scale })
 }

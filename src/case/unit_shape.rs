@@ -186,7 +186,7 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
             None
         }
         Err(error) => {
-            check.refuse("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change the dimensions of the unit");
+            check.refuse("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change its lengths");
             None
         }
     }
@@ -195,7 +195,7 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
 /// Refuses keys that belong to other shapes.
 fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
     let shape = file.shape;
-    let mut refuse_if_written = |key: &str, written: Option<String>, advice: &str| {
+    let mut refuse = |key: &str, written: Option<String>, advice: &str| {
         if let Some(value) = written {
             check.refuse(&format!("units.{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
         }
@@ -203,11 +203,11 @@ fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
     let by_size = shape == Shape::Cuboid;
     let by_height = !by_size && shape != Shape::Stl;
     let advice = if by_size { "the third edge of `size_m` is the height" } else { "the STL file gives the dimensions" };
-    refuse_if_written("height_m", file.height_m.filter(|_| !by_height).map(show), advice);
-    refuse_if_written("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
-    refuse_if_written("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(show), "only a Dolos has a waist");
+    refuse("height_m", file.height_m.filter(|_| !by_height).map(show), advice);
+    refuse("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
+    refuse("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(show), "only a Dolos has a waist");
     let stl = file.stl.as_ref().filter(|_| shape != Shape::Stl).map(|_| "{ ... }".to_owned());
-    refuse_if_written("stl", stl, "write \"shape\": \"stl\" to use the files");
+    refuse("stl", stl, "write \"shape\": \"stl\" to use the files");
 }
 
 fn height(file: &UnitsFile, check: &mut Checker) -> Option<f64> {

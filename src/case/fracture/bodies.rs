@@ -132,7 +132,7 @@ fn validate_body(
     };
     if body.rigid && body.cracks {
         let path = format!("bodies[{index}].rigid");
-        check.refuse(&path, "true", "false for a body that cracks", "a rigid body has no stresses: leave out `rigid` or `cracks`");
+        check.refuse(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
     }
     let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
     let cohesion = match &material.strength {
