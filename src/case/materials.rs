@@ -87,13 +87,13 @@ pub(super) fn find(materials: &[Material], name: &str, path: &str, check: &mut C
             Some(guess) => format!("did you mean \"{guess}\"?"),
             None => "add it to `materials`".to_owned(),
         };
-        let allowed = if names.is_empty() { "a name in `materials`, which is empty".to_owned() } else { quote(&names) };
+        let allowed = if names.is_empty() { "a name in `materials`, which is empty".to_owned() } else { list(&names) };
         check.refuse(path, format!("{name:?}"), allowed, advice);
     }
     found
 }
 
-fn quote(names: &[&str]) -> String {
+fn list(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
     format!("one of {}", quoted.join(", "))
 }
