@@ -147,8 +147,8 @@ fn warn_of_coarse_mesh(handover: &Handover, check: &mut Checker) {
     let edge = handover.mesh.edge() * handover.scale;
     if edge > 0.25 * opening {
         check.warn(format!(
-            "fracture.mesh: mean edge length {} m at prototype scale; only edges of up to {} m, a quarter of E G_f / f_t^2, \
-             resolve cracks: the results show whether units crack, but not how cracks run",
+            "fracture.mesh: mean edge length {} m at prototype scale; only edges of up to {} m, a quarter of \
+             E G_f / f_t^2, resolve cracks: the results show whether units crack, but not how cracks run",
             show((edge * 1e3).round() * 1e-3),
             show((250.0 * opening).round() * 1e-3)
         ));

@@ -1,7 +1,7 @@
 //! Validates units in two dimensions: cuboids that lie across the flume. The layer of particles is a slice of them.
 //!
-//! Units move in the plane of the layer, along x and z, and turn about y. A unit keeps its own width and mass. The water
-//! force on a unit is the force on its slice times the number of slices, see [`slices`].
+//! Units move in the plane of the layer, along x and z, and turn about y. A unit keeps its own width and mass. The
+//! water force on a unit is the force on its slice times the number of slices, see [`slices`].
 
 use glam::DQuat;
 
@@ -21,7 +21,7 @@ pub(super) fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check:
             "units.shape",
             format!("{:?}", file.shape.key()),
             "\"cuboid\" where `domain.sides` is \"two_dimensional\"",
-            "in two dimensions the outline must not change across the flume: write \"periodic\" or \"walls\" for this shape",
+            "in two dimensions the outline must be the same across the flume: write \"periodic\" or \"walls\"",
         );
     }
     if is_row {

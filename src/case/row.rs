@@ -117,7 +117,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
                 show(length),
                 show(width)
             ),
-            "the pitch must also hold across the periodic sides: change `units.count`, `units.pitch_m` or `domain.width_m`",
+            "the pitch must hold across the periodic sides: change `units.count`, `units.pitch_m` or `domain.width_m`",
         );
         return;
     }

@@ -9,7 +9,8 @@ use super::file::{Shape, UnitsFile};
 use super::stl_unit::{self, StlUnit};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
-/// Longest over shortest edge of a cuboid, at most [-]: the contact rounding, a share of the height, must fit all edges.
+/// Longest over shortest edge of a cuboid, at most [-]: the contact rounding, a share of the height, must fit all
+/// edges.
 const MOST_SLENDER: f64 = 5.0;
 
 /// Kind and dimensions of a unit; SI units.
@@ -58,7 +59,8 @@ impl UnitKind {
     }
 
     /// Returns the stability coefficient K_D of Hudson's formula [-] for two layers, random placement, trunk, breaking
-    /// waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). `None` without a handbook value.
+    /// waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). `None` without a handbook
+    /// value.
     pub fn stability_coefficient(&self) -> Option<f64> {
         match self {
             Self::Tetrapod { .. } => Some(7.0),

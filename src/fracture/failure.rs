@@ -14,8 +14,8 @@ use crate::{
 const FAST: f64 = 0.1;
 
 /// Usual causes of an unstable run.
-const UNSTABLE: &str = "likely causes: velocities in the case that are too high for units, a time step too long for the worst \
-     tetrahedra there (lower fracture.step_share), or loads and contacts too stiff for the mesh (lower \
+const UNSTABLE: &str = "likely causes: velocities in the case that are too high for units, a time step too long for \
+     the worst tetrahedra there (lower fracture.step_share), or loads and contacts too stiff for the mesh (lower \
      fracture.contact_penalty, refine the mesh)";
 
 /// A tetrahedron or node in a message, with its number in the mesh file.
@@ -67,22 +67,22 @@ pub enum Failure {
     NotFinite { time: f64, step: u64, node: Part },
     /// A node is faster than any wave.
     #[error(
-        "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s from twice the \
-         wave speed and the motion of the case: the run is unstable; {UNSTABLE}", time * 1e3
+        "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s from \
+         twice the wave speed and the motion of the case: the run is unstable; {UNSTABLE}", time * 1e3
     )]
     TooFast { time: f64, step: u64, node: Part, speed: f64, limit: f64 },
     /// A node is far from the mesh.
     #[error(
-        "after {:.5} ms (step {step}) {node} is {distance:.3} m from the middle of the mesh, more than the limit of {limit:.3} m \
-         from 50 diagonals and the motion of the case: a piece flies off freely (end the run earlier with \
+        "after {:.5} ms (step {step}) {node} is {distance:.3} m from the middle of the mesh, more than the limit of \
+         {limit:.3} m from 50 diagonals and the motion of the case: a piece flies off freely (end the run earlier with \
          stop.duration_s), a body that should stop it is missing, or a contact threw it out (lower \
          fracture.step_share)", time * 1e3
     )]
     Escaped { time: f64, step: u64, node: Part, distance: f64, limit: f64 },
     /// Two tetrahedra overlap too much.
     #[error(
-        "after {:.5} ms (step {step}) {first} and {second} overlap by {:.0} % of the smaller one: the contact is too soft for \
-         the impact; raise fracture.contact_penalty, or refine the mesh there, and check the velocities of the case",
+        "after {:.5} ms (step {step}) {first} and {second} overlap by {:.0} % of the smaller one: the contact is too \
+         soft for the impact; raise fracture.contact_penalty or refine the mesh, and check the velocities of the case",
         time * 1e3, 100.0 * share
     )]
     TooDeep { time: f64, step: u64, first: Part, second: Part, share: f64 },
@@ -117,13 +117,13 @@ impl Failure {
 fn cause_of_inversion(world: &World, tet: usize, speed: f64) -> &'static str {
     let body = &world.setup().bodies[usize::from(world.tets.body[tet])];
     if speed > FAST * body.elastic.celerity() {
-        "that is more than a tenth of the wave speed; the velocities of the case are too high for units, or the time step is \
-         too long (lower fracture.step_share)"
+        "that is more than a tenth of the wave speed; the velocities of the case are too high for units, or the time \
+         step is too long (lower fracture.step_share)"
     } else if world.contacts.presses(tet as u32) {
         "another tetrahedron presses on it; the impact crushes elements of that size: refine the mesh there, or lower \
          fracture.contact_penalty"
     } else {
-        "it was stretched or sheared flat, often as a sliver next to a crack: remesh with Mesh.Optimize = 1, refine there, or \
-         give the material some viscosity"
+        "it was stretched or sheared flat, often as a sliver next to a crack: remesh with Mesh.Optimize = 1, refine \
+         there, or give the material some viscosity"
     }
 }

@@ -34,7 +34,8 @@ pub struct Pieces {
     pub of_tet: Vec<u32>,
 }
 
-/// Finds the pieces of the bodies that can crack: tetrahedra connected by unbroken faces. The heaviest piece comes first.
+/// Finds the pieces of the bodies that can crack: tetrahedra connected by unbroken faces. The heaviest piece comes
+/// first.
 pub fn pieces(world: &World) -> Pieces {
     let setup = world.setup();
     let mut leader: Vec<u32> = (0..setup.tets.len() as u32).collect();

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::femdem::world::{Failure, World};
 
-/// Distance from the nearest failed face over the edge length [-] beyond which a new crack begins. A growing crack advances
-/// by one element at a time.
+/// Distance from the nearest failed face over the edge length [-] beyond which a new crack begins. A growing crack
+/// advances by one element at a time.
 const APART: f64 = 4.0;
 
 /// Beginning of a crack.

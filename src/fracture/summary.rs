@@ -36,14 +36,15 @@ pub struct FractureSummary {
     pub tet_steps_per_s: f64,
     /// Largest residual of the energy balance over the largest kinetic energy [-].
     pub energy_residual_ratio: f64,
-    /// Largest residual of the energy balance over the kinetic energy at the start [-]; none if the bodies were at rest.
+    /// Largest residual of the energy balance over the kinetic energy at the start [-]; none if the bodies were at
+    /// rest.
     pub energy_residual_of_start: Option<f64>,
     /// Time at which two bodies first touched [s]; none if they did not.
     pub impact_s: Option<f64>,
     /// Area of the faces that failed [m2].
     pub crack_area_m2: f64,
-    /// Energy dissipated in failed faces, less the energy of their springs on release, over their area times G_f [-]; none
-    /// if nothing failed.
+    /// Energy dissipated in failed faces, less the energy of their springs on release, over their area times G_f [-];
+    /// none if nothing failed.
     pub energy_over_g_f: Option<f64>,
     /// Energies at the end [J].
     pub energy_j: EnergyAtEnd,

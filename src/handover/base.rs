@@ -52,8 +52,8 @@ pub struct Seat {
 }
 
 impl Seat {
-    /// Returns a seat just below a unit with these nodes, centre and height [m]. `normal` is the contact normal.
-    /// On a plane bed the seat lies under all feet. Where legs reach below the contact plane, it lies around the contact
+    /// Returns a seat just below a unit with these nodes, centre and height [m]. `normal` is the contact normal. On a
+    /// plane bed the seat lies under all feet. Where legs reach below the contact plane, it lies around the contact
     /// point, as wide as the moving legs leave room; `path` gives the displacement of a node [m].
     pub fn below(nodes: &[DVec3], path: impl Fn(DVec3) -> DVec3, centre: DVec3, normal: DVec3, height: f64) -> Self {
         let level = |node: &DVec3| node.dot(normal);

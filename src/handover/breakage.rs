@@ -12,8 +12,8 @@ use crate::case::{Handover, HandoverWay};
 use crate::fracture::summary::FractureSummary;
 use crate::output::{CsvSeries, Impacts, OutputError, columns, write_atomically};
 
-/// A unit is broken if its heaviest piece has less than this share of its mass [-]. Chipped edges and crushed feet do not
-/// count as broken.
+/// A unit is broken if its heaviest piece has less than this share of its mass [-]. Chipped edges and crushed feet do
+/// not count as broken.
 pub const BROKEN: f64 = 0.95;
 
 /// Displacement of a unit.

@@ -134,8 +134,8 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
 
 fn assumptions(blow: &Blow) -> Vec<String> {
     let mut assumptions = vec![format!(
-        "Froude's law at the scale {}: lengths by the scale, velocities and times by its root, masses by its cube; gravity \
-         and density as in the model. Contact is computed with the prototype's concrete, not scaled from the model.",
+        "Froude's law at the scale {}: lengths by the scale, velocities and times by its root, masses by its cube; \
+         gravity and density as in the model. Contact follows from the prototype's concrete, not from scaled forces.",
         blow.froude.scale
     )];
     let [opening, _] = blow.handover.characteristic_lengths();

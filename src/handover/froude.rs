@@ -3,8 +3,8 @@
 /// Froude's law: gravity and water density are the same in model and prototype; lengths are lambda times as large.
 ///
 /// Strength, stiffness and fracture energy of concrete do not follow this law: the stresses grow by lambda, but the
-/// strength of the concrete stays the same. The duration of an impact depends on Young's modulus, which Froude's law would
-/// scale by lambda: see [`Self::blow`].
+/// strength of the concrete stays the same. The duration of an impact depends on Young's modulus, which Froude's law
+/// would scale by lambda: see [`Self::blow`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Froude {
     /// Prototype length over model length, lambda [-].

@@ -58,9 +58,9 @@ pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
     Scene { mesh, parts: vec![part(blow, UnitMesh::NAME, &mover)], loads, duration }
 }
 
-/// Returns the time from the start of the impact to that of another contact, in the prototype [s], and its scale factors.
-/// Impacts scale by Hertz's law, those of one collision together. A contact that began earlier carries other loads and
-/// scales by Froude's law.
+/// Returns the time from the start of the impact to that of another contact, in the prototype [s], and its scale
+/// factors. Impacts scale by Hertz's law, those of one collision together. A contact that began earlier carries other
+/// loads and scales by Froude's law.
 fn start_and_scale(blow: &Blow, other: &Impact) -> (f64, BlowScale) {
     let since = other.event.start - blow.impact.event.start;
     let own = Blow::new(blow.model, blow.handover, other).scale;
@@ -72,8 +72,9 @@ fn start_and_scale(blow: &Blow, other: &Impact) -> (f64, BlowScale) {
     }
 }
 
-/// Returns rows of time [s] and force [N] for the samples of a contact that begins at `since` [s]. Each sample has its mean
-/// force; ramps around its ends keep its impulse. Rows before time 0 and samples that begin after `until` are left out.
+/// Returns rows of time [s] and force [N] for the samples of a contact that begins at `since` [s]. Each sample has its
+/// mean force; ramps around its ends keep its impulse. Rows before time 0 and samples that begin after `until` are left
+/// out.
 fn rows(samples: &[ForceSample], start: f64, since: f64, scale: BlowScale, sign: f64, until: f64) -> Vec<Vec<f64>> {
     let scaled = |sample: &ForceSample| {
         let from = since + (sample.start - start) * scale.time;

@@ -1,8 +1,8 @@
 //! Breakage analysis: the hardest impacts of a run are re-run at prototype scale with units that deform and break.
 //!
 //! A laboratory unit never breaks, but a unit of the same concrete fifty times larger may. So impacts are re-run at
-//! prototype scale ([`froude`]) in one of two ways. Either both bodies collide again from their poses and velocities just
-//! before the impact ([`reenact`]), or the recorded forces act on the unit alone ([`load_history`]).
+//! prototype scale ([`froude`]) in one of two ways. Either both bodies collide again from their poses and velocities
+//! just before the impact ([`reenact`]), or the recorded forces act on the unit alone ([`load_history`]).
 //!
 //! | file | what it holds |
 //! | --- | --- |

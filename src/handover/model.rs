@@ -59,7 +59,8 @@ impl Model {
         }
     }
 
-    /// Returns whether an impact can belong to these units: all numbers are finite, and the contact point is near the units.
+    /// Returns whether an impact can belong to these units: all numbers are finite, and the contact point is near the
+    /// units.
     pub fn can_have(&self, impact: &Impact) -> bool {
         let event = &impact.event;
         let mut states = [Some(event.before), event.partner_before].into_iter().flatten();

@@ -5,8 +5,8 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::femdem::mesh::{Body, Mesh, PreparedMesh, TriangleSet};
 use crate::geometry::armour_unit::ArmourUnit;
 
-/// Largest distance of surface nodes from the unit's surface over its height [-]. Faces of coarse meshes cut across round
-/// legs, but their nodes do not.
+/// Largest distance of surface nodes from the unit's surface over its height [-]. Faces of coarse meshes cut across
+/// round legs, but their nodes do not.
 const OFF_SURFACE: f64 = 0.02;
 
 /// Largest difference in volume between mesh and unit [-]: coarse meshes of round legs lack a few per cent.
@@ -58,8 +58,8 @@ impl UnitMesh {
                 let off = unit.solid().signed_distance(point).abs() / unit.height();
                 if off > OFF_SURFACE {
                     return Err(format!(
-                        "scaled to the unit's size, its surface node {} lies {:.1} % of the height off the unit's surface; \
-                         its origin must be the centre of mass and its axes the unit's (breakwater unit --gmsh)",
+                        "scaled to the unit's size, its surface node {} lies {:.1} % of the height off the unit's \
+                         surface; its origin must be the centre of mass, its axes the unit's (breakwater unit --gmsh)",
                         mesh.node_tags[node as usize],
                         100.0 * off
                     ));
@@ -113,8 +113,8 @@ impl UnitMesh {
         pose.place(self.centre)
     }
 
-    /// Returns the angular velocity that gives the nodes the angular momentum of a rigid body [rad/s]. The rigid body has
-    /// the inertia tensor per mass `inertia` in body axes [m2] and the angular velocity `omega` [rad/s].
+    /// Returns the angular velocity that gives the nodes the angular momentum of a rigid body [rad/s]. The rigid body
+    /// has the inertia tensor per mass `inertia` in body axes [m2] and the angular velocity `omega` [rad/s].
     pub fn angular_velocity(&self, inertia: DMat3, rotation: DQuat, omega: DVec3) -> DVec3 {
         let in_body = rotation.inverse() * omega;
         rotation * ((self.inertia * (1.0 / self.volume)).inverse() * (inertia * in_body))

@@ -9,8 +9,8 @@ const STEP: f64 = 0.05;
 /// Bisections of the last step: 0.05 H / 2^12 is a hundred-thousandth of the height.
 const BISECTIONS: u32 = 12;
 
-/// Returns a unit at rest where it first touches something on its way down from `from` [m]. Returns `None` if it overlaps
-/// something at `from`, or touches nothing down to one unit height below `ground` [m].
+/// Returns a unit at rest where it first touches something on its way down from `from` [m]. Returns `None` if it
+/// overlaps something at `from`, or touches nothing down to one unit height below `ground` [m].
 pub(super) fn lowered(world: &RigidWorld, from: DVec3, rotation: DQuat, ground: f64, height: f64) -> Option<BodyState> {
     let is_free = |z: f64| world.overlap_at(DVec3::new(from.x, from.y, z), rotation) == 0.0;
     if !is_free(from.z) {

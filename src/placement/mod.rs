@@ -34,8 +34,8 @@ const REST_SPEED: f64 = 1e-4;
 pub enum PlacementError {
     /// There is no room for a unit.
     #[error(
-        "unit {unit} cannot be placed at x = {x:.3}, y = {y:.3} m: there is no room; reduce the packing density or move \
-         the walls"
+        "unit {unit} cannot be placed at x = {x:.3}, y = {y:.3} m: there is no room; reduce the packing density or \
+         move the walls"
     )]
     NoRoom {
         /// Number from 1.

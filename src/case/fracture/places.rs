@@ -62,8 +62,8 @@ pub(super) fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmar
     file.landmarks.iter().enumerate().map(validate).collect()
 }
 
-/// Returns the cut plane of the case. The default is normal to y through the centroid of the bodies that can crack, or of
-/// all bodies if none can.
+/// Returns the cut plane of the case. The default is normal to y through the centroid of the bodies that can crack, or
+/// of all bodies if none can.
 pub(super) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
     let Some(given) = file.output.section else {
         let cracks = |tet: usize| setup.bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&tet));
