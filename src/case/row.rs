@@ -112,11 +112,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
         check.refuse(
             "units.count",
             row.count,
-            format!(
-                "such that count x pitch = {} m fills the periodic width, {} m",
-                show(length),
-                show(width)
-            ),
+            format!("such that count x pitch = {} m fills the periodic width, {} m", show(length), show(width)),
             "the pitch must hold across the periodic sides: change `units.count`, `units.pitch_m` or `domain.width_m`",
         );
         return;

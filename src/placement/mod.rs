@@ -19,7 +19,7 @@ use lower::lowered;
 use slots::{Slot, rows};
 
 /// Time between two checks of the units [s].
-const LOOK: f64 = 1e-3;
+const CHECK_INTERVAL: f64 = 1e-3;
 /// Shortest and longest settling time of a row [s].
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
 /// Speed over sqrt(g H) below which the next row is placed [-].
@@ -139,7 +139,7 @@ pub fn place(job: &PlacementJob, mut report: impl FnMut(usize, f64)) -> Result<P
 
 fn advance(world: &mut RigidWorld) -> Result<(), RigidError> {
     let loads = vec![Load::default(); world.states().len()];
-    world.advance(LOOK, &loads)
+    world.advance(CHECK_INTERVAL, &loads)
 }
 
 /// Returns the largest speed of any unit, including rotation at its tips [m/s].

@@ -9,7 +9,7 @@ use crate::output::{OutputError, write_atomically};
 pub const SCRIPT: &str = "sweep.sbatch";
 
 /// Time between two queries of the queue.
-const LOOK: Duration = Duration::from_secs(5);
+const POLL_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Writes the script of a job array for the runs that are not finished; `options` are added as `#SBATCH` lines.
 /// If a node fails, Slurm queues its job again, and the run resumes from its checkpoint. Returns `None` if all runs are
@@ -83,7 +83,7 @@ pub fn wait(job: &str, mut report: impl FnMut(usize)) -> io::Result<()> {
             return Ok(());
         }
         report(tasks);
-        std::thread::sleep(LOOK);
+        std::thread::sleep(POLL_INTERVAL);
     }
 }
 
