@@ -146,7 +146,7 @@ mod tests {
         assert_eq!((seat.top, seat.gap, seat.middle), (-GAP, GAP, DVec3::ZERO));
         // Half the diagonal of the block does not reach the second foot, 0.49 m away.
         assert!(seat.width * std::f64::consts::FRAC_1_SQRT_2 < 0.49 && seat.width > 0.5, "{}", seat.width);
-        // It still does not if the second foot slides 0.2 m towards the block.
+        // The block is narrower if the second foot slides 0.2 m towards it.
         let slid = Seat::below(&nodes, |_| 0.2 * DVec3::X, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
         assert!(slid.width * std::f64::consts::FRAC_1_SQRT_2 < 0.29 && slid.width > 0.3, "{}", slid.width);
     }

@@ -66,7 +66,7 @@ struct SweepFile {
     /// How the values of different keys are combined.
     #[serde(default)]
     combine: Combine,
-    /// Simulated time [s] until which the units are at rest in all runs. One common run with the first values covers
+    /// Simulated time [s] until which the units do not move in any run. One common run with the first values covers
     /// this time, and the other runs start from its checkpoint. Only friction, the rest criterion and titles may
     /// then vary.
     #[schemars(extend("exclusiveMinimum" = 0))]
