@@ -116,7 +116,7 @@ fn a_surface_that_cuts_itself_is_refused_with_the_place() {
     stl::write(&folder.path().join("two.stl"), &vertices, &triangles).unwrap();
     let case = case_of(json!({ "path": "two.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
     let error = outcome(&case, folder.path()).unwrap_err();
-    assert!(error.contains("does not cut itself") && error.contains("units.stl.path"), "{error}");
+    assert!(error.contains("does not intersect itself") && error.contains("units.stl.path"), "{error}");
 }
 
 /// A binary STL file with one to three faults.

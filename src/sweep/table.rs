@@ -1,4 +1,4 @@
-//! The results of all runs of a sweep as a table and a chart.
+//! Writes the results of all runs of a sweep as a table and a chart.
 
 use std::path::{Path, PathBuf};
 
@@ -17,8 +17,9 @@ use crate::{
 /// Size of the chart [px].
 const SIZE: [f64; 2] = [720.0, 420.0];
 
-/// Write `sweep.csv`, a row a run, and `sweep.svg`, the mean displacement against the first key that is a number, or how
-/// much each value changes it if one varies at a time; returns what was written.
+/// Writes `sweep.csv`, one row per run, and `sweep.svg`; returns the paths of the files. The chart shows the mean
+/// displacement against the first numeric key. If keys vary one at a time, it shows the change of the mean displacement
+/// for each value.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -91,13 +92,13 @@ fn table(sweep: &Sweep, outcomes: &[Outcome]) -> String {
     rows.iter().map(|row| row.join(",") + "\n").collect()
 }
 
-/// A field of a table.
+/// Quotes a field for CSV.
 fn quoted(text: &str) -> String {
     let special = text.contains([',', '"', '\n']);
     if special { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// Mean displacement against the first key whose values are numbers, a line for each combination of the others.
+/// Charts the mean displacement against the first key with numeric values, one line per combination of the others.
 fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
     let is_axis = |one: &Varied| one.values.len() > 1 && one.values.iter().all(Value::is_number);
     let along = sweep.varied.iter().position(is_axis)?;
@@ -127,23 +128,23 @@ fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
     })
 }
 
-/// How much each value changes the mean displacement of the case as it is, the first run; nothing before that has ended.
+/// Charts how each value changes the mean displacement of the base case, the first run. `None` until that is finished.
 fn tornado(sweep: &Sweep, outcomes: &[Outcome]) -> Option<TornadoChart> {
-    let of = |outcome: &Outcome| match outcome {
+    let mean = |outcome: &Outcome| match outcome {
         Outcome::Finished(summary) => summary.mean_displacement_m,
         Outcome::Missing | Outcome::Failed(_) => None,
     };
-    let (given, as_given) = (&sweep.members.first()?.values, of(outcomes.first()?)?);
+    let (base, base_mean) = (&sweep.members.first()?.values, mean(outcomes.first()?)?);
     let lever = |(k, one): (usize, &Varied)| Lever {
-        name: format!("{} {}", brief(&one.key), in_words(&given[k])).trim_end().to_owned(),
+        name: format!("{} {}", brief(&one.key), in_words(&base[k])).trim_end().to_owned(),
         values: (sweep.members.iter().zip(outcomes))
-            .filter(|(member, _)| member.values[k] != given[k])
-            .filter_map(|(member, outcome)| Some((in_words(&member.values[k]), of(outcome)? - as_given)))
+            .filter(|(member, _)| member.values[k] != base[k])
+            .filter_map(|(member, outcome)| Some((in_words(&member.values[k]), mean(outcome)? - base_mean)))
             .collect(),
     };
     Some(TornadoChart {
         title: sweep.title.clone(),
-        x_label: format!("change of the mean displacement [m] from {as_given:.3} m"),
+        x_label: format!("change of the mean displacement [m] from {base_mean:.3} m"),
         levers: sweep.varied.iter().enumerate().map(lever).filter(|lever| !lever.values.is_empty()).collect(),
         width: SIZE[0],
     })
@@ -155,14 +156,14 @@ mod tests {
     use crate::output::Summary;
 
     #[test]
-    fn one_value_at_a_time_is_held_against_the_case_as_it_is() {
+    fn tornado_chart_shows_changes_from_the_base_case() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/sensitivity-sweep.json");
         let sweep = Sweep::load(&file).unwrap();
         let moved = |mean: f64| {
             let summary = Summary { mean_displacement_m: Some(mean), ..Summary::default() };
             Outcome::Finished(Box::new(summary))
         };
-        // Nobody has made the others yet.
+        // The other runs are not finished.
         let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
         let chart = tornado(&sweep, &outcomes).unwrap();
         let [lever] = &chart.levers[..] else { panic!("{:?}", chart.levers) };
