@@ -6,4 +6,5 @@ pub mod page;
 pub mod plot;
 pub mod raster;
 pub mod run;
+pub mod sweep;
 pub mod wave_page;

@@ -7,7 +7,7 @@
 //! | [`member`] | the folder of one run, and whether it is finished |
 //! | [`queue`] | runs in parallel on this machine |
 //! | [`slurm`] | runs as a job array of the Slurm workload manager |
-//! | [`table`] | the results of all runs as a table and a chart |
+//! | [`table`] | the results of all runs as a table |
 //!
 //! Each run is a separate process, so a crash does not affect the others. Finished runs are kept, interrupted runs
 //! resume from their checkpoint, failed runs are tried once more.
