@@ -73,7 +73,7 @@ impl World {
         energies
     }
 
-    /// Adds the kinetic energies, from the velocities `before` (half a time step earlier) and now (half a time step later).
+    /// Adds the kinetic energies, from the velocities `before` and now (half a time step earlier and later).
     pub(super) fn add_kinetic_energies(&self, energies: &mut [BodyEnergy], before: &[DVec3]) {
         for (node, before) in before.iter().enumerate().filter(|(node, _)| self.nodes.constraint[*node] != RIGID) {
             let energy = 0.5 * self.nodes.mass[node] * before.dot(self.nodes.velocity[node]);

@@ -134,8 +134,8 @@ impl CohesiveLaw {
         self.stiffness
     }
 
-    /// Initial state of a released tied joint: a point that carries the given stress [Pa] at zero slip. Also returns the
-    /// opening [m] at which an undamaged point carries it. A tensile stress beyond the strength counts as the strength.
+    /// State of a point that carries the given stress [Pa] at zero slip, for the release of a tied face. Also returns
+    /// the opening [m] at which it carries the stress. A tensile stress beyond the strength counts as the strength.
     pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (Point, f64) {
         let f_t = self.strength.tensile;
         let opening = if normal > 0.0 {
@@ -252,9 +252,9 @@ impl CohesiveLaw {
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Work of the shear stress between two calls that is not stored [J/m2]: mean stress times plastic slip. It could be
-    /// negative if the stress changes sign between the calls. It is then set to zero, and the gain shows as an error in
-    /// the energy balance.
+    /// Work of the shear stress between two calls that is not stored [J/m2]: mean stress times plastic slip. It could
+    /// be negative if the stress changes sign between the calls. It is then set to zero, and the gain shows as an error
+    /// in the energy balance.
     fn lost_shear(&self, old: &Point, new: &Point) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);

@@ -1,8 +1,8 @@
 //! The joint element between two tetrahedra: six nodes, three integration points (Guo, Latham and Xiang, fig. 3).
 //!
 //! The mid-surface is the mean of the two faces; its normal n points from side 0 to side 1. The integration points are
-//! the middles of the edges, each with the undeformed area A/3. There the jump of the positions is split into the opening
-//! along n and the slip across. The shape functions distribute the tractions to the nodes. This is exact for linear jumps.
+//! the middles of the edges, each with the undeformed area A/3. The jump of the positions is split into the opening
+//! along n and the slip across. Shape functions distribute the tractions to the nodes, exactly for linear jumps.
 
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! All joints of a world as arrays: the bond of each face and the joint forces.
 //!
-//! Intact joints need no stored state. Joints with damage or plastic slip, and joints released from tied faces, are in a
-//! separate list, in the order in which they entered it.
+//! Intact joints need no stored state. Joints with damage or plastic slip, and joints released from tied faces, are in
+//! a separate list, in the order in which they entered it.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -39,9 +39,9 @@ impl World {
 
     fn break_joint(&mut self, joint: &WornJoint) {
         let number = joint.interface as usize;
-        // The elastic energy of the joint is dissipated with it. Its last forces were computed at the start of this time
-        // step; in central differences they act for half a time step after that. A joint that is crushed fast exchanges
-        // much of its energy in this time. If it springs back, the dissipated energy may even be negative.
+        // The elastic energy of the joint is dissipated with it. Its last forces were computed at the start of this
+        // time step; in central differences they act for half a time step after that. A joint that is crushed fast
+        // exchanges much of its energy in this time. If it springs back, the dissipated energy may even be negative.
         let last_work = 0.5 * self.dt * joints::power_on(joint, &self.setup, &self.tets, &self.nodes);
         let stored = self.joints.stored_in(joint, &self.setup) + last_work;
         self.lost.fracture += joint.dissipated + stored;

@@ -2,8 +2,8 @@
 //!
 //! Mass and inertia are those of the tetrahedra; the forces act on the nodes. The centre moves by central differences,
 //! like a node. The rotation splits into rotations about the principal axes, with the angular momentum as state
-//! (Dullweber, Leimkuhler and McLachlan 1997, "Symplectic splitting methods for rigid body molecular dynamics", J. Chem.
-//! Phys. 107, 5840-5851). It is symplectic and reversible, and conserves angular momentum exactly.
+//! (Dullweber, Leimkuhler and McLachlan 1997, "Symplectic splitting methods for rigid body molecular dynamics", J.
+//! Chem. Phys. 107, 5840-5851). It is symplectic and reversible, and conserves angular momentum exactly.
 
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
@@ -114,8 +114,8 @@ impl RigidBody {
         Self { body, motion, kinetic: 0.0, mass, moments, nodes: own.iter().map(arm).collect(), held }
     }
 
-    /// Advances the body and its nodes by one time step, from the forces on the tetrahedra [N]; `given` are the velocities
-    /// of the constraints [m/s]. Returns the kinetic energy at the start and the work of the constraints [J].
+    /// Advances the body and its nodes by one time step, from the forces on the tetrahedra [N] and the velocities
+    /// `given` by constraints [m/s]. Returns the kinetic energy at the start and the work of the constraints [J].
     pub fn advance(
         &mut self,
         nodes: &mut Nodes,

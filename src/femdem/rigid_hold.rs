@@ -1,8 +1,8 @@
 //! Rigid bodies with given velocities at some of their points.
 //!
-//! Each given velocity component of a point is one equation c . u = given, with u the velocity and angular velocity of the
-//! body. Equations that depend linearly on earlier ones are dropped, so at most six remain. The constraint impulse changes
-//! u so that all hold (Gauss's principle of least constraint).
+//! Each given velocity component of a point is one equation c . u = given, with u the velocity and angular velocity of
+//! the body. Equations that depend linearly on earlier ones are dropped, so at most six remain. The constraint impulse
+//! changes u so that all hold (Gauss's principle of least constraint).
 
 use glam::{DMat3, DVec3};
 

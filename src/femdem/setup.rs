@@ -32,8 +32,8 @@ pub struct Body {
     pub pivot: DVec3,
 }
 
-/// Default contact penalty over Young's modulus [-]. A contact is then eight times as stiff as the tetrahedron behind it
-/// (see [`super::time_step::contact_stiffness`]).
+/// Default contact penalty over Young's modulus [-]. A contact is then eight times as stiff as the tetrahedron behind
+/// it (see [`super::time_step::contact_stiffness`]).
 const CONTACT_PENALTY: f64 = 1.0;
 
 /// Prescribed velocities of nodes.
@@ -112,8 +112,8 @@ impl Setup {
         self.friction[a][b]
     }
 
-    /// Creates the setup of a mesh and its bodies, in the same order, without gravity, friction, constraints and loads. The
-    /// crack sets of the mesh are broken.
+    /// Creates the setup of a mesh and its bodies, in the same order, without gravity, friction, constraints and loads.
+    /// The crack sets of the mesh are broken.
     pub fn of_mesh(prepared: &PreparedMesh, bodies: Vec<Body>) -> Self {
         let PreparedMesh { mesh, faces, .. } = prepared;
         let can_crack = |tet: u32| bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&(tet as usize)));

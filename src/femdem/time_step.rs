@@ -1,9 +1,9 @@
 //! The time step limit.
 //!
-//! With mass lumping, the largest angular frequency of a mesh is at most that of its stiffest element with its own share
-//! of the masses (Irons). Joints at the faces of a tetrahedron add twice their stiffness at each vertex to its largest
-//! eigenvalue. The time step limit of central differences is 2 / omega; with the viscous damping rate gamma it is
-//! (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
+//! With mass lumping, the largest angular frequency of a mesh is at most that of its stiffest element with its own
+//! share of the masses (Irons). Joints at the faces of a tetrahedron add twice their stiffness at each vertex to its
+//! largest eigenvalue. The time step limit of central differences is 2 / omega; with the viscous damping rate gamma it
+//! is (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
 
 use glam::{DMat3, DVec3};
 
@@ -34,8 +34,8 @@ pub fn element_damping_rate(shape: &Shape, elastic: &Elastic) -> f64 {
 
 /// Contact stiffness at a vertex of a tetrahedron in contact at its largest face [N/m].
 ///
-/// The contact potential rises from 0 to 1 over a quarter of the height H. Two flush tetrahedra with overlap depth d have
-/// the energy p 4 d^2 / H and the stiffness 8 p / H per unit of area. Each vertex gets a third of the face.
+/// The contact potential rises from 0 to 1 over a quarter of the height H. Two flush tetrahedra with overlap depth d
+/// have the energy p 4 d^2 / H and the stiffness 8 p / H per unit of area. Each vertex gets a third of the face.
 pub fn contact_stiffness(shape: &Shape, penalty: f64) -> f64 {
     // For face k, |grad N_k| = 1 / H along the normal, and V = A H / 3.
     let steepest = shape.gradients().into_iter().map(|gradient| gradient.length()).fold(0.0, f64::max);

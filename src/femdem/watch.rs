@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | volume of a tetrahedron | finite and above zero | in every time step |
 //! | speed of a node | [`SPEED`] times the largest celerity, plus the speed that the case causes | in every time step |
-//! | distance of a node from the middle of the mesh | [`REACH`] mesh diagonals, plus the motion that the case causes | by [`World::watch`] |
+//! | distance from mesh middle | [`REACH`] mesh diagonals, plus the motion that the case causes | by [`World::watch`] |
 //! | overlap of two tetrahedra | [`DEPTH`] of the smaller one | by [`World::watch`] |
 
 use glam::DVec3;
@@ -14,15 +14,15 @@ use super::assembly::Nodes;
 use super::setup::{Constraint, Setup};
 use super::world::World;
 
-/// Limit of the node speed in longitudinal celerities, in addition to the speed that the case causes [-]. At one celerity
-/// strains are of order one, where material law and strength are no longer valid.
+/// Limit of the node speed in longitudinal celerities, in addition to the speed that the case causes [-]. At one
+/// celerity strains are of order one, where material law and strength are no longer valid.
 pub const SPEED: f64 = 2.0;
 
 /// Limit of the distance of a node from the middle of the mesh in mesh diagonals [-]; fragments beyond touch nothing.
 pub const REACH: f64 = 50.0;
 
-/// Limit of the overlap of two tetrahedra, see [`Contacts::deepest`](super::contact::pairs::Contacts::deepest) [-]: half
-/// of the smaller one is then inside the other, and the contact force hardly pushes it back out.
+/// Limit of the overlap of two tetrahedra, see [`Contacts::deepest`](super::contact::pairs::Contacts::deepest) [-]:
+/// half of the smaller one is then inside the other, and the contact force hardly pushes it back out.
 pub const DEPTH: f64 = 0.25;
 
 /// Nodes per task of the thread pool.
@@ -115,8 +115,8 @@ impl Limits {
 }
 
 impl World {
-    /// Checks for nodes that are too far away and for contacts that are too deep. This costs about as much as moving the
-    /// nodes, so it is not done in every time step.
+    /// Checks for nodes that are too far away and for contacts that are too deep. This costs about as much as moving
+    /// the nodes, so it is not done in every time step.
     ///
     /// # Errors
     /// Returns the first such node, or the deepest contact.
@@ -138,8 +138,8 @@ impl World {
         }
     }
 
-    /// Checks the square of the largest speed [m2/s2] against the limit. NaN speeds show as inverted tetrahedra in the next
-    /// time step.
+    /// Checks the square of the largest speed [m2/s2] against the limit. NaN speeds show as inverted tetrahedra in the
+    /// next time step.
     pub(super) fn check_speed(&self, fastest_squared: f64) -> Result<(), StepError> {
         let (time, limit) = (self.time, self.limits.speed_at(self.time));
         if fastest_squared <= limit * limit {

@@ -1,7 +1,7 @@
 //! Intact joints (without damage or plastic slip), four at a time. Nearly all joints are intact nearly always.
 //!
-//! The forces equal those of [`super::joint::forces`] with a new state, to rounding. A joint that reaches its strength is
-//! only reported, and [`super::joint::forces`] computes its forces.
+//! The forces equal those of [`super::joint::forces`] with a new state, to rounding. A joint that reaches its strength
+//! is only reported, and [`super::joint::forces`] computes its forces.
 
 use super::cohesive_law::Cohesion;
 use super::lanes::{Lanes, Vectors};
@@ -61,8 +61,8 @@ impl<L: Lanes> WholeLaw<L> {
         }
     }
 
-    /// Returns the traction at a jump of the positions [m] (eq. 2 and elastic slip), and by how much it exceeds the elastic
-    /// limit.
+    /// Returns the traction at a jump of the positions [m] (eq. 2 and elastic slip), and by how much it exceeds the
+    /// elastic limit.
     #[inline(always)]
     fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
         let zero = L::splat(0.0);

@@ -1,8 +1,8 @@
 //! The time step of the combined finite-discrete element method.
 //!
 //! A time step has four loops: joints, tetrahedra, contacts, nodes. Each loop only writes what it owns (no scatter, no
-//! atomics), so results are bitwise equal for any number of threads. Velocities are half a time step before the positions
-//! (central differences; eqs. 9 and 10).
+//! atomics), so results are bitwise equal for any number of threads. Velocities are half a time step before the
+//! positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
 use rayon::prelude::*;

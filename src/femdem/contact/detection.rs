@@ -1,10 +1,10 @@
 //! Contact detection: finds all pairs of intersecting boxes with a hierarchy of grids, one per box size.
 //!
 //! Munjiza & Andrews (1998), "NBS contact detection algorithm for bodies of similar size", IJNME 43, 131-149, with a
-//! hierarchy for bodies of different size: Ericson (2005), "Real-Time Collision Detection", section 7.2. A box is stored
-//! on the level whose cells are just larger than the box, in the cells that it covers there (at most eight). It is tested
-//! against the boxes in the cells that it covers on its own level and on the coarser levels. The hash table has as many
-//! buckets as entries, so work and memory are linear in the number of boxes, however far apart they are.
+//! hierarchy for bodies of different size: Ericson (2005), "Real-Time Collision Detection", section 7.2. A box is
+//! stored on the level whose cells are just larger than the box, in the cells that it covers there (at most eight). It
+//! is tested against the boxes in the cells that it covers on its own level and on the coarser levels. The hash table
+//! has as many buckets as entries, so work and memory are linear in the number of boxes, however far apart they are.
 
 use glam::{DVec3, I64Vec3};
 use rayon::prelude::*;
@@ -55,8 +55,8 @@ pub struct Detection {
 }
 
 impl Detection {
-    /// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending order
-    /// for any number of threads. The boxes must be finite.
+    /// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending
+    /// order for any number of threads. The boxes must be finite.
     pub fn pairs(&mut self, boxes: &[Bounds], keep: impl Fn(u32, u32) -> bool + Sync) -> &[[u32; 2]] {
         self.grids.fit(boxes);
         self.table.fill(&self.grids, boxes);
@@ -124,7 +124,7 @@ impl Table {
         }
     }
 
-    /// Returns the bucket of a cell: multiplicative hash (Knuth 1973, "The Art of Computer Programming" 3, section 6.4).
+    /// Bucket of a cell: multiplicative hash (Knuth 1973, "The Art of Computer Programming" 3, section 6.4).
     fn bucket(&self, key: u64) -> usize {
         let buckets = self.starts.len() - 1;
         ((key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize * buckets) >> 32

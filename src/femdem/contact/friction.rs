@@ -1,8 +1,8 @@
 //! Friction between two overlapping tetrahedra: a tangential spring with a history.
 //!
-//! F_t = -k_t d, |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for FEMDEM Xiang, Latham & Farsi (2017),
-//! eqs. (4), (5). The extension d follows the slip at the point of action of the contact force and is capped by return
-//! mapping. F_n is the magnitude of the contact force; the tangential plane is normal to this force.
+//! F_t = -k_t d, |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for FEMDEM Xiang, Latham & Farsi
+//! (2017), eqs. (4), (5). The extension d follows the slip at the point of action of the contact force and is capped by
+//! return mapping. F_n is the magnitude of the contact force; the tangential plane is normal to this force.
 
 use glam::{DQuat, DVec3, DVec4};
 
@@ -47,12 +47,12 @@ impl TangentialSpring {
         0.5 * law.stiffness * self.extension.length_squared()
     }
 
-    /// Updates the spring and returns the friction of the pair (T, C) at the end of a time step: `vertices` and `overlap`
-    /// are those at the end, `moves` the displacements of the vertices in the time step [m], `penalty` is p [Pa].
+    /// Updates the spring and returns the friction of the pair (T, C) at the end of a time step. `vertices` and
+    /// `overlap` are those at the end, `moves` the displacements in the time step [m], `penalty` is p [Pa].
     ///
     /// Energy: the mean of the forces at start and end times the slip is -(change of [`Self::stored`]) - `dissipated`,
-    /// except for the rotation of the contact within the time step. If the spring force reverses within a time step, the
-    /// dissipation could be negative. It is then set to zero, and the gain shows as an error in the energy balance.
+    /// except for the rotation of the contact within the time step. If the spring force reverses within a time step,
+    /// the dissipation could be negative. It is then set to zero, and the gain shows as an error in the energy balance.
     pub fn advance(
         &mut self,
         law: &FrictionLaw,

@@ -1,8 +1,8 @@
 //! Contact of two tetrahedra: the energy of their overlap and its exact gradient.
 //!
-//! Contact potential: Munjiza (2004), "The Combined Finite-Discrete Element Method", ch. 2. phi_T is 1 at the centroid of
-//! a tetrahedron, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces:
-//! phi_T = 4 min_j lambda_j with the barycentric coordinates lambda. Energy of the pair (T, C) with the penalty p [Pa]:
+//! Contact potential: Munjiza (2004), "The Combined Finite-Discrete Element Method", ch. 2. phi_T is 1 at the centroid
+//! of a tetrahedron, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces: phi_T
+//! = 4 min_j lambda_j with the barycentric coordinates lambda. Energy of the pair (T, C) with the penalty p [Pa]:
 //!
 //!   E = p (I_T + I_C),   I_T = integral of phi_T over the overlap of T and C [m3].
 //!
@@ -22,18 +22,18 @@
 //!
 //! Volume integral. In the part where lambda_j is least, phi_T is linear and div(phi_T (x - a_j)) = 4 phi_T for any
 //! point a_j of face j. The plane between two parts j and l contributes phi_T (a_l - a_j) . n, which vanishes if
-//! a_l - a_j is parallel to the plane. The points in `anchors` achieve this for all planes except that between the parts
-//! 0 and 1, where the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
+//! a_l - a_j is parallel to the plane. The points in `anchors` achieve this for all planes except that between the
+//! parts 0 and 1, where the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
 //!
 //!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q,
 //!
-//! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, and q the integral over the part
-//! inside C of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every term has
-//! a factor phi_T, so faces of T and C that coincide to rounding are harmless.
+//! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, and q the integral over the
+//! part inside C of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every
+//! term has a factor phi_T, so faces of T and C that coincide to rounding are harmless.
 //!
-//! Stiffness. The stiffest pair shares a flush face of area A with heights h_T, h_C over it, and a small overlap depth d:
-//! E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and with masses
-//! of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
+//! Stiffness. The stiffest pair shares a flush face of area A with heights h_T, h_C over it, and a small overlap depth
+//! d: E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and with
+//! masses of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
 
 use glam::{DVec3, DVec4};
 
@@ -110,7 +110,7 @@ struct Sum {
     position: DVec3,
 }
 
-/// The potential of one tetrahedron, its owner, over another one. In the formulas above, T is the owner and C the other.
+/// The potential of one tetrahedron, its owner, over another one (T and C in the formulas above).
 struct Potential<'a> {
     owner: &'a Tetrahedron,
     other: &'a Tetrahedron,
@@ -178,7 +178,7 @@ struct FaceIntegrals {
     at_corner: [f64; 3],
 }
 
-/// Integrals over a face of the other tetrahedron, given in the coordinates of the owner; `None` if the face is outside.
+/// Integrals over a face of the other tetrahedron, in the coordinates of the owner; `None` if the face is outside.
 fn face_integrals(face: [DVec4; 3]) -> Option<FaceIntegrals> {
     let coordinates = coordinates(face);
     let inside = inside_tetrahedron(&coordinates)?;

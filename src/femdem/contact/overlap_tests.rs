@@ -51,8 +51,8 @@ fn forces_are_minus_the_gradient_of_the_energy() {
                 ((energy_at(step) - energy_at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
             };
             // 5e-17: rounding of the energy, 1e-24 for an overlap 1e-4 m deep, divided by the increment. The best
-            // increment depends on the depth and on kinks of the second derivative. The gradient has no kinks, so no pair
-            // is skipped.
+            // increment depends on the depth and on kinks of the second derivative. The gradient has no kinks, so no
+            // pair is skipped.
             let allowed = 1e-6 * largest_force(&found) + 5e-17;
             assert!([1e-4, 1e-5, 1e-6, 1e-7, 1e-3, 1e-8].into_iter().any(|step| error(step) < allowed), "{pair:?}");
         }
@@ -208,9 +208,9 @@ fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
     // Rounding: 1e-15 / depth^2 for energies.
     assert!((energy_again / energy - 1.0).abs() < 1e-9 && (energy_back / energy - 1.0).abs() < 1e-9);
     assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
-    // Two of the six have a face in each side of the cube; the potential rises from that face to 1 over a quarter of the
-    // height of 1 m. Its mean over the slab is 4 depth / 2 for each cube. It is lower, in proportion to the depth, where
-    // another face is nearer.
+    // Two of the six have a face in each side of the cube; the potential rises from that face to 1 over a quarter of
+    // the height of 1 m. Its mean over the slab is 4 depth / 2 for each cube. It is lower, in proportion to the depth,
+    // where another face is nearer.
     assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
     // The force points upwards: the cubes are flush at the sides, so no lateral force acts.
     assert!(force.z > 0.0 && force.truncate().length() < 5.0 * depth * force.z, "{force}");

@@ -3,16 +3,16 @@
 //! Only tetrahedra with a free face can touch: on the surface of a body or at a crack. Two tetrahedra do not touch if
 //! they share a node around which unbroken faces connect them, unless the face between them has broken.
 //!
-//! The initial overlap of a new pair does not count, except for the elastic energy of a joint that failed in compression:
-//! the pair takes this energy over, so that no energy is created. With the overlap energy p I and the initial part I_b
-//! of I that does not count, the pair has
+//! The initial overlap of a new pair does not count, except for the elastic energy of a joint that failed in
+//! compression: the pair takes this energy over, so that no energy is created. With the overlap energy p I and the
+//! initial part I_b of I that does not count, the pair has
 //!
 //!   E = p (sqrt I - sqrt I_b)^2 where I > I_b, and the share 1 - sqrt(I_b / I) of the forces of the overlap.
 //!
-//! The force rises from zero. For flush faces, whose I grows with the square of the depth, it rises as steeply as for two
-//! separate bodies; no pair is stiffer. (With p (I - I_b) the force would jump at I = I_b, and fragments that rattle
-//! there would gain half of force times displacement in each time step that crosses the jump.) I_b decreases with I, so
-//! fragments that separate and meet again are a normal contact.
+//! The force rises from zero. For flush faces, whose I grows with the square of the depth, it rises as steeply as for
+//! two separate bodies; no pair is stiffer. (With p (I - I_b) the force would jump at I = I_b, and fragments that
+//! rattle there would gain half of force times displacement in each time step that crosses the jump.) I_b decreases
+//! with I, so fragments that separate and meet again are a normal contact.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -32,8 +32,8 @@ use super::tetrahedron::Tetrahedron;
 /// Pairs per task of the thread pool.
 const CHUNK: usize = 64;
 
-/// Search distance over the mean size of the tetrahedra that can touch [-]. A search then remains valid for thousands of
-/// time steps, and few pairs are evaluated in vain.
+/// Search distance over the mean size of the tetrahedra that can touch [-]. A search then remains valid for thousands
+/// of time steps, and few pairs are evaluated in vain.
 const SKIN: f64 = 0.1;
 
 /// Tangential over normal contact stiffness [-] (Xiang, Latham and Farsi 2017).
@@ -249,9 +249,9 @@ impl Pair {
         self.forces = Some(forces);
     }
 
-    /// Returns I_b, the initial overlap that does not count [m3]. It is chosen so that half a time step ago, when the joint
-    /// broke, the pair had the energy that the joint leaves. With s = sqrt I - sqrt I_b this is p s^2 now, minus half the
-    /// work of this time step against the forces (the share s / sqrt I of the forces of the overlap).
+    /// Returns I_b, the initial overlap that does not count [m3]. It is chosen so that half a time step ago, when the
+    /// joint broke, the pair had the energy that the joint leaves. With s = sqrt I - sqrt I_b this is p s^2 now, minus
+    /// half the work of this time step against the forces (the share s / sqrt I of the forces of the overlap).
     fn initial_overlap(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
         let left = std::mem::take(&mut self.left);
         let Some(found) = found.filter(|found| found.energy > 0.0) else { return 0.0 };

@@ -1,4 +1,4 @@
-//! A force and a moment at a point, spread over the faces near it: a recorded impact or the load of the water on a unit.
+//! A force and a moment at a point, spread over the faces near it: a recorded impact or the water's load on a unit.
 //!
 //! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and
 //! sum w_i X_i = P, the point in the undeformed body. For any deformation, the resultant is then the force and has no
@@ -175,7 +175,7 @@ impl Patch {
         self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.weight).sum()
     }
 
-    /// Rotation of the tetrahedra since the start: polar decomposition of the best affine map by Higham's iteration (1986).
+    /// Rotation of the tetrahedra since the start: polar part of the best affine map, by Higham's iteration (1986).
     fn rotation(&self, places: &Places) -> DMat3 {
         let centroid = self.centroid(places);
         let moved =

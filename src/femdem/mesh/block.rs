@@ -26,8 +26,8 @@ const SIDES: [(&str, usize, bool); 6] = [
     ("zmax", 2, true),
 ];
 
-/// Creates the mesh of a box from the origin to `lengths` [m], with `cells` along each axis. It has one body `block` and
-/// the sets `xmin`, `xmax`, `ymin`, `ymax`, `zmin`, `zmax`. The tags of nodes and tetrahedra count from one.
+/// Creates the mesh of a box from the origin to `lengths` [m], with `cells` along each axis. It has one body `block`
+/// and the sets `xmin`, `xmax`, `ymin`, `ymax`, `zmin`, `zmax`. The tags of nodes and tetrahedra count from one.
 ///
 /// # Panics
 /// If a length is not positive or a number of cells is zero.

@@ -14,8 +14,8 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::{Exterior, Faces};
 use super::{Body, Mesh};
 
-/// Distance from a face, over the shortest edge of the surface, up to which a node lies on the face [-]. It is far above
-/// the rounding of coordinates and far below any gap that a mesher can resolve.
+/// Distance from a face, over the shortest edge of the surface, up to which a node lies on the face [-]. It is far
+/// above the rounding of coordinates and far below any gap that a mesher can resolve.
 const TOUCHING: f64 = 1e-6;
 
 /// Marks a node that no body has used yet.

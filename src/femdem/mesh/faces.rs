@@ -63,8 +63,8 @@ impl Faces {
     /// Finds the faces of a mesh, and checks that its sets consist of them.
     ///
     /// In a valid mesh no face has more than two tetrahedra, and two tetrahedra at a face lie on opposite sides. The
-    /// exterior faces are then closed: each edge borders an even number of them, usually two, but four or more where the
-    /// body touches itself along an edge.
+    /// exterior faces are then closed: each edge borders an even number of them, usually two, but four or more where
+    /// the body touches itself along an edge.
     ///
     /// # Panics
     /// If the mesh has more than [`MOST_TETS`] tetrahedra.

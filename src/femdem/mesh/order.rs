@@ -13,8 +13,8 @@ const BITS: u32 = 21;
 /// Marks a node without a new number.
 const UNUSED: u32 = u32::MAX;
 
-/// Returns the mesh sorted along the curve, body by body; tags move with their nodes and tetrahedra. Tetrahedra with the
-/// same code keep their order, so the result depends on the mesh only. Nodes used by triangles only come last.
+/// Returns the mesh sorted along the curve, body by body; tags move with their nodes and tetrahedra. Tetrahedra with
+/// the same code keep their order, so the result depends on the mesh only. Nodes used by triangles only come last.
 pub fn along_curve(mesh: &Mesh) -> Mesh {
     let mut order = Vec::with_capacity(mesh.tets.len());
     for body in &mesh.bodies {

@@ -5,8 +5,8 @@ use super::Contacts;
 
 impl Contacts {
     /// Returns the pair with the deepest overlap in the last time step, and this overlap without its initial part:
-    /// overlap energy over penalty over the volume of the smaller tetrahedron [-]. It is 1/2 for identical tetrahedra, up
-    /// to 5/4 for one inside the other, and about 1e-3 for a contact at the strength of concrete.
+    /// overlap energy over penalty over the volume of the smaller tetrahedron [-]. It is 1/2 for identical tetrahedra,
+    /// up to 5/4 for one inside the other, and about 1e-3 for a contact at the strength of concrete.
     pub fn deepest(&self, tets: &Tets) -> Option<([u32; 2], f64)> {
         let volume = |tet: u32| tets.shape[tet as usize].volume;
         let share = |pair: &super::Pair| {
