@@ -128,8 +128,7 @@ impl World {
                 _ => return Err("it has faces with an unknown bond"),
             };
         }
-        self.joints.worn =
-            worn.into_iter().zip(memories).map(|(number, numbers)| restore_joint(number, numbers)).collect();
+        self.joints.worn = worn.into_iter().zip(memories).map(|(number, numbers)| rebuild(number, numbers)).collect();
         self.joints.mark(&self.setup, &mut self.tets);
         self.nodes.come_apart(&mut self.tets, &self.setup, vertices, [place, velocity])?;
         self.failures.clear();
@@ -164,7 +163,7 @@ fn numbers_of(joint: &WornJoint) -> [f64; MEMORY] {
     numbers
 }
 
-fn restore_joint(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
+fn rebuild(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
     let [offset, is_worn, dissipated, freed, ref points @ ..] = numbers;
     let memory = Memory { offset, is_worn: is_worn != 0.0, ..Memory::default() };
     let mut joint = WornJoint { dissipated, freed, ..WornJoint::new(number as usize, memory) };

@@ -61,8 +61,7 @@ impl<L: Lanes> WholeLaw<L> {
         }
     }
 
-    /// Returns the traction at a jump of the positions [m] (eq. 2 and elastic slip), and by how much it exceeds the
-    /// elastic limit.
+    /// Traction at a jump of the positions [m], by eq. 2 and elastic slip, and its excess over the elastic limit.
     #[inline(always)]
     fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
         let zero = L::splat(0.0);

@@ -202,8 +202,7 @@ fn physical_name(line: &str) -> Option<(Key, String)> {
     (numbers.next().is_none() && !name.is_empty()).then(|| (key, name.to_owned()))
 }
 
-/// Returns the name of an element type. For types allowed in a mesh of linear tetrahedra also returns dimension and
-/// number of nodes.
+/// Name of an element type; for types allowed in a mesh of linear tetrahedra also dimension and number of nodes.
 pub(super) fn element_type(kind: i32) -> (&'static str, Option<(i32, usize)>) {
     match kind {
         1 => ("lines", Some((1, 2))),
