@@ -34,13 +34,13 @@ mod tests {
         assert!((z(1e-9) - 1.0).abs() < 1e-8 && z(0.0) == 1.0);
         assert_eq!(z(1.0), 0.0);
         let count = 20_000;
-        let at = |i: u32| f64::from(i) / f64::from(count);
+        let share = |i: u32| f64::from(i) / f64::from(count);
         let mut area = 0.0;
         let mut steepest = 0.0f64;
         for i in 0..count {
-            let (from, to) = (z(at(i)), z(at(i + 1)));
+            let (from, to) = (z(share(i)), z(share(i + 1)));
             assert!(to <= from);
-            area += (from + 4.0 * z(0.5 * (at(i) + at(i + 1))) + to) / 6.0 / f64::from(count);
+            area += (from + 4.0 * z(0.5 * (share(i) + share(i + 1))) + to) / 6.0 / f64::from(count);
             steepest = steepest.max((from - to) * f64::from(count));
         }
         println!("area {area:.10}, steepest {steepest:.6}");

@@ -66,7 +66,7 @@ impl Detection {
             found.clear();
             let first = chunk * CHUNK;
             for number in first..boxes.len().min(first + CHUNK) {
-                grids.meet(table, boxes, number as u32, |i, j| {
+                grids.visit_pairs(table, boxes, number as u32, |i, j| {
                     if keep(i, j) {
                         found.push([i, j]);
                     }
@@ -195,7 +195,7 @@ impl Grids {
 
     /// Calls `found` with the numbers, in ascending order, of each pair of intersecting boxes that belongs to box
     /// `own_number`: this box is on the finer level or, on the same level, has the lower number.
-    fn meet(&self, table: &Table, boxes: &[Bounds], own_number: u32, mut found: impl FnMut(u32, u32)) {
+    fn visit_pairs(&self, table: &Table, boxes: &[Bounds], own_number: u32, mut found: impl FnMut(u32, u32)) {
         let own = &boxes[own_number as usize];
         let own_level = self.level(own);
         for level in (own_level..LEVELS).filter(|level| self.occupied[*level]) {

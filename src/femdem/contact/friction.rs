@@ -66,7 +66,7 @@ impl TangentialSpring {
             return friction;
         };
         let contact_force = penalty * overlap.resultant();
-        self.turn(contact_force.normalize_or(self.normal), 0.5 * (turn_of(&t, moves[0]) + turn_of(&c, moves[1])));
+        self.turn(contact_force.normalize_or(self.normal), 0.5 * (rotation(&t, moves[0]) + rotation(&c, moves[1])));
         let at_centre = [t.shape_functions(overlap.centre), c.shape_functions(overlap.centre)];
         let slip = sum(moves[1], at_centre[1]) - sum(moves[0], at_centre[0]);
         friction.dissipated = self.stretch(law, slip, law.coefficient * contact_force.length());
@@ -94,7 +94,7 @@ impl TangentialSpring {
 }
 
 /// Mean rotation of a tetrahedron [rad]: curl(u)/2 of the displacements of its vertices.
-fn turn_of(tetrahedron: &Tetrahedron, moves: &[DVec3; 4]) -> DVec3 {
+fn rotation(tetrahedron: &Tetrahedron, moves: &[DVec3; 4]) -> DVec3 {
     0.5 * tetrahedron.gradients.iter().zip(moves).map(|(gradient, u)| gradient.cross(*u)).sum::<DVec3>()
 }
 

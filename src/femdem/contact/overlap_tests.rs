@@ -186,10 +186,10 @@ fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let cube = |shift: DVec3| {
         orders.map(|order| {
-            let mut at = shift;
+            let mut corner = shift;
             let path = order.map(|axis| {
-                at[axis] += 1.0;
-                at
+                corner[axis] += 1.0;
+                corner
             });
             [shift, path[0], path[1], path[2]]
         })

@@ -8,7 +8,7 @@ const LONGEST_QUOTE: usize = 40;
 /// The content of a file and the current reading position.
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
-    at: usize,
+    offset: usize,
     binary: bool,
     section: &'a str,
 }
@@ -16,7 +16,7 @@ pub(super) struct Source<'a> {
 impl<'a> Source<'a> {
     /// Reads the header, which is followed by the sections.
     pub(super) fn new(bytes: &'a [u8]) -> Result<Self, MshError> {
-        let mut source = Self { bytes, at: 0, binary: false, section: "MeshFormat" };
+        let mut source = Self { bytes, offset: 0, binary: false, section: "MeshFormat" };
         let first = source.line().unwrap_or_default();
         if first.trim_ascii() != b"$MeshFormat" {
             return Err(MshError::NotMsh);
@@ -42,10 +42,10 @@ impl<'a> Source<'a> {
     /// Returns the name of the section that starts here, `None` at the end of the file.
     pub(super) fn next_section(&mut self) -> Result<Option<&'a str>, MshError> {
         self.skip_space();
-        if self.at == self.bytes.len() {
+        if self.offset == self.bytes.len() {
             return Ok(None);
         }
-        let start = self.at;
+        let start = self.offset;
         let line = self.line().unwrap_or_default().trim_ascii();
         let name = line.strip_prefix(b"$").and_then(|name| std::str::from_utf8(name).ok());
         self.section = name.ok_or_else(|| self.unexpected(start, "the start of the next section", line))?;
@@ -55,7 +55,7 @@ impl<'a> Source<'a> {
     /// Reads the line that ends the current section.
     pub(super) fn end(&mut self) -> Result<(), MshError> {
         self.skip_space();
-        let start = self.at;
+        let start = self.offset;
         let line = self.line().ok_or_else(|| self.truncated())?.trim_ascii();
         if line.strip_prefix(b"$End") == Some(self.section.as_bytes()) {
             return Ok(());
@@ -66,27 +66,27 @@ impl<'a> Source<'a> {
     /// Skips the current section.
     pub(super) fn skip_section(&mut self) -> Result<(), MshError> {
         let end = format!("$End{}", self.section).into_bytes();
-        let rest = &self.bytes[self.at..];
+        let rest = &self.bytes[self.offset..];
         let found = rest.windows(end.len()).position(|window| window == end).ok_or_else(|| self.truncated())?;
-        self.at += found + end.len();
+        self.offset += found + end.len();
         Ok(())
     }
 
     /// Reads the rest of the current line, without its line end; `None` at the end of the file.
     pub(super) fn line(&mut self) -> Option<&'a [u8]> {
-        let rest = &self.bytes[self.at..];
+        let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
             return None;
         }
         let length = rest.iter().position(|byte| *byte == b'\n');
-        self.at += length.map_or(rest.len(), |length| length + 1);
+        self.offset += length.map_or(rest.len(), |length| length + 1);
         Some(&rest[..length.unwrap_or(rest.len())])
     }
 
     /// Reads the next non-blank line as text.
     pub(super) fn text_line(&mut self) -> Result<&'a str, MshError> {
         self.skip_space();
-        let start = self.at;
+        let start = self.offset;
         let line = self.line().ok_or_else(|| self.truncated())?.trim_ascii();
         std::str::from_utf8(line).map_err(|_| self.unexpected(start, "text in UTF-8", line))
     }
@@ -108,7 +108,7 @@ impl<'a> Source<'a> {
 
     /// Number of bytes read so far.
     pub(super) fn position(&self) -> usize {
-        self.at
+        self.offset
     }
 
     /// Returns a position as line or byte for messages.
@@ -135,27 +135,27 @@ impl<'a> Source<'a> {
     }
 
     fn skip_space(&mut self) {
-        self.at += self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+        self.offset += self.bytes[self.offset..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
     }
 
     /// Reads the next bytes of a binary file.
     fn take_bytes<const N: usize>(&mut self) -> Result<[u8; N], MshError> {
-        let bytes = self.bytes[self.at..].first_chunk().ok_or_else(|| self.truncated())?;
-        self.at += N;
+        let bytes = self.bytes[self.offset..].first_chunk().ok_or_else(|| self.truncated())?;
+        self.offset += N;
         Ok(*bytes)
     }
 
     /// Reads the next word of a text file as a number.
     fn word<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, MshError> {
         self.skip_space();
-        let rest = &self.bytes[self.at..];
+        let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
             return Err(self.truncated());
         }
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         let number = std::str::from_utf8(&rest[..length]).ok().and_then(|word| word.parse().ok());
-        let number = number.ok_or_else(|| self.unexpected(self.at, expected, &rest[..length]))?;
-        self.at += length;
+        let number = number.ok_or_else(|| self.unexpected(self.offset, expected, &rest[..length]))?;
+        self.offset += length;
         Ok(number)
     }
 }
