@@ -111,7 +111,7 @@ fn every_spoilt_mesh_is_refused_with_its_message() {
         mesh.replacen(from, to, 1)
     };
     let cases: [(String, &str); 17] = [
-        (String::new(), "not a Gmsh mesh: the first line is not $MeshFormat; write the mesh with `gmsh -3"),
+        (String::new(), "not a Gmsh mesh: its first line is not $MeshFormat; write it with `gmsh -3 -format msh41`"),
         (replaced("4.1 0 8", "2.2 0 8"), "MSH version 2.2 is not supported, only 4.1; set `Mesh.MshFileVersion = 4.1`"),
         (replaced("4.1 0 8", "4.0 0 8"), "MSH version 4.0 is not supported, only 4.1"),
         (mesh[..mesh.len() - 60].to_owned(), "inside section $Elements; it is incomplete: write or copy it again"),

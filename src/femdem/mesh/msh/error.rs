@@ -26,7 +26,7 @@ impl fmt::Display for Place {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MshError {
     /// Not an MSH file.
-    #[error("not a Gmsh mesh: the first line is not $MeshFormat; write the mesh with `gmsh -3 -format msh41`")]
+    #[error("not a Gmsh mesh: its first line is not $MeshFormat; write it with `gmsh -3 -format msh41`")]
     NotMsh,
     /// An older or newer format.
     #[error(
