@@ -1,4 +1,4 @@
-//! Side view and top view of the units before and after the wave.
+//! Side views and top view of the units before and after the wave.
 
 use super::super::plot::short;
 use super::folder::RunFolder;
@@ -7,7 +7,7 @@ use super::scene::{Poses, Scene, bed_in, range, unit_radius};
 use super::solids::Eye;
 use super::window::{Window, label, svg};
 
-/// The three views of a run: side before, side after, from above; empty without units.
+/// Returns the three views of a run: side before, side after, top. Empty without units.
 pub fn views(run: &RunFolder) -> String {
     let ends: Vec<(u32, [Pose; 2])> = run.motions.iter().filter_map(|m| Some((m.unit, m.ends()?))).collect();
     let places = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[0]));
@@ -21,10 +21,10 @@ pub fn views(run: &RunFolder) -> String {
         let time = short(times[moment], 2);
         html += &format!("<figure>{drawing}<figcaption>{title}, at {time} s.</figcaption></figure>\n");
     }
-    let sides = if run.summary.side_walls { "between side walls" } else { "periodic across the flume" };
+    let sides = if run.summary.side_walls { "with side walls" } else { "periodic across the flume" };
     html += &format!(
-        "<figure>{}<figcaption>Seen from above, {sides}: outlines where the units stood, solid where they came to rest, \
-         an arrow for each displacement. Thin lines are the toes and edges of the mound.</figcaption></figure>\n",
+        "<figure>{}<figcaption>Top view, {sides}. Outlines: initial positions. Solid: final positions. Arrows: \
+         displacements. Thin lines: toes and crest edges of the mound.</figcaption></figure>\n",
         above(run, x, &ends)
     );
     html
@@ -69,11 +69,11 @@ fn above(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
         drawing += &label(beyond + 4.0, to[1] + 4.0, "note halo", &unit.to_string());
     }
     drawing += &format!("<path class=\"side\" d=\"M{left:.1} {top:.1}H{right:.1}M{left:.1} {bottom:.1}H{right:.1}\"/>");
-    let title = "Units seen from above before and after the wave";
+    let title = "Top view of the units before and after the wave";
     svg(title, window.height(), &window.framed("above", "y [m]", &drawing))
 }
 
-/// An arrow between two places on paper; none for less than 6 px.
+/// Draws an arrow between two points [px]; nothing if they are less than 6 px apart.
 fn arrow([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> String {
     let length = (x1 - x0).hypot(y1 - y0);
     if length < 6.0 {
