@@ -303,7 +303,7 @@ fn the_wave_is_shown_without_units_but_not_without_water() {
     assert!(!html.contains("The wave ") && !folder.join("picture.svg").exists());
     write_water(&folder, 0.08).unwrap();
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
-    assert!(html.contains("The wave in the flume") && html.contains("<strong>8 s.</strong> The end"));
+    assert!(html.contains("The wave in the flume") && html.contains("<strong>8 s.</strong> End of the run"));
     let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
     assert!(picture.contains("Flume time 8 s. End of the run."));
 }

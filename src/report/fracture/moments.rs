@@ -40,7 +40,7 @@ pub fn main_cracks(initiations: &[InitiationSummary]) -> Vec<usize> {
     order.into_iter().map(|index| index + 1).collect()
 }
 
-/// Moments just after the impact, at the start of each main crack and at the end; with moments in between if these are few.
+/// Moments just after the impact, at the start of each main crack and at the end. If these are few, some are added.
 pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
     let mut shown = ends(times_s, impact_s);
     for crack in main_cracks(initiations) {

@@ -1,4 +1,4 @@
-//! Line, bar and tornado charts as SVG: inline with the style sheet of the page, or as files with their own style sheet.
+//! Line, bar and tornado charts as SVG: inline with the style sheet of the page, or as files with their own style.
 //!
 //! The classes `c0` to `c5` are the colours. Their palette suits colour-blind readers (Okabe & Ito 2008) and differs
 //! between light and dark pages.
@@ -117,8 +117,8 @@ impl Frame {
         text(0.5 * (self.left + self.right), self.height - 6.0, "label mid", label) + "\n"
     }
 
-    /// Legend entries from left to right above the plot area. Each entry is a name and the SVG of its sample, which is up
-    /// to 22 px wide and starts at the origin.
+    /// Legend entries from left to right above the plot area. Each entry is a name and the SVG of its sample; the sample
+    /// is up to 22 px wide and starts at the origin.
     fn legend(&self, entries: &[(String, String)]) -> String {
         let (mut x, mut y, mut svg) = (self.left, 14.0, String::new());
         for (name, sample) in entries {

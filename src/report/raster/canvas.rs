@@ -62,7 +62,7 @@ impl Canvas {
         (self.colour, self.depth) = (colours, depths);
     }
 
-    /// Draws a line of a width [px], except where something is nearer by more than `hidden` [m]; `strength` is its opacity.
+    /// Draws a line of a width [px] and opacity `strength`, except where something is nearer by more than `hidden` [m].
     pub fn line(&mut self, [a, b]: [[f64; 3]; 2], width: f64, colour: Colour, strength: f32, hidden: f64) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let length = dx.hypot(dy);

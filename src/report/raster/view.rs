@@ -52,7 +52,7 @@ impl View {
         normal.dot(self.ahead) < 0.0
     }
 
-    /// Brightness of a face with this normal (of any length), 0 to 1. The light comes from above the viewer's left shoulder.
+    /// Brightness of a face with this normal (of any length), 0 to 1. Light comes from over the viewer's left shoulder.
     pub fn light(&self, normal: DVec3) -> f64 {
         let towards = (self.up * 0.75 - self.right * 0.45 - self.ahead * 0.8).normalize();
         0.5 + 0.5 * normal.normalize_or_zero().dot(towards).max(0.0)
