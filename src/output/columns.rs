@@ -102,7 +102,7 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
 pub const FRACTURE_BODIES: [&str; 8] =
     ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j", "sigma_1_pa"];
 
-/// `cracks.csv` of a fracture run: one row per failed face, in order of time, with the centre and area of the undeformed
+/// `cracks.csv` of a fracture run: one row per failed face, in order of time, with centre and area of the undeformed
 /// face. `mode` 1 is opening, 2 sliding. `body` counts from 0 in the order of the mesh, as in the VTKHDF files.
 pub const CRACKS: [&str; 7] = ["time_s", "x_m", "y_m", "z_m", "area_m2", "mode", "body"];
 
@@ -125,10 +125,10 @@ pub const BREAKAGE: [&str; 10] = [
     "broken",
 ];
 
-/// `diagnostics.csv`: checks of the run. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its change
-/// since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all time steps
-/// since the previous row. `rms_divergence_1_s` is the root mean square of div v over the water. `steps` counts from the
-/// start, `dt_s` is the next time step. `lost_particles` must stay 0.
+/// `diagnostics.csv`: checks of the run. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its
+/// change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all time
+/// steps since the previous row. `rms_divergence_1_s` is the root mean square of div v over the water. `steps` counts
+/// from the start, `dt_s` is the next time step. `lost_particles` must stay 0.
 pub const DIAGNOSTICS: [&str; 10] = [
     "time_s",
     "volume_m3",

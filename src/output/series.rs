@@ -9,8 +9,8 @@ use super::OutputError;
 /// A CSV file of numbers with one header line, extended row by row.
 ///
 /// Numbers have the shortest text that reads back to the same bits; `NaN` is an empty field. Every call passes its rows
-/// to the operating system, so a killed run loses no rows. Checkpoints store the length in bytes. A resumed run cuts the
-/// file at this length and then writes the same bytes as an uninterrupted run.
+/// to the operating system, so a killed run loses no rows. Checkpoints store the length in bytes. A resumed run cuts
+/// the file at this length and then writes the same bytes as an uninterrupted run.
 #[derive(Debug)]
 pub struct CsvSeries {
     path: PathBuf,

@@ -90,7 +90,7 @@ pub struct UnitSummary {
     pub displacement_m: f64,
     /// Whether the displacement exceeds the damage distance.
     pub damaged: bool,
-    /// Direction of the displacement in plan view [deg]: 0 shoreward, positive towards larger y; 0 without displacement.
+    /// Direction of the displacement in plan view [deg]: 0 shoreward, positive towards larger y; 0 if not displaced.
     pub direction_deg: f64,
     /// Centre of mass at the start [m].
     pub start_m: [f64; 3],
@@ -142,10 +142,10 @@ pub struct BreakageSummary {
 pub struct WaveSummary {
     /// Kind as in the case file (`solitary`, `regular`, `irregular`).
     pub kind: String,
-    /// Theory of the wave (`rayleigh`, `boussinesq`, `third_order`, `stream_function`), spectrum (`jonswap`), or theory of
-    /// the paddle motion (`biesel`: first order; `madsen`: second order).
+    /// Theory of the wave (`rayleigh`, `boussinesq`, `third_order`, `stream_function`), spectrum (`jonswap`), or theory
+    /// of the paddle motion (`biesel`: first order; `madsen`: second order).
     pub theory: String,
-    /// Wave height [m]: H of a solitary wave above still water level at the piston, H of regular, H_s of irregular waves.
+    /// Wave height H [m]; H_s of irregular waves. For a solitary wave, above still water level at the piston.
     pub height_m: f64,
     /// Period of regular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -92,7 +92,7 @@ const VECTORS: [Vector; 5] = [
 ];
 
 impl Impact {
-    /// Creates an impact from a contact and the water load at its peak; `offset` [s] converts contact time to flume time.
+    /// Creates an impact from a contact and the water load at its peak; `offset` [s] is added to get flume time.
     pub fn new(contact: &RecordedContact, offset: f64, fluid: Option<FluidAtPeak>) -> Self {
         let in_flume_time = |sample: &ForceSample| ForceSample { start: sample.start + offset, ..*sample };
         let history = contact.history.samples().iter().map(in_flume_time).collect();

@@ -158,7 +158,7 @@ impl PolyDataSeries {
         Ok(series)
     }
 
-    /// Appends one step: time [s], points [m], triangles (none for [`Cells::Vertices`]) and the values of each field, in
+    /// Appends one step: time [s], points [m], triangles (none for [`Cells::Vertices`]) and the values of each field in
     /// the order of creation.
     ///
     /// # Errors

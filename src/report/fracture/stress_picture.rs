@@ -37,8 +37,9 @@ pub struct StressScene {
 }
 
 impl StressScene {
-    /// Creates the scene of a run. The view contains the shown bodies. The scale ends at twice the tensile strength:
-    /// stresses exceed the strength where no face is normal to them. Without strength it ends at the largest shown stress.
+    /// Creates the scene of a run. The view contains the shown bodies. The scale ends at twice the tensile strength,
+    /// because stresses exceed the strength where no face is normal to them. Without a strength it ends at the largest
+    /// stress of the given moments.
     ///
     /// # Errors
     /// If the files cannot be read.

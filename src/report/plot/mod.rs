@@ -117,7 +117,7 @@ impl Frame {
         text(0.5 * (self.left + self.right), self.height - 6.0, "label mid", label) + "\n"
     }
 
-    /// Legend entries from left to right above the plot area. Each entry is a name and the SVG of its sample; the sample
+    /// Legend entries from left to right above the plot area. An entry is a name and the SVG of its sample; the sample
     /// is up to 22 px wide and starts at the origin.
     fn legend(&self, entries: &[(String, String)]) -> String {
         let (mut x, mut y, mut svg) = (self.left, 14.0, String::new());
