@@ -5,7 +5,7 @@ use super::folder::RunFolder;
 use super::moments::Moments;
 use super::{breakage, charts, views};
 use crate::{
-    output::{Summary, UnitSummary},
+    output::{Summary, UnitSummary, WaveSummary},
     report::page::{clock, grouped, section},
 };
 
@@ -29,9 +29,7 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
 fn header(summary: &Summary) -> String {
     let mut parts = Vec::new();
     parts.push(match &summary.wave {
-        Some(wave) => {
-            format!("{} wave, H = {} cm at the wavemaker", capitalised(&wave.kind), short(100.0 * wave.height_m, 2))
-        }
+        Some(wave) => wave_in_words(wave),
         None => "No wave height given".to_owned(),
     });
     match summary.units.len() {
@@ -44,6 +42,17 @@ fn header(summary: &Summary) -> String {
         false => format!("domain {} m wide", short(summary.domain_width_m, 3)),
     });
     format!("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape(&summary.title), escape(&parts.join(" \u{b7} ")))
+}
+
+fn wave_in_words(wave: &WaveSummary) -> String {
+    let noun = if wave.kind == "solitary" { "wave" } else { "waves" };
+    let (kind, height) = (capitalised(&wave.kind), short(100.0 * wave.height_m, 2));
+    format!("{kind} {noun}, {} = {height} cm at the wavemaker", height_symbol(wave))
+}
+
+/// Symbol of the wave height: the summary holds the significant height of irregular waves.
+fn height_symbol(wave: &WaveSummary) -> &'static str {
+    if wave.kind == "irregular" { "H_s" } else { "H" }
 }
 
 /// Width and side boundaries of the domain.
@@ -297,7 +306,7 @@ fn facts(summary: &Summary) -> String {
     }
     if let Some(wave) = &summary.wave {
         let theory = if wave.theory.is_empty() { String::new() } else { format!(" ({})", wave.theory) };
-        rows.push(("Wave", format!("{}{theory}, H = {} m", wave.kind, short(wave.height_m, 4))));
+        rows.push(("Wave", format!("{}{theory}, {} = {} m", wave.kind, height_symbol(wave), short(wave.height_m, 4))));
     }
     rows.push(("breakwater", format!("version {}", summary.breakwater_version)));
     rows.extend(execution.processor.clone().map(|name| ("Processor", name)));
@@ -345,4 +354,16 @@ fn files(run: &RunFolder) -> String {
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_height_of_irregular_waves_is_significant() {
+        let wave = |kind: &str| WaveSummary { kind: kind.to_owned(), height_m: 0.12, ..WaveSummary::default() };
+        assert_eq!(wave_in_words(&wave("irregular")), "Irregular waves, H_s = 12 cm at the wavemaker");
+        assert_eq!(wave_in_words(&wave("solitary")), "Solitary wave, H = 12 cm at the wavemaker");
+    }
 }
