@@ -10,7 +10,7 @@
 //! | `diagnostics.csv` | [`CsvSeries`] | checks of the run: volume, Mach number, densities, time steps |
 //! | `unit_surface.json` | [`UnitSurface`] | surface of a unit relative to its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
-//! | `report.html`, `picture.svg` | [`write_report`] | the report, and one moment of the run as a picture |
+//! | `report.html`, `picture.svg` | `report::run::write_report` | the report, and a picture of one moment of the run |
 //!
 //! [`columns`] has the column names of the tables. A [`Writer`] writes large files while the run continues.
 

@@ -28,7 +28,7 @@ pub struct Summary {
     pub breakage: Option<BreakageSummary>,
     /// The units in order of their numbers.
     pub units: Vec<UnitSummary>,
-    /// The wave; none for still water or a dam break.
+    /// The wave; none if the case has no wave or its height is unknown.
     pub wave: Option<WaveSummary>,
     /// Highest surface elevation at the elevation gauges.
     pub gauges: Vec<GaugeSummary>,
@@ -84,7 +84,7 @@ pub struct Summary {
 /// Results for one unit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct UnitSummary {
-    /// Number of the unit, from 1 at y = 0.
+    /// Number of the unit, from 1.
     pub unit: u32,
     /// Horizontal distance between first and last position of the centre of mass [m].
     pub displacement_m: f64,
@@ -147,7 +147,7 @@ pub struct WaveSummary {
     pub theory: String,
     /// Wave height H [m]; H_s of irregular waves. For a solitary wave, above still water level at the piston.
     pub height_m: f64,
-    /// Period of regular waves [s].
+    /// Period of regular waves, or peak period of irregular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
 }

@@ -90,7 +90,7 @@ impl TetSeries {
     /// If the file cannot be written.
     ///
     /// # Panics
-    /// If the fields do not match those of the file, or a field has not one value for each tetrahedron.
+    /// If the fields do not match those of the file, or a field does not have one value per tetrahedron.
     pub fn append(&mut self, moment: &TetMoment<'_>) -> Result<(), OutputError> {
         assert_eq!(moment.points_m.len(), moment.velocity_m_s.len(), "one velocity a node");
         assert_eq!(moment.values.len(), self.fields.len(), "{}: one value list a field", self.path.display());

@@ -19,7 +19,7 @@ pub fn body(run: &FractureFolder) -> Result<String, OutputError> {
     html += &section("Pictures", &pictures::pictures(run)?);
     html += &energy(run);
     html += &fragments(run);
-    html += &made(run);
+    html += &facts(run);
     html += &list("Warnings", "These may make the results unreliable.", &run.summary.warnings);
     let words = "No source gives these values. They were chosen, and the results depend on them.";
     html += &list("Assumptions", words, &run.summary.assumptions);
@@ -138,7 +138,7 @@ fn fragments(run: &FractureFolder) -> String {
     section("Pieces", &format!("{words}{}", tables::fragments(run)))
 }
 
-fn made(run: &FractureFolder) -> String {
+fn facts(run: &FractureFolder) -> String {
     let (summary, case) = (&run.summary, &run.case);
     let friction = |a: usize, b: usize| {
         let coefficient = case.setup.friction([a, b]);
@@ -181,8 +181,8 @@ fn made(run: &FractureFolder) -> String {
     let mut html: String =
         rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{}</td></tr>\n", escape(value))).collect();
     html += &format!("<tr><td>Case hash</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
-    let facts = format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n");
-    section("How the run was made", &(tables::bodies(run) + &facts))
+    let table = format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n");
+    section("How the run was made", &(tables::bodies(run) + &table))
 }
 
 fn list(heading: &str, words: &str, items: &[String]) -> String {

@@ -143,18 +143,18 @@ impl UnitScene {
         Ok(canvas.data_uri())
     }
 
-    /// Draws the visible sharp edges of the faces selected by `of`.
+    /// Draws the visible sharp edges of the faces selected by `is_drawn`.
     fn draw_edges(
         &self,
         canvas: &mut Canvas,
         outside: &[[DVec3; 3]],
-        of: impl Fn(usize) -> bool,
+        is_drawn: impl Fn(usize) -> bool,
         ink: Colour,
         strength: f32,
     ) {
         // A tolerance of a few pixels, because a line lies on the faces that it bounds.
         let hidden = 3.0 / self.view.scale;
-        for [(face, k), _] in self.edges.iter().filter(|[(face, _), _]| of(*face)) {
+        for [(face, k), _] in self.edges.iter().filter(|[(face, _), _]| is_drawn(*face)) {
             let Some(corners) = outside.get(*face) else { continue };
             let ends = [corners[*k], corners[(*k + 1) % 3]].map(|corner| self.view.project(corner));
             canvas.line(ends, 1.6, ink, strength, hidden);

@@ -2,7 +2,7 @@
 
 use super::{Axis, Frame, escape, marks, short, text};
 
-/// One set of bars, one bar for each group.
+/// One set of bars, one bar per group.
 #[derive(Debug, Clone, Default)]
 pub struct Bars {
     /// Name in the legend; empty for none.

@@ -68,7 +68,7 @@ impl TornadoChart {
     /// Creates an axis of a length [px] with space for the labels at the ends of the bars; `bars` holds the label width
     /// [px] and the change of each bar. Label widths are fixed in pixels, so the bars get the remaining length.
     fn axis(&self, length: f64, bars: &[(f64, f64)]) -> Axis {
-        let largest = |of: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(of).fold(0.0, f64::max);
+        let largest = |quantity: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(quantity).fold(0.0, f64::max);
         let (below, above) = (largest(&|(_, change)| -change), largest(&|(_, change)| *change));
         let range = if below + above > 0.0 { below + above } else { 1.0 };
         let left = largest(&|(words, change)| if *change < 0.0 { *words } else { 0.0 });

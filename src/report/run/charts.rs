@@ -28,7 +28,7 @@ pub fn displacements(run: &RunFolder) -> String {
     if let Some(mean) = summary.mean_displacement_m {
         marks.push((mean, format!("mean {} m", short(mean, 3))));
     }
-    let set = |name: &str, damaged: bool, colour: usize| Bars {
+    let bar_set = |name: &str, damaged: bool, colour: usize| Bars {
         name: name.to_owned(),
         values: heights(damaged),
         colour,
@@ -39,7 +39,7 @@ pub fn displacements(run: &RunFolder) -> String {
         x_label: "unit".to_owned(),
         y_label: "displacement [m]".to_owned(),
         groups: summary.units.iter().map(|u| u.unit.to_string()).collect(),
-        bars: vec![set("damaged", true, 1), set("not damaged", false, 0)],
+        bars: vec![bar_set("damaged", true, 1), bar_set("not damaged", false, 0)],
         stacked: true,
         marks,
         size: WIDE,

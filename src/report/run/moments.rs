@@ -63,7 +63,7 @@ impl<'a> Moments<'a> {
         }
         let Some(water) = WaterSnapshots::open(&run.dir.join(RunFolder::WATER))? else { return Ok(None) };
         let slab = Slab::in_the_middle(run.summary.domain_width_m, run.summary.dp_m);
-        let x = along(run);
+        let x = shown_x(run);
         let mut moments = Vec::new();
         let mut shows_wavemaker = run.summary.wave.is_some();
         for Choice { step, words, pictured } in choices(run, &water) {
@@ -83,7 +83,7 @@ impl<'a> Moments<'a> {
             return Ok(None);
         }
         let scale = SpeedScale::holding(moments.iter().map(|moment| moment.dots.as_slice()));
-        let scene = Scene::new(run, Window::new(x, heights(run, x, &moments)), Eye::Side);
+        let scene = Scene::new(run, Window::new(x, shown_z(run, x, &moments)), Eye::Side);
         Ok(Some(Self { run, scene, slab, scale, moments }))
     }
 
@@ -219,7 +219,7 @@ fn largest_mean(run: &RunFolder, history: impl Fn(&UnitMotion) -> Vec<f64>) -> O
 }
 
 /// Range of x that is shown [m]: the mound with some water on each side, and the paths of all units.
-fn along(run: &RunFolder) -> [f64; 2] {
+fn shown_x(run: &RunFolder) -> [f64; 2] {
     let radius = unit_radius(run);
     let [begin, end] = run.summary.domain_x_m;
     let units = range(run.motions.iter().flat_map(|m| m.position_m.iter().map(|p| p[0])));
@@ -233,7 +233,7 @@ fn along(run: &RunFolder) -> [f64; 2] {
 }
 
 /// Range of z that is shown [m]: from below the bed to above water and units.
-fn heights(run: &RunFolder, x: [f64; 2], moments: &[Moment]) -> [f64; 2] {
+fn shown_z(run: &RunFolder, x: [f64; 2], moments: &[Moment]) -> [f64; 2] {
     let radius = unit_radius(run);
     let highest = |moment: &Moment| {
         let mut heights: Vec<f64> = moment.dots.iter().map(|dot| dot.z).collect();

@@ -76,7 +76,7 @@ impl<'a> Scene<'a> {
             + "\n"
     }
 
-    /// Draws the units, distant units first. If `judged`, damaged units have their own colour.
+    /// Draws the units, distant units first. If `judged`, damaged units have a different colour.
     pub fn units(&self, poses: &[(u32, Pose)], judged: bool) -> String {
         let damaged = |unit: u32| judged && self.run.summary.units.iter().any(|u| u.unit == unit && u.damaged);
         let mut order: Vec<&(u32, Pose)> = poses.iter().collect();

@@ -56,7 +56,7 @@ fn height_symbol(wave: &WaveSummary) -> &'static str {
 }
 
 /// Width and side boundaries of the domain.
-fn across(summary: &Summary) -> String {
+fn width_and_sides(summary: &Summary) -> String {
     let sides = if summary.side_walls { "with side walls" } else { "periodic across the flume" };
     match summary.two_dimensional {
         true => "two-dimensional".to_owned(),
@@ -265,7 +265,7 @@ fn facts(summary: &Summary) -> String {
                 "x = {} to {} m, {}",
                 short(summary.domain_x_m[0], 3),
                 short(summary.domain_x_m[1], 3),
-                across(summary)
+                width_and_sides(summary)
             ),
         ),
         (

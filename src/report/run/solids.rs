@@ -75,7 +75,7 @@ type Face = (i64, usize, [[f64; 2]; 3]);
 pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cover: &mut Cover) -> String {
     let reach = reach(surface).max(f64::MIN_POSITIVE);
     let middle = eye.project(pose.position_m)[2];
-    let mut faces: Vec<Face> = (placed(surface, pose))
+    let mut faces: Vec<Face> = (placed_triangles(surface, pose))
         .filter_map(|corners| {
             let [nx, nup, towards] = eye.project(normal(corners));
             let light = (-0.35 * nx + 0.62 * nup + 0.70 * towards).max(0.0);
@@ -101,14 +101,14 @@ pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cove
 
 /// Path data of a unit's silhouette: all faces towards the viewer.
 pub fn silhouette(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye) -> String {
-    (placed(surface, pose))
+    (placed_triangles(surface, pose))
         .filter(|corners| eye.project(normal(*corners))[2] > 0.0)
         .map(|corners| triangle(corners.map(|c| eye.on_paper(window, c))))
         .collect()
 }
 
 /// Triangles of a unit in flume axes [m].
-fn placed(surface: &UnitSurface, pose: Pose) -> impl Iterator<Item = [[f64; 3]; 3]> {
+fn placed_triangles(surface: &UnitSurface, pose: Pose) -> impl Iterator<Item = [[f64; 3]; 3]> {
     let points: Vec<[f64; 3]> = surface.vertices_m.iter().map(|v| pose.place(*v)).collect();
     surface.triangles.iter().map(move |t| t.map(|i| points[i as usize]))
 }

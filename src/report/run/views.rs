@@ -17,7 +17,7 @@ pub fn views(run: &RunFolder) -> String {
     let times = run.motions.iter().find_map(|m| Some([*m.time_s.first()?, *m.time_s.last()?])).unwrap_or_default();
     let mut html = String::new();
     for (moment, title) in [(0, "Side view before the wave"), (1, "Side view after the wave")] {
-        let drawing = side(run, x, &ends, moment, title);
+        let drawing = side_view(run, x, &ends, moment, title);
         let time = short(times[moment], 2);
         html += &format!("<figure>{drawing}<figcaption>{title}, at {time} s.</figcaption></figure>\n");
     }
@@ -25,27 +25,27 @@ pub fn views(run: &RunFolder) -> String {
     html += &format!(
         "<figure>{}<figcaption>Top view, {sides}. Outlines: initial positions. Solid: final positions. Arrows: \
          displacements. Thin lines: toes and crest edges of the mound.</figcaption></figure>\n",
-        above(run, x, &ends)
+        top_view(run, x, &ends)
     );
     html
 }
 
-fn at_end(ends: &[(u32, [Pose; 2])], moment: usize) -> Poses {
+fn poses_at(ends: &[(u32, [Pose; 2])], moment: usize) -> Poses {
     ends.iter().map(|(unit, poses)| (*unit, poses[moment])).collect()
 }
 
-fn side(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])], moment: usize, title: &str) -> String {
+fn side_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])], moment: usize, title: &str) -> String {
     let (level, radius) = (run.summary.still_water_level_m, unit_radius(run));
     let centres = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[2]));
     let heights = centres.flat_map(|z| [z - radius, z + radius]).chain(bed_in(run, x).into_iter().map(|p| p[1]));
     let [low, high] = range(heights.chain([level])).unwrap_or([0.0, 1.0]);
     let scene = Scene::new(run, Window::new(x, [low - 0.5 * radius, high + 0.6 * radius]), Eye::Side);
     let drawing =
-        scene.still_water() + &scene.bed() + &scene.units(&at_end(ends, moment), moment == 1) + &scene.still_level();
+        scene.still_water() + &scene.bed() + &scene.units(&poses_at(ends, moment), moment == 1) + &scene.still_level();
     svg(title, scene.window.height(), &scene.window.framed(&format!("side{moment}"), "z [m]", &drawing))
 }
 
-fn above(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
+fn top_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
     let across = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[1]));
     let [low, high] = range(across.chain([0.0, run.summary.domain_width_m])).unwrap_or([0.0, 1.0]);
     let radius = unit_radius(run);
@@ -61,7 +61,7 @@ fn above(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
     for (_, poses) in ends {
         drawing += &scene.outline(poses[0]);
     }
-    drawing += &scene.units(&at_end(ends, 1), true);
+    drawing += &scene.units(&poses_at(ends, 1), true);
     for (unit, poses) in ends {
         let [from, to] = poses.map(|pose| window.at(pose.position_m[0], pose.position_m[1]));
         drawing += &arrow(from, to);

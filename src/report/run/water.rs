@@ -24,7 +24,7 @@ const HELD: f64 = 0.995;
 pub struct Dot {
     /// Position along the flume [m].
     pub x: f64,
-    /// Height [m].
+    /// Elevation z [m].
     pub z: f64,
     /// Speed [m/s].
     pub speed: f64,
@@ -46,7 +46,7 @@ impl Slab {
         Self { y: ((0.5 * width / spacing).floor() + 0.5) * spacing, spacing }
     }
 
-    /// Half its thickness [m].
+    /// Half the thickness of the slab [m].
     pub fn half(&self) -> f64 {
         HALF_SLAB * self.spacing
     }

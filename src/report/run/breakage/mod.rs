@@ -17,7 +17,7 @@ use crate::simulation::breakage::results::{BROKEN, Breakage, UnitBreakage};
 /// Returns the content of the section; empty without a breakage analysis.
 pub fn breakage(run: &RunFolder) -> String {
     let Some(breakage) = &run.breakage else { return String::new() };
-    let mut html = in_words(breakage);
+    let mut html = introduction(breakage);
     html += &tables::units(breakage);
     html += &tables::impacts(breakage, run);
     html += &failures(breakage);
@@ -25,7 +25,7 @@ pub fn breakage(run: &RunFolder) -> String {
 }
 
 /// Introduction: scale, damage by movement and by breakage, and the definition of a broken unit.
-fn in_words(breakage: &Breakage) -> String {
+fn introduction(breakage: &Breakage) -> String {
     let count = |is: fn(&UnitBreakage) -> bool| breakage.units.iter().filter(|unit| is(unit)).count();
     let (units, analysed) = (breakage.units.len(), count(|unit| unit.broken.is_some()));
     let size = if breakage.scale == 1.0 {

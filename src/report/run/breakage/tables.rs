@@ -86,7 +86,7 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
             impact.t_s,
             impact.approach_m_s,
             impact.approach_m_s * prototype,
-            way(impact.way),
+            method(impact.way),
             link(impact, run)
         )
         .replace(">-", ">\u{2212}")
@@ -110,7 +110,7 @@ pub fn partner(impact: &Outcome) -> String {
     impact.partner.map_or("bed or wall".to_owned(), |unit| format!("unit {unit}"))
 }
 
-fn way(way: HandoverWay) -> &'static str {
+fn method(way: HandoverWay) -> &'static str {
     match way {
         HandoverWay::LoadHistory => "recorded forces",
         HandoverWay::ReEnact | HandoverWay::Both => "collision",

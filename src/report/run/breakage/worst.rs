@@ -15,7 +15,7 @@ pub fn worst(breakage: &Breakage, run: &RunFolder) -> String {
         impact.unit,
         if impact.partner.is_some() { partner(impact) } else { format!("the {}", partner(impact)) },
         short(impact.t_s, 3),
-        if most(impact)[0] > 0.0 {
+        if largest_area_and_stress(impact)[0] > 0.0 {
             "It has the largest crack area."
         } else {
             "No unit cracked; this impact has the largest \u{3c3}\u{2081}."
@@ -35,14 +35,14 @@ fn worst_impact(breakage: &Breakage) -> Option<&Outcome> {
     let computed = breakage.impacts.iter().filter(|impact| !impact.found.is_empty());
     // Reversed, because `max_by` returns the last of equals and the hardest impact is first.
     computed.rev().max_by(|a, b| {
-        let ([area_a, sigma_a], [area_b, sigma_b]) = (most(a), most(b));
+        let ([area_a, sigma_a], [area_b, sigma_b]) = (largest_area_and_stress(a), largest_area_and_stress(b));
         area_a.total_cmp(&area_b).then(sigma_a.total_cmp(&sigma_b))
     })
 }
 
 /// Largest crack area [m2] and largest first principal stress [Pa] of the units in an impact.
-fn most(impact: &Outcome) -> [f64; 2] {
+fn largest_area_and_stress(impact: &Outcome) -> [f64; 2] {
     // Adding zero removes the sign of a negative zero.
-    let largest = |of: fn(&Found) -> f64| impact.found.iter().map(of).fold(0.0, f64::max) + 0.0;
+    let largest = |quantity: fn(&Found) -> f64| impact.found.iter().map(quantity).fold(0.0, f64::max) + 0.0;
     [largest(|found| found.crack_area_m2), largest(|found| found.sigma_1_pa)]
 }
