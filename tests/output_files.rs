@@ -276,7 +276,7 @@ fn the_report_shows_the_wave_at_the_units() {
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
     let moments = [
         "<strong>0 s.</strong> Start of the particle simulation",
-        "<strong>2.6 s.</strong> Near the peak of the mean horizontal water force",
+        "<strong>2.6 s.</strong> Near the peak of the mean horizontal force of the water",
         "<strong>3 s.</strong> Near the peak of the mean speed of the units",
         "<strong>8 s.</strong> End of the run",
     ];

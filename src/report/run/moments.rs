@@ -181,7 +181,7 @@ fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
         let towards = if force_n < 0.0 { "seaward" } else { "shoreward" };
         let at = short(force_s, 2);
         let words = format!(
-            "Near the peak of the mean horizontal water force, {} N per unit {towards} at {at} s",
+            "Near the peak of the mean horizontal force of the water, {} N per unit {towards} at {at} s",
             short(force_n.abs(), 2)
         );
         add(water.nearest(force_s).unwrap_or(0), words, true);
