@@ -18,7 +18,7 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     html += &displacement(run);
     html += &water(run);
     html += &forces(run);
-    html += &section("Which units break", &breakage::breakage(run));
+    html += &section("Breakage of the units", &breakage::breakage(run));
     html += &energy(run);
     html += &warnings(&run.summary);
     html += &assumptions(&run.summary);
