@@ -117,7 +117,7 @@ fn a_surface_that_intersects_itself_is_refused() {
     stl::write(&folder.path().join("two.stl"), &vertices, &triangles).unwrap();
     let case = settling_case(json!({ "path": "two.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
     let error = try_run(&case, folder.path()).unwrap_err();
-    assert!(error.contains("does not cut itself") && error.contains("units.stl.path"), "{error}");
+    assert!(error.contains("does not intersect itself") && error.contains("units.stl.path"), "{error}");
 }
 
 /// Returns a binary STL file with one to three faults.
