@@ -78,8 +78,7 @@ impl Tips {
         x0 + (time - t0) / (t1 - t0) * (x1 - x0)
     }
 
-    /// Returns the largest deviation from potential flow from 0.1 s to 0.64 s, when the tip is 3.9 m from the back wall
-    /// [-].
+    /// Returns the largest deviation from potential flow from 0.1 to 0.64 s, when the tip is 3.9 m from the wall [-].
     fn deviation_from_exact(&self, dp: f64) -> f64 {
         let times = (5..=32).map(|k| f64::from(k) * INTERVAL);
         let deviations = times.map(|time| {
@@ -113,22 +112,13 @@ fn compare(dp: f64) -> (f64, Option<f64>) {
     let percent =
         |deviations: &[f64]| deviations.iter().map(|d| format!("{:+.1}", 100.0 * d)).collect::<Vec<_>>().join(" ");
     let unshifted = tips.deviations_from_measured(&measured, 0.0);
-    println!(
-        "deviations from the measurement: {} %, largest {:.1} %",
-        percent(&unshifted),
-        100.0 * largest(&unshifted)
-    );
+    println!("deviations from measurement: {} %, largest {:.1} %", percent(&unshifted), 100.0 * largest(&unshifted));
     let lags = (0..=100).map(|ms| 1e-3 * f64::from(ms));
-    let largest_after = |lag: f64| largest(&tips.deviations_from_measured(&measured, lag)[1..]);
-    let best = lags.min_by(|a, b| largest_after(*a).total_cmp(&largest_after(*b))).unwrap();
+    let remaining = |lag: f64| largest(&tips.deviations_from_measured(&measured, lag)[1..]);
+    let best = lags.min_by(|a, b| remaining(*a).total_cmp(&remaining(*b))).unwrap();
     let shifted = tips.deviations_from_measured(&measured, best);
-    println!(
-        "deviations with a lag of {:.0} ms: {} %, largest {:.1} %",
-        1e3 * best,
-        percent(&shifted),
-        100.0 * largest_after(best)
-    );
-    (from_exact, Some(largest_after(best)))
+    println!("with a lag of {:.0} ms: {} %, largest {:.1} %", 1e3 * best, percent(&shifted), 100.0 * remaining(best));
+    (from_exact, Some(remaining(best)))
 }
 
 #[test]
@@ -137,7 +127,7 @@ fn dam_break_tip_follows_potential_flow_coarse() {
     // Reached: 2.5 %, a little more than a particle spacing at 3.9 m.
     assert!(from_exact < 0.035);
     // Target: 3 %; reached: 2.1 %.
-    assert!(from_measured.is_none_or(|largest_after| largest_after < 0.03));
+    assert!(from_measured.is_none_or(|remaining| remaining < 0.03));
 }
 
 /// Runs the case with its own particle spacing, dp = 0.01 m, and with half of it.
@@ -148,5 +138,5 @@ fn dam_break_tip_follows_potential_flow_fine() {
     let [(coarse, _), (fine, from_measured)] = [0.01, 0.005].map(compare);
     assert!(fine < coarse);
     // Target: 3 %; reached with dp = 0.01 m: 1.9 %.
-    assert!(from_measured.is_none_or(|largest_after| largest_after < 0.03));
+    assert!(from_measured.is_none_or(|remaining| remaining < 0.03));
 }

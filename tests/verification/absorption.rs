@@ -65,7 +65,7 @@ fn compare(dp: f64, height: f64) -> [f64; 2] {
 #[test]
 fn an_absorbing_piston_does_not_reflect_the_wave_coarse() {
     let [without, with] = compare(0.025, 0.09);
-    // 10 % is asked for after one return; 4.5 % is reached, a sixth of a particle distance.
+    // Target: 10 % after one reflection; reached: 4.5 %, a sixth of a particle spacing.
     assert!(without > 0.5 && with < 0.1);
 }
 

@@ -54,14 +54,13 @@ fn drop_of_water(radius: f64, dp: f64, rho: impl Fn(f64) -> f64) -> Water {
     for (i, j, k) in
         (-count..count).flat_map(|i| (-count..count).flat_map(move |j| (-count..count).map(move |k| (i, j, k))))
     {
-        let position = dp * (DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5);
-        if position.length() < radius {
-            let swing =
-                0.1 * DVec3::new((40.0 * position.y).sin(), (50.0 * position.z).sin(), (30.0 * position.x).sin());
-            water.position.push(position);
-            water.velocity.push(DVec3::new(0.3, -0.2, 0.1) + DVec3::new(0.5, 1.0, 2.0).cross(position) + swing);
-            water.density.push(rho(position.x));
-            water.mass.push(RHO0 * dp.powi(3) * (1.0 + 0.1 * (70.0 * position.x).sin()));
+        let p = dp * (DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5);
+        if p.length() < radius {
+            let swing = 0.1 * DVec3::new((40.0 * p.y).sin(), (50.0 * p.z).sin(), (30.0 * p.x).sin());
+            water.position.push(p);
+            water.velocity.push(DVec3::new(0.3, -0.2, 0.1) + DVec3::new(0.5, 1.0, 2.0).cross(p) + swing);
+            water.density.push(rho(p.x));
+            water.mass.push(RHO0 * dp.powi(3) * (1.0 + 0.1 * (70.0 * p.x).sin()));
         }
     }
     water.id = (0..water.len() as u32).collect();
@@ -98,11 +97,11 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
     let mut boundary = Boundary::new(&[], &[], &[], 0, RHO0);
     let mut solver = Solver::new(parameters, DVec3::splat(-0.3), DVec3::splat(0.3));
     let start = (momentum(&water), angular_momentum(&water));
-    let mass_weighted_sum = |of: &dyn Fn(usize) -> DVec3, water: &Water| {
+    let weighted_sum = |of: &dyn Fn(usize) -> DVec3, water: &Water| {
         (0..water.len()).map(|i| water.mass[i] * of(i).length()).sum::<f64>()
     };
-    let momentum_scale = mass_weighted_sum(&|i| water.velocity[i], &water);
-    let angular_scale = mass_weighted_sum(&|i| water.position[i].cross(water.velocity[i]), &water);
+    let momentum_scale = weighted_sum(&|i| water.velocity[i], &water);
+    let angular_scale = weighted_sum(&|i| water.position[i].cross(water.velocity[i]), &water);
     let mut drift = Drift { momentum: 0.0, angular: 0.0, impulse: 0.0 };
     for _ in 0..steps {
         solver.sort(&mut water, &boundary);
@@ -115,8 +114,7 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
         solver.rates();
         solver.correct(dt, &mut water, &mut boundary);
         // The second half of the time step does not sort the water, so indices stay valid.
-        drift.impulse +=
-            mass_weighted_sum(&|i| water.velocity[i] - before[i], &water) / momentum_scale / f64::from(steps);
+        drift.impulse += weighted_sum(&|i| water.velocity[i] - before[i], &water) / momentum_scale / f64::from(steps);
         drift.momentum = drift.momentum.max((momentum(&water) - start.0).length() / momentum_scale);
         drift.angular = drift.angular.max((angular_momentum(&water) - start.1).length() / angular_scale);
     }
@@ -144,8 +142,7 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     assert!(drift.angular < 1e-10, "{}", drift.angular);
 }
 
-/// Which terms conserve what:
-///
+/// Quantities that each term conserves:
 /// | term | momentum | angular momentum |
 /// | --- | --- | --- |
 /// | pressure, artificial viscosity, density diffusion of any kind | kept | kept |
@@ -170,17 +167,15 @@ fn only_pair_forces_along_r_keep_angular_momentum() {
     keeps_both("diffusion of Antuono et al.", &|p| {
         p.diffusion = Diffusion::new(DensityDiffusion::Antuono, 0.1, p.kernel.h, &p.tait, 0.0);
     });
-    let keeps_momentum_only = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
+    let keeps_momentum = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         let drift = run(name, adjust);
         assert!(drift.momentum < rounding && drift.angular > 1e-7, "{name}");
     };
     let laminar = |nu, turbulence| Viscosity::Laminar { nu, turbulence };
-    keeps_momentum_only("laminar, very viscous water", &|p| p.viscosity = laminar(1e-3, None));
-    keeps_momentum_only("laminar, water", &|p| p.viscosity = laminar(1e-6, None));
-    keeps_momentum_only("turbulence", &|p| p.viscosity = laminar(0.0, Some(Smagorinsky::new(dp))));
-    keeps_momentum_only("shifting", &|p| {
-        p.shifting = Some(Shifting { coefficient: 2.0, h: p.kernel.h, dp, dimensions: 3 })
-    });
+    keeps_momentum("laminar, very viscous water", &|p| p.viscosity = laminar(1e-3, None));
+    keeps_momentum("laminar, water", &|p| p.viscosity = laminar(1e-6, None));
+    keeps_momentum("turbulence", &|p| p.viscosity = laminar(0.0, Some(Smagorinsky::new(dp))));
+    keeps_momentum("shifting", &|p| p.shifting = Some(Shifting { coefficient: 2.0, h: p.kernel.h, dp, dimensions: 3 }));
 }
 
 /// In a sloshing tank, the change of energy equals the work of walls, viscosity and diffusion.

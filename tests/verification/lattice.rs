@@ -55,10 +55,10 @@ pub fn transform(kernel: &Wendland, k: f64, f: impl Fn(f64) -> f64) -> f64 {
 pub fn aliasing(kernel: &Wendland, f: impl Fn(f64) -> f64) -> f64 {
     // Transforms of kernels with two continuous derivatives fall with n^-6: terms beyond n = 20 are
     // 4 pi / 3 / 20^3 / 6 = 1e-4 of the first ones.
-    let largest = 20_i32;
-    let mut counts = vec![0_u32; (largest * largest + 1) as usize];
-    for (i, j, k) in (-largest..=largest)
-        .flat_map(|i| (-largest..=largest).flat_map(move |j| (-largest..=largest).map(move |k| (i, j, k))))
+    let reach = 20_i32;
+    let mut counts = vec![0_u32; (reach * reach + 1) as usize];
+    for (i, j, k) in
+        (-reach..=reach).flat_map(|i| (-reach..=reach).flat_map(move |j| (-reach..=reach).map(move |k| (i, j, k))))
     {
         if let Some(counts) = counts.get_mut((i * i + j * j + k * k) as usize) {
             *counts += 1;
@@ -77,12 +77,9 @@ pub fn mean_over_jitter(jitter: f64, f: impl Fn(DVec3) -> f64) -> f64 {
         .map(|t| (2.0 * jitter * t, (1.0 - t.abs()) * 2.0 / f64::from(n)))
         .collect();
     let mut sum = 0.0;
-    for (x, weight_x) in &nodes {
-        for (y, weight_y) in &nodes {
-            sum += nodes
-                .iter()
-                .map(|(z, weight_z)| weight_x * weight_y * weight_z * f(DVec3::new(*x, *y, *z)))
-                .sum::<f64>();
+    for (x, wx) in &nodes {
+        for (y, wy) in &nodes {
+            sum += nodes.iter().map(|(z, wz)| wx * wy * wz * f(DVec3::new(*x, *y, *z))).sum::<f64>();
         }
     }
     sum

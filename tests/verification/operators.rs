@@ -48,8 +48,7 @@ fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
     let self_term = |f: &dyn Fn(f64) -> f64| f(0.0) - mean_over_jitter(JITTER, |r| f(r.length()));
     let variance = JITTER * JITTER / 3.0;
     let spread = |f: &dyn Fn(f64) -> f64| (variance * lattice_sum(&kernel, |r| slope(f, r.length()).powi(2))).sqrt();
-    let spread_of_gradient =
-        (variance * (lattice_sum(&kernel, |r| gradient_variance(&kernel, r)) + own_gradient_variance(&kernel))).sqrt();
+    let spread_of_gradient = (variance * (lattice_sum(&kernel, |r| scatter(&kernel, r)) + own_scatter(&kernel))).sqrt();
 
     let water = block(JITTER, |_| RHO0, |_| DVec3::ZERO);
     let (gradients, order) = gradients_of_block(&water);
@@ -84,7 +83,7 @@ fn slope(f: &dyn Fn(f64) -> f64, r: f64) -> f64 {
 }
 
 /// Returns |grad (G x)|^2 of a neighbour [1/m10] for spacing 1.
-fn gradient_variance(kernel: &Wendland, r: DVec3) -> f64 {
+fn scatter(kernel: &Wendland, r: DVec3) -> f64 {
     let distance = r.length();
     if distance == 0.0 {
         return 0.0;
@@ -96,7 +95,7 @@ fn gradient_variance(kernel: &Wendland, r: DVec3) -> f64 {
 
 /// Returns |grad (G x)|^2 of the particle itself: the second derivatives of its neighbours' kernels sum to minus its
 /// own.
-fn own_gradient_variance(kernel: &Wendland) -> f64 {
+fn own_scatter(kernel: &Wendland) -> f64 {
     gradient_factor(kernel, 0.0).powi(2)
 }
 
@@ -175,11 +174,8 @@ fn constant_pressure_accelerates_jittered_particles() {
 fn density_rate_of_a_linear_velocity_has_the_lattice_error() {
     let error = lattice_error_of_gradient(USUAL);
     // Rows of d v_i / d x_j [1/s].
-    let velocity_gradient = [DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, -1.0, 4.0), DVec3::new(2.0, 0.0, 2.0)];
-    let flow = |p: DVec3| {
-        DVec3::new(1.0, -2.0, 0.5)
-            + DVec3::new(velocity_gradient[0].dot(p), velocity_gradient[1].dot(p), velocity_gradient[2].dot(p))
-    };
+    let grad_v = [DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, -1.0, 4.0), DVec3::new(2.0, 0.0, 2.0)];
+    let flow = |p: DVec3| DVec3::new(1.0, -2.0, 0.5) + DVec3::new(grad_v[0].dot(p), grad_v[1].dot(p), grad_v[2].dot(p));
     let (water, rates) = rates_of_block(block(0.0, |_| RHO0, flow));
     let (divergence, size) = (3.0 - 1.0 + 2.0, 6.3);
     let inner = |(i, _): &(usize, &Rate)| inside(water.position[*i]);

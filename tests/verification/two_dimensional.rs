@@ -30,10 +30,7 @@ fn a_dam_break_in_a_layer_equals_that_in_a_slice() {
         run_until(&mut tank, end, |_| ());
         tip_and_energy(&tank)
     });
-    println!(
-        "slice and layer: tip {:.3} and {:.3} m, energy {:.1} and {:.1} J/m",
-        slice[0], layer[0], slice[1], layer[1]
-    );
+    println!("tip {:.3} and {:.3} m, energy {:.1} and {:.1} J/m", slice[0], layer[0], slice[1], layer[1]);
     // Half a particle spacing and 2 %: the particles start at other positions.
     assert!((slice[0] - layer[0]).abs() < 0.5 * dp && (slice[1] / layer[1] - 1.0).abs() < 0.02);
 }
@@ -57,8 +54,7 @@ fn gauges_read_level_and_pressure_of_a_layer() {
         let at = DVec3::new(0.5, -1.0, 0.1);
         read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at)];
     });
-    // Limits: 0.1 dp for the level; 2 % of the pressure, which still oscillates after one second; 2 % of the sum of W
-    // V.
+    // Limits: 0.1 dp for the level; 2 % of the pressure, which oscillates after one second; 2 % of the sum of W V.
     assert!((read[0] - depth).abs() < 0.1 * dp, "{read:?}");
     assert!((read[1] / (RHO0 * GRAVITY * (depth - 0.1)) - 1.0).abs() < 0.02, "{read:?}");
     assert!((read[2] - 1.0).abs() < 0.02, "{read:?}");

@@ -27,8 +27,7 @@ fn a_ball_rolls_down_an_incline_with_the_acceleration_of_theory() {
         run(&mut world, 0.4, 1e-4);
         let state = world.states()[0];
         let acceleration = (state.velocity.x - before.velocity.x) / 0.4;
-        // The moment mu_r R N reduces the weight along the slope by mu_r N; two sevenths of the rest accelerate the
-        // spin.
+        // The moment mu_r R N reduces the weight along the slope by mu_r N, and two sevenths of the rest turn it.
         let expected = 5.0 / 7.0 * G * (angle.sin() - rolling * angle.cos());
         println!("mu_r = {rolling}: {acceleration:.5} m/s2, expected {expected:.5}");
         // 0.1 %: the tangential spring oscillates for a moment after the tilt.
@@ -55,13 +54,10 @@ fn a_ball_stays_below_the_angle_of_rolling_resistance() {
     let start = super::total_energy(&world);
     let friction = world.energy().friction;
     run(&mut world, 0.5, 1e-4);
-    let dissipated = world.energy().friction - friction;
+    let loss = world.energy().friction - friction;
     let angle_rolled = world.states()[0].angular_velocity.y * 0.5 * 0.5;
     let expected = 0.05 * RADIUS * ball(RADIUS, 2380.0).mass * G * 0.3f64.cos() * angle_rolled;
-    println!(
-        "dissipated {dissipated:.3e} J, expected {expected:.3e} J, residual {:.1e} J",
-        super::total_energy(&world) - start
-    );
+    println!("loss {loss:.3e} J, expected {expected:.3e} J, residual {:.1e} J", super::total_energy(&world) - start);
     // 1 %: the expected angle assumes a constant acceleration.
-    assert!((dissipated / expected - 1.0).abs() < 0.01);
+    assert!((loss / expected - 1.0).abs() < 0.01);
 }
