@@ -60,8 +60,8 @@ fn steps(simulation: &mut Simulation, count: u32) {
     }
 }
 
-/// Returns acceleration and density rate of each particle by its number, and force and torque on each unit, in the
-/// first half of a time step. `before` time steps on the processor move the water off its lattice.
+/// Returns acceleration and density rate of each particle by its number, and force and torque on each unit. They are
+/// those of the first half of a time step. `before` time steps on the processor move the water off its lattice.
 fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>, Vec<[DVec3; 2]>) {
     let mut start = Simulation::new(case.clone()).unwrap();
     steps(&mut start, before);

@@ -127,26 +127,26 @@ fn damaged(intact: &[u8], random: &mut Random) -> Vec<u8> {
         match random.below(7) {
             // Replaces a byte.
             0 => {
-                let at = random.below(bytes.len());
-                bytes[at] = random.below(256) as u8;
+                let offset = random.below(bytes.len());
+                bytes[offset] = random.below(256) as u8;
             }
             1 => bytes.truncate(random.below(bytes.len()) + 1),
             // Replaces a coordinate by an extreme value.
             2 if bytes.len() >= 134 => {
                 let odd = [f32::NAN, f32::INFINITY, 1e30, -1e-30, 0.0, f32::MAX][random.below(6)];
-                let at = 84 + 50 * random.below((bytes.len() - 84) / 50) + 12 + 4 * random.below(9);
-                bytes[at..at + 4].copy_from_slice(&odd.to_le_bytes());
+                let offset = 84 + 50 * random.below((bytes.len() - 84) / 50) + 12 + 4 * random.below(9);
+                bytes[offset..offset + 4].copy_from_slice(&odd.to_le_bytes());
             }
             // Reverses or removes a triangle.
             3 if bytes.len() >= 134 => {
-                let at = 84 + 50 * random.below((bytes.len() - 84) / 50);
-                let corner: Vec<u8> = bytes[at + 12..at + 24].to_vec();
-                bytes.copy_within(at + 24..at + 36, at + 12);
-                bytes[at + 24..at + 36].copy_from_slice(&corner);
+                let offset = 84 + 50 * random.below((bytes.len() - 84) / 50);
+                let corner: Vec<u8> = bytes[offset + 12..offset + 24].to_vec();
+                bytes.copy_within(offset + 24..offset + 36, offset + 12);
+                bytes[offset + 24..offset + 36].copy_from_slice(&corner);
             }
             4 if bytes.len() >= 134 => {
-                let at = 84 + 50 * random.below((bytes.len() - 84) / 50);
-                bytes.drain(at..at + 50);
+                let offset = 84 + 50 * random.below((bytes.len() - 84) / 50);
+                bytes.drain(offset..offset + 50);
             }
             // Changes the number of triangles in the header.
             5 if bytes.len() >= 84 => {

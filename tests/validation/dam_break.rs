@@ -19,9 +19,9 @@ const LATEST: f64 = 0.7;
 /// Interval of [`POTENTIAL_FLOW`] [s].
 const INTERVAL: f64 = 0.02;
 
-/// Position of the tip [m] every 0.02 s in two-dimensional inviscid flow without a gate, by a mixed Eulerian-Lagrangian
-/// method with boundary elements on the free surface (images in bed and back wall, g = 9.81 m/s2). It conserves volume
-/// and energy to 1e-5 and 5e-5. Runs with 250 to 400 nodes agree with half as many to 0.002 m. The tip obeys
+/// Position of the tip [m] every 0.02 s in two-dimensional inviscid flow without a gate, g = 9.81 m/s2. The method is
+/// mixed Eulerian-Lagrangian with boundary elements on the free surface and images in bed and back wall. It conserves
+/// volume and energy to 1e-5 and 5e-5. Runs with 250 to 400 nodes agree with half as many to 0.002 m. The tip obeys
 /// du/dt = g tan(slope of the surface there) to 0.6 %.
 const POTENTIAL_FLOW: [f64; 37] = [
     1.0090, 1.0302, 1.0609, 1.0995, 1.1451, 1.1971, 1.2548, 1.3178, 1.3858, 1.4584, 1.5354, 1.6165, 1.7015, 1.7903,

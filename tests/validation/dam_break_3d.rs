@@ -107,9 +107,9 @@ fn with_mdbc() -> [(&'static str, Value); 2] {
 /// Asserts that the unchanged case agrees with DualSPHysics up to a time [s].
 fn assert_equals_dualsphysics(end: f64) {
     let Some(deviations) = compare("unchanged", &[], end) else { return };
-    // Tip: the lattice resolves one particle spacing. Energy: 2 %; reached are 0.5 % at 0.6 s and 1.2 % at 0.8 s. With
-    // density diffusion of the walls' own density it is 3 % at 0.12 s and 12 % at 0.6 s; with a building one particle
-    // narrower, 7 %.
+    // Tip: the lattice resolves one particle spacing. Energy: 2 %; reached are 0.5 % at 0.6 s and 1.2 % at 0.8 s. If
+    // the density of walls diffuses, too, it is 3 % at 0.12 s and 12 % at 0.6 s. A building one particle narrower
+    // gives 7 %.
     assert!(deviations.tip < DP && deviations.kinetic < 0.02);
 }
 

@@ -92,8 +92,8 @@ impl Comparison {
 
     /// Returns the skill at every gauge with the common shift that is best on average.
     fn skills(&self, clock: f64) -> Vec<f64> {
-        let with = |shift| -> Vec<f64> { (0..8).map(|gauge| self.skill(gauge, shift, clock)).collect() };
-        shifts().map(with).max_by(|a, b| mean(a).total_cmp(&mean(b))).unwrap()
+        let skills_with = |shift| -> Vec<f64> { (0..8).map(|gauge| self.skill(gauge, shift, clock)).collect() };
+        shifts().map(skills_with).max_by(|a, b| mean(a).total_cmp(&mean(b))).unwrap()
     }
 
     /// Returns the best shift [s] and the skill of each gauge separately.
@@ -133,8 +133,8 @@ fn compare(layers: usize, cell_m: f64) -> Option<[Vec<f64>; 2]> {
 fn waves_over_the_bar_are_those_measured() {
     let Some([uncorrected, corrected]) = compare(2, 0.025) else { return };
     // Target: 0.8 at every gauge. The limits are the reached skills, rounded down, so that a regression shows. The rest
-    // comes from the clocks of the files: they repeat after 2.00 s, not 2.02 s, and the best shifts of neighbouring
-    // gauges scatter by 0.05 s, which no error of the wave speed explains.
+    // comes from the clocks of the files: they repeat after 2.00 s, not 2.02 s. The best shifts of neighbouring gauges
+    // scatter by 0.05 s, which no error of the wave speed explains.
     assert!(mean(&uncorrected) > 0.77 && uncorrected.iter().all(|skill| *skill > 0.57));
     assert!(mean(&corrected) > 0.79 && corrected.iter().all(|skill| *skill > 0.62));
 }

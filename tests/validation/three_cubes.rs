@@ -35,7 +35,7 @@ fn measured(name: &str) -> Option<Vec<Measured>> {
 struct Paths(Vec<(f64, Vec<DVec3>)>);
 
 impl Paths {
-    fn of(dp: f64, end: f64) -> Self {
+    fn deviation(dp: f64, end: f64) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/verification/three-cubes.json");
         let mut case: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         case["domain"]["dp_m"] = dp.into();
@@ -63,9 +63,9 @@ impl Paths {
 /// Runs until `end` [s] and returns the deviations from each measured series with the error bars [m].
 fn deviations(dp: f64, end: f64) -> Option<Vec<Vec<[f64; 2]>>> {
     let series: Vec<Vec<Measured>> = SERIES.iter().map(|(name, ..)| measured(name)).collect::<Option<_>>()?;
-    let paths = Paths::of(dp, end);
+    let paths = Paths::deviation(dp, end);
     let compared = SERIES.iter().zip(series).map(|((name, cube, axis), series)| {
-        let of = |m: &Measured| {
+        let deviation = |m: &Measured| {
             let computed = paths.at(m.time, *cube, *axis);
             println!(
                 "dp = {dp} m, {name} at {:.3} s: {computed:.3} m, measured {:.3} +- {:.3} m, {:+.3} m",
@@ -76,7 +76,7 @@ fn deviations(dp: f64, end: f64) -> Option<Vec<Vec<[f64; 2]>>> {
             );
             [computed - m.position, m.error]
         };
-        series.iter().filter(|m| m.time <= end).map(of).collect()
+        series.iter().filter(|m| m.time <= end).map(deviation).collect()
     });
     Some(compared.collect())
 }

@@ -132,7 +132,7 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
 /// The time integration conserves momentum and angular momentum, so only asymmetric pair forces could change them.
 /// Those of pressure and artificial viscosity are V_a V_b (p_a + p_b + ...) G r_ab in both directions; they differ by
 /// rounding in single precision. Rounding affects the sum of some 280 pair forces and the positions. The rounding
-/// errors are random, so the relative error falls with the number of particles: with 1,600, 4,200, 12,000 and 34,000 of
+/// errors are random, so the relative error falls with the number of particles. With 1,600, 4,200, 12,000 and 34,000 of
 /// them, the angular momentum changes by 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 in 1,000 steps.
 #[test]
 fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {

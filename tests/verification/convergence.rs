@@ -81,8 +81,8 @@ fn operators_converge_with_second_order() {
     for (number, kind) in ["gradient", "divergence", "renormalised"].iter().enumerate() {
         let order = [0, 1, 2].map(|step| (errors[step][number] / errors[step + 1][number]).log2());
         println!("orders of {kind}: {order:.2?}");
-        // In theory 2. The next term of the series, (h k)^4 / 124, lowers the order of the coarsest pair by 0.08; the
-        // lattice error, which has the opposite sign, raises that of the finest pair by 0.15.
+        // In theory 2. The next term of the series, (h k)^4 / 124, lowers the order of the coarsest pair by 0.08. The
+        // lattice error has the opposite sign and raises that of the finest pair by 0.15.
         assert!(order.iter().all(|&order| order > 1.9), "{kind}");
     }
     // 0.02: renormalised gradients have no lattice error, and the next term lowers the order by 0.01.

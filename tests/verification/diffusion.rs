@@ -38,11 +38,11 @@ fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Ve
 
 /// Returns the shares of particles on which diffusion acts, within and beyond the reach of the wall [-].
 fn diffused(boundary: BoundaryCondition) -> [f64; 2] {
-    let with = density_rates(boundary, DensityDiffusion::MolteniColagrossi);
-    let without = density_rates(boundary, DensityDiffusion::None);
+    let with_diffusion = density_rates(boundary, DensityDiffusion::MolteniColagrossi);
+    let without_diffusion = density_rates(boundary, DensityDiffusion::None);
     let support = ideal(DP, None).kernel.support();
     let share_where = |is_included: &dyn Fn(f64) -> bool| {
-        let pairs = || with.iter().zip(&without).filter(|((p, _), _)| is_included(p.z - WALL));
+        let pairs = || with_diffusion.iter().zip(&without_diffusion).filter(|((p, _), _)| is_included(p.z - WALL));
         pairs().filter(|((_, a), (_, b))| a != b).count() as f64 / pairs().count() as f64
     };
     // Particles within half a particle spacing of the wall's reach are excluded; there the jitter decides.

@@ -1,5 +1,5 @@
-//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m over the bare slope up to the shore,
-//! compared with the flume model 0.5, 1, 2 and 4 m from the piston.
+//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m over the bare slope up to the shore.
+//! The flume model is the reference 0.5, 1, 2 and 4 m from the piston.
 
 use std::{fs, sync::Arc};
 

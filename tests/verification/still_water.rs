@@ -67,8 +67,8 @@ fn a_flat_tank_stays_hydrostatic() {
     let (length, depth, dp, end) = (0.24, 0.3, 0.02, 2.4);
     let mut tank = simulation(&still_tank(length, 0.2, depth, dp, end));
     let mass: f64 = tank.water.mass.iter().sum();
-    let at = |x: f64, z: f64| DVec3::new(x, 0.1, z);
-    let points = [0.04, 0.12, 0.2].iter().flat_map(|&x| [at(x, 0.0), at(x, 0.1), at(x, 0.2)]).collect();
+    let point = |x: f64, z: f64| DVec3::new(x, 0.1, z);
+    let points = [0.04, 0.12, 0.2].iter().flat_map(|&x| [point(x, 0.0), point(x, 0.1), point(x, 0.2)]).collect();
     let mut pressure = PressureError::new(points, depth, depth);
     let mut kinetic_energy = KineticEnergy::default();
     run_until(&mut tank, end, |now| {

@@ -1,5 +1,5 @@
-//! Hydrodynamic force on a fixed Tetrapod against the number of particles in its height: the added mass in an
-//! accelerating stream compared with potential flow, the drag in a steady stream, and drag and lift on the bed.
+//! Hydrodynamic force on a fixed Tetrapod against the number of particles in its height. The tests compare the added
+//! mass with potential flow, and check the drag in a steady stream, and drag and lift on the bed.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

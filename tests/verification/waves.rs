@@ -86,12 +86,12 @@ fn largest_displacement(piston: &MlPiston, row: usize) -> f64 {
 #[test]
 fn fudo_waves_have_the_crests_velocities_and_strokes_of_another_model() {
     for expected in &EXPECTED {
-        let begun = std::time::Instant::now();
+        let clock = std::time::Instant::now();
         let record = fudo(fudo_bed(), expected.height_m, 0.05, 2);
         println!(
             "H = {} m: {:.2} s, volume error {:.1e}",
             expected.height_m,
-            begun.elapsed().as_secs_f64(),
+            clock.elapsed().as_secs_f64(),
             record.volume_error
         );
         // 1e-10: rounding over 5,000 time steps; a flux leaves one cell and enters the next, and none crosses a wall.
@@ -116,9 +116,9 @@ fn finer_cells_and_more_layers_change_the_crests_little() {
     let height_m = EXPECTED[2].height_m;
     let coarse = fudo(fudo_bed(), height_m, 0.05, 2);
     for (cell_m, layers) in [(0.025, 2), (0.05, 3)] {
-        let begun = std::time::Instant::now();
+        let clock = std::time::Instant::now();
         let other = fudo(fudo_bed(), height_m, cell_m, layers);
-        println!("cell {cell_m} m, K = {layers}: {:.2} s", begun.elapsed().as_secs_f64());
+        println!("cell {cell_m} m, K = {layers}: {:.2} s", clock.elapsed().as_secs_f64());
         for (gauge, x) in GAUGES_X_M.iter().enumerate() {
             let change = coarse.crest(gauge).0 / other.crest(gauge).0 - 1.0;
             println!("  x = {x:5.1} m: {:+.2} %", 100.0 * change);
@@ -148,12 +148,12 @@ fn waves_over_the_mound_agree_on_two_grids() {
 fn piston_near_the_mound_has_similar_strokes_over_the_depth() {
     let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
     let record = fudo(bed, 0.045, 0.05, 2);
-    let begun = std::time::Instant::now();
+    let clock = std::time::Instant::now();
     let x0 = 36.5;
     let heights: Vec<f64> = (0..80).map(|k| record.profile.z(x0) + 0.005 * (f64::from(k) + 0.5)).collect();
     let start = start_time(&record, x0, 0.03);
     let piston = MlPiston::from_record(&record, x0, &heights, [start, 28.0], 0.02, None);
-    println!("80 rows from t = {start:.2} s: {:.2} s", begun.elapsed().as_secs_f64());
+    println!("80 rows from t = {start:.2} s: {:.2} s", clock.elapsed().as_secs_f64());
     let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();
     println!("strokes at the bed, in the water, above the water {strokes:.4?} m");
     // 10 %: the velocity of a long wave varies by a few per cent over the depth, and so do the strokes.
@@ -287,7 +287,7 @@ fn extreme_flumes_stay_stable() {
     ];
     for (name, profile, height_m, cell_m, layers) in setups {
         let theory = PistonTheory::Boussinesq;
-        let begun = std::time::Instant::now();
+        let clock = std::time::Instant::now();
         let result = run(&FlumeSetup {
             profile,
             still_level_m: STILL_LEVEL_M,
@@ -307,7 +307,7 @@ fn extreme_flumes_stay_stable() {
         });
         let record = result.unwrap_or_else(|error| panic!("{name}: {error}"));
         let state = record.state_at(25.0);
-        println!("{name}: {:.2} s, volume error {:.1e}", begun.elapsed().as_secs_f64(), record.volume_error);
+        println!("{name}: {:.2} s, volume error {:.1e}", clock.elapsed().as_secs_f64(), record.volume_error);
         assert!(record.volume_error < 1e-10);
         let wet = state.columns.iter().filter(|c| c.surface_m > c.bed_m + 1e-3);
         let highest = wet.map(|c| c.surface_m).fold(0.0, f64::max);

@@ -36,7 +36,7 @@ fn a_dropped_dolos_cracks_first_at_the_upper_corner_of_stem_and_fluke() {
 
 #[test]
 fn a_fracture_has_the_same_bits_for_any_number_of_threads() {
-    let with = |threads: usize| {
+    let run_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut world = drop_test();
@@ -46,7 +46,7 @@ fn a_fracture_has_the_same_bits_for_any_number_of_threads() {
             (world.nodes.place.clone(), world.failures.clone(), world.step_with_ledger().unwrap())
         })
     };
-    let (one, two) = (with(1), with(2));
+    let (one, two) = (run_with(1), run_with(2));
     assert!(!one.1.is_empty());
     assert_eq!(one, two);
 }

@@ -86,13 +86,13 @@ fn run_crushed_prism(penalty: f64, tied: bool) -> Run {
     let mesh = mesh(DVec3::new(0.05, 0.05, 0.1), [2, 2, 4]);
     let mut setup = setup(&mesh, cohesion(penalty, tied));
     setup.friction = vec![vec![0.6]];
-    let at = |z: f64| -> Vec<u32> {
+    let nodes_at = |z: f64| -> Vec<u32> {
         (0..mesh.mesh.nodes.len() as u32).filter(|n| (mesh.mesh.nodes[*n as usize].z - z).abs() < 1e-9).collect()
     };
     let velocity = History::new([(0.0, [0.0]), (2e-4, [-0.5])]).unwrap();
     setup.constraints = vec![
-        Constraint::constant(at(0.0), [None, None, Some(0.0)]),
-        Constraint { nodes: at(0.1), velocity: [None, None, Some(velocity)] },
+        Constraint::constant(nodes_at(0.0), [None, None, Some(0.0)]),
+        Constraint { nodes: nodes_at(0.1), velocity: [None, None, Some(velocity)] },
     ];
     run_until(World::new(setup, 0.8), 9e-4)
 }

@@ -19,10 +19,10 @@ fn pull_bar(cohesion: Option<Cohesion>, speed: f64) -> Pulled {
     let mesh = prepare(block(DVec3::new(0.2, 0.05, 0.05), [2, 1, 1], Pattern::Diagonal)).unwrap();
     let mut setup = setup(&mesh, cohesion);
     setup.bodies[0].elastic.viscosity = 2e4;
-    let at = |x: f64| (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == x).collect();
+    let nodes_at = |x: f64| (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == x).collect();
     setup.constraints = vec![
-        Constraint::constant(at(0.0), [Some(-speed), None, None]),
-        Constraint::constant(at(0.2), [Some(speed), None, None]),
+        Constraint::constant(nodes_at(0.0), [Some(-speed), None, None]),
+        Constraint::constant(nodes_at(0.2), [Some(speed), None, None]),
     ];
     // The initial velocity field is linear, so no waves arise.
     for body in &mut setup.bodies {

@@ -31,13 +31,13 @@ fn resultant(world: &World, forces: &[CornerForce], about: DVec3) -> [DVec3; 2] 
 fn a_bar_under_traction_stretches_by_hooke_and_its_energy_balance_closes() {
     let (length, stress) = (0.5, 1e6);
     let mesh = mesh(DVec3::new(length, 0.05, 0.05), [10, 1, 1]);
-    let at = |axis: usize| -> Vec<u32> {
+    let nodes_at = |axis: usize| -> Vec<u32> {
         (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize][axis] == 0.0).collect()
     };
     let end: Vec<usize> = (0..mesh.mesh.nodes.len()).filter(|n| mesh.mesh.nodes[*n].x == length).collect();
     let mut setup = setup(&mesh, None);
     setup.bodies[0].elastic.viscosity = 1e5;
-    setup.constraints = vec![Constraint::constant(at(0), [Some(0.0), None, None])];
+    setup.constraints = vec![Constraint::constant(nodes_at(0), [Some(0.0), None, None])];
     // The load rises over ten periods of a wave along the bar and back.
     let time = 20.0 * length / CONCRETE.bar_celerity();
     setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];

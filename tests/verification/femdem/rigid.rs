@@ -139,7 +139,7 @@ fn a_moving_rigid_platen_compresses_a_block_and_its_work_is_balanced() {
     let mut setup = both(&mesh, [CONCRETE; 2], 0.0);
     setup.bodies[0].rigid = true;
     setup.bodies[1].elastic.viscosity = 1e5;
-    let at = |body: usize, z: f64| -> Vec<u32> {
+    let nodes_at = |body: usize, z: f64| -> Vec<u32> {
         let tets = &mesh.mesh.tets[mesh.mesh.bodies[body].tets.clone()];
         let mut nodes: Vec<u32> = tets.iter().flatten().copied().collect();
         nodes.sort_unstable();
@@ -149,10 +149,10 @@ fn a_moving_rigid_platen_compresses_a_block_and_its_work_is_balanced() {
     };
     // The velocity rises to 0.02 m/s within 0.4 ms and returns to zero.
     let velocity = History::new([(0.0, [0.0]), (4e-4, [-0.02]), (8e-4, [0.0])]).unwrap();
-    let top = at(0, 0.13);
+    let top = nodes_at(0, 0.13);
     setup.constraints = vec![
         Constraint { nodes: top, velocity: [Some(0.0.into()), Some(0.0.into()), Some(velocity)] },
-        Constraint::constant(at(1, 0.0), [None, None, Some(0.0)]),
+        Constraint::constant(nodes_at(1, 0.0), [None, None, Some(0.0)]),
     ];
     let mut world = World::new(setup, 0.5);
     let first = world.step_with_ledger().unwrap();

@@ -37,11 +37,11 @@ fn restitution_equals_the_given_coefficient() {
     for e in [0.3, 0.5, 0.8, 0.95, 1.0] {
         for (speed, dt) in [(0.1, 1e-4), (1.0, 1e-4), (1.0, 2e-5)] {
             let material = Material { restitution: e, ..MORTAR };
-            let at = |x: f64, v: f64| BodyState {
+            let ball_at = |x: f64, v: f64| BodyState {
                 velocity: DVec3::X * v,
                 ..BodyState::at_rest(DVec3::X * x, DQuat::IDENTITY)
             };
-            let bodies = vec![at(-0.0201, speed), at(0.0201, -speed)];
+            let bodies = vec![ball_at(-0.0201, speed), ball_at(0.0201, -speed)];
             let mut setup = RigidSetup { ground: None, ..setup(ball(0.02, 2380.0), bodies, material, 0.3) };
             setup.gravity = DVec3::ZERO;
             let mut world = RigidWorld::new(setup).unwrap();

@@ -64,13 +64,13 @@ fn the_impact_of_a_dropped_ball_records_its_fall_and_its_impulse() {
 #[test]
 fn impact_partners_are_adjacent_across_a_periodic_side() {
     let width = 1.0;
-    let at = |y: f64, v: f64| BodyState {
+    let ball_at = |y: f64, v: f64| BodyState {
         velocity: DVec3::Y * v,
         angular_velocity: DVec3::X * v,
         ..BodyState::at_rest(DVec3::Y * y, DQuat::IDENTITY)
     };
     // The balls meet at y = 0, which is also y = 1.
-    let bodies = vec![at(0.03, -1.0), at(0.97, 1.0)];
+    let bodies = vec![ball_at(0.03, -1.0), ball_at(0.97, 1.0)];
     let mut setup = setup(ball(0.02, 2400.0), bodies, MORTAR, 0.3);
     (setup.ground, setup.sides, setup.gravity) = (None, Sides::Periodic { width }, DVec3::ZERO);
     let mut world = RigidWorld::new(setup).unwrap();

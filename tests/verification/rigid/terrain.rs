@@ -53,9 +53,8 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
         let [a, b] = [0, 1].map(|k| worlds[k].states()[0]);
         let distance = a.position.distance(b.position);
         println!("{:.3} s: x = {:.5} m, {distance:.1e} m apart", worlds[0].time(), a.position.x);
-        // On the crest both surfaces agree to rounding. The lee edge is touched while the legs are pressed into the
-        // crest; contacts with triangles count from their first overlap, which changes the rolling by up to a
-        // millimetre.
+        // On the crest both surfaces agree to rounding. The legs touch the lee edge while they press into the crest.
+        // Contacts with triangles count from their first overlap, which changes the rolling by up to a millimetre.
         assert!(distance < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
     }
     assert!(worlds[0].states()[0].position.x > 0.25);
