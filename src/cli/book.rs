@@ -9,8 +9,8 @@ use crate::{book, report::compare::Fudo};
 
 /// Add finished runs to the validation pages: tables and figures that compare them with a published experiment.
 ///
-/// The folder of the pages keeps the case, the summary and a short table of the series of each run, some 100 kB. The pages
-/// are written from these files. Without run folders, all pages are written again.
+/// The folder of the pages keeps the case, the summary and a short table of the series of each run, some 100 kB. The
+/// pages are written from these files. Without run folders, all pages are written again.
 #[derive(Args)]
 pub struct BookArguments {
     /// Folders of finished runs with a wave of the Fudo experiment: 2.6, 4.5 or 6.4 cm; default: none.

@@ -41,7 +41,7 @@ impl CheckArguments {
         let mut refusals = Vec::new();
         for path in &self.cases {
             if let Some(file) = placement(path) {
-                println!("{}: placement file with {} units, made for: {}", path.display(), file.poses.len(), file.title);
+                println!("{}: placement of {} units, made for: {}", path.display(), file.poses.len(), file.title);
                 continue;
             }
             if is_sweep(path) {
@@ -198,8 +198,8 @@ fn check_overlap(setup: RigidSetup, units: &Units) -> Result<(), RigidError> {
     let overlap = RigidWorld::new(setup)?.deepest_overlap() / units.shape.height();
     if overlap > TOLD_OVERLAP {
         eprintln!(
-            "warning: units overlap each other, the bed or a wall by up to {:.2} % of their height at the start; the contact \
-             will force them apart",
+            "warning: units overlap each other, the bed or a wall by up to {:.2} % of their height at the start; \
+             contact will force them apart",
             100.0 * overlap
         );
     }

@@ -42,7 +42,7 @@ impl DeviceArgument {
     pub(super) fn refuse_card(&self) -> Result<(), Trouble> {
         match self.device {
             DeviceChoice::Gpu(_) => {
-                Err(Trouble::refused("--device gpu: a case without water is computed on the processor; leave the option out"))
+                Err(Trouble::refused("--device gpu: dry tests run on the processor; leave the option out"))
             }
             DeviceChoice::Auto | DeviceChoice::Cpu => Ok(()),
         }

@@ -10,7 +10,7 @@ pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Files that a run or the flume model writes into its folder. --overwrite deletes only these and the folder of impacts.
+/// Files that a run or the flume model writes. --overwrite deletes these and the folder of impacts only.
 const RESULT_FILES: [&str; 35] = [
     "bodies.csv",
     "breakage.csv",

@@ -25,8 +25,8 @@ use clap::{Parser, Subcommand};
 
 /// Will this wave move the armour units, and will the units break?
 ///
-/// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` estimates the
-/// cost of a run, `run` computes the case, and `compare` compares the result with published measurements.
+/// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` estimates
+/// the cost of a run, `run` computes the case, and `compare` compares the result with published measurements.
 #[derive(Parser)]
 #[command(name = "breakwater", version, after_help = EXAMPLES)]
 struct Arguments {

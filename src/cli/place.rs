@@ -60,8 +60,8 @@ impl PlaceArguments {
         println!("{} units settled in {:.2} s of simulated time", placement.units.len(), placement.time);
         println!("  packing density {:.3}, {} units rolled off", placement.packing_density, placement.rolled_off);
         println!(
-            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} of the \
-             potential energy released",
+            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} of \
+             the potential energy released",
             placement.contacts,
             100.0 * placement.deepest_overlap,
             placement.fastest,

@@ -44,18 +44,16 @@ impl WaveArguments {
         let case = load(&self.case)?;
         let refuse = |reason: &str| Err(Trouble::refused(format!("{}: {reason}", self.case.display())));
         if matches!(case.wave, Wave::Given(_)) {
-            return refuse("wave.kind: the wave is read from files of another program, so there is no flume model to run");
+            return refuse("wave.kind: the wave is read from files of another program; there is no flume model");
         }
         if case.wave != Wave::None && !case.wavemaker.is_ml_piston() {
             return refuse(
-                "wavemaker.kind: the paddle makes the wave in the particle domain, so there is no flume model to run; \
+                "wavemaker.kind: the paddle makes the wave in the particle domain; there is no flume model. \
                  `breakwater check` shows the wavelength and the stroke",
             );
         }
         let Some(record) = run_flume(&case).map_err(Trouble::refused)? else {
-            return refuse(
-                "wave: the case has no wave; add one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}",
-            );
+            return refuse("wave: the case has no wave; add one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}");
         };
         let elevations = || case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
         let names: Vec<&str> = elevations().map(|gauge| gauge.name.as_str()).collect();
@@ -90,7 +88,7 @@ impl WaveArguments {
             let Some(series) = beside.get(number) else { continue };
             match Comparison::new(&record, number, series, case.flume.still_level) {
                 Some(other) => println!(
-                    "  {:22} OpenFOAM: crest {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
+                    "  {:22} OpenFOAM {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",
                     other.crest_m,
                     100.0 * other.height,

@@ -25,8 +25,8 @@ use crate::{
 
 /// Re-run the hardest impacts of a finished run at prototype scale, with units that can break.
 ///
-/// Settings: `fracture` in the case. `run` does this at its end; use this command to continue after an interruption, or to
-/// repeat it after a change of `fracture` in the case.json of the run.
+/// Settings: `fracture` in the case. `run` does this at its end; use this command to continue after an interruption, or
+/// to repeat it after a change of `fracture` in the case.json of the run.
 #[derive(Args)]
 pub struct BreakageArguments {
     /// Folder of the run.

@@ -40,8 +40,8 @@ pub struct RunArguments {
     /// Replace the results in the folder; default: a folder with files is refused.
     #[arg(long)]
     overwrite: bool,
-    /// Begin at the last checkpoint of the run in this folder; default: begin at the start of the case. The two cases may
-    /// differ only in friction and the rest criterion, and the units must not have moved yet.
+    /// Begin at the last checkpoint of the run in this folder; default: begin at the start of the case. The two cases
+    /// may differ only in friction and the rest criterion, and the units must not have moved yet.
     #[arg(long, value_name = "DIR")]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -128,7 +128,7 @@ fn require_checkpoint(path: &Path) -> Result<(), Trouble> {
         return Ok(());
     }
     Err(Trouble::refused(format!(
-        "{}: there is no checkpoint, so the run cannot resume; start it again with breakwater run or breakwater fracture",
+        "{}: there is no checkpoint to resume from; start again with breakwater run or breakwater fracture",
         path.display()
     )))
 }
