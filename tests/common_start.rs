@@ -117,7 +117,7 @@ fn starting_at_an_unsuitable_checkpoint_is_refused() {
     assert_refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
     assert!(at("moved").join("summary.json").exists());
     let rough = write(folder.path(), "rough.json", &surge(0.4, 0.3));
-    assert_refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all stand still");
+    assert_refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all units are still");
 
     let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);

@@ -18,8 +18,8 @@ use crate::{
 /// Measure the speed of the solver: evaluations and particle pairs per second for a block of water, 1 to N threads.
 ///
 /// A "full evaluation" is continuity, density diffusion, pressure and viscosity of one particle. A time step has two
-/// per particle, and also sorting, neighbour lists and the boundary. Boundary particles are counted as well, although with
-/// mDBC only their density is computed; the rate of the water particles alone is printed next to it.
+/// per particle, and also sorting, neighbour lists and the boundary. Boundary particles are counted as well, although
+/// with mDBC only their density is computed; the rate of the water particles alone is printed next to it.
 #[derive(Args)]
 pub struct BenchArguments {
     /// Number of water particles.

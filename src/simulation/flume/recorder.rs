@@ -104,8 +104,8 @@ impl Recorder {
         })
     }
 
-    /// The files of a run that begins where that of another folder stands: its own, with the tables and snapshots of the
-    /// other up to there.
+    /// The files of a run that begins where that of another folder stands: its own, with the tables and snapshots of
+    /// the other up to there.
     ///
     /// # Errors
     /// If a file cannot be read or written.

@@ -18,8 +18,8 @@ pub struct Rest {
 }
 
 impl Rest {
-    /// Look at the units at a time [s]. Returns how long none of them has got further than `reach` [m] from where it was
-    /// when one last had, neither its centre nor its tips, `tips` [m] from it.
+    /// Look at the units at a time [s]. Returns how long none of them has got further than `reach` [m] from where it
+    /// was when one last had, neither its centre nor its tips, `tips` [m] from it.
     pub fn look(&mut self, time: f64, states: &[BodyState], tips: f64, reach: f64) -> f64 {
         let stays = |((centre, rotation), state): (&([f64; 3], [f64; 4]), &BodyState)| {
             let turned = DQuat::from_array(*rotation).angle_between(state.rotation);

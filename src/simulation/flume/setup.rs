@@ -33,8 +33,8 @@ use crate::{
     waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
 
-/// Between a unit and its own image no water goes through a gap narrower than this, in particle distances: that in which
-/// water particles at rest would touch both.
+/// Between a unit and its own image no water goes through a gap narrower than this, in particle distances: that in
+/// which water particles at rest would touch both.
 const NARROWEST_GAP: f64 = 0.5;
 
 /// Why a case cannot be set up.
@@ -45,8 +45,8 @@ pub enum SetupError {
     Flume(#[from] FlumeError),
     /// The water carries the wavemaker onto the mound or an obstacle.
     #[error(
-        "domain.x_m[0] = {place}: the wavemaker follows the water and would travel {travel:.2} m, to x = {:.2} m, over the \
-         toe of the mound or an obstacle at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
+        "domain.x_m[0] = {place}: the wavemaker follows the water and would travel {travel:.2} m, to x = {:.2} m, over \
+         the toe of the mound or an obstacle at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
     )]
     WavemakerReachesMound {
         /// Where it starts [m].
@@ -58,8 +58,8 @@ pub enum SetupError {
     },
     /// The files with the wave end too early.
     #[error(
-        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, and the particles start at {start:.3} s; \
-         shorten the run to {:.3} s, start earlier with `domain.start_s`, or let the other program run on", end - start
+        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, and the particles start at \
+         {start:.3} s; shorten the run to {:.3} s, start earlier with `domain.start_s`, or let the other program run on", end - start
     )]
     WaveEnds {
         /// Time of the run [s].

@@ -163,8 +163,8 @@ impl PreparedStep<'_> {
         simulation.solver.powers(&simulation.water)
     }
 
-    /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces, motion
-    /// of the units.
+    /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces,
+    /// motion of the units.
     ///
     /// # Errors
     /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the

@@ -13,8 +13,8 @@ use crate::{
 pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
 impl WaterAtImpacts {
-    /// Note the water of a step under the given loads, which began at `since` [s] on the clock of the contacts; let go of
-    /// that of contacts which are no longer among the hardest.
+    /// Note the water of a step under the given loads, which began at `since` [s] on the clock of the contacts; let go
+    /// of that of contacts which are no longer among the hardest.
     pub fn note(&mut self, world: &RigidWorld, since: f64, loads: &[Load], boundary: &Boundary, tait: &Tait) {
         let mut noted = false;
         for event in world.impacts_with_peak_after(since) {
