@@ -191,7 +191,7 @@ fn reach_of(part: &ConvexPart) -> f64 {
     centre.length() + radius
 }
 
-/// Returns the outward normal of a unit, if the point at `arm` [m] from its centre is within `nearest` [m] of its surface.
+/// Returns the outward normal of a unit, if the point `arm` [m] from its centre is within `nearest` [m] of its surface.
 fn normal_within(parts: &[ConvexPart], state: &BodyState, arm: DVec3, nearest: f64) -> Option<DVec3> {
     let local = state.rotation.inverse() * arm;
     let distances = parts.iter().map(|part| (part, part.distance(local)));
