@@ -18,7 +18,7 @@ pub struct Rest {
 }
 
 impl Rest {
-    /// Checks the units at a time [s]; returns how long all have stayed within `reach` [m] of their reference poses [s].
+    /// Checks the units at a time [s]; returns how long all have stayed within `reach` [m] of their reference poses.
     /// The tips count too, `tips` [m] from the centre. If a unit gets further, all reference poses are reset.
     pub fn look(&mut self, time: f64, states: &[BodyState], tips: f64, reach: f64) -> f64 {
         let stays = |((centre, rotation), state): (&([f64; 3], [f64; 4]), &BodyState)| {

@@ -63,7 +63,7 @@ pub(super) struct FlumeRun {
     dir: PathBuf,
     /// Simulated time at which the run ends [s].
     end: f64,
-    /// Wall clock of earlier sessions [s].
+    /// Wall time of earlier sessions [s].
     wall_before: f64,
     /// Length of the last time step [s].
     dt: f64,

@@ -58,8 +58,8 @@ pub enum SetupError {
     },
     /// The files with the wave end too early.
     #[error(
-        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, and the particles start at {start:.3} \
-         s; shorten the run to {:.3} s, start earlier with `domain.start_s`, or use longer files", end - start
+        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, the particles start at \
+         {start:.3} s; use a duration of {:.3} s, an earlier `domain.start_s`, or longer files", end - start
     )]
     WaveEnds {
         /// Duration of the run [s].

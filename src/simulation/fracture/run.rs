@@ -84,7 +84,7 @@ struct FractureRun<'a> {
     recorder: FractureRecorder,
     state: RunState,
     dir: &'a Path,
-    /// Wall clock of earlier sessions [s].
+    /// Wall time of earlier sessions [s].
     wall_before: f64,
 }
 
