@@ -11,7 +11,8 @@ use breakwater::{case::Case, simulation::flume::Simulation};
 
 use super::data;
 
-const MEASURED: &str = "koshizuka_oka1996/dam_tip_position.txt";
+const TABLE: &str = "koshizuka_oka1996.csv";
+const SERIES: &str = "koshizuka_oka1996/dam_tip_position.txt";
 
 /// Time until which tips are compared [s]: with the measured lag the end wall at 4 m is not yet felt.
 const LATEST: f64 = 0.7;
@@ -29,10 +30,14 @@ const POTENTIAL_FLOW: [f64; 37] = [
     3.4755, 3.6070, 3.7405, 3.8758, 4.0130, 4.1519, 4.2926, 4.4349, 4.5789,
 ];
 
-/// Times [s] and positions of the tip [m] as measured, `None` where the data do not lie beside the crate.
-fn measured_tips() -> Option<Vec<[f64; 2]>> {
-    let rows = data::rows_of::<2>(MEASURED)?;
-    Some(rows.into_iter().filter(|[time, _]| *time <= LATEST).collect())
+/// Measured times [s] and tip positions [m], from each source.
+///
+/// One tolerance holds for both sources. The table's times are within 0.01 s of the published points, where linear
+/// interpolation moves the largest deviation of the potential flow by 0.2 % at most.
+fn measured_tips() -> Vec<(&'static str, Vec<[f64; 2]>)> {
+    let until_latest =
+        |rows: Vec<[f64; 2]>| rows.into_iter().filter(|[time, _]| *time <= LATEST).collect::<Vec<[f64; 2]>>();
+    data::table_and_series(until_latest(data::table_of(TABLE)), data::series_of(SERIES).map(until_latest))
 }
 
 /// The case with another particle distance [m].
@@ -96,6 +101,20 @@ impl Tips {
     fn deviations_from_measured(&self, measured: &[[f64; 2]], lag: f64) -> Vec<f64> {
         measured.iter().map(|[time, x]| self.at((time - lag).max(0.0)) / x - 1.0).collect()
     }
+
+    /// Largest deviation from the measured tips after the best common lag, without the first point [-].
+    fn deviation_after_lag(&self, source: &str, measured: &[[f64; 2]]) -> f64 {
+        let percent =
+            |deviations: &[f64]| deviations.iter().map(|d| format!("{:+.1}", 100.0 * d)).collect::<Vec<_>>().join(" ");
+        let raw = self.deviations_from_measured(measured, 0.0);
+        println!("{source}, as it is: {} %, at most {:.1} %", percent(&raw), 100.0 * largest(&raw));
+        let lags = (0..=100).map(|ms| 1e-3 * f64::from(ms));
+        let left = |lag: f64| largest(&self.deviations_from_measured(measured, lag)[1..]);
+        let best = lags.min_by(|a, b| left(*a).total_cmp(&left(*b))).unwrap();
+        let shifted = self.deviations_from_measured(measured, best);
+        println!("{source}, {:.0} ms later: {} %, at most {:.1} %", 1e3 * best, percent(&shifted), 100.0 * left(best));
+        left(best)
+    }
 }
 
 fn largest(deviations: &[f64]) -> f64 {
@@ -103,22 +122,13 @@ fn largest(deviations: &[f64]) -> f64 {
 }
 
 /// Compare a run with potential flow and with the measurement; returns the largest deviation from potential flow, and
-/// the smallest one from the measurement beyond its first point that a common lag leaves.
-fn compare(dp: f64) -> (f64, Option<f64>) {
+/// the smallest one from the measurement beyond its first point that a common lag leaves, of the sources the worst.
+fn compare(dp: f64) -> (f64, f64) {
     let tips = Tips::of(dp);
     let from_exact = tips.deviation_from_exact(dp);
     println!("dp = {dp} m: at most {:.1} % from potential flow", 100.0 * from_exact);
-    let Some(measured) = measured_tips() else { return (from_exact, None) };
-    let percent =
-        |deviations: &[f64]| deviations.iter().map(|d| format!("{:+.1}", 100.0 * d)).collect::<Vec<_>>().join(" ");
-    let raw = tips.deviations_from_measured(&measured, 0.0);
-    println!("measured, as it is: {} %, at most {:.1} %", percent(&raw), 100.0 * largest(&raw));
-    let lags = (0..=100).map(|ms| 1e-3 * f64::from(ms));
-    let left = |lag: f64| largest(&tips.deviations_from_measured(&measured, lag)[1..]);
-    let best = lags.min_by(|a, b| left(*a).total_cmp(&left(*b))).unwrap();
-    let shifted = tips.deviations_from_measured(&measured, best);
-    println!("measured, {:.0} ms later: {} %, at most {:.1} %", 1e3 * best, percent(&shifted), 100.0 * left(best));
-    (from_exact, Some(left(best)))
+    let from_measured = measured_tips().iter().map(|(source, measured)| tips.deviation_after_lag(source, measured));
+    (from_exact, from_measured.fold(0.0, f64::max))
 }
 
 #[test]
@@ -127,7 +137,7 @@ fn tip_of_the_dam_break_coarse() {
     // 2.5 % is reached, a little more than a particle distance of the last 3.9 m.
     assert!(from_exact < 0.035);
     // 2.1 % is reached, 3 % is asked.
-    assert!(from_measured.is_none_or(|left| left < 0.03));
+    assert!(from_measured < 0.03);
 }
 
 /// `cargo test --release --test validation -- --ignored --nocapture tip_of_the_dam_break_fine`: the case as it is,
@@ -138,5 +148,5 @@ fn tip_of_the_dam_break_fine() {
     let [(coarse, _), (fine, from_measured)] = [0.01, 0.005].map(compare);
     assert!(fine < coarse);
     // 3 % is asked; 1.9 % is reached with dp = 0.01 m.
-    assert!(from_measured.is_none_or(|left| left < 0.03));
+    assert!(from_measured < 0.03);
 }
