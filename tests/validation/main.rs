@@ -1,4 +1,4 @@
-//! The program against published measurements. Run with `--release`.
+//! The program compared with published measurements. Run with `--release`.
 //!
 //! Every test compares with a short table of figures in `tests/validation/measured`. Where `../shared/data` lies next to
 //! the repository, the tests also compare with the full series. The last line of a run counts the comparisons with full
