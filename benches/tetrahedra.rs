@@ -2,8 +2,10 @@
 //! `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
 
 use breakwater::femdem::{
-    cohesive_law::{Cohesion, Range},
-    material::{Elastic, Strength},
+    material::{
+        Elastic, Strength,
+        cohesive_law::{Cohesion, Range},
+    },
     mesh::{
         block::{Pattern, block},
         prepare,

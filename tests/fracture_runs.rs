@@ -5,9 +5,9 @@ use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use breakwater::case::FractureCase;
-use breakwater::femdem::snapshot::Snapshot;
-use breakwater::femdem::watch::StepError;
 use breakwater::femdem::world::World;
+use breakwater::femdem::world::limits::StepError;
+use breakwater::femdem::world::snapshot::Snapshot;
 use breakwater::simulation::fracture::failure::Failure;
 use breakwater::simulation::fracture::run::world;
 use glam::DVec3;

@@ -3,10 +3,11 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::assembly::{Nodes, Tets};
+use super::assembly::nodes::Nodes;
+use super::assembly::tets::Tets;
 use super::element::{self, Deformed, LaneModuli, LaneShape, Moduli};
-use super::lanes::{self, LANES, Lanes, Vectors, WithLanes};
-use super::world::PIECE;
+use super::parallel::chunks::PIECE;
+use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 
 /// Share of the least strength above which the faces of a tetrahedron are checked for failure [-]. The cheap check uses
 /// the first Piola-Kirchhoff stress. It differs from the Cauchy stress by strains, which are far below this margin.

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::cohesive_law::Cohesion;
-use super::history::History;
 use super::loads::Load;
+use super::loads::history::History;
 use super::material::Elastic;
+use super::material::cohesive_law::Cohesion;
 use super::mesh::PreparedMesh;
 use super::mesh::faces::Interface;
 
@@ -33,7 +33,7 @@ pub struct Body {
 }
 
 /// Default contact penalty over Young's modulus [-]. A contact is then eight times as stiff as the tetrahedron behind
-/// it (see [`super::time_step::contact_stiffness`]).
+/// it (see [`super::world::time_step::contact_stiffness`]).
 const CONTACT_PENALTY: f64 = 1.0;
 
 /// Prescribed velocities of nodes.

@@ -22,12 +22,13 @@ pub mod snapshot;
 #[cfg(test)]
 mod tests;
 
-use super::super::assembly::{Copy4, Tets};
-use super::super::setup::Setup;
 use super::detection::{Bounds, Detection};
 use super::friction::{FrictionLaw, TangentialSpring};
 use super::overlap::{Overlap, overlap};
 use super::tetrahedron::Tetrahedron;
+use crate::femdem::assembly::nodes::Copy4;
+use crate::femdem::assembly::tets::Tets;
+use crate::femdem::setup::Setup;
 
 /// Pairs per task of the thread pool.
 const CHUNK: usize = 64;

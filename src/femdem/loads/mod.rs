@@ -2,20 +2,19 @@
 //!
 //! | file | contents |
 //! | --- | --- |
+//! | `history` | values that change with time |
 //! | `patch` | a force and a moment at a point, spread over the faces near the point |
 //!
 //! Forces act on node copies (vertices of tetrahedra), so node splitting does not affect the loads.
 
 use glam::DVec3;
 
-use super::assembly::{Nodes, Tets};
-use super::history::History;
 use super::mesh::faces::Exterior;
-use super::setup::Setup;
-use super::world::World;
 
+pub mod history;
 pub mod patch;
 
+use history::History;
 use patch::Patch;
 
 /// A load.
@@ -65,24 +64,29 @@ pub struct CornerForce {
     pub force: DVec3,
 }
 
-/// Nodes and tetrahedra on which loads act.
+/// Initial and current positions of the vertices on which loads act.
 #[derive(Debug, Clone, Copy)]
 pub struct Places<'a> {
-    pub(super) setup: &'a Setup,
-    pub(super) nodes: &'a Nodes,
-    pub(super) tets: &'a Tets,
+    /// Initial positions of the mesh nodes [m], and the mesh nodes of each tetrahedron.
+    pub initial: (&'a [DVec3], &'a [[u32; 4]]),
+    /// Current positions of the nodes [m], and the nodes of each tetrahedron.
+    pub current: (&'a [DVec3], &'a [[u32; 4]]),
 }
 
 impl Places<'_> {
     /// Undeformed position of a vertex [m].
     fn initial(&self, tet: u32, corner: u8) -> DVec3 {
-        self.setup.nodes[self.setup.tets[tet as usize][usize::from(corner)] as usize]
+        vertex(self.initial, tet, corner)
     }
 
     /// Current position of a vertex [m].
-    pub(super) fn now(&self, tet: u32, corner: u8) -> DVec3 {
-        self.nodes.place[self.tets.nodes[tet as usize][usize::from(corner)] as usize]
+    fn now(&self, tet: u32, corner: u8) -> DVec3 {
+        vertex(self.current, tet, corner)
     }
+}
+
+fn vertex((positions, tets): (&[DVec3], &[[u32; 4]]), tet: u32, corner: u8) -> DVec3 {
+    positions[tets[tet as usize][usize::from(corner)] as usize]
 }
 
 /// Area of a face times its outward normal [m2].
@@ -116,32 +120,5 @@ impl Load {
             }
             Self::Patch(patch) => patch.forces(places, time, out),
         }
-    }
-}
-
-impl World {
-    /// Returns the nodes and tetrahedra on which loads act.
-    pub fn places(&self) -> Places<'_> {
-        Places { setup: &self.setup, nodes: &self.nodes, tets: &self.tets }
-    }
-
-    /// Adds the loads to the forces of the tetrahedra, and stores them to compute their work.
-    pub(super) fn apply_loads(&mut self) {
-        let Self { setup, nodes, tets, loaded, deformation, time, .. } = self;
-        loaded.clear();
-        let places = Places { setup, nodes, tets };
-        setup.loads.iter().for_each(|load| load.forces(&places, *time, loaded));
-        for CornerForce { tet, corner, force } in loaded {
-            deformation.forces[*tet as usize][usize::from(*corner)] += *force;
-        }
-    }
-
-    /// Power of the loads at the current velocities [W].
-    pub(super) fn power_of_loads(&self) -> f64 {
-        let power = |load: &CornerForce| {
-            let node = self.tets.nodes[load.tet as usize][usize::from(load.corner)];
-            load.force.dot(self.nodes.velocity[node as usize])
-        };
-        self.loaded.iter().map(power).sum()
     }
 }

@@ -14,10 +14,10 @@ use glam::{DMat3, DVec3};
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::Triangle;
 
-use super::super::history::History;
-use super::super::mesh::PreparedMesh;
-use super::super::mesh::faces::Exterior;
+use super::history::History;
 use super::{CornerForce, Places};
+use crate::femdem::mesh::PreparedMesh;
+use crate::femdem::mesh::faces::Exterior;
 
 /// Iterations of the polar decomposition, which converges quadratically from strains of a few per cent.
 const ROUNDS: usize = 12;

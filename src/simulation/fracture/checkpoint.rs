@@ -12,9 +12,11 @@ use crate::{
     case::FractureCase,
     femdem::{
         contact::pairs::snapshot::ContactSnapshot,
-        energy::Ledger,
-        snapshot::{Scalars, Snapshot},
-        world::World,
+        world::{
+            World,
+            energy_balance::Ledger,
+            snapshot::{Scalars, Snapshot},
+        },
     },
     output::{
         OutputError,

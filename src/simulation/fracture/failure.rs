@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::{
     case::FractureCase,
-    femdem::{watch::StepError, world::World},
+    femdem::world::{World, limits::StepError},
 };
 
 /// Speed over wave speed [-] that no impact of units reaches: it means strains of a tenth.

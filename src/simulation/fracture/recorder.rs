@@ -7,10 +7,10 @@ use glam::{DMat3, DVec3};
 use super::checkpoint::RunState;
 use super::detail::DetailRecorder;
 use crate::case::FractureCase;
-use crate::femdem::book::BodyEnergy;
 use crate::femdem::element::{self, Moduli};
-use crate::femdem::energy::Ledger;
 use crate::femdem::world::World;
+use crate::femdem::world::body_energy::BodyEnergy;
+use crate::femdem::world::energy_balance::Ledger;
 use crate::output::{Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, columns, write_atomically};
 
 const ENERGY_FILE: &str = "energy.csv";

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     case::FractureCase,
-    femdem::{energy::Ledger, watch::StepError, world::World},
+    femdem::world::{World, energy_balance::Ledger, limits::StepError},
     output::{
         OutputError,
         driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},

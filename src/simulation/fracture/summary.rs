@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress};
 use crate::case::FractureCase;
-use crate::femdem::energy::Ledger;
+use crate::femdem::world::energy_balance::Ledger;
 use crate::femdem::world::{Failure, World};
 use crate::output::{Execution, OutputError, write_atomically};
 

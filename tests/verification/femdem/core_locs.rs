@@ -1,8 +1,8 @@
 //! A unit that touches nothing among units that crack: its fracture run and its elastic twin.
 
 use breakwater::case::FractureCase;
-use breakwater::femdem::book::BodyEnergy;
 use breakwater::femdem::world::World;
+use breakwater::femdem::world::body_energy::BodyEnergy;
 use breakwater::simulation::fracture::run::world;
 
 fn five_core_locs(joints: &str) -> (World, usize) {

@@ -1,7 +1,7 @@
 //! The energy book of bodies that crack, shatter and rattle.
 
 use super::*;
-use breakwater::femdem::history::History;
+use breakwater::femdem::loads::history::History;
 use breakwater::femdem::setup::Constraint;
 use std::path::Path;
 

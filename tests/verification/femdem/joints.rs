@@ -1,8 +1,8 @@
 //! Joints in the step: strength, fracture energy, splitting.
 
 use super::*;
-use breakwater::femdem::energy::Ledger;
 use breakwater::femdem::setup::Constraint;
+use breakwater::femdem::world::energy_balance::Ledger;
 
 /// A bar of 0.2 x 0.05 x 0.05 m pulled apart at both ends.
 struct Pulled {

@@ -1,7 +1,7 @@
 //! Loads: stress, pressure, forces about a place; their work.
 
 use super::*;
-use breakwater::femdem::history::History;
+use breakwater::femdem::loads::history::History;
 use breakwater::femdem::loads::patch::{Axes, Patch, faces_near};
 use breakwater::femdem::loads::{CornerForce, Load, Surface};
 use breakwater::femdem::mesh::faces::Exterior;

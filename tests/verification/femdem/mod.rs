@@ -12,7 +12,7 @@ mod rigid;
 mod stability;
 mod strength;
 
-use breakwater::femdem::cohesive_law::{Cohesion, Range};
+use breakwater::femdem::material::cohesive_law::{Cohesion, Range};
 use breakwater::femdem::material::{Elastic, Strength};
 use breakwater::femdem::mesh::block::{Pattern, block};
 use breakwater::femdem::mesh::{PreparedMesh, prepare};

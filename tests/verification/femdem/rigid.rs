@@ -2,7 +2,7 @@
 
 use super::contact::{both, two};
 use super::*;
-use breakwater::femdem::history::History;
+use breakwater::femdem::loads::history::History;
 use breakwater::femdem::setup::Constraint;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! Strength of whole bodies, loaded slowly: compression, bending, splitting.
 
 use super::*;
-use breakwater::femdem::history::History;
+use breakwater::femdem::loads::history::History;
 use breakwater::femdem::mesh;
 use breakwater::femdem::setup::Constraint;
 use std::path::Path;

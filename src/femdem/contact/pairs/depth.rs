@@ -1,7 +1,7 @@
 //! Overlap depth of tetrahedra in contact.
 
-use super::super::super::assembly::Tets;
 use super::Contacts;
+use crate::femdem::assembly::tets::Tets;
 
 impl Contacts {
     /// Returns the pair with the deepest overlap in the last time step, and this overlap without its initial part:

@@ -3,10 +3,10 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::super::super::assembly::Tets;
-use super::super::super::setup::Setup;
 use super::super::friction::TangentialSpring;
 use super::{Contacts, Pair};
+use crate::femdem::assembly::tets::Tets;
+use crate::femdem::setup::Setup;
 
 /// History of the contacts of a world. Which tetrahedra can touch follows from the broken faces.
 #[derive(Debug, Clone, PartialEq, Default)]

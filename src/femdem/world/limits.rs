@@ -10,9 +10,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::assembly::Nodes;
-use super::setup::{Constraint, Setup};
-use super::world::World;
+use super::World;
+use crate::femdem::assembly::nodes::Nodes;
+use crate::femdem::setup::{Constraint, Setup};
 
 /// Limit of the node speed in longitudinal celerities, in addition to the speed that the case causes [-]. At one
 /// celerity strains are of order one, where material law and strength are no longer valid.

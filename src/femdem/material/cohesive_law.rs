@@ -13,7 +13,7 @@
 //!
 //! The dissipation is never negative on any path.
 
-use super::material::Strength;
+use super::Strength;
 use super::softening::{AREA, STEEPEST, z};
 
 /// Choice of the softening range of a joint.
@@ -52,26 +52,40 @@ pub struct CohesiveLaw {
     range: Range,
 }
 
+/// Count of numbers of an integration point, see [`Point::to_array`].
+pub const POINT_NUMBERS: usize = 10;
+
 /// State of an integration point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// Largest damage D so far [-].
     pub damage: f64,
     /// Secant stiffness in opening [Pa/m]; infinite while undamaged.
-    pub(super) secant: f64,
+    secant: f64,
     /// Opening at the last call [m].
-    pub(super) opening: f64,
+    opening: f64,
     /// Slip at the last call in the axes of the joint [m].
-    pub(super) slip: [f64; 2],
+    slip: [f64; 2],
     /// Plastic slip in the axes of the joint [m].
-    pub(super) plastic: [f64; 2],
+    plastic: [f64; 2],
     /// Accumulated plastic slip (path length) [m].
-    pub(super) slipped: f64,
+    slipped: f64,
     /// Energy dissipated by opening and by sliding so far [J/m2].
     pub lost: [f64; 2],
 }
 
 impl Point {
+    /// Returns the state as numbers, for a checkpoint.
+    pub fn to_array(self) -> [f64; POINT_NUMBERS] {
+        let Self { damage, secant, opening, slip: [a, b], plastic: [c, d], slipped, lost: [e, f] } = self;
+        [damage, secant, opening, a, b, c, d, slipped, e, f]
+    }
+
+    /// Restores the state from the numbers of [`Self::to_array`].
+    pub fn from_array([damage, secant, opening, a, b, c, d, slipped, e, f]: [f64; POINT_NUMBERS]) -> Self {
+        Self { damage, secant, opening, slip: [a, b], plastic: [c, d], slipped, lost: [e, f] }
+    }
+
     /// Whether the point has neither damage nor plastic slip.
     #[inline]
     pub fn is_whole(&self) -> bool {

@@ -7,18 +7,11 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cohesive_law::Point;
-use super::contact::pairs::snapshot::{ContactScalars, ContactSnapshot};
-use super::energy::Ledger;
-use super::joint::Memory;
-use super::joints::{self, Bond, WornJoint};
-use super::rigid_body::RigidMotion;
-use super::world::{Failure, World, contacts};
-
-/// Count of numbers that describe a damaged joint: offset, damaged or not, two energies, three points.
-pub const MEMORY: usize = 4 + 3 * POINT;
-/// Count of numbers that describe an integration point.
-const POINT: usize = 10;
+use super::energy_balance::Ledger;
+use super::{Failure, World, contacts};
+use crate::femdem::contact::pairs::snapshot::{ContactScalars, ContactSnapshot};
+use crate::femdem::joints::{self, Bond, JOINT_NUMBERS, WornJoint};
+use crate::femdem::rigid::body::RigidMotion;
 
 /// State of a world.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,7 +27,7 @@ pub struct Snapshot {
     /// Face numbers of the damaged joints, in the order of their list.
     pub worn: Vec<u32>,
     /// States of the damaged joints (opaque).
-    pub memories: Vec<[f64; MEMORY]>,
+    pub memories: Vec<[f64; JOINT_NUMBERS]>,
     /// Broken faces, in order of time.
     pub failed: Vec<u32>,
     /// Times of breaking [s].
@@ -88,7 +81,7 @@ impl World {
             vertices: self.tets.nodes.clone(),
             bonds: self.joints.bond.iter().map(bond).collect(),
             worn: self.joints.worn.iter().map(|joint| joint.interface).collect(),
-            memories: self.joints.worn.iter().map(numbers_of).collect(),
+            memories: self.joints.worn.iter().map(WornJoint::to_array).collect(),
             failed: self.failures.iter().map(|failure| failure.interface).collect(),
             failed_at: self.failures.iter().map(|failure| failure.time).collect(),
             failed_by_sliding: self.failures.iter().map(|failure| u8::from(failure.by_sliding)).collect(),
@@ -128,7 +121,8 @@ impl World {
                 _ => return Err("it has faces with an unknown bond"),
             };
         }
-        self.joints.worn = worn.into_iter().zip(memories).map(|(number, numbers)| rebuild(number, numbers)).collect();
+        let joint = |(number, numbers): (u32, _)| WornJoint::from_array(number, numbers);
+        self.joints.worn = worn.into_iter().zip(memories).map(joint).collect();
         self.joints.mark(&self.setup, &mut self.tets);
         self.nodes.come_apart(&mut self.tets, &self.setup, vertices, [place, velocity])?;
         self.failures.clear();
@@ -150,26 +144,4 @@ impl World {
         let [_, area] = self.joints.size[interface as usize];
         Failure { interface, time, place, area, by_sliding, dissipated: energy[0], freed: energy[1] }
     }
-}
-
-fn numbers_of(joint: &WornJoint) -> [f64; MEMORY] {
-    let Memory { points, offset, is_worn } = joint.memory;
-    let mut numbers = [0.0; MEMORY];
-    numbers[..4].copy_from_slice(&[offset, f64::from(u8::from(is_worn)), joint.dissipated, joint.freed]);
-    for (numbers, point) in numbers[4..].chunks_exact_mut(POINT).zip(points) {
-        let Point { damage, secant, opening, slip: [a, b], plastic: [c, d], slipped, lost: [e, f] } = point;
-        numbers.copy_from_slice(&[damage, secant, opening, a, b, c, d, slipped, e, f]);
-    }
-    numbers
-}
-
-fn rebuild(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
-    let [offset, is_worn, dissipated, freed, ref points @ ..] = numbers;
-    let memory = Memory { offset, is_worn: is_worn != 0.0, ..Memory::default() };
-    let mut joint = WornJoint { dissipated, freed, ..WornJoint::new(number as usize, memory) };
-    for (point, numbers) in joint.memory.points.iter_mut().zip(points.as_chunks::<POINT>().0) {
-        let [damage, secant, opening, a, b, c, d, slipped, e, f] = *numbers;
-        *point = Point { damage, secant, opening, slip: [a, b], plastic: [c, d], slipped, lost: [e, f] };
-    }
-    joint
 }

@@ -1,19 +1,27 @@
 //! All joints of a world as arrays: the bond of each face and the joint forces.
 //!
+//! | file | contents |
+//! | --- | --- |
+//! | `joint` | the joint element between two tetrahedra |
+//! | `intact_joint` | intact joints, four at a time |
+//!
 //! Intact joints need no stored state. Joints with damage or plastic slip, and joints released from tied faces, are in
 //! a separate list, in the order in which they entered it.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::assembly::{Nodes, Tets};
-use super::book::ordered_sum;
-use super::cohesive_law::Cohesion;
-use super::joint::{self, Memory};
-use super::lanes::{self, LANES, Lanes, Vectors, WithLanes};
+mod intact_joint;
+pub mod joint;
+
+use super::assembly::nodes::Nodes;
+use super::assembly::tets::Tets;
+use super::material::cohesive_law::{Cohesion, POINT_NUMBERS, Point};
+use super::parallel::chunks::{PIECE, ordered_sum};
+use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 use super::setup::Setup;
-use super::whole_joint::{WholeAnswer, WholeLaw};
-use super::world::PIECE;
+use intact_joint::{WholeAnswer, WholeLaw};
+use joint::Memory;
 
 /// Bond between two tetrahedra at their common face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +36,9 @@ pub enum Bond {
     Broken,
 }
 
+/// Count of numbers of a damaged joint, see [`WornJoint::to_array`].
+pub const JOINT_NUMBERS: usize = 4 + 3 * POINT_NUMBERS;
+
 /// A damaged joint, see [`Bond::Worn`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WornJoint {
@@ -40,7 +51,7 @@ pub struct WornJoint {
     /// Elastic energy when the joint was released [J].
     pub freed: f64,
     /// Forces on the corners of side 0 [N].
-    pub(super) forces: [DVec3; 3],
+    forces: [DVec3; 3],
     /// Whether the joint breaks after this time step.
     pub failed: bool,
 }
@@ -65,6 +76,23 @@ impl WornJoint {
     pub fn new(interface: usize, memory: Memory) -> Self {
         let forces = [DVec3::ZERO; 3];
         Self { interface: interface as u32, memory, dissipated: 0.0, freed: 0.0, forces, failed: false }
+    }
+
+    /// Returns the offset, damaged or not, the two energies and the states of the points as numbers, for a checkpoint.
+    pub fn to_array(&self) -> [f64; JOINT_NUMBERS] {
+        let Memory { points, offset, is_worn } = self.memory;
+        let mut numbers = [0.0; JOINT_NUMBERS];
+        numbers[..4].copy_from_slice(&[offset, f64::from(u8::from(is_worn)), self.dissipated, self.freed]);
+        numbers[4..].copy_from_slice(points.map(Point::to_array).as_flattened());
+        numbers
+    }
+
+    /// Restores the joint of an interface from the numbers of [`Self::to_array`].
+    pub fn from_array(interface: u32, numbers: [f64; JOINT_NUMBERS]) -> Self {
+        let [offset, is_worn, dissipated, freed, ref points @ ..] = numbers;
+        let points = std::array::from_fn(|k| Point::from_array(points.as_chunks().0[k]));
+        let memory = Memory { points, offset, is_worn: is_worn != 0.0 };
+        Self { dissipated, freed, ..Self::new(interface as usize, memory) }
     }
 }
 

@@ -1,28 +1,42 @@
-//! The time step of the combined finite-discrete element method.
+//! A world of deformable bodies and its time step: the entry to the solver.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `time_step` | the time step limit |
+//! | `motion` | motion of nodes and rigid bodies |
+//! | `release` | tied faces that become joints, joints that break |
+//! | `energy_balance`, `body_energy` | the energy balance, total and per body |
+//! | `limits` | limits that stop an unstable run |
+//! | `snapshot` | saves and restores the state |
 //!
 //! A time step has four loops: joints, tetrahedra, contacts, nodes. Each loop only writes what it owns (no scatter, no
 //! atomics), so results are bitwise equal for any number of threads. Velocities are half a time step before the
 //! positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use super::assembly::{self, Copy4, Nodes, Tets};
-use super::book::BodyEnergy;
+pub mod body_energy;
+pub mod energy_balance;
+pub mod limits;
+mod motion;
+mod release;
+pub mod snapshot;
+mod time_step;
+
+use super::assembly::nodes::{Copy4, Nodes};
+use super::assembly::splitting;
+use super::assembly::tets::Tets;
 use super::contact::pairs::Contacts;
 use super::deformation::{Bodies, Deformation};
 use super::element::Moduli;
-use super::energy::Ledger;
 use super::joints::{Bond, Joints};
-use super::loads::CornerForce;
-use super::motion::Moved;
-use super::rigid_body::RigidBody;
+use super::loads::{CornerForce, Places};
+use super::rigid::body::RigidBody;
 use super::setup::{Body, Setup};
-use super::time_step;
-use super::watch::{Limits, StepError};
-
-/// Items per task of the thread pool. Sums are taken per task first, so their order does not depend on the threads.
-pub(super) const PIECE: usize = 512;
+use body_energy::BodyEnergy;
+use energy_balance::Ledger;
+use limits::{Limits, StepError};
+use motion::Moved;
 
 /// A broken face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,8 +61,8 @@ pub struct Failure {
 #[derive(Debug, Clone)]
 pub struct World {
     // Parameters.
-    pub(super) setup: Setup,
-    pub(super) moduli: Vec<Moduli>,
+    setup: Setup,
+    moduli: Vec<Moduli>,
     /// Least strength of each body [Pa].
     strength: Vec<f64>,
     /// Time step [s].
@@ -69,28 +83,28 @@ pub struct World {
     /// Rigid bodies.
     pub rigid_bodies: Vec<RigidBody>,
     /// All copies of every mesh node.
-    pub(super) around: Vec<Vec<Copy4>>,
-    pub(super) lost: Ledger,
-    pub(super) gravity_at_start: f64,
-    pub(super) limits: Limits,
+    around: Vec<Vec<Copy4>>,
+    lost: Ledger,
+    gravity_at_start: f64,
+    limits: Limits,
     // Workspace.
-    pub(super) deformation: Deformation,
-    pub(super) loaded: Vec<CornerForce>,
-    pub(super) moved: Vec<Moved>,
+    deformation: Deformation,
+    loaded: Vec<CornerForce>,
+    moved: Vec<Moved>,
 }
 
 impl World {
     /// Creates a world in its initial state; its time step is `share` times the time step limit.
     pub fn new(setup: Setup, share: f64) -> Self {
         let joints = Joints::new(&setup);
-        let (nodes, mut tets) = assembly::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
+        let (nodes, mut tets) = splitting::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
         joints.mark(&setup, &mut tets);
         let rigid_bodies = RigidBody::all(&setup, &nodes, &tets);
         // With zero moduli, tetrahedra of rigid bodies have no forces.
         let moduli_of = |body: &Body| if body.rigid { Moduli::default() } else { Moduli::from(&body.elastic) };
         let moduli = setup.bodies.iter().map(moduli_of).collect();
         let count = setup.tets.len();
-        let around = assembly::copies_around(&setup);
+        let around = splitting::copies_around(&setup);
         let contacts = contacts(&setup, &tets, &around, &joints);
         let limits = Limits::new(&setup, &nodes);
         let ties = joints.bond.contains(&Bond::Tied);
@@ -123,34 +137,6 @@ impl World {
     /// Returns the input of the world.
     pub fn setup(&self) -> &Setup {
         &self.setup
-    }
-
-    /// Computes the time step limit [s]; every face counts as a joint, because a tied face may be released.
-    pub fn longest_step(&self) -> f64 {
-        let limit = |t: usize| {
-            let body = &self.setup.bodies[usize::from(self.tets.body[t])];
-            let shape = &self.tets.shape[t];
-            let mass = 0.25 * body.elastic.density * shape.volume;
-            let mut springs = [0.0; 4];
-            if let Some(cohesion) = body.cohesion {
-                for (face, link) in self.tets.faces[t].into_iter().enumerate() {
-                    let Some((number, _)) = link.interface() else { continue };
-                    let [edge, area] = self.joints.size[number];
-                    let stiffness = cohesion.law(edge).stiffness() * area / 3.0;
-                    (0..4).filter(|k| *k != face).for_each(|k| springs[k] += stiffness);
-                }
-            }
-            let contact = time_step::contact_stiffness(shape, body.contact_penalty);
-            if body.rigid {
-                // Only contact limits the time step. A rigid body moves less than its tetrahedra alone would.
-                let touches = contact > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
-                return if touches { time_step::stable_step(2.0 * contact / mass, 0.0) } else { f64::INFINITY };
-            }
-            let springs = 2.0 * springs.into_iter().fold(contact, f64::max) / mass;
-            let frequency_squared = time_step::element_frequency_squared(shape, &body.elastic) + springs;
-            time_step::stable_step(frequency_squared, time_step::element_damping_rate(shape, &body.elastic))
-        };
-        (0..self.tets.nodes.len()).into_par_iter().map(limit).reduce(|| f64::INFINITY, f64::min)
     }
 
     /// Advances the world by one time step.
@@ -221,6 +207,31 @@ impl World {
         contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
     }
 
+    /// Returns the nodes and tetrahedra on which loads act.
+    pub fn places(&self) -> Places<'_> {
+        configuration(&self.setup, &self.nodes, &self.tets)
+    }
+
+    /// Adds the loads to the forces of the tetrahedra, and stores them to compute their work.
+    fn apply_loads(&mut self) {
+        let Self { setup, nodes, tets, loaded, deformation, time, .. } = self;
+        loaded.clear();
+        let places = configuration(setup, nodes, tets);
+        setup.loads.iter().for_each(|load| load.forces(&places, *time, loaded));
+        for CornerForce { tet, corner, force } in loaded {
+            deformation.forces[*tet as usize][usize::from(*corner)] += *force;
+        }
+    }
+
+    /// Power of the loads at the current velocities [W].
+    fn power_of_loads(&self) -> f64 {
+        let power = |load: &CornerForce| {
+            let node = self.tets.nodes[load.tet as usize][usize::from(load.corner)];
+            load.force.dot(self.nodes.velocity[node as usize])
+        };
+        self.loaded.iter().map(power).sum()
+    }
+
     /// Undeformed area of all broken faces [m2].
     pub fn crack_area(&self) -> f64 {
         // `sum` of an empty iterator would be -0.
@@ -234,11 +245,16 @@ impl World {
     }
 }
 
+/// Positions on which the loads of a setup act.
+fn configuration<'a>(setup: &'a Setup, nodes: &'a Nodes, tets: &'a Tets) -> Places<'a> {
+    Places { initial: (&setup.nodes, &setup.tets), current: (&nodes.place, &tets.nodes) }
+}
+
 /// Creates the contacts; tetrahedra that unbroken faces connect around a node do not touch.
-pub(super) fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints: &Joints) -> Contacts {
+fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints: &Joints) -> Contacts {
     let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
     let around = around.iter().filter(|copies| !copies.is_empty());
     let groups: Vec<Vec<Copy4>> =
-        around.flat_map(|copies| assembly::held_together(tets, setup, copies, &unbroken)).collect();
+        around.flat_map(|copies| splitting::held_together(tets, setup, copies, &unbroken)).collect();
     Contacts::new(setup, groups.iter().map(Vec::as_slice))
 }

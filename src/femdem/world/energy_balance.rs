@@ -1,6 +1,10 @@
-//! The energy balance.
+//! The energy balance of a world.
 
 use serde::{Deserialize, Serialize};
+
+use super::World;
+use crate::femdem::element;
+use crate::femdem::parallel::chunks::ordered_sum;
 
 /// Energies [J]: stored now, and dissipated or supplied since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -32,5 +36,28 @@ impl Ledger {
     pub fn total(&self) -> f64 {
         let stored = self.kinetic + self.strain + self.joint + self.contact + self.gravity;
         stored + self.viscous + self.fracture + self.friction - self.work - self.freed
+    }
+}
+
+impl World {
+    /// Computes all energies at the current positions, except kinetic energy.
+    pub(super) fn energies(&self, viscous_power: f64) -> Ledger {
+        let tets = &self.tets;
+        let strain = |t: usize| {
+            let x = tets.nodes[t].map(|n| self.nodes.place[n as usize]);
+            element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
+        };
+        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
+        Ledger {
+            strain: ordered_sum(tets.nodes.len(), strain),
+            joint: self.joints.stored(&self.setup, tets, &self.nodes),
+            contact: self.contacts.stored,
+            friction: self.contacts.friction,
+            fracture: self.lost.fracture + self.joints.dissipated() - self.contacts.taken_over,
+            gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
+            // The power is that of the velocity half a time step ago and lasts until half a time step after.
+            viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
+            ..self.lost
+        }
     }
 }

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::assembly;
-use super::element;
-use super::joint::{self, Axes, Memory};
-use super::joints::{self, Bond, WornJoint};
-use super::world::World;
+use super::World;
+use crate::femdem::assembly::splitting;
+use crate::femdem::element;
+use crate::femdem::joints::joint::{self, Axes, Memory};
+use crate::femdem::joints::{self, Bond, WornJoint};
 
 impl World {
     /// Releases tied faces that have reached their strength as joints, and breaks failed joints.
@@ -27,7 +27,7 @@ impl World {
         let Self { joints, nodes, tets, setup, .. } = self;
         joints.bond[number] = Bond::Worn;
         for corner in 0..3 {
-            assembly::split(nodes, tets, setup, number, corner, &|face| joints.bond[face as usize] == Bond::Tied);
+            splitting::split(nodes, tets, setup, number, corner, &|face| joints.bond[face as usize] == Bond::Tied);
         }
         setup.interfaces[number].tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true);
         let [edge, area] = joints.size[number];
@@ -54,7 +54,7 @@ impl World {
         let unbroken = |face: u32| self.joints.bond[face as usize] != Bond::Broken;
         for corner in opened.nodes[0] {
             let node = self.setup.tets[opened.tets[0] as usize][usize::from(corner)];
-            let groups = assembly::held_together(&self.tets, &self.setup, &self.around[node as usize], &unbroken);
+            let groups = splitting::held_together(&self.tets, &self.setup, &self.around[node as usize], &unbroken);
             groups.iter().for_each(|group| self.contacts.regroup(group));
         }
     }

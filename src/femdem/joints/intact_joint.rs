@@ -3,8 +3,8 @@
 //! The forces equal those of [`super::joint::forces`] with a new state, to rounding. A joint that reaches its strength
 //! is only reported, and [`super::joint::forces`] computes its forces.
 
-use super::cohesive_law::Cohesion;
-use super::lanes::{Lanes, Vectors};
+use crate::femdem::material::cohesive_law::Cohesion;
+use crate::femdem::parallel::lanes::{Lanes, Vectors};
 
 /// Cohesive laws of the joints in the lanes.
 #[derive(Debug, Clone, Copy)]
@@ -81,11 +81,11 @@ impl<L: Lanes> WholeLaw<L> {
 mod tests {
     use glam::DVec3;
 
-    use super::super::cohesive_law::Range;
     use super::super::joint::{self, Memory};
-    use super::super::lanes::{LANES, Portable};
-    use super::super::material::Strength;
     use super::*;
+    use crate::femdem::material::Strength;
+    use crate::femdem::material::cohesive_law::Range;
+    use crate::femdem::parallel::lanes::{LANES, Portable};
     use crate::random::SplitMix64;
 
     #[test]

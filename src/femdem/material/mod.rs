@@ -1,4 +1,12 @@
-//! Materials of deformable bodies.
+//! Materials of deformable bodies: elasticity and strength.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `cohesive_law` | the cohesive law at an integration point of a joint |
+//! | `softening` | the softening curve of concrete |
+
+pub mod cohesive_law;
+mod softening;
 
 /// Elasticity, viscosity and density of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]

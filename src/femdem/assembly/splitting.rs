@@ -1,49 +1,22 @@
-//! Nodes and tetrahedra as arrays, and node splitting.
+//! Node splitting: which copies of a mesh node move together.
 //!
-//! Each vertex of a tetrahedron is a copy of a mesh node. A solver node is a list of copies that move together. With
-//! joints from the start, every copy is a node of its own. With tied faces, a node is split as soon as the tied faces
-//! around it no longer connect its copies.
+//! With joints from the start, every copy is a node of its own. With tied faces, a node is split as soon as the tied
+//! faces around it no longer connect its copies.
 
 use glam::DVec3;
 
-use super::element::Shape;
-use super::rigid_body::RIGID;
-use super::setup::Setup;
-
-/// Marks a face without an interface.
-const OUTSIDE: u32 = u32::MAX;
-
-/// Number of a node copy: 4 x tetrahedron + vertex.
-pub type Copy4 = u32;
-
-/// Positions, velocities and masses of the nodes.
-#[derive(Debug, Clone, Default)]
-pub struct Nodes {
-    /// Positions x [m].
-    pub place: Vec<DVec3>,
-    /// Velocities v [m/s], half a time step before the positions.
-    pub velocity: Vec<DVec3>,
-    /// Lumped masses [kg].
-    pub mass: Vec<f64>,
-    /// Constraint number of each node, from 1; 0 is a free node, [`RIGID`] a node of a rigid body.
-    pub constraint: Vec<u16>,
-    /// Copies of each node.
-    pub ties: Ties,
-}
+use super::nodes::{Copy4, Nodes, RIGID, Ties};
+use super::tets::Tets;
+use crate::femdem::setup::Setup;
 
 impl Nodes {
-    /// Number of nodes.
-    pub fn count(&self) -> usize {
-        self.place.len()
-    }
-
     /// Replaces the initial nodes by the nodes of a later time. `vertices` are the node numbers at the vertices of the
     /// tetrahedra; each node has a position [m] and a velocity [m/s]. Copies, masses and constraints follow from the
     /// vertices and the initial nodes.
     ///
     /// # Errors
     /// Says why these nodes cannot result from splitting the initial ones.
-    pub(super) fn come_apart(
+    pub fn come_apart(
         &mut self,
         tets: &mut Tets,
         setup: &Setup,
@@ -84,82 +57,6 @@ impl Nodes {
         tets.nodes = vertices;
         *self = Self { place, velocity, mass, constraint, ties };
         Ok(())
-    }
-}
-
-/// The copies of every node.
-#[derive(Debug, Clone, Default)]
-pub struct Ties {
-    /// Start and number of the copies of each node in `copies`.
-    span: Vec<[u32; 2]>,
-    copies: Vec<Copy4>,
-}
-
-impl Ties {
-    /// Returns the copies of a node.
-    #[inline]
-    pub fn of(&self, node: usize) -> &[Copy4] {
-        let [first, count] = self.span[node];
-        &self.copies[first as usize..(first + count) as usize]
-    }
-}
-
-/// The tetrahedra.
-#[derive(Debug, Clone, Default)]
-pub struct Tets {
-    /// Nodes at the vertices.
-    pub nodes: Vec<[u32; 4]>,
-    /// Undeformed shapes.
-    pub shape: Vec<Shape>,
-    /// Body numbers.
-    pub body: Vec<u16>,
-    /// Interface at the face opposite to each vertex.
-    pub faces: Vec<[Link; 4]>,
-    /// Whether one of the faces has, or had, a joint.
-    pub jointed: Vec<bool>,
-}
-
-/// Reference from a face of a tetrahedron to its interface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Link {
-    /// 2 x interface number + side; [`OUTSIDE`] if there is none.
-    code: u32,
-    /// Vertices of the face in the order of the interface.
-    pub nodes: [u8; 3],
-}
-
-impl Link {
-    const NONE: Self = Self { code: OUTSIDE, nodes: [0; 3] };
-
-    /// Returns the interface number and the side, if there is an interface.
-    #[inline]
-    pub fn interface(self) -> Option<(usize, usize)> {
-        (self.code != OUTSIDE).then_some((self.code as usize / 2, self.code as usize % 2))
-    }
-}
-
-/// Returns the vertex opposite to a face.
-pub fn opposite(face: [u8; 3]) -> usize {
-    6 - face.iter().map(|v| usize::from(*v)).sum::<usize>()
-}
-
-impl Tets {
-    /// Builds the tetrahedra of a setup, with mesh nodes at their vertices.
-    pub fn new(setup: &Setup) -> Self {
-        let shape = setup.tets.iter().map(|tet| Shape::new(&tet.map(|v| setup.nodes[v as usize]))).collect();
-        let mut body = vec![0; setup.tets.len()];
-        for (number, solid) in setup.bodies.iter().enumerate() {
-            body[solid.tets.clone()].fill(number as u16);
-        }
-        let mut faces = vec![[Link::NONE; 4]; setup.tets.len()];
-        for (number, interface) in setup.interfaces.iter().enumerate() {
-            for side in 0..2 {
-                let face = opposite(interface.nodes[side]);
-                let link = Link { code: (2 * number + side) as u32, nodes: interface.nodes[side] };
-                faces[interface.tets[side] as usize][face] = link;
-            }
-        }
-        Self { nodes: setup.tets.clone(), shape, body, faces, jointed: vec![false; setup.tets.len()] }
     }
 }
 

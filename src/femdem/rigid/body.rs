@@ -8,11 +8,12 @@
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
 
-use super::assembly::{Nodes, Tets};
+use super::constraint::{Freedom, Row, hold};
 use super::principal_axes::principal_axes;
-use super::rigid_hold::{Freedom, Row, hold};
-use super::setup::Setup;
-use super::world::PIECE;
+use crate::femdem::assembly::nodes::Nodes;
+use crate::femdem::assembly::tets::Tets;
+use crate::femdem::parallel::chunks::PIECE;
+use crate::femdem::setup::Setup;
 
 /// Marks the nodes of rigid bodies in [`Nodes::constraint`]; the body handles their constraints.
 pub const RIGID: u16 = u16::MAX;
@@ -54,7 +55,7 @@ pub struct RigidBody {
     /// State of motion.
     pub motion: RigidMotion,
     /// Kinetic energy at the start of the last time step [J].
-    pub(super) kinetic: f64,
+    pub kinetic: f64,
     mass: f64,
     /// Principal moments of inertia [kg m2].
     moments: DVec3,
@@ -72,7 +73,7 @@ impl RigidBody {
     }
 
     /// Square of the largest speed of its nodes [m2/s2].
-    pub(super) fn fastest_squared(&self, nodes: &Nodes) -> f64 {
+    pub fn fastest_squared(&self, nodes: &Nodes) -> f64 {
         self.nodes.iter().map(|(node, _)| nodes.velocity[*node as usize].length_squared()).fold(0.0, f64::max)
     }
 

@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::assembly::Nodes;
-use super::rigid_body::RIGID;
-use super::world::{PIECE, World};
+use super::World;
+use crate::femdem::assembly::nodes::Nodes;
+use crate::femdem::assembly::nodes::RIGID;
+use crate::femdem::parallel::chunks::PIECE;
 
 /// Energies and largest speed of a chunk of nodes over a time step.
 #[derive(Debug, Clone, Copy, Default)]

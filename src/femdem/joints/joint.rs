@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::cohesive_law::{CohesiveLaw, Point};
+use crate::femdem::material::cohesive_law::{CohesiveLaw, Point};
 
 /// Corners at the ends of the edge of each integration point.
 const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];

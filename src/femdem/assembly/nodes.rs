@@ -1,0 +1,48 @@
+//! The nodes: each is a list of node copies that move together.
+
+use glam::DVec3;
+
+/// Marks the nodes of rigid bodies in [`Nodes::constraint`]; the body handles their constraints.
+pub const RIGID: u16 = u16::MAX;
+
+/// Number of a node copy: 4 x tetrahedron + vertex.
+pub type Copy4 = u32;
+
+/// Positions, velocities and masses of the nodes.
+#[derive(Debug, Clone, Default)]
+pub struct Nodes {
+    /// Positions x [m].
+    pub place: Vec<DVec3>,
+    /// Velocities v [m/s], half a time step before the positions.
+    pub velocity: Vec<DVec3>,
+    /// Lumped masses [kg].
+    pub mass: Vec<f64>,
+    /// Constraint number of each node, from 1; 0 is a free node, [`RIGID`] a node of a rigid body.
+    pub constraint: Vec<u16>,
+    /// Copies of each node.
+    pub ties: Ties,
+}
+
+impl Nodes {
+    /// Number of nodes.
+    pub fn count(&self) -> usize {
+        self.place.len()
+    }
+}
+
+/// The copies of every node.
+#[derive(Debug, Clone, Default)]
+pub struct Ties {
+    /// Start and number of the copies of each node in `copies`.
+    pub(super) span: Vec<[u32; 2]>,
+    pub(super) copies: Vec<Copy4>,
+}
+
+impl Ties {
+    /// Returns the copies of a node.
+    #[inline]
+    pub fn of(&self, node: usize) -> &[Copy4] {
+        let [first, count] = self.span[node];
+        &self.copies[first as usize..(first + count) as usize]
+    }
+}
