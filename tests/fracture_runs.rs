@@ -223,7 +223,7 @@ fn a_world_goes_on_from_any_moment_to_the_same_bits() {
         }
         let names: Vec<&str> = moments.iter().map(|(name, _)| *name).collect();
         assert_eq!(moments.len(), if joints == "tied" { 6 } else { 5 }, "{names:?}");
-        let (end, book) = (whole.snapshot(), whole.step_with_ledger().unwrap());
+        let (end, book) = (whole.snapshot(), whole.step_with_energies().unwrap());
         for (number, (name, moment)) in moments.into_iter().enumerate() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(1 + number % 2).build().unwrap();
             pool.install(|| {
@@ -234,7 +234,7 @@ fn a_world_goes_on_from_any_moment_to_the_same_bits() {
                     resumed.step().unwrap();
                 }
                 assert!(resumed.snapshot() == end, "{joints}, {name}: another end");
-                assert_eq!(resumed.step_with_ledger().unwrap(), book, "{joints}, {name}");
+                assert_eq!(resumed.step_with_energies().unwrap(), book, "{joints}, {name}");
             });
         }
     }
@@ -252,7 +252,7 @@ fn a_state_of_another_world_is_refused() {
     }
     let sound = of_case.snapshot();
     let spoil: [Spoilt; 9] = [
-        ("nodes", |s| s.place.truncate(3)),
+        ("nodes", |s| s.position.truncate(3)),
         ("nodes", |s| s.vertices[7][2] = u32::MAX),
         ("nodes", |s| s.vertices.truncate(5)),
         ("apart in the mesh", |s| s.vertices[7][2] = s.vertices[7][1]),
@@ -260,7 +260,7 @@ fn a_state_of_another_world_is_refused() {
         ("nothing known", |s| s.bonds[0] = 9),
         ("joints", |s| s.failed[0] = u32::MAX),
         ("pairs", |s| s.contacts.tets[0] = [u32::MAX; 2]),
-        ("friction", |s| s.contacts.sprung.push(u32::MAX)),
+        ("friction", |s| s.contacts.pairs_with_spring.push(u32::MAX)),
     ];
     for (expected, spoil) in spoil {
         let mut spoilt = sound.clone();
@@ -363,7 +363,7 @@ fn astray(case: &Value, spoil: impl Fn(&mut World), steps: usize) -> (StepError,
     (0..3).for_each(|_| world.step().unwrap());
     spoil(&mut world);
     for step in 3..3 + steps {
-        if let Err(error) = world.step().and_then(|()| world.watch()) {
+        if let Err(error) = world.step().and_then(|()| world.check_limits()) {
             return (error, Failure::of(&case, &world, step as u64, error).to_string());
         }
     }
@@ -375,7 +375,7 @@ fn what_goes_astray_is_named() {
     let mut thrown = thrown();
     // The springs of joints would throw a node's neighbours in the same step.
     thrown["fracture"]["joints"] = json!("tied");
-    let far = |to: DVec3| move |world: &mut World| world.nodes.place[5] = to;
+    let far = |to: DVec3| move |world: &mut World| world.nodes.position[5] = to;
     let (error, message) = astray(&thrown, |world| world.nodes.velocity[5].y = f64::NAN, 2);
     // Viscosity hands it over to the neighbours.
     assert!(matches!(error, StepError::NotFinite { .. }), "{message}");
@@ -394,7 +394,7 @@ fn what_goes_astray_is_named() {
     assert!(message.contains("more than the limit of 7.0") && message.contains("node "), "{message}");
 
     // All of it, so that nothing is torn: 50 diagonals of 0.3 m are 15 m.
-    let away = |world: &mut World| world.nodes.place.iter_mut().for_each(|place| place.x += 30.0);
+    let away = |world: &mut World| world.nodes.position.iter_mut().for_each(|place| place.x += 30.0);
     let (error, message) = astray(&thrown, away, 2);
     assert!(matches!(error, StepError::Escaped { .. }), "{message}");
     assert!(message.contains("m from the middle of the mesh") && message.contains("stop.duration_s"), "{message}");

@@ -6,13 +6,13 @@ use glam::DVec3;
 pub const RIGID: u16 = u16::MAX;
 
 /// Number of a node copy: 4 x tetrahedron + vertex.
-pub type Copy4 = u32;
+pub type NodeCopy = u32;
 
 /// Positions, velocities and masses of the nodes.
 #[derive(Debug, Clone, Default)]
 pub struct Nodes {
     /// Positions x [m].
-    pub place: Vec<DVec3>,
+    pub position: Vec<DVec3>,
     /// Velocities v [m/s], half a time step before the positions.
     pub velocity: Vec<DVec3>,
     /// Lumped masses [kg].
@@ -20,29 +20,35 @@ pub struct Nodes {
     /// Constraint number of each node, from 1; 0 is a free node, [`RIGID`] a node of a rigid body.
     pub constraint: Vec<u16>,
     /// Copies of each node.
-    pub ties: Ties,
+    pub copies: NodeCopies,
 }
 
 impl Nodes {
     /// Number of nodes.
     pub fn count(&self) -> usize {
-        self.place.len()
+        self.position.len()
+    }
+
+    /// Returns the copies of a node.
+    #[inline]
+    pub fn copies_of(&self, node: usize) -> &[NodeCopy] {
+        self.copies.of(node)
     }
 }
 
 /// The copies of every node.
 #[derive(Debug, Clone, Default)]
-pub struct Ties {
-    /// Start and number of the copies of each node in `copies`.
+pub struct NodeCopies {
+    /// Start and number of the copies of each node in `list`.
     pub(super) span: Vec<[u32; 2]>,
-    pub(super) copies: Vec<Copy4>,
+    pub(super) list: Vec<NodeCopy>,
 }
 
-impl Ties {
+impl NodeCopies {
     /// Returns the copies of a node.
     #[inline]
-    pub fn of(&self, node: usize) -> &[Copy4] {
+    pub fn of(&self, node: usize) -> &[NodeCopy] {
         let [first, count] = self.span[node];
-        &self.copies[first as usize..(first + count) as usize]
+        &self.list[first as usize..(first + count) as usize]
     }
 }

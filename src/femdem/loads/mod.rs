@@ -66,14 +66,14 @@ pub struct CornerForce {
 
 /// Initial and current positions of the vertices on which loads act.
 #[derive(Debug, Clone, Copy)]
-pub struct Places<'a> {
+pub struct Configuration<'a> {
     /// Initial positions of the mesh nodes [m], and the mesh nodes of each tetrahedron.
     pub initial: (&'a [DVec3], &'a [[u32; 4]]),
     /// Current positions of the nodes [m], and the nodes of each tetrahedron.
     pub current: (&'a [DVec3], &'a [[u32; 4]]),
 }
 
-impl Places<'_> {
+impl Configuration<'_> {
     /// Undeformed position of a vertex [m].
     fn initial(&self, tet: u32, corner: u8) -> DVec3 {
         vertex(self.initial, tet, corner)
@@ -97,7 +97,7 @@ fn area_vector(face: &Exterior, position: impl Fn(u32, u8) -> DVec3) -> DVec3 {
 
 impl Load {
     /// Appends the forces at a time [s] to a list. Each corner of a face gets a third of its force.
-    pub fn forces(&self, places: &Places, time: f64, out: &mut Vec<CornerForce>) {
+    pub fn forces(&self, configuration: &Configuration, time: f64, out: &mut Vec<CornerForce>) {
         let mut spread = |face: &Exterior, force: DVec3| {
             out.extend(face.nodes.map(|corner| CornerForce { tet: face.tet, corner, force: force / 3.0 }));
         };
@@ -105,20 +105,20 @@ impl Load {
             Self::Traction { faces, stress, factor } => {
                 let stress = *stress * factor.at(time)[0];
                 for face in faces {
-                    spread(face, stress * area_vector(face, |tet, corner| places.initial(tet, corner)).length());
+                    spread(face, stress * area_vector(face, |tet, corner| configuration.initial(tet, corner)).length());
                 }
             }
             Self::Pressure { faces, pressure, on, factor } => {
                 let pressure = pressure * factor.at(time)[0];
                 for face in faces {
                     let area = match on {
-                        Surface::Deformed => area_vector(face, |tet, corner| places.now(tet, corner)),
-                        Surface::Undeformed => area_vector(face, |tet, corner| places.initial(tet, corner)),
+                        Surface::Deformed => area_vector(face, |tet, corner| configuration.now(tet, corner)),
+                        Surface::Undeformed => area_vector(face, |tet, corner| configuration.initial(tet, corner)),
                     };
                     spread(face, area * -pressure);
                 }
             }
-            Self::Patch(patch) => patch.forces(places, time, out),
+            Self::Patch(patch) => patch.forces(configuration, time, out),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::femdem::element;
 /// Energies of a body [J]. Contact energy belongs to two bodies and appears only in the total balance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Kinetic energy, defined as in [`Ledger`](super::energy_balance::Ledger).
+    /// Kinetic energy, defined as in [`EnergyBalance`](super::energy_balance::EnergyBalance).
     pub kinetic: f64,
     /// Strain energy of the tetrahedra.
     pub strain: f64,
@@ -27,24 +27,23 @@ impl World {
         let mut energies = vec![BodyEnergy::default(); self.setup.bodies.len()];
         for t in 0..self.tets.nodes.len() {
             let number = usize::from(self.tets.body[t]);
-            let x = self.tets.nodes[t].map(|node| self.nodes.place[node as usize]);
+            let x = self.tets.nodes[t].map(|node| self.nodes.position[node as usize]);
             energies[number].strain += element::energy(&self.tets.shape[t], &self.moduli[number], &x);
         }
         let body_of = |interface: usize| usize::from(self.tets.body[self.setup.interfaces[interface].tets[0] as usize]);
         for number in 0..self.joints.count() {
-            energies[body_of(number)].joint +=
-                self.joints.stored_in_whole(number, &self.setup, &self.tets, &self.nodes);
+            energies[body_of(number)].joint += self.joints.intact_energy(number, &self.setup, &self.tets, &self.nodes);
         }
-        for joint in &self.joints.worn {
+        for joint in &self.joints.damaged {
             let energy = &mut energies[body_of(joint.interface as usize)];
-            energy.joint += self.joints.stored_in(joint, &self.setup);
+            energy.joint += self.joints.damaged_energy(joint, &self.setup);
             energy.fracture += joint.dissipated;
         }
         for failure in &self.failures {
             energies[body_of(failure.interface as usize)].fracture += failure.dissipated;
         }
         for node in 0..self.nodes.count() {
-            let displacement = self.nodes.place[node] - self.place_at_start(node);
+            let displacement = self.nodes.position[node] - self.initial_position(node);
             energies[self.body_of_node(node)].gravity -= self.nodes.mass[node] * self.setup.gravity.dot(displacement);
         }
         energies
@@ -61,6 +60,6 @@ impl World {
 
     /// Returns the number of the body that a node belongs to.
     fn body_of_node(&self, node: usize) -> usize {
-        usize::from(self.tets.body[self.nodes.ties.of(node)[0] as usize / 4])
+        usize::from(self.tets.body[self.nodes.copies_of(node)[0] as usize / 4])
     }
 }

@@ -8,7 +8,7 @@ use crate::femdem::parallel::chunks::ordered_sum;
 
 /// Energies [J]: stored now, and dissipated or supplied since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Ledger {
+pub struct EnergyBalance {
     /// Kinetic energy: sum of m v- v+ / 2, with the velocities half a time step before and after.
     pub kinetic: f64,
     /// Strain energy of the tetrahedra.
@@ -28,36 +28,37 @@ pub struct Ledger {
     /// Work of constraints and loads.
     pub work: f64,
     /// Elastic energy that tied faces get when they are released as joints; tied faces store none.
-    pub freed: f64,
+    #[serde(rename = "freed")]
+    pub released: f64,
 }
 
-impl Ledger {
+impl EnergyBalance {
     /// Returns the conserved total: stored plus dissipated minus supplied energy.
     pub fn total(&self) -> f64 {
         let stored = self.kinetic + self.strain + self.joint + self.contact + self.gravity;
-        stored + self.viscous + self.fracture + self.friction - self.work - self.freed
+        stored + self.viscous + self.fracture + self.friction - self.work - self.released
     }
 }
 
 impl World {
     /// Computes all energies at the current positions, except kinetic energy.
-    pub(super) fn energies(&self, viscous_power: f64) -> Ledger {
+    pub(super) fn energies(&self, viscous_power: f64) -> EnergyBalance {
         let tets = &self.tets;
         let strain = |t: usize| {
-            let x = tets.nodes[t].map(|n| self.nodes.place[n as usize]);
+            let x = tets.nodes[t].map(|n| self.nodes.position[n as usize]);
             element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
         };
-        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
-        Ledger {
+        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.position[n]);
+        EnergyBalance {
             strain: ordered_sum(tets.nodes.len(), strain),
             joint: self.joints.stored(&self.setup, tets, &self.nodes),
             contact: self.contacts.stored,
             friction: self.contacts.friction,
-            fracture: self.lost.fracture + self.joints.dissipated() - self.contacts.taken_over,
+            fracture: self.dissipated.fracture + self.joints.dissipated() - self.contacts.taken_over,
             gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
             // The power is that of the velocity half a time step ago and lasts until half a time step after.
-            viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
-            ..self.lost
+            viscous: self.dissipated.viscous + 0.5 * self.dt * viscous_power,
+            ..self.dissipated
         }
     }
 }

@@ -7,17 +7,17 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::energy_balance::Ledger;
+use super::energy_balance::EnergyBalance;
 use super::{Failure, World, contacts};
 use crate::femdem::contact::pairs::snapshot::{ContactScalars, ContactSnapshot};
-use crate::femdem::joints::{self, Bond, JOINT_NUMBERS, WornJoint};
+use crate::femdem::joints::{self, Bond, DamagedJoint, JOINT_NUMBERS};
 use crate::femdem::rigid::body::RigidMotion;
 
 /// State of a world.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Snapshot {
     /// Positions of the nodes [m].
-    pub place: Vec<DVec3>,
+    pub position: Vec<DVec3>,
     /// Velocities of the nodes [m/s].
     pub velocity: Vec<DVec3>,
     /// Nodes at the vertices of the tetrahedra.
@@ -25,9 +25,9 @@ pub struct Snapshot {
     /// Bond of each face: 0 tied, 1 intact joint, 2 broken, 3 damaged joint.
     pub bonds: Vec<u8>,
     /// Face numbers of the damaged joints, in the order of their list.
-    pub worn: Vec<u32>,
+    pub damaged: Vec<u32>,
     /// States of the damaged joints (opaque).
-    pub memories: Vec<[f64; JOINT_NUMBERS]>,
+    pub joint_states: Vec<[f64; JOINT_NUMBERS]>,
     /// Broken faces, in order of time.
     pub failed: Vec<u32>,
     /// Times of breaking [s].
@@ -49,7 +49,8 @@ pub struct Snapshot {
 pub struct Scalars {
     time: f64,
     dt: f64,
-    lost: Ledger,
+    #[serde(rename = "lost")]
+    dissipated: EnergyBalance,
     contacts: ContactScalars,
 }
 
@@ -70,24 +71,24 @@ impl World {
     pub fn snapshot(&self) -> Snapshot {
         let bond = |bond: &Bond| match bond {
             Bond::Tied => 0,
-            Bond::Whole => 1,
+            Bond::Intact => 1,
             Bond::Broken => 2,
-            Bond::Worn => 3,
+            Bond::Damaged => 3,
         };
         let contacts = self.contacts.snapshot();
         Snapshot {
-            place: self.nodes.place.clone(),
+            position: self.nodes.position.clone(),
             velocity: self.nodes.velocity.clone(),
             vertices: self.tets.nodes.clone(),
             bonds: self.joints.bond.iter().map(bond).collect(),
-            worn: self.joints.worn.iter().map(|joint| joint.interface).collect(),
-            memories: self.joints.worn.iter().map(WornJoint::to_array).collect(),
+            damaged: self.joints.damaged.iter().map(|joint| joint.interface).collect(),
+            joint_states: self.joints.damaged.iter().map(DamagedJoint::to_array).collect(),
             failed: self.failures.iter().map(|failure| failure.interface).collect(),
             failed_at: self.failures.iter().map(|failure| failure.time).collect(),
             failed_by_sliding: self.failures.iter().map(|failure| u8::from(failure.by_sliding)).collect(),
-            failed_energy: self.failures.iter().map(|failure| [failure.dissipated, failure.freed]).collect(),
+            failed_energy: self.failures.iter().map(|failure| [failure.dissipated, failure.released]).collect(),
             rigid: self.rigid_bodies.iter().map(|body| body.motion.to_array()).collect(),
-            scalars: Scalars { time: self.time, dt: self.dt, lost: self.lost, contacts: contacts.scalars },
+            scalars: Scalars { time: self.time, dt: self.dt, dissipated: self.dissipated, contacts: contacts.scalars },
             contacts,
         }
     }
@@ -97,8 +98,9 @@ impl World {
     /// # Errors
     /// Says why the snapshot does not belong to this setup. The world must not be used then.
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), &'static str> {
-        let Snapshot { place, velocity, vertices, bonds, worn, memories, contacts: of_contacts, scalars, .. } =
-            snapshot;
+        let Snapshot {
+            position, velocity, vertices, bonds, damaged, joint_states, contacts: of_contacts, scalars, ..
+        } = snapshot;
         let Snapshot { failed, failed_at, failed_by_sliding, failed_energy, rigid, .. } = snapshot;
         if rigid.len() != self.rigid_bodies.len() {
             return Err("its rigid bodies do not match the case");
@@ -108,40 +110,40 @@ impl World {
         }
         let exists = |face: &u32| (*face as usize) < self.joints.count();
         let counts = [failed_at.len(), failed_by_sliding.len(), failed_energy.len()];
-        let counts_match = worn.len() == memories.len() && counts == [failed.len(); 3];
-        if bonds.len() != self.joints.count() || !counts_match || !worn.iter().chain(&failed).all(exists) {
+        let counts_match = damaged.len() == joint_states.len() && counts == [failed.len(); 3];
+        if bonds.len() != self.joints.count() || !counts_match || !damaged.iter().chain(&failed).all(exists) {
             return Err("its joints do not match the mesh");
         }
         for (bond, number) in self.joints.bond.iter_mut().zip(bonds) {
             *bond = match number {
                 0 => Bond::Tied,
-                1 => Bond::Whole,
+                1 => Bond::Intact,
                 2 => Bond::Broken,
-                3 => Bond::Worn,
+                3 => Bond::Damaged,
                 _ => return Err("it has faces with an unknown bond"),
             };
         }
-        let joint = |(number, numbers): (u32, _)| WornJoint::from_array(number, numbers);
-        self.joints.worn = worn.into_iter().zip(memories).map(joint).collect();
-        self.joints.mark(&self.setup, &mut self.tets);
-        self.nodes.come_apart(&mut self.tets, &self.setup, vertices, [place, velocity])?;
+        let joint = |(number, numbers): (u32, _)| DamagedJoint::from_array(number, numbers);
+        self.joints.damaged = damaged.into_iter().zip(joint_states).map(joint).collect();
+        self.joints.mark_tetrahedra(&self.setup, &mut self.tets);
+        self.nodes.restore_split(&mut self.tets, &self.setup, vertices, [position, velocity])?;
         self.failures.clear();
         let modes = failed_by_sliding.into_iter().zip(failed_energy);
         for ((interface, time), (by_sliding, energy)) in failed.into_iter().zip(failed_at).zip(modes) {
             self.failures.push(self.failure(interface, time, by_sliding != 0, energy));
         }
-        self.contacts = contacts(&self.setup, &self.tets, &self.around, &self.joints);
+        self.contacts = contacts(&self.setup, &self.tets, &self.copies_around, &self.joints);
         let open = self.failures.iter().flat_map(|failure| self.setup.interfaces[failure.interface as usize].tets);
         self.contacts.restore(of_contacts, open, &self.setup, &self.tets)?;
-        (self.time, self.dt, self.lost) = (scalars.time, scalars.dt, scalars.lost);
+        (self.time, self.dt, self.dissipated) = (scalars.time, scalars.dt, scalars.dissipated);
         Ok(())
     }
 
     /// Creates the record of a broken face: time [s], dissipated energy and elastic energy at its release [J].
     pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: [f64; 2]) -> Failure {
         let corners = joints::corners(&self.setup, interface as usize);
-        let place = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
         let [_, area] = self.joints.size[interface as usize];
-        Failure { interface, time, place, area, by_sliding, dissipated: energy[0], freed: energy[1] }
+        Failure { interface, time, centroid, area, by_sliding, dissipated: energy[0], released: energy[1] }
     }
 }

@@ -19,7 +19,7 @@ const LACKING: f64 = 1.02;
 
 impl World {
     /// Computes the time step limit [s]; every face counts as a joint, because a tied face may be released.
-    pub fn longest_step(&self) -> f64 {
+    pub fn time_step_limit(&self) -> f64 {
         let limit = |t: usize| {
             let body = &self.setup.bodies[usize::from(self.tets.body[t])];
             let shape = &self.tets.shape[t];

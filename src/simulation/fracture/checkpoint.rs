@@ -14,7 +14,7 @@ use crate::{
         contact::pairs::snapshot::ContactSnapshot,
         world::{
             World,
-            energy_balance::Ledger,
+            energy_balance::EnergyBalance,
             snapshot::{Scalars, Snapshot},
         },
     },
@@ -56,7 +56,7 @@ pub struct RunState {
 
 impl RunState {
     /// Records a row of the energy balance; returns its residual relative to the start [J].
-    pub fn note(&mut self, book: &Ledger) -> f64 {
+    pub fn note(&mut self, book: &EnergyBalance) -> f64 {
         let residual = book.total() - *self.total_at_start.get_or_insert(book.total());
         let watched = &mut self.watched;
         if watched.steps == 0 {
@@ -111,13 +111,13 @@ pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunSt
 
 fn write_arrays(file: &File, state: &Snapshot) -> Hdf5Result<()> {
     let group = file.create_group("nodes")?;
-    write_vectors(&group, "place_m", &state.place)?;
+    write_vectors(&group, "place_m", &state.position)?;
     write_vectors(&group, "velocity_m_s", &state.velocity)?;
     write_rows(&file.create_group("tets")?, "nodes", &state.vertices)?;
     let group = file.create_group("joints")?;
     write_column(&group, "bond", &state.bonds)?;
-    write_column(&group, "worn", &state.worn)?;
-    write_rows(&group, "memory", &state.memories)?;
+    write_column(&group, "worn", &state.damaged)?;
+    write_rows(&group, "memory", &state.joint_states)?;
     let group = file.create_group("failures")?;
     write_column(&group, "joint", &state.failed)?;
     write_column(&group, "time_s", &state.failed_at)?;
@@ -126,23 +126,23 @@ fn write_arrays(file: &File, state: &Snapshot) -> Hdf5Result<()> {
     write_rows(&file.create_group("rigid_bodies")?, "motion", &state.rigid)?;
     let (group, contacts) = (file.create_group("contacts")?, &state.contacts);
     write_rows(&group, "tets", &contacts.tets)?;
-    write_column(&group, "born_m3", &contacts.born)?;
-    write_column(&group, "sprung", &contacts.sprung)?;
+    write_column(&group, "born_m3", &contacts.initial_overlap)?;
+    write_column(&group, "sprung", &contacts.pairs_with_spring)?;
     write_rows(&group, "spring", &contacts.springs)?;
     write_rows(&group, "opened_tets", &contacts.opened)?;
-    write_column(&group, "opened_left_j", &contacts.left)
+    write_column(&group, "opened_left_j", &contacts.inherited_energy)
 }
 
 fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
     let [nodes, tets, joints] = [file.group("nodes")?, file.group("tets")?, file.group("joints")?];
     let [failures, contacts] = [file.group("failures")?, file.group("contacts")?];
     Ok(Snapshot {
-        place: read_vectors(&nodes, "place_m")?,
+        position: read_vectors(&nodes, "place_m")?,
         velocity: read_vectors(&nodes, "velocity_m_s")?,
         vertices: read_rows(&tets, "nodes")?,
         bonds: joints.dataset("bond")?.read_raw()?,
-        worn: joints.dataset("worn")?.read_raw()?,
-        memories: read_rows(&joints, "memory")?,
+        damaged: joints.dataset("worn")?.read_raw()?,
+        joint_states: read_rows(&joints, "memory")?,
         failed: failures.dataset("joint")?.read_raw()?,
         failed_at: failures.dataset("time_s")?.read_raw()?,
         failed_by_sliding: failures.dataset("by_sliding")?.read_raw()?,
@@ -150,11 +150,11 @@ fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
         rigid: read_rows(&file.group("rigid_bodies")?, "motion")?,
         contacts: ContactSnapshot {
             tets: read_rows(&contacts, "tets")?,
-            born: contacts.dataset("born_m3")?.read_raw()?,
-            sprung: contacts.dataset("sprung")?.read_raw()?,
+            initial_overlap: contacts.dataset("born_m3")?.read_raw()?,
+            pairs_with_spring: contacts.dataset("sprung")?.read_raw()?,
             springs: read_rows(&contacts, "spring")?,
             opened: read_rows(&contacts, "opened_tets")?,
-            left: contacts.dataset("opened_left_j")?.read_raw()?,
+            inherited_energy: contacts.dataset("opened_left_j")?.read_raw()?,
             ..ContactSnapshot::default()
         },
         ..Snapshot::default()

@@ -42,7 +42,7 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     }
     // The energy of a swing is kept to (omega dt)^2 / 8.
     let mut world = World::new(setup, 1e-2);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let (mut touched, mut parted) = (0, 0.0);
     let speed = size / CONCRETE.bar_celerity();
     while parted == 0.0 || world.time < parted + speed {
@@ -54,7 +54,7 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
             parted = world.time;
         }
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let residual = (last.total() - first.total()) / first.kinetic;
     println!(
         "p = {penalty} E, base {}: dt {:.2e} s, {touched} steps of contact, residual {residual:.1e}, strain left {:.1e}",

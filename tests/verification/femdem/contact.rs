@@ -35,7 +35,7 @@ fn mean_velocity(world: &World, body: usize) -> DVec3 {
     let tets = world.setup().bodies[body].tets.clone();
     let (mut momentum, mut mass) = (DVec3::ZERO, 0.0);
     for n in 0..world.nodes.count() {
-        if tets.contains(&(world.nodes.ties.of(n)[0] as usize / 4)) {
+        if tets.contains(&(world.nodes.copies_of(n)[0] as usize / 4)) {
             momentum += world.nodes.velocity[n] * world.nodes.mass[n];
             mass += world.nodes.mass[n];
         }
@@ -55,7 +55,7 @@ fn two_bars_part_after_a_wave_has_run_to_and_fro() {
     setup.bodies[0].velocity = DVec3::X * 0.5 * speed;
     setup.bodies[1].velocity = DVec3::X * -0.5 * speed;
     let mut world = World::new(setup, 0.8);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let momentum = |world: &World| -> f64 {
         (0..world.nodes.count()).map(|n| world.nodes.velocity[n].x * world.nodes.mass[n]).sum()
     };
@@ -63,7 +63,7 @@ fn two_bars_part_after_a_wave_has_run_to_and_fro() {
     let (mut pressed, mut residual) = (Vec::new(), 0.0f64);
     let (mut before, mut force) = (mean_velocity(&world, 0).x, 0.0f64);
     while world.time < 4.5e-4 {
-        let book = world.step_with_ledger().unwrap();
+        let book = world.step_with_energies().unwrap();
         residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
         if world.contacts.touching > 0 {
             pressed.push(world.time);
@@ -111,7 +111,7 @@ fn a_block_slides_to_rest_over_the_way_of_coulomb() {
     setup.gravity = DVec3::NEG_Z * 9.8;
     setup.bodies[0].velocity = DVec3::X;
     let mut world = World::new(setup, 0.8);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let (mut way, mut rest) = (0.0, 0.0);
     while world.time < 0.22 {
         world.step().unwrap();
@@ -121,7 +121,7 @@ fn a_block_slides_to_rest_over_the_way_of_coulomb() {
             rest = world.time;
         }
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     // v^2 / (2 mu g)
     let expected = 1.0 / (2.0 * 0.6 * 9.8);
     println!(

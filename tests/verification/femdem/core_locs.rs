@@ -19,7 +19,7 @@ fn compare(until: f64) {
     let ((mut cracks, unit), (mut twin, _)) = (five_core_locs("tied"), five_core_locs("unbreakable"));
     // Without joints a longer step would be stable.
     twin.dt = cracks.dt;
-    let energy = |world: &mut World| -> BodyEnergy { world.step_with_books().unwrap().1[unit] };
+    let energy = |world: &mut World| -> BodyEnergy { world.step_with_body_energies().unwrap().1[unit] };
     let (mut apart, mut largest) = (0.0f64, 0.0f64);
     let mut rows = 0;
     while cracks.time < until {

@@ -17,15 +17,15 @@ struct Run {
 
 /// Moves on until a time [s].
 fn follow(mut world: World, until: f64) -> Run {
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let mut open = 0.0f64;
     while world.time < until {
         for _ in 0..9 {
             world.step().unwrap();
         }
-        open = open.max((world.step_with_ledger().unwrap().total() - first.total()).abs());
+        open = open.max((world.step_with_energies().unwrap().total() - first.total()).abs());
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let given = first.kinetic.max(last.work);
     Run { residual: open / given, failed: world.failures.len(), lost: [last.fracture / given, last.friction / given] }
 }

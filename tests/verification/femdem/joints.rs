@@ -2,7 +2,7 @@
 
 use super::*;
 use breakwater::femdem::setup::Constraint;
-use breakwater::femdem::world::energy_balance::Ledger;
+use breakwater::femdem::world::energy_balance::EnergyBalance;
 
 /// A bar of 0.2 x 0.05 x 0.05 m pulled apart at both ends.
 struct Pulled {
@@ -11,7 +11,7 @@ struct Pulled {
     strongest: f64,
     /// Largest residual of the energy book [J].
     residual: f64,
-    last: Ledger,
+    last: EnergyBalance,
 }
 
 fn pulled(cohesion: Option<Cohesion>, speed: f64) -> Pulled {
@@ -30,13 +30,13 @@ fn pulled(cohesion: Option<Cohesion>, speed: f64) -> Pulled {
     }
     let mut world = World::new(setup, 0.9);
     for n in 0..world.nodes.count() {
-        let x = world.place_at_start(n) - DVec3::new(0.1, 0.025, 0.025);
+        let x = world.initial_position(n) - DVec3::new(0.1, 0.025, 0.025);
         world.nodes.velocity[n] = DVec3::new(x.x, -0.2 * x.y, -0.2 * x.z) * (speed / 0.1);
     }
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let (mut strongest, mut residual, mut last) = (0.0f64, 0.0f64, first);
     while world.time < 1.2e-4 / speed * 0.5 {
-        last = world.step_with_ledger().unwrap();
+        last = world.step_with_energies().unwrap();
         residual = residual.max((last.total() - first.total()).abs());
         strongest = strongest.max((2.0 * last.strain * 26e9 / (0.2 * 0.05 * 0.05)).sqrt());
     }
@@ -48,7 +48,7 @@ fn a_bar_breaks_at_its_strength_and_takes_its_fracture_energy() {
     for (name, cohesion) in [("joints", cohesion(50.0, false)), ("tied", cohesion(2.0, true))] {
         let Pulled { world, strongest, residual, last } = pulled(cohesion, 0.02);
         let area: f64 = world.failures.iter().map(|failure| failure.area).sum();
-        let taken = (last.fracture - last.freed) / area;
+        let taken = (last.fracture - last.released) / area;
         println!(
             "{name}: {:.3} MPa, {} faces of {:.1} cm2 failed, {taken:.2} J/m2, residual {residual:.1e} of {:.3} J of work",
             strongest / 1e6,

@@ -22,7 +22,7 @@ fn resultant(world: &World, forces: &[CornerForce], about: DVec3) -> [DVec3; 2] 
     let mut sum = [DVec3::ZERO; 2];
     for CornerForce { tet, corner, force } in forces {
         let node = world.tets.nodes[*tet as usize][usize::from(*corner)] as usize;
-        sum = [sum[0] + *force, sum[1] + (world.nodes.place[node] - about).cross(*force)];
+        sum = [sum[0] + *force, sum[1] + (world.nodes.position[node] - about).cross(*force)];
     }
     sum
 }
@@ -42,12 +42,12 @@ fn a_bar_under_traction_stretches_by_hooke_and_the_book_closes() {
     let time = 20.0 * length / CONCRETE.bar_celerity();
     setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
     let mut world = World::new(setup, 0.5);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     while world.time < 1.5 * time {
         world.step().unwrap();
     }
-    let last = world.step_with_ledger().unwrap();
-    let stretched = end.iter().map(|n| world.nodes.place[*n].x - length).sum::<f64>() / end.len() as f64
+    let last = world.step_with_energies().unwrap();
+    let stretched = end.iter().map(|n| world.nodes.position[*n].x - length).sum::<f64>() / end.len() as f64
         * CONCRETE.young_modulus
         / (stress * length);
     // Half of force times way is stored, from a slow load.
@@ -78,14 +78,14 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
     }];
     setup.bodies[0].angular_velocity = DVec3::new(30.0, 50.0, -20.0);
     let mut world = World::new(setup, 0.5);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     while world.time < 1.2 * time {
         world.step().unwrap();
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let volume: f64 = (0..mesh.mesh.tets.len())
         .map(|t| {
-            let [a, b, c, d] = world.tets.nodes[t].map(|n| world.nodes.place[n as usize]);
+            let [a, b, c, d] = world.tets.nodes[t].map(|n| world.nodes.position[n as usize]);
             (b - a).cross(c - a).dot(d - a) / 6.0
         })
         .sum();
@@ -101,7 +101,7 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
     assert!((last.total() - first.total()).abs() < 1e-4 * last.work);
     // A pressure on a closed surface has no resultant, however it turns and deforms.
     let mut forces = Vec::new();
-    world.setup().loads[0].forces(&world.places(), world.time, &mut forces);
+    world.setup().loads[0].forces(&world.configuration(), world.time, &mut forces);
     let [force, moment] = resultant(&world, &forces, DVec3::ZERO);
     let scale = pressure * 0.01;
     assert!(force.length() < 1e-12 * scale && moment.length() < 1e-12 * scale);
@@ -139,21 +139,21 @@ fn a_load_about_a_place_has_the_force_and_the_moment_that_were_asked_for() {
                 displace(&mut world, |x| map(x) - x);
                 let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
                 // The place goes with the body. Rounding of some hundred terms.
-                assert!((patch.place(&world.places()) - map(place)).length() < 1e-13);
+                assert!((patch.position(&world.configuration()) - map(place)).length() < 1e-13);
                 let mut forces = Vec::new();
-                world.setup().loads[0].forces(&world.places(), 0.0, &mut forces);
+                world.setup().loads[0].forces(&world.configuration(), 0.0, &mut forces);
                 let [force, about] = resultant(&world, &forces, map(place));
                 let wanted = [0, 3].map(|k| DVec3::from_slice(&asked[k..k + 3]) * if k == 3 { moment } else { 1.0 });
                 let wanted = match axes {
                     Axes::Space => wanted,
                     // Of the polar decomposition: the strain turns it a little more.
-                    Axes::Body => patch.asked_for(&world.places(), 0.0),
+                    Axes::Body => patch.prescribed(&world.configuration(), 0.0),
                 };
                 // Rounding.
                 assert!((force - wanted[0]).length() < 1e-12 * wanted[0].length(), "{place} {radius}");
                 assert!((about - wanted[1]).length() < 1e-12 * wanted[0].length(), "{place} {radius}");
                 if axes == Axes::Body {
-                    let [along, _] = patch.asked_for(&world.places(), 0.0);
+                    let [along, _] = patch.prescribed(&world.configuration(), 0.0);
                     assert!((along - turn * DVec3::new(x, y, z)).length() < 2e-3 * along.length());
                 }
             }
@@ -177,7 +177,7 @@ fn a_body_under_a_recorded_load_gets_its_momentum_and_its_work() {
         if rigid {
             world.dt = 1e-6;
         }
-        let first = world.step_with_ledger().unwrap();
+        let first = world.step_with_energies().unwrap();
         let momentum = |world: &World| -> [DVec3; 2] {
             if let Some(body) = world.rigid_bodies.first() {
                 let p = body.motion.velocity * (2340.0 * 0.006);
@@ -185,7 +185,7 @@ fn a_body_under_a_recorded_load_gets_its_momentum_and_its_work() {
             }
             let mut sum = [DVec3::ZERO; 2];
             for n in 0..world.nodes.count() {
-                let (x, p) = (world.nodes.place[n], world.nodes.velocity[n] * world.nodes.mass[n]);
+                let (x, p) = (world.nodes.position[n], world.nodes.velocity[n] * world.nodes.mass[n]);
                 sum = [sum[0] + p, sum[1] + x.cross(p)];
             }
             sum
@@ -194,12 +194,12 @@ fn a_body_under_a_recorded_load_gets_its_momentum_and_its_work() {
         impulse = impulse.map(|f| f * world.dt);
         while world.time < 7e-4 {
             let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
-            let [force, moment] = patch.asked_for(&world.places(), world.time);
-            turned += (patch.place(&world.places()).cross(force) + moment) * world.dt;
+            let [force, moment] = patch.prescribed(&world.configuration(), world.time);
+            turned += (patch.position(&world.configuration()).cross(force) + moment) * world.dt;
             impulse.iter_mut().zip(history().at(world.time)).for_each(|(sum, f)| *sum += f * world.dt);
             world.step().unwrap();
         }
-        let last = world.step_with_ledger().unwrap();
+        let last = world.step_with_energies().unwrap();
         let [linear, angular] = momentum(&world);
         println!(
             "rigid {rigid}: momentum {linear}, angular {angular} ({turned}); work {:.6} J, residual {:.1e}",

@@ -47,7 +47,7 @@ fn setup(mesh: &PreparedMesh, cohesion: Option<Cohesion>) -> Setup {
 
 /// Moves every node, of which the world is undeformed and at rest.
 fn displace(world: &mut World, by: impl Fn(DVec3) -> DVec3) {
-    world.nodes.place.iter_mut().for_each(|x| *x += by(*x));
+    world.nodes.position.iter_mut().for_each(|x| *x += by(*x));
 }
 
 /// Times at which a signal crosses zero, interpolated.

@@ -22,7 +22,7 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     setup.gravity = DVec3::NEG_Z * 9.8;
     let mut world = World::new(setup, 1.0);
     world.dt = 1e-4;
-    let (first, books) = world.step_with_books().unwrap();
+    let (first, books) = world.step_with_body_energies().unwrap();
     let start = world.rigid_bodies[0].motion;
     // Mass, and moments of a cuboid.
     let mass = 2340.0 * 0.006;
@@ -31,11 +31,11 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     assert!((start.angular_momentum - l).length() < 1e-12 * l.length());
     assert!((books[0].kinetic / first.kinetic - 1.0).abs() < 1e-14);
     let (mut residual, mut longest) = (0.0f64, 0.0f64);
-    let edge = world.place_at_start(0).distance(world.place_at_start(1));
+    let edge = world.initial_position(0).distance(world.initial_position(1));
     for _ in 0..20_000 {
-        let book = world.step_with_ledger().unwrap();
+        let book = world.step_with_energies().unwrap();
         residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
-        longest = longest.max((world.nodes.place[0].distance(world.nodes.place[1]) / edge - 1.0).abs());
+        longest = longest.max((world.nodes.position[0].distance(world.nodes.position[1]) / edge - 1.0).abs());
     }
     let now = world.rigid_bodies[0].motion;
     println!("residual {residual:.1e}, edges change by {longest:.1e}");
@@ -65,11 +65,11 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     setup.bodies[0].angular_velocity = DVec3::Y * 0.1;
     let mut world = World::new(setup, 1.0);
     world.dt = 1e-4;
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let centre = world.rigid_bodies[0].motion.centre;
     let (mut signal, mut residual) = (Vec::new(), 0.0f64);
     while world.time < 2.5 {
-        let book = world.step_with_ledger().unwrap();
+        let book = world.step_with_energies().unwrap();
         residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
         signal.push((world.time, (world.rigid_bodies[0].motion.centre - centre).dot(DVec3::X)));
     }
@@ -102,19 +102,19 @@ fn a_rigid_block_bounces_off_a_deformable_one() {
         let motion = world.rigid_bodies[0].motion;
         let p = motion.velocity * (2340.0 * 0.06f64.powi(3));
         let mut sum = [p, motion.centre.cross(p) + motion.angular_momentum];
-        for n in (0..world.nodes.count()).filter(|n| world.nodes.ties.of(*n)[0] as usize / 4 >= 24 * 8) {
-            let (x, p) = (world.nodes.place[n], world.nodes.velocity[n] * world.nodes.mass[n]);
+        for n in (0..world.nodes.count()).filter(|n| world.nodes.copies_of(*n)[0] as usize / 4 >= 24 * 8) {
+            let (x, p) = (world.nodes.position[n], world.nodes.velocity[n] * world.nodes.mass[n]);
             sum = [sum[0] + p, sum[1] + x.cross(p)];
         }
         sum
     };
-    let (first, start) = (world.step_with_ledger().unwrap(), momentum(&world));
+    let (first, start) = (world.step_with_energies().unwrap(), momentum(&world));
     let mut touched = 0;
     while world.time < 5e-4 {
         world.step().unwrap();
         touched += usize::from(world.contacts.touching > 0);
     }
-    let (last, end) = (world.step_with_ledger().unwrap(), momentum(&world));
+    let (last, end) = (world.step_with_energies().unwrap(), momentum(&world));
     println!(
         "touched for {touched} steps, residual {:.1e}, velocity {}, friction {:.1e} J, momentum by {:.1e}, {:.1e}",
         (last.total() - first.total()) / first.kinetic,
@@ -155,14 +155,14 @@ fn a_rigid_platen_with_a_given_velocity_presses_a_block_and_its_work_is_booked()
         Constraint::constant(at(1, 0.0), [None, None, Some(0.0)]),
     ];
     let mut world = World::new(setup, 0.5);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let start = world.rigid_bodies[0].motion;
     let mut residual = 0.0f64;
     while world.time < 1e-3 {
-        let book = world.step_with_ledger().unwrap();
+        let book = world.step_with_energies().unwrap();
         residual = residual.max((book.total() - first.total()).abs());
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let motion = world.rigid_bodies[0].motion;
     let way = start.centre.z - motion.centre.z;
     // Between two smooth platens: E A / L, the contact is a spring in series at one end.

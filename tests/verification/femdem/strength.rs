@@ -45,7 +45,7 @@ fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watched: impl
     let mut rows: Vec<[f64; 3]> = Vec::new();
     let (mut way, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
     let (mut residual, mut largest, mut swing) = (0.0f64, 0.0f64, 0.0);
-    let first = world.step_with_ledger().unwrap().total();
+    let first = world.step_with_energies().unwrap().total();
     // While the velocity still rises, waves let the force fall again and again.
     let rises = |world: &World| velocity.at(world.time)[0] > velocity.at(f64::MAX)[0];
     while rises(&world) || rows.last().is_none_or(|row| row[1] > 0.6 * peak || row[1] < 1e-3 * peak) {
@@ -55,7 +55,7 @@ fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watched: impl
             world.step().unwrap();
         }
         way -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
-        let book = world.step_with_ledger().unwrap();
+        let book = world.step_with_energies().unwrap();
         let force = (book.work - before[1]) / (way - before[0]);
         before = [way, book.work];
         rows.push([way, force, watched(&world)]);
@@ -198,7 +198,7 @@ fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         .map(|(t, node)| 4 * t + mesh.mesh.tets[t].iter().position(|n| *n == node).unwrap())
         .to_vec();
     let deflection = |world: &World| {
-        let z = |copy: usize| world.nodes.place[world.tets.nodes[copy / 4][copy % 4] as usize].z;
+        let z = |copy: usize| world.nodes.position[world.tets.nodes[copy / 4][copy % 4] as usize].z;
         0.5 * (z(axis[1]) + z(axis[2])) - z(axis[0])
     };
     let curve = load(setup, 0.8, &velocity, 2e-6 / speed, deflection);
