@@ -157,7 +157,7 @@ fn hanging_face(mesh: &str) -> String {
 /// Two steps of a case that was accepted: they may fail, with a reason.
 fn try_out(case: &FractureCase) {
     let Ok(mut world) = world(case) else { return };
-    let _ = world.step().and_then(|()| world.step()).and_then(|()| world.watch());
+    let _ = world.step().and_then(|()| world.step()).and_then(|()| world.check_limits());
 }
 
 #[test]

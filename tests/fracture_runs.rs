@@ -215,10 +215,10 @@ fn a_world_goes_on_from_any_moment_to_the_same_bits() {
         while whole.time < case.duration {
             whole.step().unwrap();
             once("first step", true, &whole);
-            once("contact", whole.contacts.touching > 0, &whole);
+            once("contact", whole.contacts.scalars.touching > 0, &whole);
             once("split nodes", whole.nodes.count() > nodes_at_start, &whole);
             once("first failure", !whole.failures.is_empty(), &whole);
-            once("rubbing", whole.failures.len() > 5 && whole.contacts.friction > 0.0, &whole);
+            once("rubbing", whole.failures.len() > 5 && whole.contacts.scalars.friction > 0.0, &whole);
             once("half way", whole.time > 0.5 * case.duration, &whole);
         }
         let names: Vec<&str> = moments.iter().map(|(name, _)| *name).collect();

@@ -46,11 +46,6 @@ pub struct Constraint {
 }
 
 impl Constraint {
-    /// Creates a constraint with a constant velocity along each axis [m/s].
-    pub fn constant(nodes: Vec<u32>, velocity: [Option<f64>; 3]) -> Self {
-        Self { nodes, velocity: velocity.map(|given| given.map(History::from)) }
-    }
-
     /// Upper limit of the prescribed speed over all times [m/s].
     pub fn fastest(&self) -> f64 {
         let most = |given: &Option<History<1>>| given.as_ref().map_or(0.0, |history| history.largest()[0]);

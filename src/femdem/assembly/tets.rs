@@ -40,11 +40,6 @@ impl Link {
     }
 }
 
-/// Returns the vertex opposite to a face.
-pub fn opposite(face: [u8; 3]) -> usize {
-    6 - face.iter().map(|v| usize::from(*v)).sum::<usize>()
-}
-
 impl Tets {
     /// Builds the tetrahedra of a setup, with mesh nodes at their vertices.
     pub fn new(setup: &Setup) -> Self {
@@ -56,9 +51,10 @@ impl Tets {
         let mut faces = vec![[Link::NONE; 4]; setup.tets.len()];
         for (number, interface) in setup.interfaces.iter().enumerate() {
             for side in 0..2 {
-                let face = opposite(interface.nodes[side]);
-                let link = Link { code: (2 * number + side) as u32, nodes: interface.nodes[side] };
-                faces[interface.tets[side] as usize][face] = link;
+                let nodes = interface.nodes[side];
+                let opposite = 6 - nodes.iter().map(|v| usize::from(*v)).sum::<usize>();
+                let link = Link { code: (2 * number + side) as u32, nodes };
+                faces[interface.tets[side] as usize][opposite] = link;
             }
         }
         Self { nodes: setup.tets.clone(), shape, body, faces, jointed: vec![false; setup.tets.len()] }

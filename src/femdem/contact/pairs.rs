@@ -16,13 +16,14 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 mod depth;
 pub mod snapshot;
 #[cfg(test)]
 mod tests;
 
-use super::detection::{Bounds, Detection};
+use super::detection::{Bounds, intersecting_pairs};
 use super::friction::{FrictionLaw, TangentialSpring};
 use super::overlap::{Overlap, overlap};
 use super::tetrahedron::Tetrahedron;
@@ -67,6 +68,13 @@ pub struct Contacts {
     pairs: Vec<Pair>,
     /// Tetrahedra whose joint has broken since the last search, and the energy that the joint leaves to them [J].
     opened: Vec<([u32; 2], f64)>,
+    /// Scalars of the state.
+    pub scalars: ContactScalars,
+}
+
+/// Scalars of the contacts of a world.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct ContactScalars {
     /// Upper limit of the distance that any node has moved since the last search [m].
     travelled: f64,
     skin: f64,
@@ -93,7 +101,7 @@ impl Contacts {
     /// Sets the copies around a node that are connected now.
     pub fn regroup(&mut self, group: &[NodeCopy]) {
         group.iter().for_each(|copy| self.group[*copy as usize] = group[0]);
-        self.outdated = true;
+        self.scalars.outdated = true;
     }
 
     /// Allows the tetrahedra at a broken face to touch; the joint leaves them its elastic energy [J].
@@ -105,12 +113,12 @@ impl Contacts {
         }
         tets.sort_unstable();
         self.opened.push((tets, inherited_energy));
-        self.outdated = true;
+        self.scalars.outdated = true;
     }
 
     /// Adds the longest distance that any node has moved since the last call [m].
     pub fn add_travel(&mut self, distance: f64) {
-        self.travelled += distance;
+        self.scalars.travelled += distance;
     }
 
     /// Adds all contact forces to the forces of the tetrahedra [N]. Nodes are at `position` [m], after moving with
@@ -124,7 +132,7 @@ impl Contacts {
         is_broken: impl Fn(usize) -> bool + Sync,
         forces: &mut [[DVec3; 4]],
     ) {
-        if self.outdated || self.travelled > self.skin {
+        if self.scalars.outdated || self.scalars.travelled > self.scalars.skin {
             self.search(setup, tets, position, is_broken);
         }
         let corners = |tet: u32| tets.nodes[tet as usize].map(|node| position[node as usize]);
@@ -135,13 +143,13 @@ impl Contacts {
                 pair.evaluate(tets.map(corners), || tets.map(moves));
             }
         });
-        (self.stored, self.touching) = (0.0, 0);
+        (self.scalars.stored, self.scalars.touching) = (0.0, 0);
         for pair in &mut self.pairs {
-            self.friction += std::mem::take(&mut pair.dissipated);
-            self.taken_over += std::mem::take(&mut pair.inherited_energy);
+            self.scalars.friction += std::mem::take(&mut pair.dissipated);
+            self.scalars.taken_over += std::mem::take(&mut pair.inherited_energy);
             let Some(pair_forces) = pair.forces else { continue };
-            self.stored += pair.stored;
-            self.touching += 1;
+            self.scalars.stored += pair.stored;
+            self.scalars.touching += 1;
             for (tet, tet_forces) in pair.tets.into_iter().zip(pair_forces) {
                 forces[tet as usize].iter_mut().zip(tet_forces).for_each(|(total, force)| *total += force);
             }
@@ -151,27 +159,26 @@ impl Contacts {
     /// Whether tetrahedra of two different bodies are in contact.
     pub fn touches_other_body(&self, tets: &Tets) -> bool {
         let body = |tet: u32| tets.body[tet as usize];
-        self.touching > 0
+        self.scalars.touching > 0
             && self.pairs.iter().any(|pair| pair.forces.is_some() && body(pair.tets[0]) != body(pair.tets[1]))
     }
 
     /// Finds the pairs closer than two skins; pairs that existed before keep their history.
     fn search(&mut self, setup: &Setup, tets: &Tets, position: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
         let size: f64 = self.outer.iter().map(|tet| tets.shape[*tet as usize].volume.cbrt()).sum();
-        self.skin = SKIN * size / self.outer.len().max(1) as f64;
+        let skin = SKIN * size / self.outer.len().max(1) as f64;
         let corners = |tet: &u32| tets.nodes[*tet as usize].map(|node| position[node as usize]);
-        let boxes: Vec<Bounds> = self.outer.par_iter().map(|tet| Bounds::about(&corners(tet), self.skin)).collect();
+        let boxes: Vec<Bounds> = self.outer.par_iter().map(|tet| Bounds::about(&corners(tet), skin)).collect();
         let tets_of = |pair: [u32; 2]| pair.map(|index| self.outer[index as usize]);
         let keep = |i: u32, j: u32| {
             let [a, b] = tets_of([i, j]);
-            self.can_touch([a, b], setup, tets, &is_broken) && !are_apart(&corners(&a), &corners(&b), 2.0 * self.skin)
+            self.can_touch([a, b], setup, tets, &is_broken) && !are_apart(&corners(&a), &corners(&b), 2.0 * skin)
         };
-        let mut detection = Detection::default();
         let recall = |key: [u32; 2]| match self.pairs.binary_search_by_key(&key, |pair| pair.tets) {
             Ok(index) => self.pairs[index],
             Err(_) => Pair::new(key, setup, tets),
         };
-        let mut pairs: Vec<Pair> = detection.pairs(&boxes, keep).iter().map(|pair| recall(tets_of(*pair))).collect();
+        let mut pairs: Vec<Pair> = intersecting_pairs(&boxes, keep).iter().map(|pair| recall(tets_of(*pair))).collect();
         for (key, energy) in self.opened.drain(..) {
             if let Ok(index) = pairs.binary_search_by_key(&key, |pair| pair.tets) {
                 // A pair that was evaluated before already counts its overlap.
@@ -179,7 +186,7 @@ impl Contacts {
             }
         }
         self.pairs = pairs;
-        (self.travelled, self.outdated) = (0.0, false);
+        self.scalars = ContactScalars { travelled: 0.0, skin, outdated: false, ..self.scalars };
     }
 
     /// Whether two tetrahedra are not connected around a shared node, or the face between them has broken.

@@ -107,7 +107,7 @@ mod tests {
             let law = IntactLaw::from_fn(|_| &cohesion);
             let found = law.forces(Portable::splat(edge), Portable::splat(area), &lanes);
             let beyond = found.beyond.to_array()[LANES - 1] > 0.0;
-            assert_eq!(beyond, state.is_damaged());
+            assert_eq!(beyond, state.is_damaged);
             if beyond {
                 damaged += 1;
                 continue;

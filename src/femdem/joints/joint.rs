@@ -37,7 +37,8 @@ pub struct JointForces {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axes {
     along: [DVec3; 2],
-    normal: DVec3,
+    /// Normal, towards side 1.
+    pub normal: DVec3,
 }
 
 impl Axes {
@@ -49,11 +50,6 @@ impl Axes {
         let normal = a.cross(b).normalize();
         let first = a.normalize();
         Self { along: [first, normal.cross(first)], normal }
-    }
-
-    /// Normal, towards side 1.
-    pub fn normal(&self) -> DVec3 {
-        self.normal
     }
 
     /// Splits a vector into its normal component and its two tangential components.
@@ -104,11 +100,6 @@ impl JointState {
         let (normal, shear) = axes.split(traction);
         let (point, offset) = law.loaded(normal, shear);
         Self { points: [point; 3], offset, is_damaged: true }
-    }
-
-    /// Whether a point has damage or plastic slip, or the joint was released from a tied face.
-    pub fn is_damaged(&self) -> bool {
-        self.is_damaged
     }
 
     /// Whether sliding (mode II) has dissipated more energy than opening (mode I).

@@ -64,34 +64,26 @@ pub struct CornerForce {
     pub force: DVec3,
 }
 
-/// Initial and current positions of the vertices on which loads act.
+/// Positions of nodes [m], and the nodes of each tetrahedron.
+pub type Vertices<'a> = (&'a [DVec3], &'a [[u32; 4]]);
+
+/// Vertices of the tetrahedra on which loads act.
 #[derive(Debug, Clone, Copy)]
 pub struct Configuration<'a> {
-    /// Initial positions of the mesh nodes [m], and the mesh nodes of each tetrahedron.
-    pub initial: (&'a [DVec3], &'a [[u32; 4]]),
-    /// Current positions of the nodes [m], and the nodes of each tetrahedron.
-    pub current: (&'a [DVec3], &'a [[u32; 4]]),
+    /// Initial vertices.
+    pub initial: Vertices<'a>,
+    /// Current vertices.
+    pub current: Vertices<'a>,
 }
 
-impl Configuration<'_> {
-    /// Undeformed position of a vertex [m].
-    fn initial(&self, tet: u32, corner: u8) -> DVec3 {
-        vertex(self.initial, tet, corner)
-    }
-
-    /// Current position of a vertex [m].
-    fn now(&self, tet: u32, corner: u8) -> DVec3 {
-        vertex(self.current, tet, corner)
-    }
-}
-
-fn vertex((positions, tets): (&[DVec3], &[[u32; 4]]), tet: u32, corner: u8) -> DVec3 {
+/// Returns the position of a vertex of a tetrahedron [m].
+fn vertex((positions, tets): Vertices, tet: u32, corner: u8) -> DVec3 {
     positions[tets[tet as usize][usize::from(corner)] as usize]
 }
 
 /// Area of a face times its outward normal [m2].
-fn area_vector(face: &Exterior, position: impl Fn(u32, u8) -> DVec3) -> DVec3 {
-    let [a, b, c] = face.nodes.map(|corner| position(face.tet, corner));
+fn area_vector(face: &Exterior, vertices: Vertices) -> DVec3 {
+    let [a, b, c] = face.nodes.map(|corner| vertex(vertices, face.tet, corner));
     (b - a).cross(c - a) * 0.5
 }
 
@@ -105,15 +97,15 @@ impl Load {
             Self::Traction { faces, stress, factor } => {
                 let stress = *stress * factor.at(time)[0];
                 for face in faces {
-                    spread(face, stress * area_vector(face, |tet, corner| configuration.initial(tet, corner)).length());
+                    spread(face, stress * area_vector(face, configuration.initial).length());
                 }
             }
             Self::Pressure { faces, pressure, on, factor } => {
                 let pressure = pressure * factor.at(time)[0];
                 for face in faces {
                     let area = match on {
-                        Surface::Deformed => area_vector(face, |tet, corner| configuration.now(tet, corner)),
-                        Surface::Undeformed => area_vector(face, |tet, corner| configuration.initial(tet, corner)),
+                        Surface::Deformed => area_vector(face, configuration.current),
+                        Surface::Undeformed => area_vector(face, configuration.initial),
                     };
                     spread(face, area * -pressure);
                 }

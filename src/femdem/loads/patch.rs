@@ -15,7 +15,7 @@ use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::Triangle;
 
 use super::history::History;
-use super::{Configuration, CornerForce};
+use super::{Configuration, CornerForce, vertex};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::Exterior;
 
@@ -93,6 +93,13 @@ pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -
     near
 }
 
+impl Corner {
+    /// Current position [m].
+    fn current(&self, configuration: &Configuration) -> DVec3 {
+        vertex(configuration.current, self.tet, self.corner)
+    }
+}
+
 fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
@@ -154,7 +161,7 @@ impl Patch {
 
     /// Current position of the point of action [m].
     pub fn position(&self, configuration: &Configuration) -> DVec3 {
-        self.corners.iter().map(|corner| configuration.now(corner.tet, corner.corner) * corner.share).sum()
+        self.corners.iter().map(|corner| corner.current(configuration) * corner.share).sum()
     }
 
     /// Prescribed force [N] and moment about the point [N m] at a time [s], in axes fixed in space.
@@ -172,15 +179,13 @@ impl Patch {
 
     /// Centroid of the current positions [m].
     fn centroid(&self, configuration: &Configuration) -> DVec3 {
-        self.corners.iter().map(|corner| configuration.now(corner.tet, corner.corner) * corner.weight).sum()
+        self.corners.iter().map(|corner| corner.current(configuration) * corner.weight).sum()
     }
 
     /// Rotation of the tetrahedra since the start: polar part of the best affine map, by Higham's iteration (1986).
     fn rotation(&self, configuration: &Configuration) -> DMat3 {
         let centroid = self.centroid(configuration);
-        let moved = |corner: &Corner| {
-            outer(configuration.now(corner.tet, corner.corner) - centroid, corner.arm) * corner.weight
-        };
+        let moved = |corner: &Corner| outer(corner.current(configuration) - centroid, corner.arm) * corner.weight;
         let mut rotation =
             self.corners.iter().fold(DMat3::ZERO, |sum, corner| sum + moved(corner)) * self.inverse_spread;
         for _ in 0..ROUNDS {
@@ -193,7 +198,7 @@ impl Patch {
     pub(super) fn forces(&self, configuration: &Configuration, time: f64, out: &mut Vec<CornerForce>) {
         let [force, moment] = self.prescribed(configuration, time);
         let centroid = self.centroid(configuration);
-        let arm = |corner: &Corner| configuration.now(corner.tet, corner.corner) - centroid;
+        let arm = |corner: &Corner| corner.current(configuration) - centroid;
         let theta = if moment == DVec3::ZERO {
             DVec3::ZERO
         } else {

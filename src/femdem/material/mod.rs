@@ -37,11 +37,6 @@ impl Elastic {
     pub fn celerity(&self) -> f64 {
         ((self.lambda() + 2.0 * self.mu()) / self.density).sqrt()
     }
-
-    /// Celerity of longitudinal waves in a thin bar, sqrt(E / rho) [m/s].
-    pub fn bar_celerity(&self) -> f64 {
-        (self.young_modulus / self.density).sqrt()
-    }
 }
 
 /// Strength of a body that can crack (Guo, Latham and Xiang, section 2.2.2).

@@ -52,9 +52,9 @@ impl World {
         EnergyBalance {
             strain: ordered_sum(tets.nodes.len(), strain),
             joint: self.joints.stored(&self.setup, tets, &self.nodes),
-            contact: self.contacts.stored,
-            friction: self.contacts.friction,
-            fracture: self.dissipated.fracture + self.joints.dissipated() - self.contacts.taken_over,
+            contact: self.contacts.scalars.stored,
+            friction: self.contacts.scalars.friction,
+            fracture: self.dissipated.fracture + self.joints.dissipated() - self.contacts.scalars.taken_over,
             gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
             // The power is that of the velocity half a time step ago and lasts until half a time step after.
             viscous: self.dissipated.viscous + 0.5 * self.dt * viscous_power,

@@ -163,8 +163,7 @@ impl World {
     /// As [`Self::step`].
     pub fn step_with_body_energies(&mut self) -> Result<(EnergyBalance, Vec<BodyEnergy>), StepError> {
         let mut bodies = Vec::new();
-        let balance = self.advance(true, Some(&mut bodies))?;
-        Ok((balance, bodies))
+        Ok((self.advance(true, Some(&mut bodies))?, bodies))
     }
 
     fn advance(

@@ -74,7 +74,7 @@ impl World {
             let cohesion = joints::cohesion(setup, number);
             let [first, second] = interface.tets.map(|tet| self.stress(tet as usize));
             let axes = Axes::of_faces(&joints::faces(number, setup, tets, nodes));
-            let traction = (first + second) * 0.5 * axes.normal();
+            let traction = (first + second) * 0.5 * axes.normal;
             let (normal, [a, b]) = axes.split(traction);
             let reached = normal >= cohesion.strength.tensile || a.hypot(b) >= cohesion.strength.shear(normal);
             reached.then(|| (number, JointState::loaded(&cohesion.law(joints.size[number][0]), traction, &axes)))

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::energy_balance::EnergyBalance;
 use super::{Failure, World, contacts};
-use crate::femdem::contact::pairs::snapshot::{ContactScalars, ContactSnapshot};
+use crate::femdem::contact::pairs::{ContactScalars, snapshot::ContactSnapshot};
 use crate::femdem::joints::{self, Bond, DamagedJoint, JOINT_NUMBERS};
 use crate::femdem::rigid::body::RigidMotion;
 
@@ -54,18 +54,6 @@ pub struct Scalars {
     contacts: ContactScalars,
 }
 
-impl Snapshot {
-    /// Returns the scalars of the world and of the contacts.
-    pub fn scalars(&self) -> Scalars {
-        Scalars { contacts: self.contacts.scalars, ..self.scalars }
-    }
-
-    /// Sets the scalars of the world and of the contacts.
-    pub fn set_scalars(&mut self, scalars: Scalars) {
-        (self.scalars, self.contacts.scalars) = (scalars, scalars.contacts);
-    }
-}
-
 impl World {
     /// Returns the state after a time step.
     pub fn snapshot(&self) -> Snapshot {
@@ -75,7 +63,7 @@ impl World {
             Bond::Broken => 2,
             Bond::Damaged => 3,
         };
-        let contacts = self.contacts.snapshot();
+        let &Self { time, dt, dissipated, .. } = self;
         Snapshot {
             position: self.nodes.position.clone(),
             velocity: self.nodes.velocity.clone(),
@@ -88,8 +76,8 @@ impl World {
             failed_by_sliding: self.failures.iter().map(|failure| u8::from(failure.by_sliding)).collect(),
             failed_energy: self.failures.iter().map(|failure| [failure.dissipated, failure.released]).collect(),
             rigid: self.rigid_bodies.iter().map(|body| body.motion.to_array()).collect(),
-            scalars: Scalars { time: self.time, dt: self.dt, dissipated: self.dissipated, contacts: contacts.scalars },
-            contacts,
+            scalars: Scalars { time, dt, dissipated, contacts: self.contacts.scalars },
+            contacts: self.contacts.snapshot(),
         }
     }
 
@@ -134,7 +122,7 @@ impl World {
         }
         self.contacts = contacts(&self.setup, &self.tets, &self.copies_around, &self.joints);
         let open = self.failures.iter().flat_map(|failure| self.setup.interfaces[failure.interface as usize].tets);
-        self.contacts.restore(of_contacts, open, &self.setup, &self.tets)?;
+        self.contacts.restore((of_contacts, scalars.contacts), open, &self.setup, &self.tets)?;
         (self.time, self.dt, self.dissipated) = (scalars.time, scalars.dt, scalars.dissipated);
         Ok(())
     }

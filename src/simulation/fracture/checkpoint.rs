@@ -83,7 +83,7 @@ struct Header {
 /// If the file cannot be written; an existing file is then unchanged.
 pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) -> Result<(), OutputError> {
     let state = world.snapshot();
-    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars() };
+    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars };
     let text = serde_json::to_string(&header).map_err(OutputError::json(path))?;
     write_state(path, &text, |file| write_arrays(file, &state))
 }
@@ -103,7 +103,7 @@ pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunSt
     if case_hash != case.hash {
         return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh next to it"));
     }
-    state.set_scalars(scalars);
+    state.scalars = scalars;
     let damaged = |what| OutputError::content(path, format!("is damaged: {what}; rerun the case"));
     world.restore(state).map_err(damaged)?;
     Ok(run)
@@ -155,7 +155,6 @@ fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
             springs: read_rows(&contacts, "spring")?,
             opened: read_rows(&contacts, "opened_tets")?,
             inherited_energy: contacts.dataset("opened_left_j")?.read_raw()?,
-            ..ContactSnapshot::default()
         },
         ..Snapshot::default()
     })

@@ -126,7 +126,7 @@ impl FractureRecorder {
             book.released,
             residual,
             area,
-            world.contacts.touching as f64,
+            world.contacts.scalars.touching as f64,
         ])
     }
 

@@ -192,6 +192,6 @@ impl Run for FractureRun<'_> {
     }
 
     fn details(&self) -> String {
-        format!("{} faces failed, {} pairs touch", self.world.failures.len(), self.world.contacts.touching)
+        format!("{} faces failed, {} pairs touch", self.world.failures.len(), self.world.contacts.scalars.touching)
     }
 }

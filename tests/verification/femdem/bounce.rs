@@ -2,7 +2,6 @@
 
 use super::*;
 use breakwater::femdem::mesh::{Body as MeshBody, Mesh};
-use breakwater::femdem::setup::Constraint;
 
 /// A tetrahedron over a larger one, which is held or free.
 fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
@@ -38,17 +37,17 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     let mut setup = Setup::of_mesh(&mesh, bodies);
     setup.friction = vec![vec![friction; 2]; 2];
     if held {
-        setup.constraints = vec![Constraint::constant(mesh.mesh.tets[1].to_vec(), [Some(0.0); 3])];
+        setup.constraints = vec![constant_velocity(mesh.mesh.tets[1].to_vec(), [Some(0.0); 3])];
     }
     // The energy of a swing is kept to (omega dt)^2 / 8.
     let mut world = World::new(setup, 1e-2);
     let first = world.step_with_energies().unwrap();
     let (mut touched, mut parted) = (0, 0.0);
-    let speed = size / CONCRETE.bar_celerity();
+    let speed = size / bar_celerity();
     while parted == 0.0 || world.time < parted + speed {
         assert!(world.time < 300.0 * speed, "it does not part");
         world.step().unwrap();
-        if world.contacts.touching > 0 {
+        if world.contacts.scalars.touching > 0 {
             (touched, parted) = (touched + 1, 0.0);
         } else if touched > 0 && parted == 0.0 {
             parted = world.time;

@@ -1,8 +1,6 @@
 //! The energy book of bodies that crack, shatter and rattle.
 
 use super::*;
-use breakwater::femdem::loads::history::History;
-use breakwater::femdem::setup::Constraint;
 use std::path::Path;
 
 /// What a run did.
@@ -53,7 +51,7 @@ fn thrown(penalty: f64, tied: bool, share: f64) -> Run {
         .map(|face| &mesh.faces.exteriors[*face as usize])
         .flat_map(|face| face.nodes.map(|k| mesh.mesh.tets[face.tet as usize][usize::from(k)]))
         .collect();
-    setup.constraints = vec![Constraint::constant(nodes.into_iter().collect(), [Some(0.0); 3])];
+    setup.constraints = vec![constant_velocity(nodes.into_iter().collect(), [Some(0.0); 3])];
     follow(World::new(setup, share), 3e-4)
 }
 
@@ -86,7 +84,7 @@ fn crushed(penalty: f64, tied: bool) -> Run {
     };
     let velocity = History::new([(0.0, [0.0]), (2e-4, [-0.5])]).unwrap();
     setup.constraints = vec![
-        Constraint::constant(at(0.0), [None, None, Some(0.0)]),
+        constant_velocity(at(0.0), [None, None, Some(0.0)]),
         Constraint { nodes: at(0.1), velocity: [None, None, Some(velocity)] },
     ];
     follow(World::new(setup, 0.8), 9e-4)

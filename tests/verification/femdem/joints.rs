@@ -1,7 +1,6 @@
 //! Joints in the step: strength, fracture energy, splitting.
 
 use super::*;
-use breakwater::femdem::setup::Constraint;
 use breakwater::femdem::world::energy_balance::EnergyBalance;
 
 /// A bar of 0.2 x 0.05 x 0.05 m pulled apart at both ends.
@@ -21,8 +20,8 @@ fn pulled(cohesion: Option<Cohesion>, speed: f64) -> Pulled {
     setup.bodies[0].elastic.viscosity = 2e4;
     let at = |x: f64| (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == x).collect();
     setup.constraints = vec![
-        Constraint::constant(at(0.0), [Some(-speed), None, None]),
-        Constraint::constant(at(0.2), [Some(speed), None, None]),
+        constant_velocity(at(0.0), [Some(-speed), None, None]),
+        constant_velocity(at(0.2), [Some(speed), None, None]),
     ];
     // Stretched evenly from the start: no wave runs through.
     for body in &mut setup.bodies {

@@ -1,11 +1,9 @@
 //! Loads: stress, pressure, forces about a place; their work.
 
 use super::*;
-use breakwater::femdem::loads::history::History;
 use breakwater::femdem::loads::patch::{Axes, Patch, faces_near};
 use breakwater::femdem::loads::{CornerForce, Load, Surface};
 use breakwater::femdem::mesh::faces::Exterior;
-use breakwater::femdem::setup::Constraint;
 use glam::{DMat3, DQuat, EulerRot};
 
 fn side(mesh: &PreparedMesh, name: &str) -> Vec<Exterior> {
@@ -37,9 +35,9 @@ fn a_bar_under_traction_stretches_by_hooke_and_the_book_closes() {
     let end: Vec<usize> = (0..mesh.mesh.nodes.len()).filter(|n| mesh.mesh.nodes[*n].x == length).collect();
     let mut setup = setup(&mesh, None);
     setup.bodies[0].elastic.viscosity = 1e5;
-    setup.constraints = vec![Constraint::constant(at(0), [Some(0.0), None, None])];
+    setup.constraints = vec![constant_velocity(at(0), [Some(0.0), None, None])];
     // Over ten times the way of a wave to and fro.
-    let time = 20.0 * length / CONCRETE.bar_celerity();
+    let time = 20.0 * length / bar_celerity();
     setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
     let mut world = World::new(setup, 0.5);
     let first = world.step_with_energies().unwrap();

@@ -12,11 +12,12 @@ mod rigid;
 mod stability;
 mod strength;
 
+use breakwater::femdem::loads::history::History;
 use breakwater::femdem::material::cohesive_law::{Cohesion, Range};
 use breakwater::femdem::material::{Elastic, Strength};
 use breakwater::femdem::mesh::block::{Pattern, block};
 use breakwater::femdem::mesh::{PreparedMesh, prepare};
-use breakwater::femdem::setup::{Body, Setup};
+use breakwater::femdem::setup::{Body, Constraint, Setup};
 use breakwater::femdem::world::World;
 use glam::DVec3;
 
@@ -38,6 +39,16 @@ fn cohesion(penalty: f64, tied: bool) -> Option<Cohesion> {
 
 fn mesh(lengths: DVec3, cells: [usize; 3]) -> PreparedMesh {
     prepare(block(lengths, cells, Pattern::Centred)).unwrap()
+}
+
+/// Celerity of longitudinal waves in a thin bar of concrete, sqrt(E / rho) [m/s].
+fn bar_celerity() -> f64 {
+    (CONCRETE.young_modulus / CONCRETE.density).sqrt()
+}
+
+/// A constraint with a constant velocity along each axis [m/s].
+fn constant_velocity(nodes: Vec<u32>, velocity: [Option<f64>; 3]) -> Constraint {
+    Constraint { nodes, velocity: velocity.map(|speed| speed.map(History::from)) }
 }
 
 fn setup(mesh: &PreparedMesh, cohesion: Option<Cohesion>) -> Setup {

@@ -2,8 +2,6 @@
 
 use super::contact::{both, two};
 use super::*;
-use breakwater::femdem::loads::history::History;
-use breakwater::femdem::setup::Constraint;
 use std::f64::consts::TAU;
 
 fn rigid_block(lengths: DVec3, cells: [usize; 3]) -> (PreparedMesh, Setup) {
@@ -54,7 +52,7 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     let edge: Vec<u32> = (0..mesh.mesh.nodes.len() as u32)
         .filter(|n| mesh.mesh.nodes[*n as usize].z == length && mesh.mesh.nodes[*n as usize].x == 0.0)
         .collect();
-    setup.constraints = vec![Constraint::constant(edge, [Some(0.0); 3])];
+    setup.constraints = vec![constant_velocity(edge, [Some(0.0); 3])];
     // At rest where the centre is below the edge, then pushed.
     let tilt = (side / length).atan();
     setup.gravity = DVec3::new(-tilt.sin(), 0.0, -tilt.cos()).normalize() * 9.8;
@@ -112,7 +110,7 @@ fn a_rigid_block_bounces_off_a_deformable_one() {
     let mut touched = 0;
     while world.time < 5e-4 {
         world.step().unwrap();
-        touched += usize::from(world.contacts.touching > 0);
+        touched += usize::from(world.contacts.scalars.touching > 0);
     }
     let (last, end) = (world.step_with_energies().unwrap(), momentum(&world));
     println!(
@@ -152,7 +150,7 @@ fn a_rigid_platen_with_a_given_velocity_presses_a_block_and_its_work_is_booked()
     let top = at(0, 0.13);
     setup.constraints = vec![
         Constraint { nodes: top, velocity: [Some(0.0.into()), Some(0.0.into()), Some(velocity)] },
-        Constraint::constant(at(1, 0.0), [None, None, Some(0.0)]),
+        constant_velocity(at(1, 0.0), [None, None, Some(0.0)]),
     ];
     let mut world = World::new(setup, 0.5);
     let first = world.step_with_energies().unwrap();

@@ -1,9 +1,7 @@
 //! Strength of whole bodies, loaded slowly: compression, bending, splitting.
 
 use super::*;
-use breakwater::femdem::loads::history::History;
 use breakwater::femdem::mesh;
-use breakwater::femdem::setup::Constraint;
 use std::path::Path;
 
 /// Force against the way of what is moved downwards.
@@ -86,7 +84,7 @@ fn crushed(file: &Path, penalty: f64, tied: bool) -> f64 {
     // A wave runs through the prism sixty times before it breaks.
     let velocity = downwards(0.15, 5e-4);
     setup.constraints = vec![
-        Constraint::constant(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
+        constant_velocity(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
         Constraint { nodes: nodes_where(&mesh, |x| x.z > 0.1 - 1e-9), velocity: [None, None, Some(velocity.clone())] },
     ];
     let curve = load(setup, 0.8, &velocity, 2e-5, |world| world.time);
@@ -187,7 +185,7 @@ fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         hold(&is_load, [Some(0.0.into()), None, Some(velocity.clone())]),
     ]
     .concat();
-    setup.constraints.push(Constraint::constant(plane, [None, Some(0.0), None]));
+    setup.constraints.push(constant_velocity(plane, [None, Some(0.0), None]));
     // Deflection of the axis: of nodes in the middle of the height, without the dents under load and supports.
     let axis: Vec<usize> = [0.0, -0.157, 0.157]
         .map(|x| {
@@ -274,7 +272,7 @@ fn split(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
         nodes.into_iter().collect()
     };
     setup.constraints = vec![
-        Constraint::constant(set("bottom"), [None, None, Some(0.0)]),
+        constant_velocity(set("bottom"), [None, None, Some(0.0)]),
         Constraint { nodes: set("top"), velocity: [None, None, Some(velocity.clone())] },
     ];
     let curve = load(setup, 0.8, &velocity, 5e-6, |world| world.time);

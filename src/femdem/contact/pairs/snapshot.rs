@@ -1,10 +1,9 @@
 //! Saves and restores the history of the contacts.
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use super::super::friction::TangentialSpring;
-use super::{Contacts, Pair};
+use super::{ContactScalars, Contacts, Pair};
 use crate::femdem::assembly::tets::Tets;
 use crate::femdem::setup::Setup;
 
@@ -23,20 +22,6 @@ pub struct ContactSnapshot {
     pub opened: Vec<[u32; 2]>,
     /// Energy that the joint leaves to them [J].
     pub inherited_energy: Vec<f64>,
-    /// Everything else.
-    pub scalars: ContactScalars,
-}
-
-/// Scalars of the contacts of a world; see [`Contacts`].
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct ContactScalars {
-    travelled: f64,
-    skin: f64,
-    outdated: bool,
-    stored: f64,
-    friction: f64,
-    taken_over: f64,
-    touching: usize,
 }
 
 impl Contacts {
@@ -54,15 +39,6 @@ impl Contacts {
             springs,
             opened,
             inherited_energy,
-            scalars: ContactScalars {
-                travelled: self.travelled,
-                skin: self.skin,
-                outdated: self.outdated,
-                stored: self.stored,
-                friction: self.friction,
-                taken_over: self.taken_over,
-                touching: self.touching,
-            },
         }
     }
 
@@ -72,13 +48,13 @@ impl Contacts {
     /// Says why the snapshot does not belong to this world.
     pub fn restore(
         &mut self,
-        snapshot: ContactSnapshot,
+        (snapshot, scalars): (ContactSnapshot, ContactScalars),
         open: impl Iterator<Item = u32>,
         setup: &Setup,
         tets: &Tets,
     ) -> Result<(), &'static str> {
         let ContactSnapshot { tets: pair_tets, initial_overlap: initial, inherited_energy: inherited, .. } = snapshot;
-        let ContactSnapshot { pairs_with_spring: sprung, springs, opened, scalars, .. } = snapshot;
+        let ContactSnapshot { pairs_with_spring: sprung, springs, opened, .. } = snapshot;
         let is_valid = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < setup.tets.len();
         if initial.len() != pair_tets.len() || !pair_tets.iter().all(is_valid) || !pair_tets.is_sorted_by(|a, b| a < b)
         {
@@ -103,9 +79,7 @@ impl Contacts {
         self.outer.sort_unstable();
         self.outer.dedup();
         self.opened = opened.into_iter().zip(inherited).collect();
-        let ContactScalars { travelled, skin, outdated, stored, friction, taken_over, touching } = scalars;
-        (self.travelled, self.skin, self.outdated) = (travelled, skin, outdated);
-        (self.stored, self.friction, self.taken_over, self.touching) = (stored, friction, taken_over, touching);
+        self.scalars = scalars;
         Ok(())
     }
 }

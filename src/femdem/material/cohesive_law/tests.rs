@@ -17,6 +17,7 @@ fn law(range: Range) -> CohesiveLaw {
 }
 
 /// Work, dissipation and largest stresses along a path.
+#[derive(Default)]
 struct Path {
     work: f64,
     dissipated: f64,
@@ -28,14 +29,7 @@ struct Path {
 
 fn follow_path(law: &CohesiveLaw, path: impl Iterator<Item = (f64, f64)>) -> Path {
     let mut point = PointState::default();
-    let mut out = Path {
-        work: 0.0,
-        dissipated: 0.0,
-        peak: [f64::MIN; 2],
-        last: Traction::default(),
-        stored: 0.0,
-        point: PointState::default(),
-    };
+    let mut out = Path { peak: [f64::MIN; 2], ..Path::default() };
     let mut before = (0.0, 0.0);
     for (opening, slip) in path {
         let now = law.respond(&mut point, opening, [0.6 * slip, 0.8 * slip]);
