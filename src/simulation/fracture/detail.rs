@@ -105,7 +105,7 @@ impl DetailRecorder {
     /// If the file cannot be written.
     pub fn record_cracks(&mut self, world: &World) -> Result<(), OutputError> {
         let row = |failure: &crate::femdem::world::Failure| {
-            let [x, y, z] = failure.place.to_array();
+            let [x, y, z] = failure.centroid.to_array();
             let tet = world.setup().interfaces[failure.interface as usize].tets[0] as usize;
             let mode = if failure.by_sliding { 2.0 } else { 1.0 };
             [failure.time, x, y, z, failure.area, mode, f64::from(world.tets.body[tet])]
@@ -150,7 +150,7 @@ fn cut(case: &FractureCase) -> Section {
 
 fn record_tets(world: &World, series: &mut TetSeries) -> Result<(), OutputError> {
     let single = |v: &DVec3| v.as_vec3().to_array();
-    let points: Vec<[f32; 3]> = world.nodes.place.iter().map(single).collect();
+    let points: Vec<[f32; 3]> = world.nodes.position.iter().map(single).collect();
     let velocity: Vec<[f32; 3]> = world.nodes.velocity.iter().map(single).collect();
     let fragment: Vec<i32> = pieces(world).of_tet.into_iter().map(|number| number as i32).collect();
     let count = world.tets.nodes.len();
@@ -159,7 +159,7 @@ fn record_tets(world: &World, series: &mut TetSeries) -> Result<(), OutputError>
     for (tet, nodes) in world.tets.nodes.iter().enumerate() {
         let number = world.tets.body[tet];
         let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
-        let places = nodes.map(|node| world.nodes.place[node as usize]);
+        let places = nodes.map(|node| world.nodes.position[node as usize]);
         let t = element::stress(&world.tets.shape[tet], &moduli, &places);
         let [sigma_1, _, sigma_3] = principal(t);
         let components = [t.x_axis.x, t.y_axis.y, t.z_axis.z, t.x_axis.y, t.y_axis.z, t.x_axis.z];

@@ -23,7 +23,7 @@ pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
     let largest = |body: &crate::femdem::setup::Body| {
         let moduli = Moduli::from(&body.elastic);
         let sigma_1 = |tet: usize| {
-            let places = world.tets.nodes[tet].map(|node| world.nodes.place[node as usize]);
+            let places = world.tets.nodes[tet].map(|node| world.nodes.position[node as usize]);
             (principal(element::stress(&world.tets.shape[tet], &moduli, &places))[0], tet)
         };
         // Of equal stresses the first tetrahedron, so that the result does not depend on the threads.

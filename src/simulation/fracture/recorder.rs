@@ -7,10 +7,10 @@ use glam::{DMat3, DVec3};
 use super::checkpoint::RunState;
 use super::detail::DetailRecorder;
 use crate::case::FractureCase;
-use crate::femdem::book::BodyEnergy;
 use crate::femdem::element::{self, Moduli};
-use crate::femdem::energy::Ledger;
 use crate::femdem::world::World;
+use crate::femdem::world::body_energy::BodyEnergy;
+use crate::femdem::world::energy_balance::EnergyBalance;
 use crate::output::{Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, columns, write_atomically};
 
 const ENERGY_FILE: &str = "energy.csv";
@@ -103,7 +103,13 @@ impl FractureRecorder {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_energy(&mut self, world: &World, time: f64, book: &Ledger, residual: f64) -> Result<(), OutputError> {
+    pub fn record_energy(
+        &mut self,
+        world: &World,
+        time: f64,
+        book: &EnergyBalance,
+        residual: f64,
+    ) -> Result<(), OutputError> {
         self.detail.record_cracks(world)?;
         let area = world.crack_area();
         self.energy.append(&[
@@ -117,10 +123,10 @@ impl FractureRecorder {
             book.fracture,
             book.friction,
             book.work,
-            book.freed,
+            book.released,
             residual,
             area,
-            world.contacts.touching as f64,
+            world.contacts.scalars.touching as f64,
         ])
     }
 
@@ -138,7 +144,7 @@ impl FractureRecorder {
         for face in &case.mesh.faces.exteriors {
             let tet = face.tet as usize;
             let number = usize::from(world.tets.body[tet]);
-            let places = world.tets.nodes[tet].map(|node| world.nodes.place[node as usize]);
+            let places = world.tets.nodes[tet].map(|node| world.nodes.position[node as usize]);
             let moduli = Moduli::from(&setup.bodies[number].elastic);
             let [sigma_1, _, sigma_3] = principal(element::stress(&world.tets.shape[tet], &moduli, &places));
             for corner in face.nodes.map(usize::from) {
@@ -165,7 +171,7 @@ impl FractureRecorder {
             for side in 0..2 {
                 let tet = interface.tets[side] as usize;
                 for corner in interface.nodes[side].map(usize::from) {
-                    points.push(single(world.nodes.place[world.tets.nodes[tet][corner] as usize]));
+                    points.push(single(world.nodes.position[world.tets.nodes[tet][corner] as usize]));
                     time.push(at as f32);
                     mode.push(how);
                     body.push(i32::from(world.tets.body[tet]));

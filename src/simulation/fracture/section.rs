@@ -75,7 +75,7 @@ impl Section {
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (tet, triangle) in &self.triangles {
             let nodes = world.tets.nodes[*tet as usize].map(|node| node as usize);
-            let (places, velocities) = (nodes.map(|n| world.nodes.place[n]), nodes.map(|n| world.nodes.velocity[n]));
+            let (places, velocities) = (nodes.map(|n| world.nodes.position[n]), nodes.map(|n| world.nodes.velocity[n]));
             let number = world.tets.body[*tet as usize];
             let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
             let stress = element::stress(&world.tets.shape[*tet as usize], &moduli, &places);

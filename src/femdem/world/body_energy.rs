@@ -1,17 +1,15 @@
-//! The energy balance of a world and of each body.
+//! The energies of each body.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use super::element;
-use super::energy::Ledger;
-use super::rigid_body::RIGID;
-use super::world::{PIECE, World};
+use super::World;
+use crate::femdem::assembly::nodes::RIGID;
+use crate::femdem::element;
 
 /// Energies of a body [J]. Contact energy belongs to two bodies and appears only in the total balance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Kinetic energy, defined as in [`Ledger`].
+    /// Kinetic energy, defined as in [`EnergyBalance`](super::energy_balance::EnergyBalance).
     pub kinetic: f64,
     /// Strain energy of the tetrahedra.
     pub strain: f64,
@@ -24,50 +22,28 @@ pub struct BodyEnergy {
 }
 
 impl World {
-    /// Computes all energies at the current positions, except kinetic energy.
-    pub(super) fn energies(&self, viscous_power: f64) -> Ledger {
-        let tets = &self.tets;
-        let strain = |t: usize| {
-            let x = tets.nodes[t].map(|n| self.nodes.place[n as usize]);
-            element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
-        };
-        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.place[n]);
-        Ledger {
-            strain: ordered_sum(tets.nodes.len(), strain),
-            joint: self.joints.stored(&self.setup, tets, &self.nodes),
-            contact: self.contacts.stored,
-            friction: self.contacts.friction,
-            fracture: self.lost.fracture + self.joints.dissipated() - self.contacts.taken_over,
-            gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
-            // The power is that of the velocity half a time step ago and lasts until half a time step after.
-            viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
-            ..self.lost
-        }
-    }
-
     /// Computes the energies of each body at the current positions, except kinetic energy.
     pub(super) fn body_energies(&self) -> Vec<BodyEnergy> {
         let mut energies = vec![BodyEnergy::default(); self.setup.bodies.len()];
         for t in 0..self.tets.nodes.len() {
             let number = usize::from(self.tets.body[t]);
-            let x = self.tets.nodes[t].map(|node| self.nodes.place[node as usize]);
+            let x = self.tets.nodes[t].map(|node| self.nodes.position[node as usize]);
             energies[number].strain += element::energy(&self.tets.shape[t], &self.moduli[number], &x);
         }
         let body_of = |interface: usize| usize::from(self.tets.body[self.setup.interfaces[interface].tets[0] as usize]);
         for number in 0..self.joints.count() {
-            energies[body_of(number)].joint +=
-                self.joints.stored_in_whole(number, &self.setup, &self.tets, &self.nodes);
+            energies[body_of(number)].joint += self.joints.intact_energy(number, &self.setup, &self.tets, &self.nodes);
         }
-        for joint in &self.joints.worn {
+        for joint in &self.joints.damaged {
             let energy = &mut energies[body_of(joint.interface as usize)];
-            energy.joint += self.joints.stored_in(joint, &self.setup);
+            energy.joint += self.joints.damaged_energy(joint, &self.setup);
             energy.fracture += joint.dissipated;
         }
         for failure in &self.failures {
             energies[body_of(failure.interface as usize)].fracture += failure.dissipated;
         }
         for node in 0..self.nodes.count() {
-            let displacement = self.nodes.place[node] - self.place_at_start(node);
+            let displacement = self.nodes.position[node] - self.initial_position(node);
             energies[self.body_of_node(node)].gravity -= self.nodes.mass[node] * self.setup.gravity.dot(displacement);
         }
         energies
@@ -84,15 +60,6 @@ impl World {
 
     /// Returns the number of the body that a node belongs to.
     fn body_of_node(&self, node: usize) -> usize {
-        usize::from(self.tets.body[self.nodes.ties.of(node)[0] as usize / 4])
+        usize::from(self.tets.body[self.nodes.copies_of(node)[0] as usize / 4])
     }
-}
-
-/// Sums `value` over 0..count in an order that does not depend on the number of threads.
-pub(super) fn ordered_sum(count: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let chunks: Vec<f64> = (0..count.div_ceil(PIECE))
-        .into_par_iter()
-        .map(|chunk| (chunk * PIECE..((chunk + 1) * PIECE).min(count)).map(&value).sum())
-        .collect();
-    chunks.iter().fold(0.0, |sum, chunk| sum + chunk)
 }

@@ -13,7 +13,7 @@
 //!
 //! The dissipation is never negative on any path.
 
-use super::material::Strength;
+use super::Strength;
 use super::softening::{AREA, STEEPEST, z};
 
 /// Choice of the softening range of a joint.
@@ -52,29 +52,44 @@ pub struct CohesiveLaw {
     range: Range,
 }
 
+/// Count of numbers of an integration point, see [`PointState::to_array`].
+pub const POINT_NUMBERS: usize = 10;
+
 /// State of an integration point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
+pub struct PointState {
     /// Largest damage D so far [-].
     pub damage: f64,
     /// Secant stiffness in opening [Pa/m]; infinite while undamaged.
-    pub(super) secant: f64,
+    secant: f64,
     /// Opening at the last call [m].
-    pub(super) opening: f64,
+    opening: f64,
     /// Slip at the last call in the axes of the joint [m].
-    pub(super) slip: [f64; 2],
+    slip: [f64; 2],
     /// Plastic slip in the axes of the joint [m].
-    pub(super) plastic: [f64; 2],
+    plastic: [f64; 2],
     /// Accumulated plastic slip (path length) [m].
-    pub(super) slipped: f64,
+    accumulated_slip: f64,
     /// Energy dissipated by opening and by sliding so far [J/m2].
-    pub lost: [f64; 2],
+    pub dissipated: [f64; 2],
 }
 
-impl Point {
+impl PointState {
+    /// Returns the state as numbers, for a checkpoint.
+    pub fn to_array(self) -> [f64; POINT_NUMBERS] {
+        let Self { damage, secant, opening, slip: [a, b], plastic: [c, d], accumulated_slip, dissipated: [e, f] } =
+            self;
+        [damage, secant, opening, a, b, c, d, accumulated_slip, e, f]
+    }
+
+    /// Restores the state from the numbers of [`Self::to_array`].
+    pub fn from_array([damage, secant, opening, a, b, c, d, accumulated_slip, e, f]: [f64; POINT_NUMBERS]) -> Self {
+        Self { damage, secant, opening, slip: [a, b], plastic: [c, d], accumulated_slip, dissipated: [e, f] }
+    }
+
     /// Whether the point has neither damage nor plastic slip.
     #[inline]
-    pub fn is_whole(&self) -> bool {
+    pub fn is_intact(&self) -> bool {
         self.damage == 0.0 && self.plastic == [0.0; 2]
     }
 
@@ -85,10 +100,10 @@ impl Point {
     }
 }
 
-impl Default for Point {
+impl Default for PointState {
     fn default() -> Self {
         let (secant, zero) = (f64::INFINITY, [0.0; 2]);
-        Self { damage: 0.0, secant, opening: 0.0, slip: zero, plastic: zero, slipped: 0.0, lost: zero }
+        Self { damage: 0.0, secant, opening: 0.0, slip: zero, plastic: zero, accumulated_slip: 0.0, dissipated: zero }
     }
 }
 
@@ -136,7 +151,7 @@ impl CohesiveLaw {
 
     /// State of a point that carries the given stress [Pa] at zero slip, for the release of a tied face. Also returns
     /// the opening [m] at which it carries the stress. A tensile stress beyond the strength counts as the strength.
-    pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (Point, f64) {
+    pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (PointState, f64) {
         let f_t = self.strength.tensile;
         let opening = if normal > 0.0 {
             self.peak_opening * (1.0 - (1.0 - (normal / f_t).min(1.0)).sqrt())
@@ -144,11 +159,11 @@ impl CohesiveLaw {
             normal / self.stiffness
         };
         let plastic = shear.map(|tau| -tau / self.stiffness);
-        (Point { opening, plastic, ..Point::default() }, opening)
+        (PointState { opening, plastic, ..PointState::default() }, opening)
     }
 
     /// Computes the traction at an opening delta_n and a slip delta_s [m], and updates the state of the point.
-    pub fn respond(&self, point: &mut Point, opening: f64, slip: [f64; 2]) -> Traction {
+    pub fn respond(&self, point: &mut PointState, opening: f64, slip: [f64; 2]) -> Traction {
         let old = *point;
         let opened = ((opening - self.peak_opening) / self.opening_range).max(0.0);
         if opened > point.damage {
@@ -161,19 +176,19 @@ impl CohesiveLaw {
             normal = self.normal(point, opening);
         }
         (point.opening, point.slip) = (opening, slip);
-        let lost = [self.lost_normal(&old, point), self.lost_shear(&old, point)];
-        point.lost = [point.lost[0] + lost[0], point.lost[1] + lost[1]];
-        Traction { normal, shear, dissipated: lost[0] + lost[1] }
+        let dissipated = [self.dissipated_normal(&old, point), self.dissipated_shear(&old, point)];
+        point.dissipated = [point.dissipated[0] + dissipated[0], point.dissipated[1] + dissipated[1]];
+        Traction { normal, shear, dissipated: dissipated[0] + dissipated[1] }
     }
 
     /// Elastic energy of a point at the opening and slip of its last call [J/m2].
-    pub fn stored(&self, point: &Point) -> f64 {
+    pub fn stored(&self, point: &PointState) -> f64 {
         let [a, b] = point.elastic_slip();
         self.stored_normal(point) + 0.5 * self.stiffness * (a * a + b * b)
     }
 
     /// Normal stress [Pa], eq. 2; on the secant if the point is not at its largest opening.
-    fn normal(&self, point: &mut Point, opening: f64) -> f64 {
+    fn normal(&self, point: &mut PointState, opening: f64) -> f64 {
         let left = z(point.damage);
         if opening <= 0.0 {
             if point.damage > 0.0 {
@@ -191,7 +206,7 @@ impl CohesiveLaw {
     }
 
     /// Shear stress [Pa] by return mapping to the yield stress f_s z(D).
-    fn slide(&self, point: &mut Point, normal: f64, opened: f64, slip: [f64; 2]) -> [f64; 2] {
+    fn slide(&self, point: &mut PointState, normal: f64, opened: f64, slip: [f64; 2]) -> [f64; 2] {
         let elastic = [slip[0] - point.plastic[0], slip[1] - point.plastic[1]];
         let trial = self.stiffness * (elastic[0] * elastic[0] + elastic[1] * elastic[1]).sqrt();
         let strength = self.strength.shear(normal);
@@ -199,13 +214,13 @@ impl CohesiveLaw {
             return elastic.map(|e| self.stiffness * e);
         }
         let range = self.sliding_range(strength);
-        let damage = |slid: f64| opened.hypot((point.slipped + slid) / range).clamp(point.damage, 1.0);
+        let damage = |slid: f64| opened.hypot((point.accumulated_slip + slid) / range).clamp(point.damage, 1.0);
         // Decreases monotonically through zero: the yield stress is less steep than the elastic line.
         let excess = |slid: f64| trial - self.stiffness * slid - strength * z(damage(slid));
         let slid = root(excess, trial / self.stiffness);
         let yielded = (trial - self.stiffness * slid).max(0.0);
         point.damage = damage(slid);
-        point.slipped += slid;
+        point.accumulated_slip += slid;
         let direction = elastic.map(|e| e * self.stiffness / trial);
         point.plastic = [point.plastic[0] + direction[0] * slid, point.plastic[1] + direction[1] * slid];
         direction.map(|d| d * yielded)
@@ -220,7 +235,7 @@ impl CohesiveLaw {
         range.max(STEEPEST * strength / self.stiffness)
     }
 
-    fn stored_normal(&self, point: &Point) -> f64 {
+    fn stored_normal(&self, point: &PointState) -> f64 {
         let opening = point.opening;
         if opening <= 0.0 {
             0.5 * self.stiffness * opening * opening
@@ -233,7 +248,7 @@ impl CohesiveLaw {
     }
 
     /// Work of the normal stress between two calls that is not stored [J/m2].
-    fn lost_normal(&self, old: &Point, new: &Point) -> f64 {
+    fn dissipated_normal(&self, old: &PointState, new: &PointState) -> f64 {
         if new.damage == old.damage && new.secant == old.secant {
             return 0.0;
         }
@@ -241,21 +256,21 @@ impl CohesiveLaw {
         if old.damage > 0.0 {
             return 0.5 * from * to * (old.secant - new.secant);
         }
-        let stress = |point: &Point, opening: f64| {
+        let stress = |point: &PointState, opening: f64| {
             let r = opening / self.peak_opening;
             if point.damage > 0.0 { point.secant * opening } else { self.strength.tensile * (2.0 - r) * r }
         };
         // All work before the peak is stored.
         let from = from.max(to.min(self.peak_opening));
         let work = 0.5 * (stress(old, from) + stress(new, to)) * (to - from);
-        let stored = |point: &Point, opening: f64| self.stored_normal(&Point { opening, ..*point });
+        let stored = |point: &PointState, opening: f64| self.stored_normal(&PointState { opening, ..*point });
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
     /// Work of the shear stress between two calls that is not stored [J/m2]: mean stress times plastic slip. It could
     /// be negative if the stress changes sign between the calls. It is then set to zero, and the gain shows as an error
     /// in the energy balance.
-    fn lost_shear(&self, old: &Point, new: &Point) -> f64 {
+    fn dissipated_shear(&self, old: &PointState, new: &PointState) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);
         (self.stiffness * (along(0) + along(1))).max(0.0)

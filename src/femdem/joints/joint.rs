@@ -6,25 +6,25 @@
 
 use glam::DVec3;
 
-use super::cohesive_law::{CohesiveLaw, Point};
+use crate::femdem::material::cohesive_law::{CohesiveLaw, PointState};
 
 /// Corners at the ends of the edge of each integration point.
 const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// State of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Memory {
+pub struct JointState {
     /// States of the three integration points.
-    pub points: [Point; 3],
+    pub points: [PointState; 3],
     /// Opening in the cohesive law at which a tied joint was released [m].
     pub offset: f64,
     /// Whether a point has damage or plastic slip, or the joint was released from a tied face.
-    pub(super) is_worn: bool,
+    pub(super) is_damaged: bool,
 }
 
 /// Forces and dissipation of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Answer {
+pub struct JointForces {
     /// Forces on the corners of side 0 [N]; side 1 has the negative.
     pub forces: [DVec3; 3],
     /// Energy dissipated since the last call [J].
@@ -37,7 +37,8 @@ pub struct Answer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axes {
     along: [DVec3; 2],
-    normal: DVec3,
+    /// Normal, towards side 1.
+    pub normal: DVec3,
 }
 
 impl Axes {
@@ -49,11 +50,6 @@ impl Axes {
         let normal = a.cross(b).normalize();
         let first = a.normalize();
         Self { along: [first, normal.cross(first)], normal }
-    }
-
-    /// Normal, towards side 1.
-    pub fn normal(&self) -> DVec3 {
-        self.normal
     }
 
     /// Splits a vector into its normal component and its two tangential components.
@@ -75,45 +71,40 @@ fn jumps(sides: &[[DVec3; 3]; 2]) -> [DVec3; 3] {
 }
 
 /// Computes the forces of a joint from the corners of its faces, `sides` [m], and its undeformed area [m2].
-pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3; 3]; 2]) -> Answer {
+pub fn forces(law: &CohesiveLaw, area: f64, state: &mut JointState, sides: &[[DVec3; 3]; 2]) -> JointForces {
     let jump = jumps(sides);
     let axes = Axes::of_faces(sides);
-    let mut out = Answer::default();
-    for (point, [i, j]) in memory.points.iter_mut().zip(ENDS) {
+    let mut out = JointForces::default();
+    for (point, [i, j]) in state.points.iter_mut().zip(ENDS) {
         let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
-        let traction = law.respond(point, opening + memory.offset, slip);
+        let traction = law.respond(point, opening + state.offset, slip);
         // Each point has a third of the area; each end of its edge gets half of the force.
         let force = axes.join(traction.normal, traction.shear) * (area / 6.0);
         out.forces[i] += force;
         out.forces[j] += force;
         out.dissipated += traction.dissipated * (area / 3.0);
         out.failed += u8::from(point.damage >= 1.0);
-        memory.is_worn |= !point.is_whole();
+        state.is_damaged |= !point.is_intact();
     }
     out
 }
 
 /// Elastic energy of a joint in the state of the last call [J].
-pub fn stored(law: &CohesiveLaw, area: f64, memory: &Memory) -> f64 {
-    memory.points.iter().map(|point| law.stored(point)).sum::<f64>() * (area / 3.0)
+pub fn stored(law: &CohesiveLaw, area: f64, state: &JointState) -> f64 {
+    state.points.iter().map(|point| law.stored(point)).sum::<f64>() * (area / 3.0)
 }
 
-impl Memory {
+impl JointState {
     /// Creates the state of a joint released from a tied face under the given traction on side 0 [Pa].
     pub fn loaded(law: &CohesiveLaw, traction: DVec3, axes: &Axes) -> Self {
         let (normal, shear) = axes.split(traction);
         let (point, offset) = law.loaded(normal, shear);
-        Self { points: [point; 3], offset, is_worn: true }
-    }
-
-    /// Whether a point has damage or plastic slip, or the joint was released from a tied face.
-    pub fn is_worn(&self) -> bool {
-        self.is_worn
+        Self { points: [point; 3], offset, is_damaged: true }
     }
 
     /// Whether sliding (mode II) has dissipated more energy than opening (mode I).
     pub fn is_mostly_slid(&self) -> bool {
-        self.points.iter().map(|point| point.lost[1] - point.lost[0]).sum::<f64>() > 0.0
+        self.points.iter().map(|point| point.dissipated[1] - point.dissipated[0]).sum::<f64>() > 0.0
     }
 }
 

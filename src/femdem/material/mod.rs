@@ -1,4 +1,12 @@
-//! Materials of deformable bodies.
+//! Materials of deformable bodies: elasticity and strength.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `cohesive_law` | the cohesive law at an integration point of a joint |
+//! | `softening` | the softening curve of concrete |
+
+pub mod cohesive_law;
+mod softening;
 
 /// Elasticity, viscosity and density of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,11 +36,6 @@ impl Elastic {
     /// Celerity of longitudinal waves, sqrt((lambda + 2 mu) / rho) [m/s].
     pub fn celerity(&self) -> f64 {
         ((self.lambda() + 2.0 * self.mu()) / self.density).sqrt()
-    }
-
-    /// Celerity of longitudinal waves in a thin bar, sqrt(E / rho) [m/s].
-    pub fn bar_celerity(&self) -> f64 {
-        (self.young_modulus / self.density).sqrt()
     }
 }
 

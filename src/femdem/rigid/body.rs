@@ -8,11 +8,11 @@
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
 
-use super::assembly::{Nodes, Tets};
+use super::constraint::{RigidVelocity, Row, constraint_impulse};
 use super::principal_axes::principal_axes;
-use super::rigid_hold::{Freedom, Row, hold};
-use super::setup::Setup;
-use super::world::PIECE;
+use crate::femdem::assembly::{nodes::Nodes, tets::Tets};
+use crate::femdem::parallel::chunks::CHUNK;
+use crate::femdem::setup::Setup;
 
 /// Marks the nodes of rigid bodies in [`Nodes::constraint`]; the body handles their constraints.
 pub const RIGID: u16 = u16::MAX;
@@ -54,7 +54,7 @@ pub struct RigidBody {
     /// State of motion.
     pub motion: RigidMotion,
     /// Kinetic energy at the start of the last time step [J].
-    pub(super) kinetic: f64,
+    pub kinetic: f64,
     mass: f64,
     /// Principal moments of inertia [kg m2].
     moments: DVec3,
@@ -72,7 +72,7 @@ impl RigidBody {
     }
 
     /// Square of the largest speed of its nodes [m2/s2].
-    pub(super) fn fastest_squared(&self, nodes: &Nodes) -> f64 {
+    pub fn fastest_squared(&self, nodes: &Nodes) -> f64 {
         self.nodes.iter().map(|(node, _)| nodes.velocity[*node as usize].length_squared()).fold(0.0, f64::max)
     }
 
@@ -94,7 +94,7 @@ impl RigidBody {
             orientation,
         };
         let mesh_node = |node: u32| {
-            let copy = nodes.ties.of(node as usize)[0] as usize;
+            let copy = nodes.copies_of(node as usize)[0] as usize;
             setup.tets[copy / 4][copy % 4]
         };
         let mut own: Vec<u32> = tets.nodes[def.tets.clone()].iter().flatten().copied().collect();
@@ -115,23 +115,24 @@ impl RigidBody {
     }
 
     /// Advances the body and its nodes by one time step, from the forces on the tetrahedra [N] and the velocities
-    /// `given` by constraints [m/s]. Returns the kinetic energy at the start and the work of the constraints [J].
+    /// `prescribed` by constraints [m/s]. Returns the kinetic energy at the start and the work of the constraints [J].
     pub fn advance(
         &mut self,
         nodes: &mut Nodes,
         forces: &[[DVec3; 4]],
         gravity: DVec3,
         dt: f64,
-        given: &[[Option<f64>; 3]],
+        prescribed: &[[Option<f64>; 3]],
     ) -> [f64; 2] {
         let [force, torque] = self.resultant(nodes, forces);
         let RigidMotion { centre, orientation, .. } = self.motion;
         let axes = DMat3::from_quat(orientation);
         let inverse_inertia = axes * DMat3::from_diagonal(self.moments.recip()) * axes.transpose();
-        let before = Freedom {
-            velocity: self.motion.velocity,
-            angular_velocity: inverse_inertia * self.motion.angular_momentum,
+        let velocity_of = |motion: &RigidMotion| RigidVelocity {
+            velocity: motion.velocity,
+            angular_velocity: inverse_inertia * motion.angular_momentum,
         };
+        let before = velocity_of(&self.motion);
         let mut motion = self.motion;
         motion.velocity += (force / self.mass + gravity) * dt;
         motion.angular_momentum += torque * dt;
@@ -139,16 +140,13 @@ impl RigidBody {
         if !self.held.is_empty() {
             let rows = self.held.iter().flat_map(|(index, number)| {
                 let arm = orientation * self.nodes[*index as usize].1;
-                let components = given[usize::from(*number)].into_iter().enumerate();
-                components.filter_map(move |(axis, given)| Some(Row { axis: DVec3::AXES[axis], arm, velocity: given? }))
+                let components = prescribed[usize::from(*number)].into_iter().enumerate();
+                components.filter_map(move |(axis, speed)| Some(Row { axis: DVec3::AXES[axis], arm, velocity: speed? }))
             });
-            let free =
-                Freedom { velocity: motion.velocity, angular_velocity: inverse_inertia * motion.angular_momentum };
-            let impulse = hold(self.mass, inverse_inertia, free, rows);
+            let impulse = constraint_impulse(self.mass, inverse_inertia, velocity_of(&motion), rows);
             motion.velocity += impulse.force / self.mass;
             motion.angular_momentum += impulse.torque;
-            let after =
-                Freedom { velocity: motion.velocity, angular_velocity: inverse_inertia * motion.angular_momentum };
+            let after = velocity_of(&motion);
             work = 0.5
                 * (impulse.force.dot(before.velocity + after.velocity)
                     + impulse.torque.dot(before.angular_velocity + after.angular_velocity));
@@ -169,8 +167,8 @@ impl RigidBody {
         for (node, arm) in &self.nodes {
             let position = self.motion.centre + rotation * *arm;
             let node = *node as usize;
-            nodes.velocity[node] = (position - nodes.place[node]) / dt;
-            nodes.place[node] = position;
+            nodes.velocity[node] = (position - nodes.position[node]) / dt;
+            nodes.position[node] = position;
         }
     }
 
@@ -179,7 +177,7 @@ impl RigidBody {
         let sum_chunk = |chunk: &[(u32, DVec3)]| {
             let mut sum = [DVec3::ZERO; 2];
             for (node, arm) in chunk {
-                let copies = nodes.ties.of(*node as usize).iter();
+                let copies = nodes.copies_of(*node as usize).iter();
                 let force: DVec3 = copies.map(|copy| forces[*copy as usize / 4][*copy as usize % 4]).sum();
                 if force != DVec3::ZERO {
                     sum = [sum[0] + force, sum[1] + (self.motion.orientation * *arm).cross(force)];
@@ -187,7 +185,7 @@ impl RigidBody {
             }
             sum
         };
-        let chunks: Vec<[DVec3; 2]> = self.nodes.par_chunks(PIECE).map(sum_chunk).collect();
+        let chunks: Vec<[DVec3; 2]> = self.nodes.par_chunks(CHUNK).map(sum_chunk).collect();
         chunks.iter().fold([DVec3::ZERO; 2], |sum, chunk| [sum[0] + chunk[0], sum[1] + chunk[1]])
     }
 }

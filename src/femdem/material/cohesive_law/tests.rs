@@ -1,4 +1,4 @@
-//! Tests of the cohesive law follow_path paths of opening and slip.
+//! Tests of the cohesive law along paths of opening and slip.
 
 use super::*;
 
@@ -16,26 +16,20 @@ fn law(range: Range) -> CohesiveLaw {
     Cohesion { strength: CONCRETE, penalty: PENALTY, range, tied: false }.law(H)
 }
 
-/// Work, dissipation and largest stresses follow_path a path.
+/// Work, dissipation and largest stresses along a path.
+#[derive(Default)]
 struct Path {
     work: f64,
     dissipated: f64,
     peak: [f64; 2],
     last: Traction,
     stored: f64,
-    point: Point,
+    point: PointState,
 }
 
 fn follow_path(law: &CohesiveLaw, path: impl Iterator<Item = (f64, f64)>) -> Path {
-    let mut point = Point::default();
-    let mut out = Path {
-        work: 0.0,
-        dissipated: 0.0,
-        peak: [f64::MIN; 2],
-        last: Traction::default(),
-        stored: 0.0,
-        point: Point::default(),
-    };
+    let mut point = PointState::default();
+    let mut out = Path { peak: [f64::MIN; 2], ..Path::default() };
     let mut before = (0.0, 0.0);
     for (opening, slip) in path {
         let now = law.respond(&mut point, opening, [0.6 * slip, 0.8 * slip]);
@@ -135,15 +129,15 @@ fn a_released_joint_starts_with_the_stress_of_the_tied_face() {
         assert!((now.normal / normal - 1.0).abs() < 1e-9 && (now.shear[1] - shear[1]).abs() < 1e-3, "{now:?}");
     }
     let (mut point, opening) = law.loaded(3.3e6, [0.0; 2]);
-    let (mut lost, mut stored) = (0.0, 0.0);
+    let (mut dissipated, mut stored) = (0.0, 0.0);
     for d in ramp(1e-4, 40_000) {
         let now = law.respond(&mut point, opening + d, [0.0; 2]);
-        lost += now.dissipated;
+        dissipated += now.dissipated;
         stored = law.stored(&point);
     }
     let initial = 2.0 / 3.0 * 3.3e6 * opening;
     // All of G_f after the peak, plus the elastic energy that the joint had when it was released.
-    assert!(((lost - initial) / 50.0 - 1.0).abs() < 1e-3 && stored == 0.0, "{lost}");
+    assert!(((dissipated - initial) / 50.0 - 1.0).abs() < 1e-3 && stored == 0.0, "{dissipated}");
 }
 
 #[test]

@@ -6,14 +6,46 @@
 //! is (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
 
 use glam::{DMat3, DVec3};
+use rayon::prelude::*;
 
-use super::element::Shape;
-use super::material::Elastic;
+use super::World;
+use crate::femdem::element::Shape;
+use crate::femdem::material::Elastic;
 
 /// Rounds of the power iteration; they give the largest of twelve eigenvalues to one percent.
 const ROUNDS: usize = 40;
 /// Safety factor for the remaining error of the iteration [-].
 const LACKING: f64 = 1.02;
+
+impl World {
+    /// Computes the time step limit [s]; every face counts as a joint, because a tied face may be released.
+    pub fn time_step_limit(&self) -> f64 {
+        let limit = |t: usize| {
+            let body = &self.setup.bodies[usize::from(self.tets.body[t])];
+            let shape = &self.tets.shape[t];
+            let mass = 0.25 * body.elastic.density * shape.volume;
+            let mut springs = [0.0; 4];
+            if let Some(cohesion) = body.cohesion {
+                for (face, link) in self.tets.faces[t].into_iter().enumerate() {
+                    let Some((number, _)) = link.interface() else { continue };
+                    let [edge, area] = self.joints.size[number];
+                    let stiffness = cohesion.law(edge).stiffness() * area / 3.0;
+                    (0..4).filter(|k| *k != face).for_each(|k| springs[k] += stiffness);
+                }
+            }
+            let contact = contact_stiffness(shape, body.contact_penalty);
+            if body.rigid {
+                // Only contact limits the time step. A rigid body moves less than its tetrahedra alone would.
+                let touches = contact > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
+                return if touches { stable_step(2.0 * contact / mass, 0.0) } else { f64::INFINITY };
+            }
+            let springs = 2.0 * springs.into_iter().fold(contact, f64::max) / mass;
+            let frequency_squared = element_frequency_squared(shape, &body.elastic) + springs;
+            stable_step(frequency_squared, element_damping_rate(shape, &body.elastic))
+        };
+        (0..self.tets.nodes.len()).into_par_iter().map(limit).reduce(|| f64::INFINITY, f64::min)
+    }
+}
 
 /// Square of the largest angular frequency of a free tetrahedron [1/s2].
 pub fn element_frequency_squared(shape: &Shape, elastic: &Elastic) -> f64 {

@@ -13,7 +13,7 @@ const FREEDOMS: usize = 6;
 
 /// Velocity of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Freedom {
+pub struct RigidVelocity {
     /// Velocity of the centre [m/s].
     pub velocity: DVec3,
     /// Angular velocity [rad/s].
@@ -56,7 +56,12 @@ fn parts(v: &Vector) -> [DVec3; 2] {
 
 /// Computes the impulse that gives a body the velocities of the rows. The body has a mass [kg] and an inverse inertia
 /// [1/(kg m2)], and would move with `free` without the constraints.
-pub fn hold(mass: f64, inverse_inertia: DMat3, free: Freedom, rows: impl Iterator<Item = Row>) -> Impulse {
+pub fn constraint_impulse(
+    mass: f64,
+    inverse_inertia: DMat3,
+    free: RigidVelocity,
+    rows: impl Iterator<Item = Row>,
+) -> Impulse {
     // Angular velocities are multiplied by a radius of gyration, so that all components have the same unit.
     let trace = inverse_inertia.x_axis.x + inverse_inertia.y_axis.y + inverse_inertia.z_axis.z;
     let radius = (3.0 / (mass * trace)).sqrt();
@@ -121,16 +126,17 @@ fn solve(mut system: [[f64; FREEDOMS + 1]; FREEDOMS], count: usize) -> Vector {
 mod tests {
     use super::*;
 
-    fn after(rows: &[Row], free: Freedom) -> Freedom {
+    fn after(rows: &[Row], free: RigidVelocity) -> RigidVelocity {
         let (mass, inverse_inertia) = (2.0, DMat3::from_diagonal(DVec3::new(1.0, 4.0, 9.0)));
-        let impulse = hold(mass, inverse_inertia, free, rows.iter().copied());
-        Freedom {
+        let impulse = constraint_impulse(mass, inverse_inertia, free, rows.iter().copied());
+        RigidVelocity {
             velocity: free.velocity + impulse.force / mass,
             angular_velocity: free.angular_velocity + inverse_inertia * impulse.torque,
         }
     }
 
-    const FREE: Freedom = Freedom { velocity: DVec3::new(1.0, 2.0, 3.0), angular_velocity: DVec3::new(4.0, 5.0, 6.0) };
+    const FREE: RigidVelocity =
+        RigidVelocity { velocity: DVec3::new(1.0, 2.0, 3.0), angular_velocity: DVec3::new(4.0, 5.0, 6.0) };
 
     #[test]
     fn constrained_points_get_their_velocity_and_other_motion_stays_free() {
@@ -140,7 +146,8 @@ mod tests {
         // Points in a plane moved along z: no rotation about x and y, all other motion unchanged.
         let rows: Vec<Row> = corners.iter().map(|arm| row(DVec3::Z, *arm, -7.0)).collect();
         let moved = after(&rows, FREE);
-        let expected = Freedom { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
+        let expected =
+            RigidVelocity { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
         // Rounding.
         assert!((moved.velocity - expected.velocity).length() < 1e-13);
         assert!((moved.angular_velocity - expected.angular_velocity).length() < 1e-13);

@@ -1,28 +1,44 @@
-//! The time step of the combined finite-discrete element method.
+//! A world of deformable bodies and its time step: the entry to the solver.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `time_step` | the time step limit |
+//! | `motion` | motion of nodes and rigid bodies |
+//! | `release` | tied faces that become joints, joints that break |
+//! | `energy_balance`, `body_energy` | the energy balance, total and per body |
+//! | `limits` | limits that stop an unstable run |
+//! | `snapshot` | saves and restores the state |
 //!
 //! A time step has four loops: joints, tetrahedra, contacts, nodes. Each loop only writes what it owns (no scatter, no
 //! atomics), so results are bitwise equal for any number of threads. Velocities are half a time step before the
 //! positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use super::assembly::{self, Copy4, Nodes, Tets};
-use super::book::BodyEnergy;
+pub mod body_energy;
+pub mod energy_balance;
+pub mod limits;
+mod motion;
+mod release;
+pub mod snapshot;
+mod time_step;
+
+use super::assembly::{
+    nodes::{NodeCopy, Nodes},
+    splitting,
+    tets::Tets,
+};
 use super::contact::pairs::Contacts;
 use super::deformation::{Bodies, Deformation};
 use super::element::Moduli;
-use super::energy::Ledger;
 use super::joints::{Bond, Joints};
-use super::loads::CornerForce;
-use super::motion::Moved;
-use super::rigid_body::RigidBody;
+use super::loads::{Configuration, CornerForce};
+use super::rigid::body::RigidBody;
 use super::setup::{Body, Setup};
-use super::time_step;
-use super::watch::{Limits, StepError};
-
-/// Items per task of the thread pool. Sums are taken per task first, so their order does not depend on the threads.
-pub(super) const PIECE: usize = 512;
+use body_energy::BodyEnergy;
+use energy_balance::EnergyBalance;
+use limits::{Limits, StepError};
+use motion::NodeMotion;
 
 /// A broken face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +48,7 @@ pub struct Failure {
     /// Time of breaking [s].
     pub time: f64,
     /// Centroid of the undeformed face [m].
-    pub place: DVec3,
+    pub centroid: DVec3,
     /// Undeformed area [m2].
     pub area: f64,
     /// Whether sliding (mode II) dissipated more energy than opening (mode I).
@@ -40,15 +56,15 @@ pub struct Failure {
     /// Dissipated energy [J].
     pub dissipated: f64,
     /// Part of the dissipated energy that was elastic energy at the release of the tied face [J].
-    pub freed: f64,
+    pub released: f64,
 }
 
 /// A world of deformable bodies, joints and contacts.
 #[derive(Debug, Clone)]
 pub struct World {
     // Parameters.
-    pub(super) setup: Setup,
-    pub(super) moduli: Vec<Moduli>,
+    setup: Setup,
+    moduli: Vec<Moduli>,
     /// Least strength of each body [Pa].
     strength: Vec<f64>,
     /// Time step [s].
@@ -69,29 +85,29 @@ pub struct World {
     /// Rigid bodies.
     pub rigid_bodies: Vec<RigidBody>,
     /// All copies of every mesh node.
-    pub(super) around: Vec<Vec<Copy4>>,
-    pub(super) lost: Ledger,
-    pub(super) gravity_at_start: f64,
-    pub(super) limits: Limits,
+    copies_around: Vec<Vec<NodeCopy>>,
+    dissipated: EnergyBalance,
+    gravity_at_start: f64,
+    limits: Limits,
     // Workspace.
-    pub(super) deformation: Deformation,
-    pub(super) loaded: Vec<CornerForce>,
-    pub(super) moved: Vec<Moved>,
+    deformation: Deformation,
+    loaded: Vec<CornerForce>,
+    motion: Vec<NodeMotion>,
 }
 
 impl World {
     /// Creates a world in its initial state; its time step is `share` times the time step limit.
     pub fn new(setup: Setup, share: f64) -> Self {
         let joints = Joints::new(&setup);
-        let (nodes, mut tets) = assembly::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
-        joints.mark(&setup, &mut tets);
+        let (nodes, mut tets) = splitting::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
+        joints.mark_tetrahedra(&setup, &mut tets);
         let rigid_bodies = RigidBody::all(&setup, &nodes, &tets);
         // With zero moduli, tetrahedra of rigid bodies have no forces.
         let moduli_of = |body: &Body| if body.rigid { Moduli::default() } else { Moduli::from(&body.elastic) };
         let moduli = setup.bodies.iter().map(moduli_of).collect();
         let count = setup.tets.len();
-        let around = assembly::copies_around(&setup);
-        let contacts = contacts(&setup, &tets, &around, &joints);
+        let copies_around = splitting::copies_around(&setup);
+        let contacts = contacts(&setup, &tets, &copies_around, &joints);
         let limits = Limits::new(&setup, &nodes);
         let ties = joints.bond.contains(&Bond::Tied);
         let strength = setup.bodies.iter().map(|body| body.cohesion.map_or(f64::MAX, |c| c.strength.least())).collect();
@@ -106,16 +122,16 @@ impl World {
             failures: Vec::new(),
             contacts,
             rigid_bodies,
-            around,
-            lost: Ledger::default(),
+            copies_around,
+            dissipated: EnergyBalance::default(),
             gravity_at_start: 0.0,
             limits,
             deformation: Deformation::new(count, ties),
             loaded: Vec::new(),
-            moved: Vec::new(),
+            motion: Vec::new(),
             setup,
         };
-        world.dt = share * world.longest_step();
+        world.dt = share * world.time_step_limit();
         world.gravity_at_start = world.energies(0.0).gravity;
         world
     }
@@ -123,34 +139,6 @@ impl World {
     /// Returns the input of the world.
     pub fn setup(&self) -> &Setup {
         &self.setup
-    }
-
-    /// Computes the time step limit [s]; every face counts as a joint, because a tied face may be released.
-    pub fn longest_step(&self) -> f64 {
-        let limit = |t: usize| {
-            let body = &self.setup.bodies[usize::from(self.tets.body[t])];
-            let shape = &self.tets.shape[t];
-            let mass = 0.25 * body.elastic.density * shape.volume;
-            let mut springs = [0.0; 4];
-            if let Some(cohesion) = body.cohesion {
-                for (face, link) in self.tets.faces[t].into_iter().enumerate() {
-                    let Some((number, _)) = link.interface() else { continue };
-                    let [edge, area] = self.joints.size[number];
-                    let stiffness = cohesion.law(edge).stiffness() * area / 3.0;
-                    (0..4).filter(|k| *k != face).for_each(|k| springs[k] += stiffness);
-                }
-            }
-            let contact = time_step::contact_stiffness(shape, body.contact_penalty);
-            if body.rigid {
-                // Only contact limits the time step. A rigid body moves less than its tetrahedra alone would.
-                let touches = contact > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
-                return if touches { time_step::stable_step(2.0 * contact / mass, 0.0) } else { f64::INFINITY };
-            }
-            let springs = 2.0 * springs.into_iter().fold(contact, f64::max) / mass;
-            let frequency_squared = time_step::element_frequency_squared(shape, &body.elastic) + springs;
-            time_step::stable_step(frequency_squared, time_step::element_damping_rate(shape, &body.elastic))
-        };
-        (0..self.tets.nodes.len()).into_par_iter().map(limit).reduce(|| f64::INFINITY, f64::min)
     }
 
     /// Advances the world by one time step.
@@ -165,7 +153,7 @@ impl World {
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn step_with_ledger(&mut self) -> Result<Ledger, StepError> {
+    pub fn step_with_energies(&mut self) -> Result<EnergyBalance, StepError> {
         self.advance(true, None)
     }
 
@@ -173,52 +161,80 @@ impl World {
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn step_with_books(&mut self) -> Result<(Ledger, Vec<BodyEnergy>), StepError> {
+    pub fn step_with_body_energies(&mut self) -> Result<(EnergyBalance, Vec<BodyEnergy>), StepError> {
         let mut bodies = Vec::new();
-        let ledger = self.advance(true, Some(&mut bodies))?;
-        Ok((ledger, bodies))
+        Ok((self.advance(true, Some(&mut bodies))?, bodies))
     }
 
-    fn advance(&mut self, with_energies: bool, mut bodies: Option<&mut Vec<BodyEnergy>>) -> Result<Ledger, StepError> {
-        self.joints.pull(&self.setup, &self.tets, &self.nodes, self.dt);
+    fn advance(
+        &mut self,
+        with_energies: bool,
+        mut bodies: Option<&mut Vec<BodyEnergy>>,
+    ) -> Result<EnergyBalance, StepError> {
+        self.joints.compute_forces(&self.setup, &self.tets, &self.nodes, self.dt);
         let viscous_power = self.deform_tets()?;
-        self.press_contacts();
+        self.add_contact_forces();
         self.apply_loads();
-        let mut ledger = if with_energies { self.energies(viscous_power) } else { Ledger::default() };
+        let mut balance = if with_energies { self.energies(viscous_power) } else { EnergyBalance::default() };
         let before = bodies.as_mut().map(|bodies| {
             **bodies = self.body_energies();
             self.nodes.velocity.clone()
         });
         let power = self.power_of_loads();
-        let Moved { kinetic, work, fastest } = self.move_nodes();
+        let NodeMotion { kinetic, work, fastest } = self.move_nodes();
         let work = work + 0.5 * self.dt * (power + self.power_of_loads());
         if let (Some(bodies), Some(before)) = (bodies, before) {
             self.add_kinetic_energies(bodies, &before);
         }
-        ledger.kinetic = kinetic;
+        balance.kinetic = kinetic;
         // Half of the work of this time step belongs to the balance at its start.
-        ledger.work += 0.5 * work;
-        self.lost.viscous += self.dt * viscous_power;
-        self.lost.work += work;
-        self.contacts.travel(fastest.sqrt() * self.dt);
+        balance.work += 0.5 * work;
+        self.dissipated.viscous += self.dt * viscous_power;
+        self.dissipated.work += work;
+        self.contacts.add_travel(fastest.sqrt() * self.dt);
         self.release_joints();
         self.time += self.dt;
         self.check_speed(fastest)?;
-        Ok(ledger)
+        Ok(balance)
     }
 
     /// Computes the forces of tetrahedra and joints on the vertices. Returns the viscous power [W].
     fn deform_tets(&mut self) -> Result<f64, StepError> {
         let Self { deformation, joints, tets, nodes, moduli, strength, .. } = self;
         let bodies = Bodies { tets, nodes, moduli, strength, joints: &joints.forces };
-        deformation.compute(bodies).map_err(|tet| self.why_inverted(tet))
+        deformation.compute(bodies).map_err(|tet| self.inversion_error(tet))
     }
 
     /// Adds the contact forces at the current positions.
-    fn press_contacts(&mut self) {
+    fn add_contact_forces(&mut self) {
         let Self { contacts, setup, tets, nodes, joints, deformation, dt, .. } = self;
         let is_broken = |face: usize| joints.bond[face] == Bond::Broken;
-        contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
+        contacts.add_forces(setup, tets, [&nodes.position, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
+    }
+
+    /// Returns the nodes and tetrahedra on which loads act.
+    pub fn configuration(&self) -> Configuration<'_> {
+        configuration(&self.setup, &self.nodes, &self.tets)
+    }
+
+    /// Adds the loads to the forces of the tetrahedra, and stores them to compute their work.
+    fn apply_loads(&mut self) {
+        let Self { setup, nodes, tets, loaded, deformation, time, .. } = self;
+        loaded.clear();
+        let configuration = configuration(setup, nodes, tets);
+        setup.loads.iter().for_each(|load| load.forces(&configuration, *time, loaded));
+        for CornerForce { tet, corner, force } in loaded {
+            deformation.forces[*tet as usize][usize::from(*corner)] += *force;
+        }
+    }
+
+    /// Power of the loads at the current velocities [W].
+    fn power_of_loads(&self) -> f64 {
+        let power = |load: &CornerForce| {
+            let node = self.tets.nodes[load.tet as usize][usize::from(load.corner)];
+            load.force.dot(self.nodes.velocity[node as usize])
+        };
+        self.loaded.iter().map(power).sum()
     }
 
     /// Undeformed area of all broken faces [m2].
@@ -228,17 +244,22 @@ impl World {
     }
 
     /// Undeformed position of a node [m].
-    pub fn place_at_start(&self, node: usize) -> DVec3 {
-        let copy = self.nodes.ties.of(node)[0] as usize;
+    pub fn initial_position(&self, node: usize) -> DVec3 {
+        let copy = self.nodes.copies_of(node)[0] as usize;
         self.setup.nodes[self.setup.tets[copy / 4][copy % 4] as usize]
     }
 }
 
+/// Positions on which the loads of a setup act.
+fn configuration<'a>(setup: &'a Setup, nodes: &'a Nodes, tets: &'a Tets) -> Configuration<'a> {
+    Configuration { initial: (&setup.nodes, &setup.tets), current: (&nodes.position, &tets.nodes) }
+}
+
 /// Creates the contacts; tetrahedra that unbroken faces connect around a node do not touch.
-pub(super) fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints: &Joints) -> Contacts {
+fn contacts(setup: &Setup, tets: &Tets, copies_around: &[Vec<NodeCopy>], joints: &Joints) -> Contacts {
     let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
-    let around = around.iter().filter(|copies| !copies.is_empty());
-    let groups: Vec<Vec<Copy4>> =
-        around.flat_map(|copies| assembly::held_together(tets, setup, copies, &unbroken)).collect();
+    let used = copies_around.iter().filter(|copies| !copies.is_empty());
+    let groups: Vec<Vec<NodeCopy>> =
+        used.flat_map(|copies| splitting::connected_groups(tets, setup, copies, &unbroken)).collect();
     Contacts::new(setup, groups.iter().map(Vec::as_slice))
 }

@@ -4,15 +4,15 @@
 //! | --- | --- | --- |
 //! | volume of a tetrahedron | finite and above zero | in every time step |
 //! | speed of a node | [`SPEED`] times the largest celerity, plus the speed that the case causes | in every time step |
-//! | distance from mesh middle | [`REACH`] mesh diagonals, plus the motion that the case causes | by [`World::watch`] |
-//! | overlap of two tetrahedra | [`DEPTH`] of the smaller one | by [`World::watch`] |
+//! | distance from mesh middle | [`REACH`] mesh diagonals, plus the motion that the case causes | by `check_limits` |
+//! | overlap of two tetrahedra | [`DEPTH`] of the smaller one | by `check_limits` |
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::assembly::Nodes;
-use super::setup::{Constraint, Setup};
-use super::world::World;
+use super::World;
+use crate::femdem::assembly::nodes::Nodes;
+use crate::femdem::setup::{Constraint, Setup};
 
 /// Limit of the node speed in longitudinal celerities, in addition to the speed that the case causes [-]. At one
 /// celerity strains are of order one, where material law and strength are no longer valid.
@@ -21,8 +21,9 @@ pub const SPEED: f64 = 2.0;
 /// Limit of the distance of a node from the middle of the mesh in mesh diagonals [-]; fragments beyond touch nothing.
 pub const REACH: f64 = 50.0;
 
-/// Limit of the overlap of two tetrahedra, see [`Contacts::deepest`](super::contact::pairs::Contacts::deepest) [-]:
-/// half of the smaller one is then inside the other, and the contact force hardly pushes it back out.
+/// Limit of the overlap of two tetrahedra [-], see
+/// [`Contacts::deepest_overlap`](crate::femdem::contact::pairs::Contacts::deepest_overlap): half of the smaller one is
+/// then inside the other, and the contact force hardly pushes it back out.
 pub const DEPTH: f64 = 0.25;
 
 /// Nodes per task of the thread pool.
@@ -84,7 +85,7 @@ pub(super) struct Limits {
     /// Speed limit, without the speed that the case causes [m/s].
     speed: f64,
     /// Largest initial or prescribed speed [m/s].
-    given: f64,
+    prescribed_speed: f64,
     /// Gravitational acceleration [m/s2].
     gravity: f64,
 }
@@ -100,17 +101,17 @@ impl Limits {
             centre: 0.5 * (low + high),
             reach: REACH * low.distance(high),
             speed: SPEED * celerity,
-            given: nodes.velocity.iter().map(|v| v.length()).chain(prescribed).fold(0.0, f64::max),
+            prescribed_speed: nodes.velocity.iter().map(|v| v.length()).chain(prescribed).fold(0.0, f64::max),
             gravity: setup.gravity.length(),
         }
     }
 
     fn speed_at(&self, time: f64) -> f64 {
-        self.speed + self.given + self.gravity * time
+        self.speed + self.prescribed_speed + self.gravity * time
     }
 
     fn reach_at(&self, time: f64) -> f64 {
-        self.reach + (self.given + 0.5 * self.gravity * time) * time
+        self.reach + (self.prescribed_speed + 0.5 * self.gravity * time) * time
     }
 }
 
@@ -120,19 +121,19 @@ impl World {
     ///
     /// # Errors
     /// Returns the first such node, or the deepest contact.
-    pub fn watch(&self) -> Result<(), StepError> {
+    pub fn check_limits(&self) -> Result<(), StepError> {
         let (time, reach, centre) = (self.time, self.limits.reach_at(self.time), self.limits.centre);
         let distance = |x: &DVec3| x.distance(centre);
         // A NaN position counts as outside, too.
         let is_outside = |x: &DVec3| !matches!(distance(x).partial_cmp(&reach), Some(order) if order.is_le());
-        if let Some(node) = self.nodes.place.par_iter().with_min_len(CHUNK).position_first(is_outside) {
-            let position = self.nodes.place[node];
+        if let Some(node) = self.nodes.position.par_iter().with_min_len(CHUNK).position_first(is_outside) {
+            let position = self.nodes.position[node];
             if !position.is_finite() {
                 return Err(StepError::NotFinite { node, time });
             }
             return Err(StepError::Escaped { node, distance: [distance(&position), reach], time });
         }
-        match self.contacts.deepest(&self.tets) {
+        match self.contacts.deepest_overlap(&self.tets) {
             Some((tets, share)) if share > DEPTH => Err(StepError::TooDeep { tets, share, time }),
             _ => Ok(()),
         }
@@ -152,10 +153,10 @@ impl World {
     }
 
     /// Returns the error for a tetrahedron without volume: inverted, or with a node that is not finite.
-    pub(super) fn why_inverted(&self, tet: usize) -> StepError {
+    pub(super) fn inversion_error(&self, tet: usize) -> StepError {
         let time = self.time;
         let corners = self.tets.nodes[tet].map(|node| node as usize);
-        match corners.into_iter().find(|node| !self.nodes.place[*node].is_finite()) {
+        match corners.into_iter().find(|node| !self.nodes.position[*node].is_finite()) {
             Some(node) => StepError::NotFinite { node, time },
             None => StepError::Inverted { tet, time },
         }

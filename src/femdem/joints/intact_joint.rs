@@ -3,12 +3,12 @@
 //! The forces equal those of [`super::joint::forces`] with a new state, to rounding. A joint that reaches its strength
 //! is only reported, and [`super::joint::forces`] computes its forces.
 
-use super::cohesive_law::Cohesion;
-use super::lanes::{Lanes, Vectors};
+use crate::femdem::material::cohesive_law::Cohesion;
+use crate::femdem::parallel::lanes::{Lanes, Vectors};
 
 /// Cohesive laws of the joints in the lanes.
 #[derive(Debug, Clone, Copy)]
-pub struct WholeLaw<L> {
+pub struct IntactLaw<L> {
     /// p_0 [Pa].
     penalty: L,
     tensile: L,
@@ -20,14 +20,14 @@ pub struct WholeLaw<L> {
 
 /// Forces of the joints in the lanes.
 #[derive(Debug, Clone, Copy)]
-pub struct WholeAnswer<L> {
+pub struct IntactForces<L> {
     /// Forces on the corners of side 0 [N]; side 1 has the negative.
     pub forces: [Vectors<L>; 3],
     /// Positive if a joint opens beyond its peak or slips beyond its strength; its forces are then not valid.
     pub beyond: L,
 }
 
-impl<L: Lanes> WholeLaw<L> {
+impl<L: Lanes> IntactLaw<L> {
     /// Builds the laws from a function of the lane.
     #[inline(always)]
     pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Cohesion) -> Self {
@@ -42,7 +42,7 @@ impl<L: Lanes> WholeLaw<L> {
 
     /// Computes the forces from mean edge lengths h [m], undeformed areas [m2] and the corners of both sides [m].
     #[inline(always)]
-    pub fn forces(&self, edge: L, area: L, [a, b]: &[[Vectors<L>; 3]; 2]) -> WholeAnswer<L> {
+    pub fn forces(&self, edge: L, area: L, [a, b]: &[[Vectors<L>; 3]; 2]) -> IntactForces<L> {
         let jump = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
         // Corner of the mid-surface, scaled by two.
         let corner = a[0] + b[0];
@@ -55,7 +55,7 @@ impl<L: Lanes> WholeLaw<L> {
         let r = self.respond(stiffness, (jump[2] + jump[0]) * half, normal);
         // Each point has a third of the area; each end of its edge gets half of the force.
         let share = area * L::splat(1.0 / 6.0);
-        WholeAnswer {
+        IntactForces {
             forces: [(p.0 + r.0) * share, (p.0 + q.0) * share, (q.0 + r.0) * share],
             beyond: p.1.max(q.1).max(r.1),
         }
@@ -81,11 +81,11 @@ impl<L: Lanes> WholeLaw<L> {
 mod tests {
     use glam::DVec3;
 
-    use super::super::cohesive_law::Range;
-    use super::super::joint::{self, Memory};
-    use super::super::lanes::{LANES, Portable};
-    use super::super::material::Strength;
+    use super::super::joint::{self, JointState};
     use super::*;
+    use crate::femdem::material::Strength;
+    use crate::femdem::material::cohesive_law::Range;
+    use crate::femdem::parallel::lanes::{LANES, Portable};
     use crate::random::SplitMix64;
 
     #[test]
@@ -96,28 +96,28 @@ mod tests {
         let corners = [DVec3::ZERO, DVec3::new(0.03, 0.0, 0.004), DVec3::new(0.002, 0.028, 0.0)];
         let (edge, area) = joint::size(&corners);
         let mut random = SplitMix64::new(5);
-        let (mut whole, mut worn) = (0, 0);
+        let (mut intact, mut damaged) = (0, 0);
         for _ in 0..2000 {
             // Around the opening and slip at the strength, 0.15 and 0.37 micrometres.
             let mut offset = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
             let sides = [corners.map(|corner| corner - offset()), corners.map(|corner| corner + offset() - offset())];
-            let mut memory = Memory::default();
-            let expected = joint::forces(&cohesion.law(edge), area, &mut memory, &sides);
+            let mut state = JointState::default();
+            let expected = joint::forces(&cohesion.law(edge), area, &mut state, &sides);
             let lanes = sides.map(|side| side.map(|corner| Vectors::<Portable>::from_fn(|_| corner)));
-            let law = WholeLaw::from_fn(|_| &cohesion);
+            let law = IntactLaw::from_fn(|_| &cohesion);
             let found = law.forces(Portable::splat(edge), Portable::splat(area), &lanes);
             let beyond = found.beyond.to_array()[LANES - 1] > 0.0;
-            assert_eq!(beyond, memory.is_worn());
+            assert_eq!(beyond, state.is_damaged);
             if beyond {
-                worn += 1;
+                damaged += 1;
                 continue;
             }
-            whole += 1;
+            intact += 1;
             for (found, expected) in found.forces.into_iter().zip(expected.forces) {
                 // Rounding: jumps of 0.1 micrometres are differences of positions of 3 cm.
                 assert!((found.to_array()[0] - expected).length() < 1e-9 * expected.length() + 1e-6);
             }
         }
-        assert!(whole > 200 && worn > 200, "{whole} {worn}");
+        assert!(intact > 200 && damaged > 200, "{intact} {damaged}");
     }
 }
