@@ -7,9 +7,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::contact::Feature;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
+use crate::rigid::contact::Feature;
 
 /// A plane strip of the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::event::ContactEvent;
-use super::history::ForceHistory;
+use super::force_history::ForceHistory;
 
 /// Number of impacts kept per unit for their peak force.
-pub const HARDEST: usize = 12;
+pub const MAX_HARDEST: usize = 12;
 
 /// Number of further impacts kept per unit for their approach energy.
-pub const MOST_ENERGETIC: usize = 4;
+pub const MAX_MOST_ENERGETIC: usize = 4;
 
 /// A contact with its force history.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -91,14 +91,14 @@ impl ImpactLog {
         let [force, energy] = ranks(event);
         let keeps = |unit: usize| {
             self.units.get(unit).is_none_or(|unit| {
-                has_room(&unit.by_force, HARDEST, force) || has_room(&unit.by_energy, MOST_ENERGETIC, energy)
+                has_room(&unit.by_force, MAX_HARDEST, force) || has_room(&unit.by_energy, MAX_MOST_ENERGETIC, energy)
             })
         };
         event.peak_force > 0.0 && units_of(event).any(keeps)
     }
 
     /// Adds an ended contact if it is among the hardest impacts of one of its units.
-    pub fn take(&mut self, mut contact: RecordedContact) {
+    pub fn add(&mut self, mut contact: RecordedContact) {
         if !self.would_keep(&contact.event) {
             return;
         }
@@ -117,9 +117,9 @@ impl ImpactLog {
         let [force, _] = ranks(event);
         let lists = &mut self.units[unit];
         // An impact that leaves the hardest may still be among the most energetic.
-        let weaker = rank_in(&mut lists.by_force, HARDEST, force)?;
+        let weaker = rank_in(&mut lists.by_force, MAX_HARDEST, force)?;
         let [_, energy] = ranks(&self.impacts[&weaker.number].event);
-        rank_in(&mut lists.by_energy, MOST_ENERGETIC, energy).map(|out| out.number)
+        rank_in(&mut lists.by_energy, MAX_MOST_ENERGETIC, energy).map(|out| out.number)
     }
 
     /// Drops an impact that is in no unit's ranking.
@@ -139,7 +139,7 @@ impl ImpactLog {
 mod tests {
     use super::*;
     use crate::rigid::Feature;
-    use crate::rigid::event::event_for_tests;
+    use crate::rigid::record::event::event_for_tests;
 
     /// Contact of unit `number % 3` with the next unit or a wall; forces and energies are quasi-random.
     fn contact(number: u64) -> RecordedContact {
@@ -161,9 +161,9 @@ mod tests {
             let mut own: Vec<&ContactEvent> =
                 contacts.iter().map(|c| &c.event).filter(|e| units_of(e).any(|u| u == unit)).collect();
             own.sort_by(|a, b| b.peak_force.total_cmp(&a.peak_force));
-            let mut rest = own.split_off(HARDEST.min(own.len()));
+            let mut rest = own.split_off(MAX_HARDEST.min(own.len()));
             rest.sort_by(|a, b| b.approach_energy.total_cmp(&a.approach_energy));
-            kept.extend(own.iter().chain(rest.iter().take(MOST_ENERGETIC)).map(|event| event.number));
+            kept.extend(own.iter().chain(rest.iter().take(MAX_MOST_ENERGETIC)).map(|event| event.number));
         }
         kept.sort_unstable();
         kept.dedup();
@@ -176,9 +176,9 @@ mod tests {
         let contacts: Vec<RecordedContact> = (0..2000).map(contact).collect();
         for (count, contact) in contacts.iter().enumerate() {
             let would = log.would_keep(&contact.event);
-            log.take(contact.clone());
+            log.add(contact.clone());
             let kept: Vec<u64> = log.impacts().map(|impact| impact.event.number).collect();
-            assert!(kept.len() <= 3 * (HARDEST + MOST_ENERGETIC));
+            assert!(kept.len() <= 3 * (MAX_HARDEST + MAX_MOST_ENERGETIC));
             assert_eq!(would, kept.contains(&contact.event.number));
             if count % 100 == 7 {
                 assert_eq!(kept, expected(&contacts[..=count]));

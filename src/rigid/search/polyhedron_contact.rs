@@ -2,18 +2,14 @@
 //!
 //! Two polyhedra with parallel faces in contact share a contact patch, so a single pair of nearest points is arbitrary.
 //! The patch is a polygon. Its corners are corners of one body over a face of the other, and crossings of two edges.
-//! Each of them is a contact point. The distances of corners are exact and change smoothly. Near the end of an edge,
+//! Each of them is a contact point. The distances of corners are exact and change smoothly. NearPoint the end of an edge,
 //! the edge is assumed to bend back with the rounding radius: the crossing fades out while the corner takes over.
 
 use glam::DVec3;
 
-use super::gap::Placement;
+use super::nearest_points::Placement;
 use crate::geometry::polyhedron::Polyhedron;
-
-/// Largest number of corners plus edges of a polyhedron: they are numbered from 0, below [`WHOLE`].
-pub const MOST_FEATURES: usize = WHOLE as usize - 1;
-/// Feature number of the whole polyhedron; corners are numbered from 0, followed by the edges.
-pub const WHOLE: u16 = 1023;
+use crate::rigid::contact::WHOLE;
 
 /// Squared sine of the angle below which two edges count as parallel [-]: 0.6 degrees; the corners carry the load then.
 const PARALLEL: f64 = 1e-4;
@@ -22,23 +18,23 @@ const BEHIND: f64 = 0.2;
 
 /// A point where two bodies are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Near {
+pub struct NearPoint {
     /// Feature (corner, edge or whole) of the first and of the second body.
     pub features: [u16; 2],
     /// Nearest points of the cores, world axes [m].
     pub points: [DVec3; 2],
     /// Distance by which the bent edges reduce the overlap here [m].
-    pub bent: f64,
+    pub overlap_reduction: f64,
 }
 
 /// Points where the cores of two polyhedra, rounded by `rounding` [m], are nearer than `reach` [m]. A distance of zero
 /// means that the cores overlap.
-pub fn near_places(
+pub fn near_points(
     (a, (q_a, x_a)): (&Polyhedron, Placement),
     (b, (q_b, x_b)): (&Polyhedron, Placement),
     rounding: f64,
     reach: f64,
-) -> Vec<Near> {
+) -> Vec<NearPoint> {
     // Corners of each body in the axes of the other.
     let (back_a, back_b) = (q_a.inverse(), q_b.inverse());
     let a_at_b: Vec<DVec3> = a.corners().iter().map(|c| back_b * (q_a * *c + x_a - x_b)).collect();
@@ -48,18 +44,18 @@ pub fn near_places(
     }
     let (from_a, from_b) = (|p: DVec3| q_a * p + x_a, |p: DVec3| q_b * p + x_b);
     let mut found = Vec::new();
-    let mut keep = |near: Near| {
+    let mut keep = |near: NearPoint| {
         if near.points[0].distance_squared(near.points[1]) < reach * reach {
             found.push(near);
         }
     };
     for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
         let points = [from_b(*corner), from_b(b.nearest(*corner))];
-        keep(Near { features: [number as u16, WHOLE], points, bent: 0.0 });
+        keep(NearPoint { features: [number as u16, WHOLE], points, overlap_reduction: 0.0 });
     }
     for (number, corner) in b_at_a.iter().enumerate().filter(|(_, corner)| a.least_distance(**corner) < reach) {
         let points = [from_a(a.nearest(*corner)), from_a(*corner)];
-        keep(Near { features: [WHOLE, number as u16], points, bent: 0.0 });
+        keep(NearPoint { features: [WHOLE, number as u16], points, overlap_reduction: 0.0 });
     }
     let relative = back_a * q_b;
     let edges_of_b: Vec<EdgeAt> = b
@@ -70,9 +66,9 @@ pub fn near_places(
     for (i, edge) in a.edges().iter().enumerate() {
         let edge = EdgeAt { ends: edge.ends.map(|c| a.corners()[c]), normals: edge.normals };
         for (j, other) in edges_of_b.iter().enumerate() {
-            if let Some((points, bent)) = crossing(&edge, other, rounding, reach) {
+            if let Some((points, overlap_reduction)) = crossing(&edge, other, rounding, reach) {
                 let features = [(a.corners().len() + i) as u16, (b.corners().len() + j) as u16];
-                keep(Near { features, points: points.map(from_a), bent });
+                keep(NearPoint { features, points: points.map(from_a), overlap_reduction });
             }
         }
     }
@@ -120,8 +116,8 @@ fn crossing(a: &EdgeAt, b: &EdgeAt, rounding: f64, reach: f64) -> Option<([DVec3
     if !(a.points_out(out) && b.points_out(-out)) {
         return None;
     }
-    let bent = |distance: &f64| (rounding - distance).max(0.0).powi(2) / (2.0 * rounding);
-    Some(([on_a, on_b], from_ends.iter().map(bent).sum()))
+    let reduction = |distance: &f64| (rounding - distance).max(0.0).powi(2) / (2.0 * rounding);
+    Some(([on_a, on_b], from_ends.iter().map(reduction).sum()))
 }
 
 #[cfg(test)]
@@ -140,16 +136,16 @@ mod tests {
         Polyhedron::hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
     }
 
-    fn above(x: f64, z: f64, turn: f64) -> Vec<Near> {
+    fn above(x: f64, z: f64, turn: f64) -> Vec<NearPoint> {
         let upper = (DQuat::from_rotation_z(turn), DVec3::new(x, 0.0, z));
-        near_places((&cube(), (DQuat::IDENTITY, DVec3::ZERO)), (&cube(), upper), ROUNDING, 0.2)
+        near_points((&cube(), (DQuat::IDENTITY, DVec3::ZERO)), (&cube(), upper), ROUNDING, 0.2)
     }
 
     #[test]
     fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
         let points = above(0.3, 1.0, 0.0);
         // Two corners of each box lie over the other's face; the others are 0.3 away. Edges that only meet bend back.
-        let bearing = points.iter().filter(|near| near.bent == 0.0);
+        let bearing = points.iter().filter(|near| near.overlap_reduction == 0.0);
         assert_eq!(bearing.clone().count(), 4);
         for near in bearing {
             assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12);
@@ -163,7 +159,9 @@ mod tests {
         let crossings = points.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
         assert_eq!((crossings.count(), points.len()), (8, 8));
         for near in points {
-            assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12 && near.bent == 0.0);
+            assert!(
+                (near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12 && near.overlap_reduction == 0.0
+            );
         }
     }
 
@@ -174,10 +172,10 @@ mod tests {
             let lower = (edge_up, DVec3::ZERO);
             let across = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
             let upper = (across * edge_up, DVec3::new(shift, 0.0, 0.9 * 2f64.sqrt() + 0.1));
-            let points = near_places((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
+            let points = near_points((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
             let near = points.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
             let past = (shift - 0.4f64).max(0.0);
-            assert!((near.bent - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.bent);
+            assert!((near.overlap_reduction - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.overlap_reduction);
         }
     }
 }

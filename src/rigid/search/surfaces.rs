@@ -8,65 +8,21 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::broad_phase::{self, BodyPair};
-use super::error::RigidError;
-use super::forces::Contact;
-use super::gap::{self, Nearest};
 use super::ground::{Approach, GroundSurface, PlaneWall};
-use super::polyhedron_contact::{self, Near, WHOLE};
-use super::setup::{RigidSetup, Sides};
+use super::nearest_points::{self, Nearest};
+use super::polyhedron_contact::{self, NearPoint};
 use super::terrain_contact;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::terrain::Terrain;
+use crate::rigid::contact::{Contact, ContactKey, ContactPoint, Feature, WHOLE};
+use crate::rigid::error::RigidError;
+use crate::rigid::setup::{RigidSetup, Sides};
 
 /// Number of bodies, and of pairs of parts, per task of the thread pool: some tens of microseconds of work.
 const BODIES: usize = 64;
 const PAIRS: usize = 24;
-
-/// The contact partner of a part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Feature {
-    /// A part of another body (or of the same one), shifted by `image` flume widths. `part` is 1024 times the number of
-    /// the part, plus the number of its corner or edge, or 1023 for the whole part.
-    Unit { body: u32, image: i32, part: u16 },
-    /// The ground: `place` is 2 k for strip k and 2 k + 1 for the convex corner after it.
-    Ground { place: u32, end: u16 },
-    /// A triangle surface: `place` is the number of the triangle, ridge or corner.
-    Terrain { place: u32, end: u16 },
-    /// A wall: 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward.
-    Wall { wall: u8, end: u16 },
-}
-
-/// Identity of a contact: body, part and contact partner.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct ContactKey {
-    /// Number of the body from 0.
-    pub body: u32,
-    /// Number of its part from 0; against another unit, encoded as in [`Feature::Unit`].
-    pub part: u16,
-    /// Contact partner.
-    pub feature: Feature,
-}
-
-/// A contact point: two surfaces overlap or are near each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
-    /// Identity of the contact.
-    pub key: ContactKey,
-    /// Middle of the overlap [m], at the first body.
-    pub point: DVec3,
-    /// Normal from the partner into the first body.
-    pub normal: DVec3,
-    /// Overlap d [m]; negative for a gap.
-    pub overlap: f64,
-    /// Shift of the partner's periodic image [m].
-    pub shift: DVec3,
-    /// Nearest point of the partner's core, in the partner's axes [m]; for a fixed surface, the foot point on it.
-    pub core: DVec3,
-}
 
 /// Two parts of different bodies that are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,27 +88,22 @@ impl Surfaces {
         }
     }
 
-    /// Width of a periodic flume [m].
-    pub fn period(&self) -> Option<f64> {
-        self.period
-    }
-
-    /// Contact points of one body with the ground, the walls and the bodies of the given pairs.
-    pub fn touches_of(
+    /// Contact points of one body with the ground, the walls and the bodies of lower index.
+    pub fn contact_points_of(
         &self,
         body: usize,
-        pairs: &[BodyPair],
         placements: Placements<'_>,
         time: f64,
-    ) -> Result<Vec<Touch>, RigidError> {
-        let mut touches = Vec::new();
-        self.fixed_touches(body, placements, 0.0, time, &mut touches)?;
+    ) -> Result<Vec<ContactPoint>, RigidError> {
+        let pairs = broad_phase::pairs_with(body, placements.position, 2.0 * self.reach, self.period);
+        let mut contact_points = Vec::new();
+        self.fixed_contact_points(body, placements, 0.0, time, &mut contact_points)?;
         let mut near = Vec::new();
         pairs.iter().for_each(|pair| self.near_parts_of(pair, placements, 0.0, &mut near));
         for pair in &near {
-            self.part_touches(pair, placements, &[], 0.0, time, &mut touches)?;
+            self.part_contact_points(pair, placements, &[], 0.0, time, &mut contact_points)?;
         }
-        Ok(touches)
+        Ok(contact_points)
     }
 
     /// Radius of the sphere about the centre of mass that encloses a body [m].
@@ -184,7 +135,7 @@ impl Surfaces {
                     continue;
                 }
                 let roundings = part_a.rounding() + part_b.rounding();
-                let gap = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), roundings + margin) {
+                let gap = match nearest_points::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), roundings + margin) {
                     Nearest::Apart => continue,
                     Nearest::Overlap => -roundings,
                     Nearest::Points(p_a, p_b) => p_a.distance(p_b) - roundings,
@@ -207,35 +158,36 @@ impl Surfaces {
     }
 
     /// Contact points of the given pairs, the ground and the walls within the bodies' margins [m], sorted by key.
-    pub fn touches(
+    pub fn contact_points(
         &self,
         pairs: &[PartPair],
         placements: Placements<'_>,
         before: &[Contact],
         margins: &[f64],
         time: f64,
-    ) -> Result<Vec<Touch>, RigidError> {
+    ) -> Result<Vec<ContactPoint>, RigidError> {
         let bodies: Vec<usize> = (0..placements.position.len()).collect();
-        let fixed =
-            map_chunks(&bodies, BODIES, |body, out| self.fixed_touches(*body, placements, margins[*body], time, out));
+        let fixed = map_chunks(&bodies, BODIES, |body, out| {
+            self.fixed_contact_points(*body, placements, margins[*body], time, out)
+        });
         let mutual = map_chunks(pairs, PAIRS, |pair, out| {
             let margin = margins[pair.bodies.first] + margins[pair.bodies.second];
-            self.part_touches(pair, placements, before, margin, time, out)
+            self.part_contact_points(pair, placements, before, margin, time, out)
         });
-        let mut touches = fixed?;
-        touches.extend(mutual?);
-        touches.sort_unstable_by_key(|t| t.key);
-        Ok(touches)
+        let mut contact_points = fixed?;
+        contact_points.extend(mutual?);
+        contact_points.sort_unstable_by_key(|t| t.key);
+        Ok(contact_points)
     }
 
     /// Appends the contact points of a body with the ground and the walls.
-    fn fixed_touches(
+    fn fixed_contact_points(
         &self,
         body: usize,
         placements: Placements<'_>,
         margin: f64,
         time: f64,
-        touches: &mut Vec<Touch>,
+        contact_points: &mut Vec<ContactPoint>,
     ) -> Result<(), RigidError> {
         let (q, x) = (placements.rotation[body], placements.position[body]);
         let mut approaches = Vec::new();
@@ -252,21 +204,21 @@ impl Surfaces {
                 wall.approaches(part, q, x, near, &mut approaches);
             }
             for approach in &approaches {
-                touches.push(fixed_touch(body, index, part, approach, time)?);
+                contact_points.push(fixed_contact_point(body, index, part, approach, time)?);
             }
         }
         Ok(())
     }
 
     /// Appends the contact points of two parts.
-    fn part_touches(
+    fn part_contact_points(
         &self,
         pair: &PartPair,
         placements: Placements<'_>,
         before: &[Contact],
         margin: f64,
         time: f64,
-        touches: &mut Vec<Touch>,
+        contact_points: &mut Vec<ContactPoint>,
     ) -> Result<(), RigidError> {
         let PartPair { bodies, parts, .. } = pair;
         let [pose_a, pose_b] = self.poses(bodies, placements);
@@ -274,25 +226,28 @@ impl Surfaces {
         let roundings = [part_a.rounding(), part_b.rounding()];
         let reach = roundings[0] + roundings[1] + margin;
         let shift = self.shift(bodies);
-        let mut add = |near: Near| {
-            let touch = unit_touch(pair, near, roundings, shift, time)?;
+        let mut add = |near: NearPoint| {
+            let point = unit_contact_point(pair, near, roundings, shift, time)?;
             let core = pose_b.0.inverse() * (near.points[1] - pose_b.1);
-            touches.push(Touch { core, ..touch });
+            contact_points.push(ContactPoint { core, ..point });
             Ok(())
         };
         if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
             let rounding = 0.5 * (roundings[0] + roundings[1]);
-            let places = polyhedron_contact::near_places((core_a, pose_a), (core_b, pose_b), rounding, reach);
-            return places.into_iter().try_for_each(add);
+            let near = polyhedron_contact::near_points((core_a, pose_a), (core_b, pose_b), rounding, reach);
+            return near.into_iter().try_for_each(add);
         }
         let key = pair.key([WHOLE; 2]);
         let last_core = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
-        let near_last = last_core.and_then(|core| gap::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
-        match near_last.unwrap_or_else(|| gap::nearest(part_a, pose_a, part_b, pose_b, reach)) {
+        let near_last =
+            last_core.and_then(|core| nearest_points::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
+        match near_last.unwrap_or_else(|| nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach)) {
             Nearest::Apart => Ok(()),
             // Equal points: the distance is zero.
-            Nearest::Overlap => add(Near { features: [WHOLE; 2], points: [pose_a.1; 2], bent: 0.0 }),
-            Nearest::Points(p_a, p_b) => add(Near { features: [WHOLE; 2], points: [p_a, p_b], bent: 0.0 }),
+            Nearest::Overlap => add(NearPoint { features: [WHOLE; 2], points: [pose_a.1; 2], overlap_reduction: 0.0 }),
+            Nearest::Points(p_a, p_b) => {
+                add(NearPoint { features: [WHOLE; 2], points: [p_a, p_b], overlap_reduction: 0.0 })
+            }
         }
     }
 }
@@ -319,8 +274,14 @@ fn map_chunks<T: Sync, U: Send>(
 }
 
 /// Creates the contact point of parts of two units with the given rounding radii [m].
-fn unit_touch(pair: &PartPair, near: Near, roundings: [f64; 2], shift: DVec3, time: f64) -> Result<Touch, RigidError> {
-    let Near { features, points: [p_a, p_b], bent } = near;
+fn unit_contact_point(
+    pair: &PartPair,
+    near: NearPoint,
+    roundings: [f64; 2],
+    shift: DVec3,
+    time: f64,
+) -> Result<ContactPoint, RigidError> {
+    let NearPoint { features, points: [p_a, p_b], overlap_reduction } = near;
     let distance = (p_a - p_b).length();
     let sum = roundings[0] + roundings[1];
     let overlap = sum - distance;
@@ -332,24 +293,24 @@ fn unit_touch(pair: &PartPair, near: Near, roundings: [f64; 2], shift: DVec3, ti
         return Err(RigidError::TooDeep { time, body: first, partner, depth: overlap, allowed });
     }
     let normal = (p_a - p_b) / distance;
-    Ok(Touch {
+    Ok(ContactPoint {
         key: pair.key(features),
-        point: p_a - normal * (roundings[0] - 0.5 * overlap),
+        position: p_a - normal * (roundings[0] - 0.5 * overlap),
         normal,
-        overlap: overlap - bent,
+        overlap: overlap - overlap_reduction,
         shift,
         core: DVec3::ZERO,
     })
 }
 
 /// Creates the contact point of a part with the ground or a wall.
-fn fixed_touch(
+fn fixed_contact_point(
     body: usize,
     index: usize,
     part: &ConvexPart,
     approach: &Approach,
     time: f64,
-) -> Result<Touch, RigidError> {
+) -> Result<ContactPoint, RigidError> {
     let overlap = part.rounding() - approach.distance;
     if overlap > part.rounding() || overlap.is_nan() {
         let partner = match approach.feature {
@@ -365,9 +326,9 @@ fn fixed_touch(
             allowed: part.rounding(),
         });
     }
-    Ok(Touch {
+    Ok(ContactPoint {
         key: ContactKey { body: body as u32, part: index as u16, feature: approach.feature },
-        point: approach.core - approach.normal * (part.rounding() - 0.5 * overlap),
+        position: approach.core - approach.normal * (part.rounding() - 0.5 * overlap),
         normal: approach.normal,
         overlap,
         shift: DVec3::ZERO,

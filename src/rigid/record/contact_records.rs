@@ -2,16 +2,15 @@
 
 use glam::DVec3;
 
-use super::contact::Touch;
 use super::event::{ContactEvent, EventLog};
-use super::forces::Step;
-use super::history::ForceHistory;
+use super::force_history::ForceHistory;
 use super::impact_log::{ImpactLog, RecordedContact};
-use super::motion::BodyState;
+use crate::rigid::contact::{ContactPoint, Substep};
+use crate::rigid::motion::BodyState;
 
 /// Records of all contacts of a world.
 #[derive(Debug, Clone, Default)]
-pub struct ContactBook {
+pub struct ContactRecords {
     /// Records of the active contacts, in the order of the contacts.
     #[allow(clippy::vec_box, reason = "records move between lists in every substep; boxed, only a pointer moves")]
     pub running: Vec<Box<RecordedContact>>,
@@ -25,7 +24,7 @@ pub struct ContactBook {
 
 /// State of the bodies at the start of a contact.
 #[derive(Debug, Clone, Copy)]
-pub struct Beginning {
+pub struct ContactStart {
     /// Time [s].
     pub time: f64,
     /// First body.
@@ -42,9 +41,9 @@ pub struct Beginning {
 
 /// Contact force over a substep.
 #[derive(Debug, Clone, Copy)]
-pub struct Push {
+pub struct ForceStep {
     /// The substep.
-    pub step: Step,
+    pub substep: Substep,
     /// Force at the start of the substep [N].
     pub before: DVec3,
     /// Force at the end of the substep [N].
@@ -53,21 +52,21 @@ pub struct Push {
     pub v_n: f64,
 }
 
-impl ContactBook {
+impl ContactRecords {
     /// Creates the record of a contact that starts.
-    pub fn begin(&mut self, touch: &Touch, at: Beginning) -> Box<RecordedContact> {
+    pub fn begin(&mut self, point: &ContactPoint, at: ContactStart) -> Box<RecordedContact> {
         let number = self.begun;
         self.begun += 1;
-        let arm = touch.point - at.body.position;
+        let arm = point.position - at.body.position;
         let event = ContactEvent {
             number,
             start: at.time,
             end: at.time,
-            body: touch.key.body,
-            partner: touch.key.feature,
-            point: touch.point.to_array(),
+            body: point.key.body,
+            partner: point.key.feature,
+            point: point.position.to_array(),
             point_in_body: (at.body.rotation.inverse() * arm).to_array(),
-            normal: touch.normal.to_array(),
+            normal: point.normal.to_array(),
             before: at.body,
             partner_before: at.partner,
             approach_normal: -at.v_n,
@@ -83,38 +82,38 @@ impl ContactBook {
     }
 
     /// Stores a contact that has ended in a substep; `before` is its force [N] at the start of the substep.
-    pub fn end(&mut self, mut contact: Box<RecordedContact>, before: DVec3, step: Step) {
-        contact.add_force(before, DVec3::ZERO, step);
+    pub fn end(&mut self, mut contact: Box<RecordedContact>, before: DVec3, substep: Substep) {
+        contact.add_force(before, DVec3::ZERO, substep);
         self.ended.push(contact.event);
-        self.impacts.take(*contact);
+        self.impacts.add(*contact);
     }
 
     /// Returns the impact log including the active contacts.
     pub fn impacts_so_far(&self) -> ImpactLog {
         let mut log = self.impacts.clone();
-        self.running.iter().for_each(|contact| log.take((**contact).clone()));
+        self.running.iter().for_each(|contact| log.add((**contact).clone()));
         log
     }
 }
 
 impl RecordedContact {
     /// Adds a substep at whose end the contact is still active.
-    pub fn add(&mut self, push: Push) {
-        let Push { step, before, now, v_n } = push;
-        self.add_force(before, now, step);
+    pub fn add(&mut self, force_step: ForceStep) {
+        let ForceStep { substep, before, now, v_n } = force_step;
+        self.add_force(before, now, substep);
         let event = &mut self.event;
         if now.length_squared() > event.peak_force * event.peak_force {
             event.peak_force = now.length();
             event.peak = now.to_array();
-            event.peak_time = step.time;
+            event.peak_time = substep.time;
         }
-        event.end = step.time;
+        event.end = substep.time;
         event.rebound = v_n;
     }
 
     /// Adds the mean of the forces at both ends of a substep to impulse and history.
-    fn add_force(&mut self, before: DVec3, now: DVec3, step: Step) {
-        let Step { dt, time, .. } = step;
+    fn add_force(&mut self, before: DVec3, now: DVec3, substep: Substep) {
+        let Substep { dt, time, .. } = substep;
         let force = 0.5 * (before + now);
         self.event.impulse = (DVec3::from_array(self.event.impulse) + force * dt).to_array();
         self.history.add(time - dt, dt, force);

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::contact::Feature;
-use super::motion::BodyState;
+use crate::rigid::contact::Feature;
+use crate::rigid::motion::BodyState;
 
 /// A contact that has ended, or its record so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -64,34 +64,31 @@ impl ContactEvent {
 }
 
 /// Largest number of ended contacts kept until they are taken; beyond it, the weaker half is dropped.
-pub const MOST_EVENTS: usize = 20_000;
+pub const MAX_EVENTS: usize = 20_000;
 
 /// Ended contacts that have not been taken yet.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EventLog {
     /// Ended contacts, ordered by end time.
     pub ended: Vec<ContactEvent>,
-    /// Number of contacts dropped since the start.
-    pub dropped: u64,
 }
 
 impl EventLog {
     /// Adds an ended contact; when the log is full, drops the half with the smaller peak forces.
     pub fn push(&mut self, event: ContactEvent) {
         self.ended.push(event);
-        if self.ended.len() > MOST_EVENTS {
+        if self.ended.len() > MAX_EVENTS {
             let mut peaks: Vec<f64> = self.ended.iter().map(|e| e.peak_force).collect();
             peaks.sort_unstable_by(f64::total_cmp);
-            let (middle, before) = (peaks[peaks.len() / 2], self.ended.len());
+            let middle = peaks[peaks.len() / 2];
             self.ended.retain(|e| e.peak_force > middle);
-            self.dropped += (before - self.ended.len()) as u64;
         }
     }
 }
 
 /// A contact of unit 0 with the wall at y = 0.
 #[cfg(test)]
-pub(crate) fn event_for_tests() -> ContactEvent {
+pub(super) fn event_for_tests() -> ContactEvent {
     let before = BodyState::at_rest(glam::DVec3::new(1.0, 2.0, 3.0), glam::DQuat::from_rotation_z(1.0));
     ContactEvent {
         number: 0,
@@ -122,11 +119,10 @@ mod tests {
     #[test]
     fn event_log_stays_bounded_and_keeps_the_hardest_contacts() {
         let mut log = EventLog::default();
-        for i in 0..3 * MOST_EVENTS {
+        for i in 0..3 * MAX_EVENTS {
             log.push(ContactEvent { peak_force: (i % 1000) as f64, ..event_for_tests() });
-            assert!(log.ended.len() <= MOST_EVENTS);
+            assert!(log.ended.len() <= MAX_EVENTS);
         }
         assert!(log.ended.iter().any(|e| e.peak_force == 999.0));
-        assert_eq!(log.dropped as usize + log.ended.len(), 3 * MOST_EVENTS);
     }
 }

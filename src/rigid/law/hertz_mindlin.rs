@@ -10,16 +10,7 @@
 
 use std::f64::consts::PI;
 
-/// Elastic constants and restitution of a material in contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Material {
-    /// Young's modulus E [Pa].
-    pub young_modulus: f64,
-    /// Poisson's ratio nu [-].
-    pub poisson_ratio: f64,
-    /// Coefficient of restitution e [-].
-    pub restitution: f64,
-}
+use super::parameters::Material;
 
 /// Effective Young's modulus E* [Pa]: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
 pub fn effective_young_modulus(a: &Material, b: &Material) -> f64 {
@@ -54,7 +45,7 @@ pub fn impact_overlap(e_star: f64, radius: f64, mass: f64, speed: f64) -> f64 {
 }
 
 /// Damping factor |beta| of Sunday et al., with tension: -ln e / sqrt(ln^2 e + pi^2) [-].
-pub fn damping_factor_with_pull(e: f64) -> f64 {
+pub fn damping_factor_with_tension(e: f64) -> f64 {
     -e.ln() / (e.ln().powi(2) + PI * PI).sqrt()
 }
 
@@ -112,8 +103,8 @@ mod tests {
         for e in [0.1, 0.3, 0.5, 0.8, 0.95] {
             // 1e-4: a tenth of the tolerance of the impact tests.
             assert!((back(damping_factor(e)) - e).abs() < 1e-4);
-            assert!(back(damping_factor_with_pull(e)) > e);
-            assert!(damping_factor(e) > damping_factor_with_pull(e));
+            assert!(back(damping_factor_with_tension(e)) > e);
+            assert!(damping_factor(e) > damping_factor_with_tension(e));
         }
         assert_eq!(damping_factor(1.0), 0.0);
         assert!(damping_factor(0.0).is_finite());

@@ -2,10 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::broad_phase;
-use super::contact::Placements;
 use super::motion::{BodyState, Load};
-use super::world::{RigidWorld, UNSEEN};
+use super::search::Placements;
+use super::world::{NO_PAIR_LIST, RigidWorld};
 
 impl RigidWorld {
     /// Largest overlap [m] that a new body at this position would have with bodies, ground and walls. 0 if the position
@@ -16,10 +15,9 @@ impl RigidWorld {
         let mut rotations = self.rotation.clone();
         positions.push(position);
         rotations.push(rotation);
-        let pairs = broad_phase::pairs_with(number, &positions, 2.0 * self.surfaces.reach(), self.surfaces.period());
         let placements = Placements { rotation: &rotations, position: &positions };
-        match self.surfaces.touches_of(number, &pairs, placements, self.time) {
-            Ok(touches) => touches.iter().map(|touch| touch.overlap).fold(0.0, f64::max),
+        match self.surfaces.contact_points_of(number, placements, self.time) {
+            Ok(points) => points.iter().map(|point| point.overlap).fold(0.0, f64::max),
             Err(_) => f64::INFINITY,
         }
     }
@@ -37,7 +35,7 @@ impl RigidWorld {
         self.states.push(body);
         self.path.push(0.0);
         self.margin.push(0.0);
-        self.seen = UNSEEN;
+        self.search_distance = NO_PAIR_LIST;
         self.publish();
     }
 }

@@ -32,7 +32,7 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
     let boxes: Vec<Aabb> = wrapped.iter().map(|(x, _)| Aabb::new(*x - half, *x + half)).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     // In a narrow flume a body can be near several images.
-    let shifts = period.map_or(0, |width| (near / width).ceil().min(f64::from(MOST_IMAGES)) as i32);
+    let shifts = period.map_or(0, |width| (near / width).ceil().min(f64::from(MAX_IMAGES)) as i32);
     let mut pairs = Vec::new();
     for (first, (x, own)) in wrapped.iter().enumerate() {
         for shift in -shifts..=shifts {
@@ -71,7 +71,7 @@ pub fn pairs_with(body: usize, position: &[DVec3], near: f64, period: Option<f64
 }
 
 /// Largest number of images on each side that a body can touch.
-const MOST_IMAGES: u32 = 8;
+const MAX_IMAGES: u32 = 8;
 
 #[cfg(test)]
 mod tests {

@@ -15,9 +15,8 @@
 
 use glam::DVec3;
 
-use super::hertz_mindlin::{self, Material};
-use super::linear;
-use super::setup::{ContactModel, Resistance};
+use super::parameters::{ContactModel, Material, Resistance};
+use super::{hertz_mindlin, linear};
 
 /// Sliding speed v_c of the transition from static to kinetic friction [m/s]. It is five times the fluctuation of a
 /// unit at rest in water (0.2 mm/s), and far below the speeds of moving units.
@@ -48,12 +47,12 @@ pub struct ContactLaw {
     /// Effective radius R of the surfaces [m].
     radius: f64,
     /// Whether the tangential spring persists over substeps.
-    remembers: bool,
+    keeps_spring: bool,
 }
 
 /// Forces of a contact in one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Response {
+pub struct ContactForces {
     /// Normal force F_n [N], never negative.
     pub normal: f64,
     /// Tangential force on the body whose velocity was passed [N].
@@ -94,19 +93,19 @@ impl ContactLaw {
         };
         let (stiffness, beta) = match model {
             ContactModel::HertzMindlin => (hertz(radius), hertz_mindlin::damping_factor(restitution)),
-            ContactModel::Chrono4 => (hertz(CHRONO_RADIUS), hertz_mindlin::damping_factor_with_pull(restitution)),
+            ContactModel::Chrono4 => (hertz(CHRONO_RADIUS), hertz_mindlin::damping_factor_with_tension(restitution)),
             ContactModel::Linear => {
                 let normal = resistance.stiffness.unwrap_or_default();
                 let ratio = linear::stiffness_ratio(0.5 * (a.poisson_ratio + b.poisson_ratio));
                 (Stiffness::Linear { normal, tangential: ratio * normal }, linear::damping_factor(restitution))
             }
         };
-        Self { stiffness, beta, resistance, mass, radius, remembers: model != ContactModel::Chrono4 }
+        Self { stiffness, beta, resistance, mass, radius, keeps_spring: model != ContactModel::Chrono4 }
     }
 
     /// Whether the tangential spring persists over substeps.
-    pub fn remembers(&self) -> bool {
-        self.remembers
+    pub fn keeps_spring(&self) -> bool {
+        self.keeps_spring
     }
 
     /// Normal stiffness dF_n/dd at the given overlap [N/m].
@@ -151,7 +150,7 @@ impl ContactLaw {
 
     /// Energy stored by the tangential spring [J].
     pub fn tangential_energy(&self, overlap: f64, spring: DVec3) -> f64 {
-        if self.remembers { 0.5 * self.tangential_stiffness(overlap) * spring.length_squared() } else { 0.0 }
+        if self.keeps_spring { 0.5 * self.tangential_stiffness(overlap) * spring.length_squared() } else { 0.0 }
     }
 
     /// Largest overlap [m] of an elastic impact at a speed [m/s].
@@ -169,31 +168,31 @@ impl ContactLaw {
     }
 
     /// Computes the forces for an overlap d > 0, normal velocity v_n (positive on separation), v_t and spring.
-    pub fn respond(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> Response {
+    pub fn forces(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> ContactForces {
         let s_n = self.normal_stiffness(overlap);
         let s_t = self.tangential_stiffness(overlap);
         let normal = self.elastic_force(overlap) - self.damping(s_n) * v_n;
         if normal <= 0.0 {
-            return Response { normal: 0.0, tangential: DVec3::ZERO, spring: DVec3::ZERO, sliding: true };
+            return ContactForces { normal: 0.0, tangential: DVec3::ZERO, spring: DVec3::ZERO, sliding: true };
         }
         let speed = v_t.length();
-        if !self.remembers && speed < CHRONO_LEAST_SPEED {
-            return Response { normal, tangential: DVec3::ZERO, spring: DVec3::ZERO, sliding: false };
+        if !self.keeps_spring && speed < CHRONO_LEAST_SPEED {
+            return ContactForces { normal, tangential: DVec3::ZERO, spring: DVec3::ZERO, sliding: false };
         }
         let trial = spring * s_t + v_t * self.damping(s_t);
         let limit = self.friction(speed) * normal;
         let size = trial.length();
         if size <= limit {
-            return Response { normal, tangential: -trial, spring, sliding: false };
+            return ContactForces { normal, tangential: -trial, spring, sliding: false };
         }
         // Spring and dashpot are reduced alike; a spring that took over the dashpot force would create energy.
         let held = limit / size;
-        Response { normal, tangential: -trial * held, spring: spring * held, sliding: true }
+        ContactForces { normal, tangential: -trial * held, spring: spring * held, sliding: true }
     }
 
     /// Computes the rolling resistance under the normal force F_n [N]; the angular velocity [rad/s] and rolling spring
     /// [rad] are normal to the contact normal. k_r = R^2 S_t, c_r = R^2 g_t. `None` if the coefficient is zero.
-    pub fn roll(&self, overlap: f64, normal: f64, omega: DVec3, spring: DVec3) -> Option<Rolling> {
+    pub fn rolling_resistance(&self, overlap: f64, normal: f64, omega: DVec3, spring: DVec3) -> Option<Rolling> {
         if self.resistance.rolling == 0.0 {
             return None;
         }
@@ -254,9 +253,9 @@ mod tests {
             let d = 1e-4;
             let s_t = law.tangential_stiffness(d);
             let limit = 0.5 * law.elastic_force(d);
-            let below = law.respond(d, 0.0, DVec3::ZERO, DVec3::X * 0.9 * limit / s_t);
+            let below = law.forces(d, 0.0, DVec3::ZERO, DVec3::X * 0.9 * limit / s_t);
             assert!(!below.sliding && (below.tangential.x + 0.9 * limit).abs() < 1e-9 * limit);
-            let above = law.respond(d, 0.0, DVec3::ZERO, DVec3::X * 5.0 * limit / s_t);
+            let above = law.forces(d, 0.0, DVec3::ZERO, DVec3::X * 5.0 * limit / s_t);
             assert!(above.sliding && (above.tangential.x + limit).abs() < 1e-9 * limit);
             assert!((above.spring.x * s_t / limit - 1.0).abs() < 1e-12);
         }
@@ -276,7 +275,7 @@ mod tests {
     #[test]
     fn contact_force_is_never_tensile() {
         for model in [ContactModel::HertzMindlin, ContactModel::Linear, ContactModel::Chrono4] {
-            let response = law(model, 0.3).respond(1e-6, 10.0, DVec3::X, DVec3::X * 1e-6);
+            let response = law(model, 0.3).forces(1e-6, 10.0, DVec3::X, DVec3::X * 1e-6);
             assert_eq!((response.normal, response.tangential, response.spring), (0.0, DVec3::ZERO, DVec3::ZERO));
         }
     }
@@ -284,8 +283,8 @@ mod tests {
     #[test]
     fn chrono4_has_no_friction_at_rest() {
         let law = law(ContactModel::Chrono4, 0.5);
-        assert_eq!(law.respond(1e-4, 0.0, DVec3::X * 0.9e-4, DVec3::ZERO).tangential, DVec3::ZERO);
-        assert!(law.respond(1e-4, 0.0, DVec3::X * 0.1, DVec3::X * 1e-6).tangential.x < 0.0);
+        assert_eq!(law.forces(1e-4, 0.0, DVec3::X * 0.9e-4, DVec3::ZERO).tangential, DVec3::ZERO);
+        assert!(law.forces(1e-4, 0.0, DVec3::X * 0.1, DVec3::X * 1e-6).tangential.x < 0.0);
         assert_eq!(law.tangential_energy(1e-4, DVec3::X), 0.0);
     }
 
@@ -294,10 +293,12 @@ mod tests {
         let law = law(ContactModel::HertzMindlin, 0.5);
         let k = law.rolling_stiffness(1e-4);
         let limit = 0.1 * 0.02 * 100.0;
-        let held = law.roll(1e-4, 100.0, DVec3::ZERO, DVec3::X * 0.5 * limit / k).unwrap();
+        let held = law.rolling_resistance(1e-4, 100.0, DVec3::ZERO, DVec3::X * 0.5 * limit / k).unwrap();
         assert!(!held.rolling && (held.torque.x + 0.5 * limit).abs() < 1e-12);
-        let rolls = law.roll(1e-4, 100.0, DVec3::X, DVec3::X * 5.0 * limit / k).unwrap();
+        let rolls = law.rolling_resistance(1e-4, 100.0, DVec3::X, DVec3::X * 5.0 * limit / k).unwrap();
         assert!(rolls.rolling && (rolls.torque.x + limit).abs() < 1e-12);
-        assert!(ContactLaw { resistance: 0.5.into(), ..law }.roll(1e-4, 1.0, DVec3::X, DVec3::X).is_none());
+        assert!(
+            ContactLaw { resistance: 0.5.into(), ..law }.rolling_resistance(1e-4, 1.0, DVec3::X, DVec3::X).is_none()
+        );
     }
 }

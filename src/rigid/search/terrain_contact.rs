@@ -7,10 +7,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::contact::Feature;
 use super::ground::{Approach, keep, nearest_to_segment};
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::terrain::{Corner, Face, Place, Ridge, Terrain};
+use crate::rigid::contact::Feature;
 
 /// Distance by which a foot point may lie outside a triangle [m], so that none falls between two triangles; [`keep`]
 /// drops duplicates.
@@ -136,7 +136,7 @@ mod tests {
     use crate::geometry::profile::Profile;
     use crate::geometry::solid::tests::cuboid;
     use crate::geometry::terrain::tests::drawn_out;
-    use crate::rigid::ground::GroundSurface;
+    use crate::rigid::search::ground::GroundSurface;
 
     const REACH: f64 = 0.3;
 
