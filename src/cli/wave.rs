@@ -92,10 +92,10 @@ impl WaveArguments {
                     "  {:22} beside it {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",
                     other.crest_m,
-                    100.0 * other.height,
+                    100.0 * other.relative_height_difference,
                     other.crest_s,
                     other.delay_s,
-                    100.0 * other.rms
+                    100.0 * other.relative_rms
                 ),
                 None => println!("  {:22} beside it: no time in common, or no wave", ""),
             }

@@ -1,7 +1,9 @@
 //! The layered flume with shores: any bed, any wave.
 
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
+use breakwater::waves::flume_model::layered::{
+    Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd,
+};
 use proptest::prelude::*;
 
 const GRAVITY: f64 = 9.81;
@@ -71,7 +73,7 @@ proptest! {
             for point in flume.surface_profile() {
                 prop_assert!(point.depth_m >= 0.0, "depth {} at step {step}, x = {}", point.depth_m, point.x_m);
             }
-            prop_assert!(flume.astray_at().is_none(), "astray at step {step}, x = {:?}", flume.astray_at());
+            prop_assert!(flume.first_unstable_x_m().is_none(), "astray at step {step}, x = {:?}", flume.first_unstable_x_m());
         }
         // Fluxes are shared by two cells: rounding.
         prop_assert!((flume.volume_m2() - volume).abs() <= 1e-12 * volume.max(1e-3), "{} {volume}", flume.volume_m2());

@@ -2,11 +2,13 @@
 //! `--release`: half a minute.
 
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
-use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
-use breakwater::waves::ml_piston::{MlPiston, start_time};
-use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
+use breakwater::waves::flume_model::layered::{
+    Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd,
+};
+use breakwater::waves::flume_model::record::FlumeRecord;
+use breakwater::waves::flume_model::{FlumeSetup, WaveSource, run};
+use breakwater::waves::generation::ml_piston::{MlPiston, motion_start_time};
+use breakwater::waves::theory::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
 
 const GRAVITY: f64 = 9.81;
 const STILL_LEVEL_M: f64 = 0.8;
@@ -74,7 +76,7 @@ fn largest_velocity(record: &FlumeRecord, x: f64) -> f64 {
 
 fn stroke(record: &FlumeRecord, x: f64) -> f64 {
     let heights: Vec<f64> = (0..6).map(|k| record.profile.z(x) + 0.03 + 0.05 * f64::from(k)).collect();
-    let piston = MlPiston::from_record(record, x, &heights, [start_time(record, x, 0.003), 30.0], 0.02, None);
+    let piston = MlPiston::from_record(record, x, &heights, [motion_start_time(record, x, 0.003), 30.0], 0.02, None);
     largest_displacement(&piston, 3)
 }
 
@@ -151,7 +153,7 @@ fn piston_near_the_mound_runs_in_production_form() {
     let begun = std::time::Instant::now();
     let x0 = 36.5;
     let heights: Vec<f64> = (0..80).map(|k| record.profile.z(x0) + 0.005 * (f64::from(k) + 0.5)).collect();
-    let start = start_time(&record, x0, 0.03);
+    let start = motion_start_time(&record, x0, 0.03);
     let piston = MlPiston::from_record(&record, x0, &heights, [start, 28.0], 0.02, None);
     println!("80 rows from t = {start:.2} s: {:.2} s", begun.elapsed().as_secs_f64());
     let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();

@@ -20,7 +20,7 @@ use crate::{
     },
     rigid::{Load, RigidSnapshot},
     sph::particles::water::Water,
-    waves::absorption::AbsorptionState,
+    waves::generation::absorption::AbsorptionState,
 };
 
 /// Layout of the file; raised when it changes.

@@ -30,7 +30,10 @@ use crate::{
             water::Water,
         },
     },
-    waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
+    waves::{
+        flume_model::FlumeError, flume_model::record::FlumeRecord, generation::absorption::AbsorptionState,
+        generation::wavemaker::Wavemaker,
+    },
 };
 
 /// Between a unit and its own image no water goes through a gap narrower than this, in particle distances: that in which
@@ -98,7 +101,7 @@ impl Simulation {
         if let Some(wavemaker) = &wavemaker {
             check_travel(&case, wavemaker)?;
         }
-        let seaward_reach = wavemaker.as_ref().map(Wavemaker::seaward_reach_m);
+        let seaward_reach = wavemaker.as_ref().map(Wavemaker::max_seaward_displacement_m);
         let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, seaward_reach));
@@ -165,7 +168,7 @@ fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
     };
     let toes = case.flume.mound.iter().map(toe_of).chain(case.domain.obstacles.iter().map(|obstacle| obstacle.low.x));
     let toe = toes.fold(f64::INFINITY, f64::min);
-    let travel = wavemaker.shoreward_reach_m();
+    let travel = wavemaker.max_shoreward_displacement_m();
     if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
 }
 

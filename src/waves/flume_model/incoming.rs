@@ -1,8 +1,8 @@
 //! Incoming waves at the left end of the flume: elevation and velocity over time at one position.
 
-use super::irregular::IrregularWave;
-use super::solitary::ThirdOrderSolitary;
-use super::stream_function::StreamFunctionWave;
+use crate::waves::theory::irregular::IrregularWave;
+use crate::waves::theory::solitary::ThirdOrderSolitary;
+use crate::waves::theory::stream_function::StreamFunctionWave;
 
 /// An incoming wave at the inflow boundary.
 #[derive(Debug, Clone, PartialEq)]

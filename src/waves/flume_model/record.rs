@@ -1,9 +1,9 @@
 //! Results of a flume run: wave gauges, surface profiles, the shoreline, and the flow in a window, interpolated at any
 //! position and time.
 
+use super::interpolation::Stencil;
+use super::layered::{Column, SurfacePoint};
 use crate::geometry::profile::Profile;
-use crate::waves::interpolation::Stencil;
-use crate::waves::layered::Column;
 
 /// Depth below which a point counts as dry in interpolation [m]: for thinner films the difference between the mean bed
 /// of a cell and the profile at a corner matters.
@@ -51,17 +51,6 @@ pub struct SurfaceProfile {
     pub points: Vec<SurfacePoint>,
 }
 
-/// Surface in a cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfacePoint {
-    /// Centre of the cell [m].
-    pub x_m: f64,
-    /// Surface level z [m]; the bed level in a dry cell.
-    pub surface_m: f64,
-    /// Depth of the water [m].
-    pub depth_m: f64,
-}
-
 impl SurfaceProfile {
     /// Surface level z [m] at x [m], linear between the cell centres; `None` where dry or outside the centres.
     pub fn surface_m(&self, x: f64) -> Option<f64> {
@@ -86,7 +75,7 @@ pub struct FlumeState {
 
 impl FlumeRecord {
     /// Creates an empty record.
-    pub(super) fn new(
+    pub(in crate::waves) fn new(
         profile: Profile,
         still_level_m: f64,
         layers: usize,
@@ -115,7 +104,12 @@ impl FlumeRecord {
     }
 
     /// Adds the state at the time of the next record.
-    pub(super) fn push(&mut self, paddle_m: f64, gauge_levels_m: &[f64], columns: impl Iterator<Item = Column>) {
+    pub(in crate::waves) fn push(
+        &mut self,
+        paddle_m: f64,
+        gauge_levels_m: &[f64],
+        columns: impl Iterator<Item = Column>,
+    ) {
         self.times_s.push(self.times_s.len() as f64 * self.interval_s);
         self.paddle_m.push(paddle_m);
         for (series, level) in self.gauge_elevations_m.iter_mut().zip(gauge_levels_m) {

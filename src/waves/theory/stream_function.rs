@@ -14,7 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::regular::{MeanFlow, RegularWave, WaveError, highest_over_depth, linear_wavenumber_per_m};
+use super::regular::{MeanFlow, RegularWave, WaveError, linear_wavenumber_per_m, max_height_over_depth};
 
 mod equations;
 use equations::{SteadyWave, solve};
@@ -124,13 +124,13 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     {
         WaveError::require_positive(name, value)?;
     }
-    let length = wave.length_m() / wave.depth_m;
+    let length = wave.wavelength_m() / wave.depth_m;
     if !length.is_finite() || length >= LONGEST {
         let allowed = format!("short enough for a wavelength below {LONGEST} depths (linear theory: {length:.1})");
         return Err(WaveError::Value { name: "period_s", value: wave.period_s, allowed });
     }
     // High waves are up to 20 % longer than linear ones, which raises their limit. Newton's method detects the rest.
-    let highest = highest_over_depth(1.2 * length) * wave.depth_m;
+    let highest = max_height_over_depth(1.2 * length) * wave.depth_m;
     if wave.height_m >= highest {
         let allowed = format!("below {highest:.4}, where waves of this period and depth break");
         return Err(WaveError::Value { name: "height_m", value: wave.height_m, allowed });

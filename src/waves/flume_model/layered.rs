@@ -32,13 +32,13 @@ mod sample;
 mod surface;
 
 pub use parameters::{Breaking, Friction, LayeredParameters, LeftEnd, Pressure, RightEnd};
-pub use sample::Column;
+pub use sample::{Column, SurfacePoint};
 
 use block_tridiagonal::BlockTridiagonal;
 use grid::Grid;
 
 /// Depth below which a cell counts as dry and its water does not move [m].
-pub(super) const THIN_M: f64 = 1e-5;
+pub(super) const DRY_DEPTH_M: f64 = 1e-5;
 
 /// Parameters, state and workspace of a flume run.
 #[derive(Debug, Clone)]
@@ -274,7 +274,7 @@ impl LayeredFlume {
     }
 
     /// Position x [m] of the first unstable cell: a value is not finite, or water crosses the cell in less than a step.
-    pub fn astray_at(&self) -> Option<f64> {
+    pub fn first_unstable_x_m(&self) -> Option<f64> {
         let is_too_fast = |face: usize| {
             // The millionth covers rounding: `settle_films` allows one cell per time step.
             let limit = (1.0 + 1e-6) * self.grid.spacing(face) / self.step_s;

@@ -14,12 +14,12 @@
 //! law for smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law holds for
 //! rough beds; it would slow thin water on glass too much.
 
-use super::{Friction, LayeredFlume, THIN_M};
+use super::{DRY_DEPTH_M, Friction, LayeredFlume};
 
 impl LayeredFlume {
     /// Damping rate of friction and sponge at a face [1/s].
     pub(super) fn damping_rate(&self, face: usize) -> f64 {
-        let depth = self.friction_depth(face).max(THIN_M);
+        let depth = self.friction_depth(face).max(DRY_DEPTH_M);
         let speed = self.mean_velocity(face).abs();
         let friction = match self.friction {
             Friction::None => 0.0,

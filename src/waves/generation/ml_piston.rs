@@ -11,14 +11,14 @@
 
 use std::io;
 
-use crate::waves::absorption::Absorption;
-use crate::waves::record::FlumeRecord;
-use crate::waves::velx::Velx;
+use crate::waves::flume_model::record::FlumeRecord;
+use crate::waves::generation::absorption::Absorption;
+use crate::waves::generation::velx::Velx;
 
 /// Motion of the rows of a multi-layer piston.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MlPiston {
-    place_m: f64,
+    rest_x_m: f64,
     row_heights_m: Vec<f64>,
     start_s: f64,
     interval_s: f64,
@@ -87,7 +87,7 @@ impl MlPiston {
     ///
     /// The file has the velocity at one position x. With a celerity c [m/s], a row displaced by X takes the velocity
     /// that this position had X / c earlier; without c, it takes the present one.
-    pub fn from_rows(rows: &Velx, [start_s, end_s]: [f64; 2], interval_s: f64, celerity_m_s: Option<f64>) -> Self {
+    pub fn from_velx(rows: &Velx, [start_s, end_s]: [f64; 2], interval_s: f64, celerity_m_s: Option<f64>) -> Self {
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
         let motion = |row: usize| {
             let mut x = 0.0;
@@ -103,12 +103,12 @@ impl MlPiston {
             series
         };
         let velocities = (0..rows.heights_m[0].len()).map(motion).collect();
-        Self::from_velocities(rows.place_m[0], rows.heights_m[0].clone(), start_s, interval_s, velocities)
+        Self::from_velocities(rows.position_m[0], rows.heights_m[0].clone(), start_s, interval_s, velocities)
     }
 
     /// Motion from velocities at evenly spaced knots; the displacement is their trapezoidal integral.
     fn from_velocities(
-        place_m: f64,
+        rest_x_m: f64,
         row_heights_m: Vec<f64>,
         start_s: f64,
         interval_s: f64,
@@ -124,11 +124,11 @@ impl MlPiston {
             integral
         };
         let displacements = velocities.iter().map(integrate).collect();
-        Self { place_m, row_heights_m, start_s, interval_s, velocities, displacements, absorption: None }
+        Self { rest_x_m, row_heights_m, start_s, interval_s, velocities, displacements, absorption: None }
     }
 
     /// Adds active absorption, which moves all rows together.
-    pub fn absorbing(self, absorption: Absorption) -> Self {
+    pub fn with_absorption(self, absorption: Absorption) -> Self {
         Self { absorption: Some(absorption), ..self }
     }
 
@@ -143,8 +143,8 @@ impl MlPiston {
     }
 
     /// Rest position x of the rows [m].
-    pub fn place_m(&self) -> f64 {
-        self.place_m
+    pub fn rest_x_m(&self) -> f64 {
+        self.rest_x_m
     }
 
     /// Time at which the rows start to move [s].
@@ -170,21 +170,21 @@ impl MlPiston {
 
     /// Largest seaward displacement of a row from its rest position [m]. Zero if it is below the row spacing, because
     /// the layers of particles behind the rows cover it.
-    pub fn seaward_reach_m(&self) -> f64 {
+    pub fn max_seaward_displacement_m(&self) -> f64 {
         let generated = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
-        let furthest = generated - self.absorbed_reach_m();
+        let furthest = generated - self.max_absorbed_displacement_m();
         let spacing = self.row_heights_m.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
         if -furthest < spacing { 0.0 } else { -furthest }
     }
 
     /// Largest shoreward displacement of a row from its rest position [m].
-    pub fn shoreward_reach_m(&self) -> f64 {
-        self.displacements.iter().flatten().fold(0.0_f64, |most, &d| most.max(d)) + self.absorbed_reach_m()
+    pub fn max_shoreward_displacement_m(&self) -> f64 {
+        self.displacements.iter().flatten().fold(0.0_f64, |most, &d| most.max(d)) + self.max_absorbed_displacement_m()
     }
 
     /// Largest displacement that absorption may add in either direction [m].
-    fn absorbed_reach_m(&self) -> f64 {
-        self.absorption.map_or(0.0, |absorption| absorption.reach_m)
+    fn max_absorbed_displacement_m(&self) -> f64 {
+        self.absorption.map_or(0.0, |absorption| absorption.max_displacement_m)
     }
 
     /// Velocity of a row [m/s] at flume time t [s]: 0 before the start and after the end, linear between knots. It
@@ -214,7 +214,7 @@ impl MlPiston {
     pub fn velx(&self) -> Velx {
         let knots = self.velocities[0].len();
         Velx {
-            place_m: [self.place_m, 0.0],
+            position_m: [self.rest_x_m, 0.0],
             times_s: (0..knots).map(|i| i as f64 * self.interval_s).collect(),
             heights_m: vec![self.row_heights_m.clone(); knots],
             velocities_m_s: (0..knots).map(|i| self.velocities.iter().map(|series| series[i]).collect()).collect(),
@@ -247,7 +247,7 @@ fn row_velocity(rows: &Velx, row: usize, t: f64) -> f64 {
 }
 
 /// First time [s] at which the mean velocity of the rows below level z [m] reaches `share` of its maximum.
-pub fn start_of_rows(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
+pub fn velx_start_time(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
     let wet = rows.heights_m[0].partition_point(|&z| z < below_z_m).max(1);
     let mean = |velocities: &Vec<f64>| (velocities[..wet].iter().sum::<f64>() / wet as f64).abs();
     let speeds: Vec<f64> = rows.velocities_m_s.iter().map(mean).collect();
@@ -258,7 +258,7 @@ pub fn start_of_rows(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
 
 /// First recorded time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum. Returns the end of
 /// the record if the water never moves.
-pub fn start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
+pub fn motion_start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
     let speeds: Vec<f64> = record.times_s().iter().map(|&t| record.mean_velocity(x0_m, t).abs()).collect();
     let largest = speeds.iter().copied().fold(0.0, f64::max);
     let first = speeds.iter().position(|&speed| largest > 0.0 && speed >= share * largest);
@@ -307,7 +307,7 @@ fn velocity_at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::geometry::profile::Profile;
-    use crate::waves::layered::Column;
+    use crate::waves::flume_model::layered::Column;
 
     const AMPLITUDE: f64 = 0.3;
 
@@ -375,7 +375,7 @@ mod tests {
     #[test]
     fn start_time_is_when_the_velocity_reaches_the_share() {
         // At x = 0, |sin| reaches half its maximum after a twelfth of the period.
-        let start = start_time(&record(), 0.0, 0.5);
+        let start = motion_start_time(&record(), 0.0, 0.5);
         assert!((start - 4.0 / 12.0).abs() <= 0.02);
     }
 
@@ -385,7 +385,7 @@ mod tests {
         let mut file = Vec::new();
         piston.write_velx(&mut file).unwrap();
         let back = Velx::read(file.as_slice()).unwrap();
-        assert_eq!(back.place_m, [1.0, 0.0]);
+        assert_eq!(back.position_m, [1.0, 0.0]);
         assert_eq!(back.heights_m[2], [0.2, 0.9]);
         assert_eq!(back.velocities_m_s[1][0], piston.velocities[0][1]);
     }

@@ -3,21 +3,23 @@
 use thiserror::Error;
 
 use crate::geometry::profile::Profile;
-use crate::waves::incoming::IncomingWave;
-use crate::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
-use crate::waves::record::{FlumeRecord, SurfaceProfile};
-use crate::waves::regular::WaveError;
-use crate::waves::solitary::SolitaryWave;
+use crate::waves::flume_model::incoming::IncomingWave;
+use crate::waves::flume_model::layered::{
+    Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd,
+};
+use crate::waves::flume_model::record::{FlumeRecord, SurfaceProfile};
+use crate::waves::theory::regular::WaveError;
+use crate::waves::theory::solitary::SolitaryWave;
 
 /// Largest number of layers; two or three resolve the vertical profile of long waves.
-pub const MOST_LAYERS: usize = 8;
+pub const MAX_LAYERS: usize = 8;
 /// Courant number of a long wave on the largest depth [-]. The scheme is stable up to 1; up to about 0.4 its time
 /// errors stay below its space errors.
 const COURANT: f64 = 0.4;
 /// Length over which the cells follow the piston, in strokes: no cell is compressed by more than 10 %.
 const MAPPED_STROKES: f64 = 10.0;
 /// Largest relative compression of the cells in front of the piston [-].
-const MOST_SQUEEZE: f64 = 0.5;
+const MAX_COMPRESSION: f64 = 0.5;
 
 /// Parameters of a flume run: flume, wave, grid and records.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,7 +138,7 @@ pub fn run(setup: &FlumeSetup) -> Result<FlumeRecord, FlumeError> {
             add_record(&flume, &mut record);
         }
         flume.advance_depths();
-        if let Some(x_m) = flume.astray_at() {
+        if let Some(x_m) = flume.first_unstable_x_m() {
             return Err(FlumeError::Unstable { time_s: flume.time_s(), x_m });
         }
     }
@@ -177,8 +179,8 @@ fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     positive("cell_m", setup.cell_m)?;
     let widest = length / 10.0;
     require("cell_m", setup.cell_m, setup.cell_m <= widest, &format!("at most {widest} (a tenth of the flume)"))?;
-    let allowed = format!("from 1 to {MOST_LAYERS}");
-    require("layers", setup.layers as f64, (1..=MOST_LAYERS).contains(&setup.layers), &allowed)?;
+    let allowed = format!("from 1 to {MAX_LAYERS}");
+    require("layers", setup.layers as f64, (1..=MAX_LAYERS).contains(&setup.layers), &allowed)?;
     positive("still_level_m above the bed at the wavemaker", depth)?;
     let height = setup.wave.height_m();
     positive("the wave's height_m", height)?;
@@ -232,8 +234,8 @@ fn mapped_length_m(setup: &FlumeSetup) -> Result<f64, FlumeError> {
     let stroke = setup.wave.stroke_m();
     let wanted = (MAPPED_STROKES * stroke).max(10.0 * setup.cell_m).min(0.5 * length);
     let mapped = if level >= 0.4 * wanted { wanted.min(level) } else { wanted };
-    if stroke > MOST_SQUEEZE * mapped {
-        let allowed = format!("at most {} in a flume of this length", MOST_SQUEEZE * mapped);
+    if stroke > MAX_COMPRESSION * mapped {
+        let allowed = format!("at most {} in a flume of this length", MAX_COMPRESSION * mapped);
         return Err(FlumeError::Value { name: "the piston's stroke", value: stroke, allowed });
     }
     Ok(mapped)
@@ -280,7 +282,7 @@ fn add_record(flume: &LayeredFlume, record: &mut FlumeRecord) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::waves::solitary::PistonTheory;
+    use crate::waves::theory::solitary::PistonTheory;
 
     fn piston(height_m: f64, depth_m: f64) -> WaveSource {
         WaveSource::Piston(SolitaryWave { height_m, depth_m, gravity: 9.81, theory: PistonTheory::Rayleigh })

@@ -1,8 +1,7 @@
 //! Flow at any x, interpolated between the cells.
 
-use super::{LayeredFlume, THIN_M};
-use crate::waves::interpolation::Stencil;
-use crate::waves::record::SurfacePoint;
+use super::{DRY_DEPTH_M, LayeredFlume};
+use crate::waves::flume_model::interpolation::Stencil;
 
 /// Film depth that defines the shoreline, relative to the largest still water depth [-]. Laboratory observers see the
 /// run-up tongue, not the film that it leaves behind.
@@ -19,6 +18,17 @@ pub struct Column {
     pub u: Vec<f64>,
     /// Vertical velocity at each interface, from the bed upwards, one more than layers [m/s].
     pub w: Vec<f64>,
+}
+
+/// Surface in a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Centre of the cell [m].
+    pub x_m: f64,
+    /// Surface level z [m]; the bed level in a dry cell.
+    pub surface_m: f64,
+    /// Depth of the water [m].
+    pub depth_m: f64,
 }
 
 impl LayeredFlume {
@@ -54,12 +64,12 @@ impl LayeredFlume {
 
     /// Stencil over the wet cells around x.
     fn wet_cells(&self, x: f64) -> Stencil {
-        Stencil::at(&self.grid.centre_x, x, |cell| self.depth[cell] > THIN_M)
+        Stencil::at(&self.grid.centre_x, x, |cell| self.depth[cell] > DRY_DEPTH_M)
     }
 
     /// Surface level from a stencil over wet cells [m], at least the bed level.
     fn surface_from(&self, cells: Stencil, bed_m: f64) -> f64 {
-        if self.depth[cells.point()] > THIN_M {
+        if self.depth[cells.point()] > DRY_DEPTH_M {
             cells.apply(|cell| self.grid.bed[cell] + self.depth[cell]).max(bed_m)
         } else {
             bed_m
@@ -91,7 +101,7 @@ impl LayeredFlume {
             let slope = (self.grid.bed[inner] - self.grid.bed[inner - 1]) / self.grid.spacing(inner);
             0.5 * (self.u[face * k] + self.earlier_u[face * k]) * slope
         };
-        if self.depth[cell] > THIN_M { 0.5 * (climb(cell) + climb(cell + 1)) } else { 0.0 }
+        if self.depth[cell] > DRY_DEPTH_M { 0.5 * (climb(cell) + climb(cell + 1)) } else { 0.0 }
     }
 }
 

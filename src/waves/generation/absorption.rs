@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::regular::linear_wavenumber_per_m;
+use crate::waves::theory::regular::linear_wavenumber_per_m;
 
 /// Parameters of the active absorption of a piston.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,13 +22,13 @@ pub struct Absorption {
     /// Distance of the gauge from the piston [m].
     pub gauge_m: f64,
     /// Travel time of waves from the gauge to the piston [s].
-    pub way_s: f64,
+    pub travel_time_s: f64,
     /// Depth-mean velocity of the water per surface elevation, u/eta [1/s].
     pub velocity_per_elevation: f64,
     /// Largest displacement that absorption may add in either direction [m].
-    pub reach_m: f64,
+    pub max_displacement_m: f64,
     /// Time constant that returns the added displacement to zero [s]: it prevents drift in periodic waves.
-    pub return_s: Option<f64>,
+    pub return_time_s: Option<f64>,
 }
 
 /// State of active absorption: added motion of the piston and smoothed gauge reading.
@@ -51,7 +51,13 @@ impl Absorption {
     ///
     /// Linear theory: a piston with velocity U generates eta = U 4 sinh^2(kd) / (omega (sinh 2kd + 2kd))
     /// (Biesel 1951); the long-wave limit is U sqrt(d/g).
-    pub fn of_piston(gauge_m: f64, depth_m: f64, period_s: Option<f64>, gravity: f64, reach_m: f64) -> Self {
+    pub fn for_full_depth_piston(
+        gauge_m: f64,
+        depth_m: f64,
+        period_s: Option<f64>,
+        gravity: f64,
+        max_displacement_m: f64,
+    ) -> Self {
         let long_celerity = (gravity * depth_m).sqrt();
         let (celerity, velocity_per_elevation) = period_s.map_or((long_celerity, long_celerity / depth_m), |period| {
             let omega = TAU / period;
@@ -61,19 +67,19 @@ impl Absorption {
         });
         Self {
             gauge_m,
-            way_s: gauge_m / celerity,
+            travel_time_s: gauge_m / celerity,
             velocity_per_elevation,
-            reach_m,
-            return_s: period_s.map(|period| RETURN_PERIODS * period),
+            max_displacement_m,
+            return_time_s: period_s.map(|period| RETURN_PERIODS * period),
         }
     }
 
     /// Advances by `dt` [s] with a gauge reading: the excess of the elevation over the generated wave [m].
     pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
-        state.excess_m += (1.0 - (-dt / self.way_s).exp()) * (excess_m - state.excess_m);
-        let return_velocity = self.return_s.map_or(0.0, |time| state.displacement_m / time);
+        state.excess_m += (1.0 - (-dt / self.travel_time_s).exp()) * (excess_m - state.excess_m);
+        let return_velocity = self.return_time_s.map_or(0.0, |time| state.displacement_m / time);
         let target = state.displacement_m - dt * (self.velocity_per_elevation * state.excess_m + return_velocity);
-        let displacement = target.clamp(-self.reach_m, self.reach_m);
+        let displacement = target.clamp(-self.max_displacement_m, self.max_displacement_m);
         state.velocity_m_s = (displacement - state.displacement_m) / dt;
         state.displacement_m = displacement;
     }
@@ -82,12 +88,17 @@ impl Absorption {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
-    use crate::waves::regular::RegularWave;
+    use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
+    use crate::waves::theory::regular::RegularWave;
 
     const DT: f64 = 0.001;
-    const PISTON: Absorption =
-        Absorption { gauge_m: 0.2, way_s: 0.1, velocity_per_elevation: 5.0, reach_m: 0.5, return_s: None };
+    const PISTON: Absorption = Absorption {
+        gauge_m: 0.2,
+        travel_time_s: 0.1,
+        velocity_per_elevation: 5.0,
+        max_displacement_m: 0.5,
+        return_time_s: None,
+    };
 
     /// A piston that moves at U reflects eta_out = eta_in + U eta/u.
     #[test]
@@ -111,11 +122,12 @@ mod tests {
     fn full_depth_parameters_equal_those_of_a_rigid_piston() {
         let wave = RegularWave { height_m: 0.02, period_s: 1.2, depth_m: 0.4, gravity: 9.81 };
         let rigid = RegularMotion::new(&wave, PaddleShape::Piston, 2.0);
-        let rows = Absorption::of_piston(0.2, wave.depth_m, Some(wave.period_s), wave.gravity, 0.1);
+        let rows = Absorption::for_full_depth_piston(0.2, wave.depth_m, Some(wave.period_s), wave.gravity, 0.1);
         assert!((rows.velocity_per_elevation / rigid.velocity_per_elevation() - 1.0).abs() < 1e-9);
-        assert!((rows.way_s * rigid.celerity_m_s() / 0.2 - 1.0).abs() < 1e-9);
+        assert!((rows.travel_time_s * rigid.celerity_m_s() / 0.2 - 1.0).abs() < 1e-9);
         // Very long waves give the long-wave limit.
-        let [long, limit] = [Some(200.0), None].map(|period| Absorption::of_piston(0.2, 0.4, period, 9.81, 0.1));
+        let [long, limit] =
+            [Some(200.0), None].map(|period| Absorption::for_full_depth_piston(0.2, 0.4, period, 9.81, 0.1));
         assert!((long.velocity_per_elevation / limit.velocity_per_elevation - 1.0).abs() < 1e-4);
     }
 
@@ -128,7 +140,7 @@ mod tests {
 
     #[test]
     fn displacement_returns_to_zero_without_waves() {
-        let piston = Absorption { return_s: Some(1.0), ..PISTON };
+        let piston = Absorption { return_time_s: Some(1.0), ..PISTON };
         let mut state = AbsorptionState { displacement_m: 0.1, ..AbsorptionState::default() };
         (0..3000).for_each(|_| piston.advance(&mut state, 0.0, DT));
         assert!((state.displacement_m / 0.1 - (-3.0_f64).exp()).abs() < 1e-3);

@@ -1,8 +1,8 @@
 //! Parameters of a [`super::LayeredFlume`].
 
 use crate::geometry::profile::Profile;
-use crate::waves::incoming::IncomingWave;
-use crate::waves::solitary::SolitaryWave;
+use crate::waves::flume_model::incoming::IncomingWave;
+use crate::waves::theory::solitary::SolitaryWave;
 
 /// Flume, grid, ends and dissipation.
 #[derive(Debug, Clone)]
@@ -95,15 +95,15 @@ pub enum Breaking {
     /// Breaking fronts are hydrostatic and become bores (Smit, Zijlema & Stelling 2013).
     HydrostaticFront {
         /// Rate of rise of the surface over sqrt(g H) above which a cell starts to break [-].
-        starts: f64,
+        onset: f64,
         /// Rate of rise over sqrt(g H) above which a cell breaks if it or a neighbour broke before [-].
-        lasts: f64,
+        persistence: f64,
     },
 }
 
 impl Default for Breaking {
     /// The thresholds of Smit et al. (2013), section 3: 0.6 and 0.3.
     fn default() -> Self {
-        Self::HydrostaticFront { starts: 0.6, lasts: 0.3 }
+        Self::HydrostaticFront { onset: 0.6, persistence: 0.3 }
     }
 }

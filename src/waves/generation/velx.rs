@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Velx {
     /// Position of the piston, x and y [m].
-    pub place_m: [f64; 2],
+    pub position_m: [f64; 2],
     /// Times [s].
     pub times_s: Vec<f64>,
     /// Heights of the rows [m], one list per time.
@@ -39,7 +39,7 @@ impl Velx {
     pub fn write(&self, mut out: impl Write) -> io::Result<()> {
         let rows = self.heights_m.first().map_or(0, Vec::len);
         let numbered = |name: &str| (0..rows).map(|k| format!(";{name}_{k}")).collect::<String>();
-        writeln!(out, "px:;{};py:;{}", self.place_m[0], self.place_m[1])?;
+        writeln!(out, "px:;{};py:;{}", self.position_m[0], self.position_m[1])?;
         writeln!(out, "time{}{}", numbered("pz"), numbered("vel"))?;
         for ((time, heights), velocities) in self.times_s.iter().zip(&self.heights_m).zip(&self.velocities_m_s) {
             let values: String = heights.iter().chain(velocities).map(|value| format!(";{value}")).collect();
@@ -50,7 +50,7 @@ impl Velx {
 
     /// Reads a file.
     pub fn read(input: impl BufRead) -> Result<Self, VelxError> {
-        let mut velx = Self { place_m: [0.0; 2], times_s: vec![], heights_m: vec![], velocities_m_s: vec![] };
+        let mut velx = Self { position_m: [0.0; 2], times_s: vec![], heights_m: vec![], velocities_m_s: vec![] };
         let mut rows = 0;
         for (index, text) in input.lines().enumerate() {
             let text = text?;
@@ -59,7 +59,7 @@ impl Velx {
             let number = |field: &str| field.parse::<f64>().map_err(|_| error(format!("`{field}` is not a number")));
             match index {
                 0 if fields.len() >= 4 && fields[0] == "px:" && fields[2] == "py:" => {
-                    velx.place_m = [number(fields[1])?, number(fields[3])?];
+                    velx.position_m = [number(fields[1])?, number(fields[3])?];
                 }
                 0 => return Err(error("expected `px:;<x>;py:;<y>`".to_owned())),
                 1 => rows = fields.iter().filter(|name| name.starts_with("pz")).count(),
@@ -85,7 +85,7 @@ mod tests {
 
     fn velx() -> Velx {
         Velx {
-            place_m: [36.5, 0.0],
+            position_m: [36.5, 0.0],
             times_s: vec![0.0, 0.02],
             heights_m: vec![vec![0.6, 0.605]; 2],
             velocities_m_s: vec![vec![0.0, 0.1], vec![0.2, 1.0 / 3.0]],

@@ -29,18 +29,18 @@ impl RegularWave {
     }
 
     /// Wavenumber k of linear theory [1/m].
-    pub fn number_per_m(&self) -> f64 {
+    pub fn wavenumber_per_m(&self) -> f64 {
         linear_wavenumber_per_m(self.angular_frequency(), self.depth_m, self.gravity)
     }
 
     /// Wavelength L = 2 pi / k [m].
-    pub fn length_m(&self) -> f64 {
-        TAU / self.number_per_m()
+    pub fn wavelength_m(&self) -> f64 {
+        TAU / self.wavenumber_per_m()
     }
 
     /// Group velocity omega / (2 k) (1 + 2kd / sinh 2kd) [m/s].
     pub fn group_velocity_m_s(&self) -> f64 {
-        let k = self.number_per_m();
+        let k = self.wavenumber_per_m();
         let two_kd = 2.0 * k * self.depth_m;
         // For 2kd > 710 sinh overflows to infinity and the quotient is zero, the correct limit.
         0.5 * self.angular_frequency() / k * (1.0 + two_kd / two_kd.sinh())
@@ -48,12 +48,12 @@ impl RegularWave {
 
     /// Breaking height 0.142 L tanh(k d) [m] (Miche 1944).
     pub fn breaking_height_m(&self) -> f64 {
-        MICHE * self.length_m() * (self.number_per_m() * self.depth_m).tanh()
+        MICHE * self.wavelength_m() * (self.wavenumber_per_m() * self.depth_m).tanh()
     }
 
     /// Whether second-order theory holds: one crest per period, H L^2 / d^3 below 8 pi^2 / 3 (Madsen 1971).
     pub fn is_second_order(&self) -> bool {
-        self.height_m * self.length_m().powi(2) / self.depth_m.powi(3) < LARGEST_URSELL
+        self.height_m * self.wavelength_m().powi(2) / self.depth_m.powi(3) < LARGEST_URSELL
     }
 }
 
@@ -102,7 +102,7 @@ impl WaveError {
 }
 
 /// Largest stable wave height H/d for a wavelength L/d (Fenton 1990, fitted to the results of Williams 1981) [-].
-pub fn highest_over_depth(length_over_depth: f64) -> f64 {
+pub fn max_height_over_depth(length_over_depth: f64) -> f64 {
     let l = length_over_depth;
     (0.141_063 * l + 0.009_572_1 * l * l + 0.007_782_9 * l.powi(3))
         / (1.0 + 0.078_834_0 * l + 0.031_756_7 * l * l + 0.009_340_7 * l.powi(3))
@@ -130,12 +130,12 @@ mod tests {
     fn wavenumber_satisfies_the_dispersion_relation_at_any_depth() {
         for depth_m in [0.01, 0.1, 0.4, 2.0, 50.0] {
             let wave = RegularWave { depth_m, ..WAVE };
-            let k = wave.number_per_m();
+            let k = wave.wavenumber_per_m();
             let right = wave.gravity * k * (k * depth_m).tanh();
             assert!((right / wave.angular_frequency().powi(2) - 1.0).abs() < 1e-12, "depth {depth_m}");
         }
         let deep = RegularWave { depth_m: 50.0, ..WAVE };
-        assert!((deep.length_m() / (9.81 * 1.44 / TAU) - 1.0).abs() < 1e-12);
+        assert!((deep.wavelength_m() / (9.81 * 1.44 / TAU) - 1.0).abs() < 1e-12);
     }
 
     #[test]
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn highest_wave_has_the_solitary_and_deep_water_limits() {
         // Solitary wave: 0.8332. Deep water: H/L = 0.141, the first coefficient of the fit.
-        assert!((highest_over_depth(1e6) - 0.8332).abs() < 1e-3);
-        assert!((highest_over_depth(1e-3) / 1e-3 - 0.141).abs() < 1e-3);
+        assert!((max_height_over_depth(1e6) - 0.8332).abs() < 1e-3);
+        assert!((max_height_over_depth(1e-3) / 1e-3 - 0.141).abs() < 1e-3);
     }
 }

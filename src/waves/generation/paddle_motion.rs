@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use super::regular::RegularWave;
+use crate::waves::theory::regular::RegularWave;
 
 /// Shape of a paddle: its displacement over the height.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +25,7 @@ pub enum PaddleShape {
 
 impl PaddleShape {
     /// Displacement at `z` [m] above the bed relative to that at still water level, in depth d [m] [-].
-    pub fn share(&self, z: f64, depth: f64) -> f64 {
+    pub fn relative_displacement(&self, z: f64, depth: f64) -> f64 {
         match *self {
             Self::Piston => 1.0,
             Self::Flap { hinge_m } => ((z - hinge_m) / (depth - hinge_m)).max(0.0),
@@ -71,7 +71,7 @@ pub struct RegularMotion {
 impl RegularMotion {
     /// Creates the motion; the stroke grows over `ramp_periods`.
     pub fn new(wave: &RegularWave, shape: PaddleShape, ramp_periods: f64) -> Self {
-        let (k, depth) = (wave.number_per_m(), wave.depth_m);
+        let (k, depth) = (wave.wavenumber_per_m(), wave.depth_m);
         let first_m = 0.5 * wave.height_m / shape.height_per_stroke(k, depth);
         let second_m = match shape {
             PaddleShape::Piston => second_order_m(wave.height_m, k, depth),
@@ -87,7 +87,7 @@ impl RegularMotion {
     }
 
     /// Upper bound of the distance from the rest position [m].
-    pub fn reach_m(&self) -> f64 {
+    pub fn max_displacement_m(&self) -> f64 {
         self.first_m + self.second_m.abs()
     }
 
@@ -189,7 +189,7 @@ mod tests {
                 let n = 4000;
                 let interval = |i: i32| {
                     let z = DEPTH * (f64::from(i) + 0.5) / f64::from(n);
-                    k * shape.share(z, DEPTH) * (k * z).cosh() * DEPTH / f64::from(n)
+                    k * shape.relative_displacement(z, DEPTH) * (k * z).cosh() * DEPTH / f64::from(n)
                 };
                 let integral: f64 = (0..n).map(interval).sum();
                 let kd = k * DEPTH;
@@ -226,6 +226,6 @@ mod tests {
         let end = 1.5 * 1.2;
         assert!((motion.velocity_m_s(end + h) - motion.velocity_m_s(end - h)).abs() < 8.0 * h);
         let largest = (0..2000).map(|i| motion.displacement_m(0.005 * f64::from(i)).abs()).fold(0.0, f64::max);
-        assert!(largest <= motion.reach_m() && largest > 0.9 * motion.reach_m());
+        assert!(largest <= motion.max_displacement_m() && largest > 0.9 * motion.max_displacement_m());
     }
 }

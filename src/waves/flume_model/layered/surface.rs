@@ -5,7 +5,7 @@
 //! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and stays so above 0.3 (Smit,
 //!   Zijlema & Stelling 2013). It steepens into a bore, in which the momentum-conservative scheme dissipates energy.
 
-use super::{Breaking, LayeredFlume, Pressure, THIN_M};
+use super::{Breaking, DRY_DEPTH_M, LayeredFlume, Pressure};
 
 /// Depth below which water is hydrostatic, relative to the largest still water depth [-]: films do not disperse.
 const HYDROSTATIC_SHARE: f64 = 2.5e-3;
@@ -23,7 +23,7 @@ struct Side {
 
 /// Depth below which water is hydrostatic [m], from the still water depths of all cells [m].
 pub(super) fn hydrostatic_below_m(still_depths: &[f64]) -> f64 {
-    HYDROSTATIC_SHARE * still_depths.iter().copied().fold(THIN_M / HYDROSTATIC_SHARE, f64::max)
+    HYDROSTATIC_SHARE * still_depths.iter().copied().fold(DRY_DEPTH_M / HYDROSTATIC_SHARE, f64::max)
 }
 
 impl LayeredFlume {
@@ -45,13 +45,13 @@ impl LayeredFlume {
 
     /// Whether a cell breaks, from its rate of rise and the cells that broke in the previous time step.
     fn is_breaking(&self, cell: usize, before: &[bool]) -> bool {
-        let Breaking::HydrostaticFront { starts, lasts } = self.breaking_law else { return false };
+        let Breaking::HydrostaticFront { onset, persistence } = self.breaking_law else { return false };
         if self.depth[cell] < self.hydrostatic_below_m {
             return false;
         }
         let steepness = self.rise_m_s[cell] / (self.gravity * self.depth[cell]).sqrt();
         let broke_nearby = before[cell.saturating_sub(1)..(cell + 2).min(before.len())].contains(&true);
-        steepness > starts || (broke_nearby && steepness > lasts)
+        steepness > onset || (broke_nearby && steepness > persistence)
     }
 
     /// 1 where the water at an inner face is deep compared with the step of the bed, 0 where it is shallow [-].
@@ -65,7 +65,7 @@ impl LayeredFlume {
         let (left, right) = (face - 1, face);
         let bed = &self.grid.bed;
         let mean_depth = 0.5 * (depth[left] + depth[right]);
-        let central = self.central_share(face, u.abs() / (self.gravity * mean_depth.max(THIN_M)).sqrt());
+        let central = self.central_share(face, u.abs() / (self.gravity * mean_depth.max(DRY_DEPTH_M)).sqrt());
         if central >= 1.0 {
             return mean_depth;
         }
@@ -96,7 +96,7 @@ impl LayeredFlume {
     fn reconstruct(&self, cell: usize, sign: f64, depth: &[f64]) -> Side {
         let level = |cell: usize| self.grid.bed[cell] + depth[cell];
         let is_inner = cell > 0 && cell + 1 < depth.len();
-        if !is_inner || depth[cell - 1..cell + 2].iter().any(|h| *h <= THIN_M) {
+        if !is_inner || depth[cell - 1..cell + 2].iter().any(|h| *h <= DRY_DEPTH_M) {
             return Side { level: level(cell), bed: self.grid.bed[cell] };
         }
         let to_face = |before: f64, here: f64, after: f64| here + 0.5 * sign * van_leer(here - before, after - here);
@@ -201,8 +201,8 @@ impl LayeredFlume {
         let cells = self.grid.cells();
         for face in 1..cells {
             let u = self.mean_velocity(face);
-            self.open[face] = self.transport_depth(face, &self.depth, u) > THIN_M
-                || (u == 0.0 && self.transport_depth(face, &self.depth, 0.0) > THIN_M);
+            self.open[face] = self.transport_depth(face, &self.depth, u) > DRY_DEPTH_M
+                || (u == 0.0 && self.transport_depth(face, &self.depth, 0.0) > DRY_DEPTH_M);
             self.mean_depth[face] = if self.open[face] { 0.5 * (self.depth[face - 1] + self.depth[face]) } else { 0.0 };
         }
         for face in [0, cells] {

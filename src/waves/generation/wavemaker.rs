@@ -2,7 +2,7 @@
 //!
 //! A new kind of wavemaker is a variant of [`Wavemaker`]: it returns the displacement and velocity along x of each row.
 
-use crate::waves::{absorption::Absorption, ml_piston::MlPiston, paddle::Paddle};
+use crate::waves::{generation::absorption::Absorption, generation::ml_piston::MlPiston, generation::paddle::Paddle};
 
 /// A wavemaker made of rows of particles.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,10 +15,10 @@ pub enum Wavemaker {
 
 impl Wavemaker {
     /// Rest position x [m].
-    pub fn place_m(&self) -> f64 {
+    pub fn rest_x_m(&self) -> f64 {
         match self {
-            Self::MlPiston(piston) => piston.place_m(),
-            Self::Paddle(paddle) => paddle.place_m(),
+            Self::MlPiston(piston) => piston.rest_x_m(),
+            Self::Paddle(paddle) => paddle.rest_x_m(),
         }
     }
 
@@ -50,32 +50,32 @@ impl Wavemaker {
     }
 
     /// Position x [m] at flume time t [s]: a paddle at still water level, a multi-layer piston at its highest row.
-    pub fn surface_m(&self, t: f64) -> f64 {
+    pub fn x_at_surface_m(&self, t: f64) -> f64 {
         match self {
-            Self::MlPiston(piston) => piston.place_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),
-            Self::Paddle(paddle) => paddle.place_m() + paddle.motion_m(t),
+            Self::MlPiston(piston) => piston.rest_x_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),
+            Self::Paddle(paddle) => paddle.rest_x_m() + paddle.motion_m(t),
         }
     }
 
     /// Position x of the foremost row at flume time t [s] [m].
-    pub fn front_m(&self, t: f64) -> f64 {
+    pub fn foremost_row_x_m(&self, t: f64) -> f64 {
         let furthest = self.rows_at(t).iter().map(|row| row[0]).fold(f64::MIN, f64::max);
-        self.place_m() + furthest
+        self.rest_x_m() + furthest
     }
 
     /// Largest seaward displacement of a row from its rest position [m].
-    pub fn seaward_reach_m(&self) -> f64 {
+    pub fn max_seaward_displacement_m(&self) -> f64 {
         match self {
-            Self::MlPiston(piston) => piston.seaward_reach_m(),
-            Self::Paddle(paddle) => paddle.reach_m()[0],
+            Self::MlPiston(piston) => piston.max_seaward_displacement_m(),
+            Self::Paddle(paddle) => paddle.displacement_bounds_m()[0],
         }
     }
 
     /// Largest shoreward displacement of a row from its rest position [m].
-    pub fn shoreward_reach_m(&self) -> f64 {
+    pub fn max_shoreward_displacement_m(&self) -> f64 {
         match self {
-            Self::MlPiston(piston) => piston.shoreward_reach_m(),
-            Self::Paddle(paddle) => paddle.reach_m()[1],
+            Self::MlPiston(piston) => piston.max_shoreward_displacement_m(),
+            Self::Paddle(paddle) => paddle.displacement_bounds_m()[1],
         }
     }
 }

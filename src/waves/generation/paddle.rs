@@ -1,8 +1,8 @@
 //! Rigid wave paddle in the particle domain: all rows move in proportion to one motion.
 
-use crate::waves::absorption::{Absorption, RETURN_PERIODS};
-use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
-use crate::waves::solitary::SolitaryWave;
+use crate::waves::generation::absorption::{Absorption, RETURN_PERIODS};
+use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
+use crate::waves::theory::solitary::SolitaryWave;
 
 /// Motion of a paddle at still water level; t [s] counts from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,10 +31,10 @@ impl PaddleMotion {
     }
 
     /// Upper bounds of the seaward and shoreward displacement from the rest position [m].
-    pub fn reach_m(&self) -> [f64; 2] {
+    pub fn displacement_bounds_m(&self) -> [f64; 2] {
         match self {
             Self::Solitary(wave) => [0.0, wave.stroke_m()],
-            Self::Regular(motion) => [motion.reach_m(); 2],
+            Self::Regular(motion) => [motion.max_displacement_m(); 2],
         }
     }
 
@@ -48,21 +48,21 @@ impl PaddleMotion {
 
     /// Active absorption for a piston with this motion and a gauge at a distance [m].
     pub fn absorption(&self, gauge_m: f64) -> Absorption {
-        let reach_m = self.reach_m()[1];
+        let max_displacement_m = self.displacement_bounds_m()[1];
         match self {
             Self::Solitary(wave) => Absorption {
                 gauge_m,
-                way_s: gauge_m / wave.celerity_m_s(),
+                travel_time_s: gauge_m / wave.celerity_m_s(),
                 velocity_per_elevation: (wave.gravity / wave.depth_m).sqrt(),
-                reach_m,
-                return_s: None,
+                max_displacement_m,
+                return_time_s: None,
             },
             Self::Regular(motion) => Absorption {
                 gauge_m,
-                way_s: gauge_m / motion.celerity_m_s(),
+                travel_time_s: gauge_m / motion.celerity_m_s(),
                 velocity_per_elevation: motion.velocity_per_elevation(),
-                reach_m,
-                return_s: Some(RETURN_PERIODS * motion.period_s()),
+                max_displacement_m,
+                return_time_s: Some(RETURN_PERIODS * motion.period_s()),
             },
         }
     }
@@ -72,29 +72,30 @@ impl PaddleMotion {
 /// the order of the flap angle squared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Paddle {
-    place_m: f64,
+    rest_x_m: f64,
     row_heights_m: Vec<f64>,
     /// Displacement of each row relative to that at still water level [-].
-    shares: Vec<f64>,
+    relative_displacements: Vec<f64>,
     motion: PaddleMotion,
     absorption: Option<Absorption>,
 }
 
 impl Paddle {
-    /// Creates a paddle at x = `place_m` with rows at the levels z [m], for bed level `bed_m` and depth `depth_m` [m].
+    /// Creates a paddle at x = `rest_x_m` with rows at the levels z [m], for bed level `bed_m` and depth `depth_m` [m].
     pub fn new(
-        place_m: f64,
+        rest_x_m: f64,
         row_heights_m: Vec<f64>,
         [bed_m, depth_m]: [f64; 2],
         shape: PaddleShape,
         motion: PaddleMotion,
     ) -> Self {
-        let shares = row_heights_m.iter().map(|z| shape.share(z - bed_m, depth_m)).collect();
-        Self { place_m, row_heights_m, shares, motion, absorption: None }
+        let relative_displacements =
+            row_heights_m.iter().map(|z| shape.relative_displacement(z - bed_m, depth_m)).collect();
+        Self { rest_x_m, row_heights_m, relative_displacements, motion, absorption: None }
     }
 
     /// Adds active absorption with a gauge at a distance [m].
-    pub fn absorbing(self, gauge_m: f64) -> Self {
+    pub fn with_absorption(self, gauge_m: f64) -> Self {
         Self { absorption: Some(self.motion.absorption(gauge_m)), ..self }
     }
 
@@ -114,8 +115,8 @@ impl Paddle {
     }
 
     /// Rest position x [m].
-    pub fn place_m(&self) -> f64 {
-        self.place_m
+    pub fn rest_x_m(&self) -> f64 {
+        self.rest_x_m
     }
 
     /// Levels z of the rows [m].
@@ -126,21 +127,21 @@ impl Paddle {
     /// Displacement [m] and velocity [m/s] of each row at t [s], without absorption.
     pub fn rows_at(&self, t: f64) -> impl Iterator<Item = [f64; 2]> {
         let (displacement, velocity) = (self.motion.displacement_m(t), self.motion.velocity_m_s(t));
-        self.shares.iter().map(move |share| [share * displacement, share * velocity])
+        self.relative_displacements.iter().map(move |relative| [relative * displacement, relative * velocity])
     }
 
     /// Upper bounds of the seaward and shoreward displacement of any row, with absorption [m].
-    pub fn reach_m(&self) -> [f64; 2] {
-        let largest = self.shares.iter().copied().fold(0.0, f64::max);
-        let absorbed = self.absorption.map_or(0.0, |absorption| absorption.reach_m);
-        self.motion.reach_m().map(|reach| largest * (reach + absorbed))
+    pub fn displacement_bounds_m(&self) -> [f64; 2] {
+        let largest = self.relative_displacements.iter().copied().fold(0.0, f64::max);
+        let absorbed = self.absorption.map_or(0.0, |absorption| absorption.max_displacement_m);
+        self.motion.displacement_bounds_m().map(|bound| largest * (bound + absorbed))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::waves::regular::RegularWave;
+    use crate::waves::theory::regular::RegularWave;
 
     fn paddle(shape: PaddleShape) -> Paddle {
         let wave = RegularWave { height_m: 0.1, period_s: 1.2, depth_m: 0.4, gravity: 9.81 };
@@ -153,7 +154,7 @@ mod tests {
         let paddle = paddle(PaddleShape::Piston);
         let rows: Vec<[f64; 2]> = paddle.rows_at(4.1).collect();
         assert!(rows.iter().all(|row| *row == rows[0]) && rows[0][0] != 0.0);
-        assert!(rows[0][0].abs() < paddle.reach_m()[1]);
+        assert!(rows[0][0].abs() < paddle.displacement_bounds_m()[1]);
     }
 
     #[test]

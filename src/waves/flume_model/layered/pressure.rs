@@ -167,7 +167,7 @@ impl LayeredFlume {
     /// Sets w of all layers of a cell from continuity, from the bed upwards.
     pub(super) fn follow(&mut self, cell: usize) {
         let k = self.layers;
-        if self.depth[cell] < super::THIN_M {
+        if self.depth[cell] < super::DRY_DEPTH_M {
             self.w[cell * k..(cell + 1) * k].fill(0.0);
             return;
         }
