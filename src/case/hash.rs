@@ -1,11 +1,11 @@
-//! Hash of a case, independent of the layout of the file.
+//! Fingerprint of a case, independent of the layout of its file.
 
 use serde::Serialize;
 
-/// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with its defaults, then of `read`, the content of the
-/// other files that it reads. White space and the order of keys do not matter; `file` must not contain `$schema`.
+/// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with all defaults, and of `read`, the content of its
+/// other files. White space and key order do not matter. `file` must not contain its `$schema`.
 pub(super) fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
-    // The structs fix the order of the keys. Writing to memory cannot fail, because every key is a string.
+    // The structs fix the order of the keys. Serializing to a string cannot fail: every key is a string.
     let canonical = serde_json::to_string(file).unwrap_or_default();
     format!("{:032x}", fnv1a_128(canonical.as_bytes().iter().chain(read)))
 }
@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fnv_matches_published_test_vectors() {
+    fn fnv_1a_matches_published_test_vectors() {
         assert_eq!(fnv1a_128(b""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
         assert_eq!(fnv1a_128(b"a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
     }

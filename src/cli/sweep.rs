@@ -18,6 +18,7 @@ use super::{
 use crate::{
     case::Case,
     output::Summary,
+    report::sweep::write_sweep_chart,
     simulation::flume::{
         branch::Start,
         checkpoint::Checkpoint,
@@ -27,7 +28,8 @@ use crate::{
         member::Outcome,
         plan::{Member, Sweep},
         queue::Work,
-        slurm, table,
+        slurm,
+        table::write_table,
     },
 };
 
@@ -99,12 +101,14 @@ impl SweepArguments {
             finished(start, &dir)?;
         }
         self.launch(&work, &program, &sweep.members)?;
-        for path in table::write(&sweep, &dir).map_err(Trouble::failed)? {
-            println!("{}", path.display());
+        let outcomes: Vec<Outcome> = sweep.members.iter().map(|member| member.outcome(&dir)).collect();
+        println!("{}", write_table(&sweep, &outcomes, &dir).map_err(Trouble::failed)?.display());
+        if let Some(chart) = write_sweep_chart(&sweep, &outcomes, &dir).map_err(Trouble::failed)? {
+            println!("{}", chart.display());
         }
-        let finished = |member: &&Member| matches!(member.outcome(&dir), Outcome::Finished(_));
+        let unfinished = |(_, outcome): &(&Member, &Outcome)| !matches!(outcome, Outcome::Finished(_));
         let missing: Vec<&str> =
-            sweep.members.iter().filter(|member| !finished(member)).map(|member| member.name.as_str()).collect();
+            sweep.members.iter().zip(&outcomes).filter(unfinished).map(|(member, _)| member.name.as_str()).collect();
         if missing.is_empty() {
             return Ok(());
         }

@@ -1,7 +1,7 @@
-//! The program against published measurements. Run with `--release`.
+//! The program compared with published measurements. Run with `--release`.
 //!
-//! The measurements are read in place, from `../shared/data` beside the crate; where they are missing a test says so
-//! and skips.
+//! The tests read the measurements from `../shared/data` next to the crate; a test prints "skipped" and passes if they
+//! are missing.
 
 mod dam_break;
 mod dam_break_3d;
