@@ -45,6 +45,7 @@ pub mod material;
 pub mod mesh;
 mod motion;
 pub mod principal_axes;
+pub mod principal_stresses;
 mod release;
 pub mod rigid_body;
 mod rigid_hold;
