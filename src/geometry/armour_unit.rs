@@ -105,7 +105,7 @@ impl ArmourUnit {
     }
 
     /// Unit with the given surface and convex parts, standing in the given orientation.
-    pub fn of_parts(solid: &Solid, parts: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
+    pub fn from_parts(solid: &Solid, parts: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let [low, high] = solid.bounds();
         let unit = Self::of_solid(high.z - low.z, solid.clone(), parts, rounding_share, DQuat::IDENTITY)?;
         Ok(Self { exact: false, ..unit })

@@ -49,6 +49,6 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
 pub fn sections(size_m: f64) -> Vec<Section> {
     let width = WIDTH[0] * size_m;
     // About half a diagonal, because the sections of the upright members lie in the same planes.
-    let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.reaching(0.75 * width));
+    let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.with_reach(0.75 * width));
     members(size_m).iter().flat_map(sections).collect()
 }

@@ -113,7 +113,7 @@ impl Polyhedron {
     ///
     /// # Errors
     /// If the polygons do not span a body.
-    pub fn between(lower: &[DVec3], upper: &[DVec3]) -> Result<Self, PolyhedronError> {
+    pub fn hull_of_polygons(lower: &[DVec3], upper: &[DVec3]) -> Result<Self, PolyhedronError> {
         let points: Vec<DVec3> = lower.iter().chain(upper).copied().collect();
         Self::hull(&points)
     }
@@ -330,7 +330,7 @@ mod tests {
         let square = |half: f64, z: f64| {
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(half * x, half * y, z))
         };
-        let frustum = Polyhedron::between(&square(2.0, 1.0), &square(1.0, 4.0)).unwrap();
+        let frustum = Polyhedron::hull_of_polygons(&square(2.0, 1.0), &square(1.0, 4.0)).unwrap();
         // h/3 (A + B + sqrt(A B))
         assert!((frustum.volume() - (16.0 + 4.0 + 8.0)).abs() < 1e-9, "{}", frustum.volume());
         let smaller = frustum.shrunk(0.1).unwrap();

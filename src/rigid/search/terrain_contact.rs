@@ -9,7 +9,7 @@ use glam::{DQuat, DVec3};
 
 use super::ground::{Approach, keep, nearest_to_segment};
 use crate::geometry::convex_part::ConvexPart;
-use crate::geometry::terrain::{Corner, Face, Place, Ridge, Terrain};
+use crate::geometry::terrain::{Corner, Face, Ridge, SurfaceElement, Terrain};
 use crate::rigid::contact::Feature;
 
 /// Distance by which a foot point may lie outside a triangle [m], so that none falls between two triangles; [`keep`]
@@ -49,22 +49,22 @@ pub fn approaches(
     let centre = rotation * centre + position;
     let placed = Placed { part, rotation, position };
     let from = out.len();
-    let mut near: Vec<(u32, &Place)> = terrain.near(centre, radius + reach).collect();
+    let mut near: Vec<(u32, &SurfaceElement)> = terrain.near(centre, radius + reach).collect();
     // Numbers ascend from triangles to ridges to corners.
     near.sort_unstable_by_key(|(number, _)| *number);
     for (place, element) in near {
         match element {
-            Place::Face(face) => {
+            SurfaceElement::Face(face) => {
                 if (centre - face.corners[0]).dot(face.normal).abs() < radius + reach {
                     placed.approaches_to_face(face, place, reach).for_each(|approach| keep_nearer(out, from, approach));
                 }
             }
-            Place::Ridge(ridge) => {
+            SurfaceElement::Ridge(ridge) => {
                 if let Some(approach) = placed.approach_to_ridge(ridge, place, reach) {
                     keep(out, from, approach);
                 }
             }
-            Place::Corner(corner) => {
+            SurfaceElement::Corner(corner) => {
                 if let Some(approach) = placed.approach_to_corner(corner, place, reach) {
                     keep(out, from, approach);
                 }

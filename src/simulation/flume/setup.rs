@@ -302,7 +302,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let mut particles = match (shape.as_box(), sides) {
         (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
         (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
-            box_particles(&bounds.closed_across(), dp, f64::INFINITY)
+            box_particles(&bounds.with_closed_sides(), dp, f64::INFINITY)
         }
         _ => particles_of(shape, dp),
     };
