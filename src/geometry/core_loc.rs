@@ -15,9 +15,6 @@ const WIDTH: [f64; 2] = [0.362, 0.181];
 /// Chamfer leg over the local width [-].
 const CHAMFER: f64 = 0.1146;
 
-/// Volume over C^3 [-].
-pub const VOLUME_RATIO: f64 = 0.2206;
-
 /// Members of a Core-Loc of size C [m]: the central one along x, then the two upright ones on both sides in y.
 fn members(size_m: f64) -> [Member; 3] {
     let width = WIDTH.map(|w| w * size_m);

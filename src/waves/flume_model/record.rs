@@ -62,17 +62,6 @@ impl SurfaceProfile {
     }
 }
 
-/// Flow in the window at one time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FlumeState {
-    /// Time [s].
-    pub time_s: f64,
-    /// Positions of the points [m].
-    pub x_m: Vec<f64>,
-    /// Flow at the points.
-    pub columns: Vec<Column>,
-}
-
 impl FlumeRecord {
     /// Creates an empty record.
     pub(in crate::waves) fn new(
@@ -165,26 +154,6 @@ impl FlumeRecord {
     pub fn mean_velocity(&self, x: f64, t: f64) -> f64 {
         let k = self.layers;
         self.stencils(x, t).interpolate(|i| self.u[i * k..(i + 1) * k].iter().sum::<f64>() / k as f64)
-    }
-
-    /// Flow in the whole window at t [s].
-    pub fn state_at(&self, t: f64) -> FlumeState {
-        let time_s = t.clamp(0.0, self.end_s());
-        let (k, points) = (self.layers, self.window_x_m.len());
-        let time = self.time_stencil(time_s);
-        // `values` has `n` values per point; `j` is the index within one record.
-        let interpolate = |values: &[f64], n: usize, j: usize| time.apply(|record| values[record * points * n + j]);
-        let column = |i: usize| {
-            let bed_m = self.profile.z(self.window_x_m[i]);
-            Column {
-                surface_m: interpolate(&self.surface_m, 1, i).max(bed_m),
-                bed_m,
-                u: (0..k).map(|m| interpolate(&self.u, k, i * k + m)).collect(),
-                w: (0..=k).map(|m| interpolate(&self.w, k + 1, i * (k + 1) + m)).collect(),
-            }
-        };
-        let columns = (0..points).map(column).collect();
-        FlumeState { time_s, x_m: self.window_x_m.clone(), columns }
     }
 
     /// Highest elevation [m] at a gauge and its time [s], from the parabola through the highest record and its
@@ -288,8 +257,6 @@ mod tests {
         assert!((u - 1.36).abs() < 1e-12 && (w - 0.3).abs() < 1e-12);
         assert_eq!(record.velocity(2.3, 9.0, 1.1).1, 0.5);
         assert_eq!(record.velocity(2.3, -9.0, 1.1).1, 0.0);
-        let state = record.state_at(1.1);
-        assert!((state.columns[3].surface_m - 1.52).abs() < 1e-12);
     }
 
     #[test]

@@ -90,11 +90,6 @@ impl StreamFunctionWave {
         self.celerity
     }
 
-    /// Mean Eulerian velocity below the troughs [m/s].
-    pub fn mean_velocity_m_s(&self) -> f64 {
-        self.mean_velocity
-    }
-
     /// Phase X = k x - omega t at x [m] and t [s]; 0 under a crest.
     pub fn phase(&self, x: f64, t: f64) -> f64 {
         self.wavenumber * x - TAU / self.parameters.period_s * t
@@ -240,7 +235,7 @@ mod tests {
         }
         // Error of the midpoint rule over 100 rows: 1e-5 of H sqrt(g d) / 2 = 0.1.
         assert!(transport.abs() < 1e-6, "{transport}");
-        assert!(w.mean_velocity_m_s() < 0.0);
+        assert!(w.mean_velocity < 0.0);
     }
 
     #[test]
