@@ -117,14 +117,14 @@ fn starting_at_an_unsuitable_checkpoint_is_refused() {
     assert_refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
     assert!(at("moved").join("summary.json").exists());
     let rough = write(folder.path(), "rough.json", &surge(0.4, 0.3));
-    assert_refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all stand still");
+    assert_refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all units are still");
 
     let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);
     let deeper = write(folder.path(), "deeper.json", &deeper);
     assert_refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "the cases differ in flume, stop; only title,");
     let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
-    assert_refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only runs with water can begin at another");
+    assert_refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only flume cases can begin at the checkpoint");
     assert!(!at("rough").exists() && !at("deeper").exists() && !at("dry").exists());
 }
 

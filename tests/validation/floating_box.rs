@@ -13,7 +13,8 @@ use glam::{DMat4, DVec4};
 
 use super::data;
 
-const MEASURED: &str = "ren2015_floating_box/motion.csv";
+const TABLE: &str = "ren2015_floating_box.csv";
+const SERIES: &str = "ren2015_floating_box/motion.csv";
 const CASE: &str = "cases/verification/floating-box.json";
 
 /// Period of the waves [s].
@@ -26,8 +27,23 @@ const FULL_CREST: f64 = 0.035;
 /// Time [s], surge [m], heave [m], roll [degrees].
 type Row = [f64; 4];
 
-fn measured() -> Option<Vec<Row>> {
-    data::rows_of(MEASURED)
+/// Fits of surge, heave and roll, and the period of heave [s].
+type Fits = ([Fit; 3], f64);
+
+/// Returns the fits of the measured motions from each source.
+///
+/// Both sources have the same tolerance, as the table consists of the fits of the full series.
+fn measured() -> Vec<(&'static str, Fits)> {
+    data::table_and_series(fits_of_table(), data::series_of(SERIES).map(|rows| fits(&rows)))
+}
+
+fn fits_of_table() -> Fits {
+    let rows: Vec<[f64; 6]> = data::table_of(TABLE);
+    let fits = [0, 1, 2].map(|motion| {
+        let [_, _, mean, drift, amplitude, phase] = rows[motion];
+        Fit { mean, drift, amplitude, phase }
+    });
+    (fits, rows[0][1])
 }
 
 /// The part of the flume that is computed.
@@ -119,7 +135,7 @@ fn fit(rows: &[Row], column: usize, from: f64, period: f64) -> (Fit, f64) {
 }
 
 /// Returns the fits of surge, heave and roll after the first full crest, and the period of heave [s].
-fn fits(rows: &[Row]) -> ([Fit; 3], f64) {
+fn fits(rows: &[Row]) -> Fits {
     let crest = first_full_crest(rows).expect("the box never rose to a full crest");
     let periods = (0..=300).map(|k| PERIOD * (0.9 + 1e-3 * f64::from(k)));
     let residual = |period: &f64| fit(rows, 2, crest, *period).1;
@@ -133,13 +149,19 @@ fn wrap(degrees: f64) -> f64 {
 }
 
 /// Runs and compares. Returns amplitude ratios and phase differences [degrees] of heave and roll, and the ratio of the
-/// drifts; `None` without measurements.
-fn compare(dp: f64, part: Part) -> Option<[f64; 5]> {
-    let rows = computed(dp, part);
-    let ([surge, heave, roll], period) = fits(&rows);
+/// drifts, for each source of the measurement.
+fn compare(dp: f64, part: Part) -> Vec<[f64; 5]> {
+    let (motions, period) = fits(&computed(dp, part));
+    let [surge, heave, roll] = motions;
     println!("dp = {dp} m: period {period:.3} s, surge {surge:.4?}\n    heave {heave:.4?}\n    roll {roll:.3?}");
-    let ([surge_m, heave_m, roll_m], period_m) = fits(&measured()?);
-    println!("measured: period {period_m:.3} s, surge {surge_m:.4?}\n    heave {heave_m:.4?}\n    roll {roll_m:.3?}");
+    measured().into_iter().map(|(source, measured)| compare_fits(motions, source, measured)).collect()
+}
+
+fn compare_fits([surge, heave, roll]: [Fit; 3], source: &str, measured: Fits) -> [f64; 5] {
+    let ([surge_m, heave_m, roll_m], period_m) = measured;
+    println!(
+        "measured, {source}: period {period_m:.3} s, surge {surge_m:.4?}\n    heave {heave_m:.4?}\n    roll {roll_m:.3?}"
+    );
     let result = [
         heave.amplitude / heave_m.amplitude,
         wrap(heave.phase - heave_m.phase),
@@ -148,14 +170,29 @@ fn compare(dp: f64, part: Part) -> Option<[f64; 5]> {
         surge.drift / surge_m.drift,
     ];
     println!(
-        "dp = {dp} m: heave {:+.1} %, {:+.0} degrees; roll {:+.1} %, {:+.0} degrees; drift {:+.1} %",
+        "compared with the {source}: heave {:+.1} %, {:+.0} degrees; roll {:+.1} %, {:+.0} degrees; drift {:+.1} %",
         100.0 * (result[0] - 1.0),
         result[1],
         100.0 * (result[2] - 1.0),
         result[3],
         100.0 * (result[4] - 1.0)
     );
-    Some(result)
+    result
+}
+
+#[test]
+fn table_equals_the_fits_of_the_full_series() {
+    let (table, table_period) = fits_of_table();
+    for (source, (fits, period)) in measured() {
+        assert!((period - table_period).abs() < 1e-4, "{source}: period {period}");
+        for (fit, rounded) in fits.iter().zip(table) {
+            // The table is rounded to less than a thousandth of the amplitude, and to 0.01 degrees.
+            let rounding = 1e-3 * rounded.amplitude;
+            assert!((fit.drift - rounded.drift).abs() < rounding, "{source}: {fit:?}");
+            assert!((fit.amplitude - rounded.amplitude).abs() < rounding, "{source}: {fit:?}");
+            assert!((fit.phase - rounded.phase).abs() < 0.01, "{source}: {fit:?}");
+        }
+    }
 }
 
 #[test]
@@ -170,10 +207,11 @@ fn a_fit_finds_amplitude_phase_and_drift() {
 
 /// Asserts heave and roll amplitudes as measured, and a drift ratio in a range that depends on the resolution. Ranges
 /// are 0.15 to either side, as a fit over half of the periods changes the drift by a quarter.
-fn assert_as_measured(result: Option<[f64; 5]>, roll: f64, drift: [f64; 2]) {
-    let Some([heave, _, roll_ratio, _, drift_ratio]) = result else { return };
-    assert!((heave - 1.0).abs() < 0.1 && (roll_ratio - 1.0).abs() < roll, "heave {heave}, roll {roll_ratio}");
-    assert!(drift_ratio > drift[0] && drift_ratio < drift[1], "drift {drift_ratio}");
+fn assert_as_measured(results: Vec<[f64; 5]>, roll: f64, drift: [f64; 2]) {
+    for [heave, _, roll_ratio, _, drift_ratio] in results {
+        assert!((heave - 1.0).abs() < 0.1 && (roll_ratio - 1.0).abs() < roll, "heave {heave}, roll {roll_ratio}");
+        assert!(drift_ratio > drift[0] && drift_ratio < drift[1], "drift {drift_ratio}");
+    }
 }
 
 #[test]
