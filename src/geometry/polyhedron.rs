@@ -16,12 +16,12 @@ pub enum PolyhedronError {
     #[error("{0} points do not span a convex body: they are fewer than 4, lie in one plane or are not finite")]
     Flat(usize),
     /// The body has too many faces.
-    #[error("the convex hull has more than {MOST_FACES} faces: use a coarser surface")]
+    #[error("the convex hull has more than {MAX_FACES} faces: use a coarser surface")]
     TooRound,
 }
 
 /// Largest number of faces of a hull: contact allows about as many corners plus edges, and the search is quadratic.
-const MOST_FACES: usize = 1000;
+const MAX_FACES: usize = 1000;
 
 /// Distance below which two corners are merged, relative to the size of the polyhedron [-].
 const SAME: f64 = 1e-9;
@@ -92,7 +92,7 @@ impl Polyhedron {
                 if !planes.iter().any(|p| same_plane(p, &plane)) {
                     planes.push(plane);
                 }
-                if planes.len() > MOST_FACES {
+                if planes.len() > MAX_FACES {
                     return Err(PolyhedronError::TooRound);
                 }
             }

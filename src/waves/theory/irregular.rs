@@ -14,7 +14,7 @@ use crate::random::SplitMix64;
 /// Limits of f / f_p of the spectrum [-]; 1 to 2 % of the energy lies outside.
 const BAND: [f64; 2] = [0.6, 3.0];
 /// Largest number of wave components; the flume model evaluates all of them at every time step.
-const MOST_COMPONENTS: usize = 5000;
+const MAX_COMPONENTS: usize = 5000;
 
 /// Target parameters of a JONSWAP sea.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +125,7 @@ fn check(sea: &JonswapSea) -> Result<(), WaveError> {
     if !(1.0..=10.0).contains(&sea.peak_enhancement) {
         return refuse("peak_enhancement", sea.peak_enhancement, "from 1 to 10".to_owned());
     }
-    let longest = MOST_COMPONENTS as f64 / (BAND[1] - BAND[0]) * sea.peak_period_s;
+    let longest = MAX_COMPONENTS as f64 / (BAND[1] - BAND[0]) * sea.peak_period_s;
     let shortest = 20.0 * sea.peak_period_s;
     if !(shortest..=longest).contains(&sea.repeat_s) {
         return refuse("repeat_s", sea.repeat_s, format!("from {shortest} (20 peak periods) to {longest}"));

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::MeanFlow;
 
 /// Largest number of Newton iterations; five are enough from a close initial guess.
-const MOST_STEPS: usize = 30;
+const MAX_ITERATIONS: usize = 30;
 /// Largest residual of a converged solution: rounding in sums of 100 terms of order one.
 const SOLVED: f64 = 1e-11;
 /// Number of scalar unknowns, which precede the surface heights: k, U, c, Q, R.
@@ -86,7 +86,7 @@ fn sinh_ratio(a: f64, y: f64) -> f64 {
 /// Newton's method from `start`; `None` if it does not converge.
 pub fn solve(start: SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -> Option<SteadyWave> {
     let mut wave = start;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_ITERATIONS {
         let (mut matrix, mut residual) = linearise(&wave, height, period, mean_flow);
         let largest = residual.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
         if largest < SOLVED {
