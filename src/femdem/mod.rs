@@ -30,6 +30,7 @@ pub mod loads;
 pub mod material;
 pub mod mesh;
 mod parallel;
+pub mod principal_stresses;
 pub mod rigid;
 pub mod setup;
 pub mod world;

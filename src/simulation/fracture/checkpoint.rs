@@ -7,14 +7,13 @@ use std::path::Path;
 use hdf5_metno::File;
 use serde::{Deserialize, Serialize};
 
-use super::{detail::DetailLengths, summary::Watched};
+use super::run_state::RunState;
 use crate::{
     case::FractureCase,
     femdem::{
         contact::pairs::snapshot::ContactSnapshot,
         world::{
             World,
-            energy_balance::EnergyBalance,
             snapshot::{Scalars, Snapshot},
         },
     },
@@ -34,39 +33,6 @@ pub const FAILED_FILE: &str = "failed.h5";
 
 /// Version of the file layout; incremented when the layout changes.
 const VERSION: u32 = 3;
-
-/// State of a run in addition to its world.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct RunState {
-    /// Quantities that the loop tracks.
-    pub watched: Watched,
-    /// Total of the energy balance at the start [J].
-    pub total_at_start: Option<f64>,
-    /// Number of rows of the energy balance.
-    pub rows: u64,
-    /// Number of time steps in each of the ParaView files.
-    pub frames: u64,
-    /// Number of checkpoints.
-    pub checkpoints: u64,
-    /// Lengths of the tables of the energy balance and of the bodies [bytes].
-    pub bytes: [u64; 2],
-    /// Lengths of the other files.
-    pub detail: DetailLengths,
-}
-
-impl RunState {
-    /// Records a row of the energy balance; returns its residual relative to the start [J].
-    pub fn note(&mut self, book: &EnergyBalance) -> f64 {
-        let residual = book.total() - *self.total_at_start.get_or_insert(book.total());
-        let watched = &mut self.watched;
-        if watched.steps == 0 {
-            watched.kinetic[0] = book.kinetic;
-        }
-        watched.kinetic[1] = watched.kinetic[1].max(book.kinetic);
-        watched.residual = watched.residual.max(residual.abs());
-        residual
-    }
-}
 
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]

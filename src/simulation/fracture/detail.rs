@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use super::fragments::pieces;
-use super::recorder::principal;
+use super::run_state::DetailLengths;
 use super::section::{SECTION_FIELDS, Section};
 use crate::case::FractureCase;
 use crate::femdem::element::{self, Moduli};
+use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::world::World;
 use crate::output::{
     Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, TetMoment, TetSeries, columns,
@@ -31,19 +31,6 @@ const TET_FIELDS: [(&str, FieldKind); 5] = [
 const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
 /// Bytes of connectivity per tetrahedron.
 const CONNECTIVITY_BYTES: f64 = 32.0;
-
-/// Lengths of the files at a checkpoint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct DetailLengths {
-    /// Length of `cracks.csv` [bytes].
-    pub cracks_bytes: u64,
-    /// Number of rows of `cracks.csv`.
-    pub cracks: usize,
-    /// Number of time steps in `section.vtkhdf`; 0 without this file.
-    pub section_steps: usize,
-    /// Number of time steps in `tets.vtkhdf`; 0 without this file.
-    pub tets_steps: usize,
-}
 
 /// Open output files.
 pub struct DetailRecorder {
@@ -161,7 +148,7 @@ fn record_tets(world: &World, series: &mut TetSeries) -> Result<(), OutputError>
         let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
         let places = nodes.map(|node| world.nodes.position[node as usize]);
         let t = element::stress(&world.tets.shape[tet], &moduli, &places);
-        let [sigma_1, _, sigma_3] = principal(t);
+        let [sigma_1, _, sigma_3] = principal_stresses(t);
         let components = [t.x_axis.x, t.y_axis.y, t.z_axis.z, t.x_axis.y, t.y_axis.z, t.x_axis.z];
         stress.push(components.map(|component| component as f32));
         first.push(sigma_1 as f32);

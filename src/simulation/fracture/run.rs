@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::{
-    checkpoint::{self, RunState},
+    checkpoint,
     failure::Failure,
     fragments::{pieces, write_fragments},
     peak_stress::{carry_on, largest_stresses},
     recorder::FractureRecorder,
+    run_state::RunState,
     summary::FractureSummary,
 };
 use crate::{

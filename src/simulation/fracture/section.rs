@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::recorder::principal;
 use crate::case::Plane;
 use crate::femdem::element::{self, Moduli};
+use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::setup::Setup;
 use crate::femdem::world::World;
 use crate::output::{FieldKind, FieldValues, OutputError, PolyDataSeries};
@@ -79,7 +79,7 @@ impl Section {
             let number = world.tets.body[*tet as usize];
             let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
             let stress = element::stress(&world.tets.shape[*tet as usize], &moduli, &places);
-            let [sigma_1, _, sigma_3] = principal(stress);
+            let [sigma_1, _, sigma_3] = principal_stresses(stress);
             for point in triangle {
                 points.push(single(point.value(places)));
                 velocity.push(single(point.value(velocities)));

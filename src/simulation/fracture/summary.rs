@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress};
+use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress, run_state::Watched};
 use crate::case::FractureCase;
 use crate::femdem::world::energy_balance::EnergyBalance;
 use crate::femdem::world::{Failure, World};
@@ -133,23 +133,6 @@ pub struct InitiationSummary {
     pub mode: String,
     /// Area of the crack at the end [m2].
     pub area_m2: f64,
-}
-
-/// Quantities that the loop tracks.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Watched {
-    /// Number of time steps.
-    pub steps: u64,
-    /// Largest residual of the energy balance [J].
-    pub residual: f64,
-    /// Kinetic energy at the start, and the largest one [J].
-    pub kinetic: [f64; 2],
-    /// Time at which two bodies first touched [s].
-    pub impact: Option<f64>,
-    /// Largest tension in each body.
-    pub peaks: Vec<PeakStress>,
-    /// Wall-clock time, including the time before interruptions [s].
-    pub wall: f64,
 }
 
 impl FractureSummary {
