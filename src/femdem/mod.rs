@@ -12,6 +12,7 @@
 //! | `material` | elasticity, strength and cohesive law |
 //! | `parallel` | SIMD lanes and chunks of work |
 //! | `element` | the linear tetrahedron |
+//! | `principal_stresses` | principal values of a stress tensor |
 //! | `loads` | tractions, pressures, forces that act at a point; their change with time |
 //! | `setup` | input of a world: mesh, bodies, constraints, loads |
 //! | `assembly` | nodes and tetrahedra as arrays; node splitting |

@@ -4,10 +4,10 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::contact::{Contact, ContactKey, ContactPoint, Feature, Substep};
+use super::kinematics::{ContactMotion, Motion};
 use super::law::{ContactLaw, Material};
-use super::motion::{BodyState, Load};
-use super::record::{ContactRecords, ContactStart, ForceStep};
-use super::search::Placements;
+use super::motion::Load;
+use super::record::{ContactRecords, ForceStep};
 use super::setup::RigidSetup;
 
 /// Energy balance of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
@@ -26,22 +26,6 @@ pub struct Energy {
     pub damping: f64,
     /// Work of the external loads since the start.
     pub load_work: f64,
-}
-
-/// Velocities of all bodies at one instant.
-#[derive(Debug, Clone, Copy)]
-pub struct Velocities<'a> {
-    /// Velocities of the centres of mass [m/s].
-    pub linear: &'a [DVec3],
-    /// Angular velocities, world axes [rad/s].
-    pub angular: &'a [DVec3],
-}
-
-impl Velocities<'_> {
-    /// Velocity [m/s] of the material point of `body` at the lever arm r [m] from its centre of mass.
-    fn at(&self, body: usize, arm: DVec3) -> DVec3 {
-        self.linear[body] + self.angular[body].cross(arm)
-    }
 }
 
 /// Contact laws of all pairs of surfaces.
@@ -94,130 +78,46 @@ impl Laws {
         }
     }
 
-    /// Computes the forces at the contact points. `before` are the previous contacts and `records` their records. `now`
-    /// are the current velocities; `over`, the mean velocities of the substep, stretch the springs and do the work.
-    #[allow(clippy::too_many_arguments)]
+    /// Computes the forces at the contact points. `before` are the previous contacts and `records` their records.
     pub fn evaluate(
         &self,
         contact_points: &[ContactPoint],
         before: &[Contact],
-        placements: Placements<'_>,
-        now: Velocities<'_>,
-        over: Velocities<'_>,
-        substep: Substep,
+        motion: &Motion,
         energy: &mut Energy,
         records: &mut ContactRecords,
     ) -> Evaluation {
-        let Placements { rotation, position } = placements;
-        let mut out = Evaluation { loads: vec![Load::default(); position.len()], ..Default::default() };
-        let mut stiffness = vec![0.0; position.len()];
+        let (bodies, substep) = (motion.placements.position.len(), motion.substep);
+        let mut out = Evaluation { loads: vec![Load::default(); bodies], ..Default::default() };
+        let mut stiffness = vec![0.0; bodies];
         let mut used = vec![false; before.len()];
         let mut old_records: Vec<_> = std::mem::take(&mut records.running).into_iter().map(Some).collect();
         records.running.reserve(contact_points.len());
         out.contacts.reserve(contact_points.len());
         energy.elastic = 0.0;
         for point in contact_points {
-            let law = self.law_of(point.key.feature);
-            let a = point.key.body as usize;
-            let b = if let Feature::Unit { body, .. } = point.key.feature { Some(body as usize) } else { None };
-            let arm_a = point.position - position[a];
-            let arm_b = b.map_or(DVec3::ZERO, |b| point.position - point.shift - position[b]);
-            let relative = |v: Velocities<'_>| v.at(a, arm_a) - b.map_or(DVec3::ZERO, |b| v.at(b, arm_b));
-            let (v, v_over) = (relative(now), relative(over));
-            let (v_n, v_n_over) = (v.dot(point.normal), v_over.dot(point.normal));
-            let (v_t, v_t_over) = (v - point.normal * v_n, v_over - point.normal * v_n_over);
-
-            let closing = (-v_n).max(0.0);
-            if -point.overlap <= closing * substep.horizon {
-                let expected = point.overlap.max(law.impact_overlap(closing));
-                let s_n = law.normal_stiffness(expected);
-                let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
-                // Two bodies on one spring: twice the stiffness bounds the frequency (Gershgorin).
-                stiffness[a] += if b.is_some() { 2.0 } else { 1.0 } * stiffness_at(arm_a);
-                if let Some(b) = b {
-                    stiffness[b] += 2.0 * stiffness_at(arm_b);
-                }
-            }
+            let pair = ContactMotion::new(point, motion);
+            self.add_stiffness(&pair, substep, &mut stiffness);
             if point.overlap <= 0.0 {
                 continue;
             }
-
             let previous = find(before, &mut used, contact_points, point, self.least_radius);
-            let known = previous.is_some();
-            let mut contact =
-                previous.map_or_else(|| Contact::started(point, substep), |i| before[i].continued_as(point));
-            let mut record = previous.and_then(|index| old_records[index].take()).unwrap_or_else(|| {
-                let state = |body: usize, shift: DVec3| BodyState {
-                    position: position[body] + shift,
-                    rotation: rotation[body],
-                    velocity: now.linear[body],
-                    angular_velocity: now.angular[body],
-                };
-                let (body, partner) = (state(a, DVec3::ZERO), b.map(|b| state(b, point.shift)));
-                let mass = if b.is_some() { 0.5 } else { 1.0 } * self.mass;
-                records.begin(point, ContactStart { time: substep.time, body, partner, v_n, v_t, mass })
-            });
-            let moved = if known { v_t_over * substep.dt } else { DVec3::ZERO };
-            let kept =
-                if law.keeps_spring() { rotate(contact.spring, contact.normal, point.normal) } else { DVec3::ZERO };
-            contact.initial_overlap = contact.initial_overlap.min(point.overlap);
-            let overlap = point.overlap - contact.initial_overlap;
-            if overlap <= 0.0 {
-                energy.friction += contact.elastic[1] + contact.elastic[2];
-                record.add(ForceStep { substep, before: contact.force, now: DVec3::ZERO, v_n });
-                records.running.push(record);
-                out.contacts.push(contact.idle(point, substep));
-                continue;
-            }
-            let forces = law.forces(overlap, v_n, v_t, kept + moved);
-            let force = point.normal * forces.normal + forces.tangential;
-
-            out.loads[a].force += force;
-            out.loads[a].torque += arm_a.cross(force);
-            if let Some(b) = b {
-                out.loads[b].force -= force;
-                out.loads[b].torque -= arm_b.cross(force);
-            }
-
-            let tangential_spin = |v: Velocities<'_>| {
-                let omega = v.angular[a] - b.map_or(DVec3::ZERO, |b| v.angular[b]);
-                omega - point.normal * omega.dot(point.normal)
+            let old = previous.map_or_else(|| Contact::started(point, substep), |i| before[i].continued_as(point));
+            let mut record = previous
+                .and_then(|index| old_records[index].take())
+                .unwrap_or_else(|| records.begin(point, pair.start(self.mass)));
+            let initial_overlap = old.initial_overlap.min(point.overlap);
+            let deformed = DeformedContact {
+                law: self.law_of(point.key.feature),
+                pair: &pair,
+                old: Contact { initial_overlap, ..old },
+                is_new: previous.is_none(),
+                overlap: point.overlap - initial_overlap,
+                substep,
             };
-            let (omega, omega_over) = (tangential_spin(now), tangential_spin(over));
-            let rolled = if known { omega_over * substep.dt } else { DVec3::ZERO };
-            let rolling_spring = rotate(contact.rolling_spring, contact.normal, point.normal) + rolled;
-            let rolling = law.rolling_resistance(overlap, forces.normal, omega, rolling_spring);
-            let mut rolling_energy = 0.0;
-            if let Some(rolling) = rolling {
-                out.loads[a].torque += rolling.torque;
-                if let Some(b) = b {
-                    out.loads[b].torque -= rolling.torque;
-                }
-                rolling_energy = 0.5 * law.rolling_stiffness(overlap) * rolling.spring.length_squared();
-                let lost = -rolling.torque.dot(omega_over) * substep.dt - (rolling_energy - contact.elastic[2]);
-                *(if rolling.rolling { &mut energy.friction } else { &mut energy.damping }) += lost;
-                contact.rolling_spring = rolling.spring;
-            }
-
-            let stored = [law.normal_energy(overlap), law.tangential_energy(overlap, forces.spring), rolling_energy];
-            // The mean of the forces at both ends of the substep acted on the bodies.
-            let dashpot = forces.normal - law.elastic_force(overlap);
-            let damped = -0.5 * (contact.dashpot + dashpot) * v_n_over * substep.dt;
-            let gained = stored[0] + stored[1] - contact.elastic[0] - contact.elastic[1];
-            let lost = -0.5 * (contact.force + force).dot(v_over) * substep.dt - gained;
-            energy.damping += damped;
-            *(if forces.sliding { &mut energy.friction } else { &mut energy.damping }) += lost - damped;
-            energy.elastic += stored.iter().sum::<f64>();
-
-            record.add(ForceStep { substep, before: contact.force, now: force, v_n });
+            let contact = deformed.advance(energy, &mut out.loads);
+            record.add(ForceStep { substep, before: old.force, now: contact.force, v_n: pair.v_n });
             records.running.push(record);
-            contact.normal = point.normal;
-            contact.overlap = point.overlap;
-            contact.core = point.core;
-            contact.spring = forces.spring;
-            contact.force = force;
-            contact.dashpot = dashpot;
-            contact.elastic = stored;
             out.contacts.push(contact);
         }
         for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record?))) {
@@ -230,6 +130,95 @@ impl Laws {
         }
         out.frequency_squared = stiffness.iter().fold(0.0, |most: f64, k| most.max(k / self.mass));
         out
+    }
+
+    /// Adds the stiffness [N/m] of a contact, or of one that can start within the horizon, to that of its bodies.
+    fn add_stiffness(&self, pair: &ContactMotion, substep: Substep, stiffness: &mut [f64]) {
+        let (point, law) = (pair.point, self.law_of(pair.point.key.feature));
+        let closing = (-pair.v_n).max(0.0);
+        let within_horizon = -point.overlap <= closing * substep.horizon;
+        if !within_horizon {
+            return;
+        }
+        let expected = point.overlap.max(law.impact_overlap(closing));
+        let s_n = law.normal_stiffness(expected);
+        let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
+        // Two bodies on one spring: twice the stiffness bounds the frequency (Gershgorin).
+        stiffness[pair.body] += if pair.partner.is_some() { 2.0 } else { 1.0 } * stiffness_at(pair.arms[0]);
+        if let Some(b) = pair.partner {
+            stiffness[b] += 2.0 * stiffness_at(pair.arms[1]);
+        }
+    }
+}
+
+/// A contact that deforms its bodies over a substep.
+struct DeformedContact<'a> {
+    law: &'a ContactLaw,
+    pair: &'a ContactMotion<'a>,
+    /// The contact at the start of the substep, at its new position.
+    old: Contact,
+    is_new: bool,
+    /// Overlap beyond the initial one [m].
+    overlap: f64,
+    substep: Substep,
+}
+
+impl DeformedContact<'_> {
+    /// Advances the springs, adds the force to the loads and books the energies.
+    fn advance(&self, energy: &mut Energy, loads: &mut [Load]) -> Contact {
+        let Self { law, pair, old, overlap, .. } = self;
+        let point = pair.point;
+        if *overlap <= 0.0 {
+            energy.friction += old.elastic[1] + old.elastic[2];
+            return old.idle(point, self.substep);
+        }
+        let moved = if self.is_new { DVec3::ZERO } else { pair.mean_t * self.substep.dt };
+        let kept = if law.keeps_spring() { rotate(old.spring, old.normal, point.normal) } else { DVec3::ZERO };
+        let forces = law.forces(*overlap, pair.v_n, pair.v_t, kept + moved);
+        let force = point.normal * forces.normal + forces.tangential;
+        pair.add_force(force, loads);
+        let (rolling_spring, rolling_energy) = self.roll(forces.normal, energy, loads);
+        let contact = Contact {
+            normal: point.normal,
+            overlap: point.overlap,
+            core: point.core,
+            spring: forces.spring,
+            rolling_spring,
+            force,
+            dashpot: forces.normal - law.elastic_force(*overlap),
+            elastic: [law.normal_energy(*overlap), law.tangential_energy(*overlap, forces.spring), rolling_energy],
+            ..*old
+        };
+        self.book_energies(&contact, forces.sliding, energy);
+        contact
+    }
+
+    /// Adds the rolling resistance to the loads; returns its spring [rad] and the energy in it [J].
+    fn roll(&self, normal_force: f64, energy: &mut Energy, loads: &mut [Load]) -> (DVec3, f64) {
+        let Self { law, pair, old, overlap, substep, .. } = self;
+        let [omega, mean_omega] = pair.rolling_velocities();
+        let rolled = if self.is_new { DVec3::ZERO } else { mean_omega * substep.dt };
+        let spring = rotate(old.rolling_spring, old.normal, pair.point.normal) + rolled;
+        let Some(rolling) = law.rolling_resistance(*overlap, normal_force, omega, spring) else {
+            return (old.rolling_spring, 0.0);
+        };
+        pair.add_torque(rolling.torque, loads);
+        let stored = 0.5 * law.rolling_stiffness(*overlap) * rolling.spring.length_squared();
+        let lost = -rolling.torque.dot(mean_omega) * substep.dt - (stored - old.elastic[2]);
+        *(if rolling.rolling { &mut energy.friction } else { &mut energy.damping }) += lost;
+        (rolling.spring, stored)
+    }
+
+    /// Books what the contact stores, and what friction and dashpots dissipate over the substep.
+    fn book_energies(&self, contact: &Contact, is_sliding: bool, energy: &mut Energy) {
+        let Self { pair, old, substep, .. } = self;
+        // The mean of the forces at both ends of the substep acted on the bodies.
+        let damped = -0.5 * (old.dashpot + contact.dashpot) * pair.mean_n * substep.dt;
+        let gained = contact.elastic[0] + contact.elastic[1] - old.elastic[0] - old.elastic[1];
+        let lost = -0.5 * (old.force + contact.force).dot(pair.mean) * substep.dt - gained;
+        energy.damping += damped;
+        *(if is_sliding { &mut energy.friction } else { &mut energy.damping }) += lost - damped;
+        energy.elastic += contact.elastic.iter().sum::<f64>();
     }
 }
 

@@ -12,6 +12,7 @@
 //! | `contact` | the data of a contact |
 //! | `law` | contact laws |
 //! | `forces` | contact forces and energy balance |
+//! | `kinematics` | relative motion of the two sides of a contact |
 //! | `record` | records of contacts and the hardest impacts |
 //! | `add_body` | adding bodies during a run |
 //! | `snapshot` | state for checkpoints |
@@ -20,6 +21,7 @@ mod add_body;
 mod contact;
 mod error;
 mod forces;
+mod kinematics;
 mod law;
 mod motion;
 mod record;

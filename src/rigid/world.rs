@@ -9,7 +9,8 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::contact::{Contact, Substep};
 use super::error::RigidError;
-use super::forces::{Energy, Laws, Velocities};
+use super::forces::{Energy, Laws};
+use super::kinematics::{Motion, Velocities};
 use super::motion::{self, BodyState, Load};
 use super::record::{ContactEvent, ContactRecords, RecordedContact};
 use super::search::{PartPair, Placements, Surfaces};
@@ -292,16 +293,14 @@ impl RigidWorld {
         let placements = Placements { rotation: &self.rotation, position: &self.position };
         let contact_points =
             self.surfaces.contact_points(&self.near, placements, &self.contacts, &self.margin, self.time)?;
-        let evaluation = self.laws.evaluate(
-            &contact_points,
-            &self.contacts,
+        let motion = Motion {
             placements,
-            Velocities { linear: &self.velocity, angular: &self.angular_velocity },
-            Velocities { linear, angular },
-            Substep { dt: h, time: self.time, horizon },
-            &mut self.energy,
-            &mut self.records,
-        );
+            now: Velocities { linear: &self.velocity, angular: &self.angular_velocity },
+            mean: Velocities { linear, angular },
+            substep: Substep { dt: h, time: self.time, horizon },
+        };
+        let evaluation =
+            self.laws.evaluate(&contact_points, &self.contacts, &motion, &mut self.energy, &mut self.records);
         self.contact_now = evaluation.loads;
         self.contacts = evaluation.contacts;
         self.frequency_squared = evaluation.frequency_squared;
