@@ -246,7 +246,7 @@ fn impacts_come_with_the_water(out: &Path) {
 
 /// Within a factor of two: a file this small has large parts that are reserved and empty.
 fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
-    let estimate = breakwater::case::Case::load(case).unwrap().output_size();
+    let estimate = breakwater::output::OutputSize::estimate(&breakwater::case::Case::load(case).unwrap());
     let size = |file: &str| std::fs::metadata(out.join(file)).unwrap().len() as f64;
     let tables = ["diagnostics.csv", "energy.csv", "gauges.csv", "units.csv"].map(size).iter().sum::<f64>();
     let sizes = [

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use breakwater::case::file::{CaseFile, DryFile, FractureFile};
-use breakwater::case::{Case, DryCase, FractureCase, Handover, Wave, schema_text, template_text};
+use breakwater::case::{
+    BreakageSettings, Case, Document, DryTestCase, FractureCase, InputFile, InputKind, Wave, schema_text, template_text,
+};
 use breakwater::sweep::plan::Sweep;
 
 fn json_files(folder: &Path) -> Vec<PathBuf> {
@@ -24,29 +26,10 @@ fn all_files() -> Vec<PathBuf> {
     json_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"))
 }
 
-/// Cases with water.
-fn cases() -> Vec<PathBuf> {
-    let others = [dry_cases(), fracture_cases(), sweeps()].concat();
-    all_files().into_iter().filter(|path| !others.contains(path) && !is_placement(path)).collect()
-}
-
-fn fracture_cases() -> Vec<PathBuf> {
-    let is_one = |path: &PathBuf| FractureCase::is_one(&std::fs::read_to_string(path).unwrap());
+/// All files of a kind.
+fn files(kind: InputKind) -> Vec<PathBuf> {
+    let is_one = |path: &PathBuf| Document::read(path).unwrap().kind() == kind;
     all_files().into_iter().filter(is_one).collect()
-}
-
-fn dry_cases() -> Vec<PathBuf> {
-    let is_dry = |path: &PathBuf| DryCase::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_dry).collect()
-}
-
-fn sweeps() -> Vec<PathBuf> {
-    let is_one = |path: &PathBuf| Sweep::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_one).collect()
-}
-
-fn is_placement(path: &Path) -> bool {
-    path.to_string_lossy().ends_with(".placement.json")
 }
 
 fn case(name: &str) -> Case {
@@ -56,7 +39,7 @@ fn case(name: &str) -> Case {
 
 #[test]
 fn every_case_file_loads() {
-    let files = cases();
+    let files = files(InputKind::Flume);
     assert!(files.len() >= 9, "only {} case files found", files.len());
     for path in files {
         let case = Case::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
@@ -78,10 +61,10 @@ fn every_case_file_loads() {
 
 #[test]
 fn every_dry_case_loads_and_survives_being_written_and_read() {
-    let files = dry_cases();
+    let files = files(InputKind::DryTest);
     assert!(files.len() >= 5, "only {} dry cases found", files.len());
     for path in files {
-        let case = DryCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
+        let case = DryTestCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
         assert!(!case.assumptions.is_empty(), "{}: no assumption listed", path.display());
         let file: DryFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
@@ -91,11 +74,11 @@ fn every_dry_case_loads_and_survives_being_written_and_read() {
         if let Some(terrain) = &case.site.terrain {
             std::fs::write(folder.path().join("terrain.stl"), terrain.content.as_slice()).unwrap();
         }
-        if let Some(handover) = &case.fracture {
-            std::fs::write(folder.path().join(Handover::MESH), &handover.mesh_file).unwrap();
+        if let Some(handover) = &case.breakage {
+            std::fs::write(folder.path().join(BreakageSettings::MESH), &handover.mesh_file).unwrap();
         }
         let name = folder.path().join("case.json").display().to_string();
-        let kept = DryCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
+        let kept = DryTestCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(kept.hash, case.hash, "{}", path.display());
         assert_eq!(kept.units.placements, case.units.placements, "{}", path.display());
     }
@@ -103,7 +86,7 @@ fn every_dry_case_loads_and_survives_being_written_and_read() {
 
 #[test]
 fn every_fracture_case_loads_and_survives_being_written_and_read() {
-    let files = fracture_cases();
+    let files = files(InputKind::Fracture);
     assert!(!files.is_empty());
     for path in files {
         let case = FractureCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
@@ -122,7 +105,7 @@ fn every_fracture_case_loads_and_survives_being_written_and_read() {
 
 #[test]
 fn every_sweep_loads_and_its_runs_differ() {
-    let files = sweeps();
+    let files = files(InputKind::Sweep);
     assert!(!files.is_empty());
     for path in files {
         let sweep = Sweep::load(&path).unwrap_or_else(|reason| panic!("{reason}"));
@@ -141,7 +124,7 @@ fn template_loads_without_a_warning() {
 
 #[test]
 fn case_files_survive_being_written_and_read() {
-    for path in cases() {
+    for path in files(InputKind::Flume) {
         let file: CaseFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
         let again: CaseFile = serde_json::from_str(&written).unwrap();
@@ -150,9 +133,9 @@ fn case_files_survive_being_written_and_read() {
         let again = path.with_file_name("again.json").display().to_string();
         assert_eq!(Case::from_str(&written, &again).unwrap().hash, case.hash, "{}", path.display());
         // What a run keeps needs the mesh of the unit that it writes, and is the same case.
-        let Some(handover) = &case.fracture else { continue };
+        let Some(handover) = &case.breakage else { continue };
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(Handover::MESH), &handover.mesh_file).unwrap();
+        std::fs::write(folder.path().join(BreakageSettings::MESH), &handover.mesh_file).unwrap();
         let name = folder.path().join("case.json").display().to_string();
         assert_eq!(Case::from_str(&case.text, &name).unwrap().hash, case.hash, "{}", path.display());
     }
@@ -215,7 +198,9 @@ fn schema_tells_about_every_key() {
     let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(schema.is_object());
     let mut keys = Vec::new();
-    for text in cases().iter().map(|path| std::fs::read_to_string(path).unwrap()).chain([template_text()]) {
+    for text in
+        files(InputKind::Flume).iter().map(|path| std::fs::read_to_string(path).unwrap()).chain([template_text()])
+    {
         let file: CaseFile = serde_json::from_str(&text).unwrap();
         collect_keys(&serde_json::to_value(&file).unwrap(), &mut keys);
     }

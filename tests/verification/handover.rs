@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use breakwater::case::{DryCase, FractureCase, HandoverWay};
+use breakwater::case::{DryTestCase, FractureCase, RerunMethod};
 use breakwater::output::Impacts;
 use breakwater::output::driver::Control;
 use breakwater::simulation::breakage::model::Model;
 use breakwater::simulation::breakage::results::{Breakage, Moved, Outcome};
-use breakwater::simulation::breakage::run::{FOLDER, hand_over};
+use breakwater::simulation::breakage::run::{FOLDER, analyse_breakage};
 use breakwater::simulation::dry_test::run::run;
 use breakwater::simulation::fracture::run::world;
 use glam::DVec3;
@@ -19,21 +19,21 @@ fn drop_case() -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(root.join("cases/breakage/tetrapod-drop.json")).unwrap();
     let mut case: Value = serde_json::from_str(&text).unwrap();
-    case["fracture"]["mesh"] = json!(root.join("cases/fracture/meshes/tetrapod-coarse.msh"));
+    case["breakage"]["mesh"] = json!(root.join("cases/fracture/meshes/tetrapod-coarse.msh"));
     case
 }
 
 /// Runs a dry case and hands its impacts over.
 fn handed_over(case: &Value, dir: &Path) -> Breakage {
-    let case = DryCase::from_str(&case.to_string(), "drop.json").unwrap_or_else(|errors| panic!("{errors}"));
+    let case = DryTestCase::from_str(&case.to_string(), "drop.json").unwrap_or_else(|errors| panic!("{errors}"));
     let case = Arc::new(case);
     let summary = run(case.clone(), dir, &Control::quiet()).unwrap();
     let moved: Vec<Moved> =
         summary.units.iter().map(|unit| Moved { displacement: unit.moved_m, damaged: false }).collect();
-    hand_over(&Model::of_dry(&case), case.fracture.as_ref().unwrap(), &moved, dir, &Control::quiet()).unwrap()
+    analyse_breakage(&Model::of_dry(&case), case.breakage.as_ref().unwrap(), &moved, dir, &Control::quiet()).unwrap()
 }
 
-fn of_way(breakage: &Breakage, way: HandoverWay) -> &Outcome {
+fn of_way(breakage: &Breakage, way: RerunMethod) -> &Outcome {
     breakage.impacts.iter().find(|impact| impact.way == way).unwrap()
 }
 
@@ -41,12 +41,12 @@ fn of_way(breakage: &Breakage, way: HandoverWay) -> &Outcome {
 fn a_dropped_tetrapod_keeps_its_momentum_and_its_blow() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = drop_case();
-    case["fracture"]["joints"] = json!("unbreakable");
-    case["fracture"]["duration_s"] = json!(0.02);
+    case["breakage"]["joints"] = json!("unbreakable");
+    case["breakage"]["duration_s"] = json!(0.02);
     let breakage = handed_over(&case, folder.path());
     let impacts = Impacts::read(&folder.path().join(Impacts::FILE)).unwrap().impacts;
     // Mass, momentum and energy of the nodes as the solver has them, against the rigid unit's by Froude's law.
-    let file = folder.path().join(FOLDER).join(format!("{}.json", of_way(&breakage, HandoverWay::ReEnact).name));
+    let file = folder.path().join(FOLDER).join(format!("{}.json", of_way(&breakage, RerunMethod::ReEnact).name));
     let mut start = world(&FractureCase::load(&file).unwrap()).unwrap();
     let nodes = start.setup().bodies[0].tets.clone().flat_map(|tet| start.tets.nodes[tet]);
     let own: std::collections::BTreeSet<u32> = nodes.collect();
@@ -64,7 +64,7 @@ fn a_dropped_tetrapod_keeps_its_momentum_and_its_blow() {
     let rigid: f64 = impacts.iter().map(|impact| impact.event.impulse[2]).sum::<f64>() * 50f64.powf(3.5);
     let weight = 37_500.0 * 9.81 * 0.02;
     let [again, by_loads] =
-        [HandoverWay::ReEnact, HandoverWay::LoadHistory].map(|way| of_way(&breakage, way).found[0].impulse_n_s[2]);
+        [RerunMethod::ReEnact, RerunMethod::LoadHistory].map(|way| of_way(&breakage, way).found[0].impulse_n_s[2]);
     println!(
         "impulse over the rigid one: {:.4} and by loads {:.4}",
         (again + weight) / rigid,
@@ -82,12 +82,12 @@ fn stress_grows_with_the_scale_as_hertz_has_it() {
         let dir = folder.path().join(format!("{scale}"));
         std::fs::create_dir(&dir).unwrap();
         let mut case = drop_case();
-        case["fracture"]["scale"] = json!(scale);
-        case["fracture"]["joints"] = json!("unbreakable");
-        case["fracture"]["way"] = json!("re_enact");
-        case["fracture"]["duration_s"] = json!(4e-4 * scale);
+        case["breakage"]["scale"] = json!(scale);
+        case["breakage"]["joints"] = json!("unbreakable");
+        case["breakage"]["way"] = json!("re_enact");
+        case["breakage"]["duration_s"] = json!(4e-4 * scale);
         // The same share of a wave's energy at any length.
-        case["fracture"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
+        case["breakage"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
         handed_over(&case, &dir).impacts[0].found[0].sigma_1_pa
     };
     let [one, fifty] = [1.0, 50.0].map(stress);
@@ -105,10 +105,10 @@ fn the_prototype_breaks_and_the_model_does_not() {
         let dir = folder.path().join(format!("{scale}"));
         std::fs::create_dir(&dir).unwrap();
         let mut case = drop_case();
-        case["dry"]["height_m"] = json!(DROP);
-        case["fracture"]["scale"] = json!(scale);
-        case["fracture"]["way"] = json!("re_enact");
-        case["fracture"]["duration_s"] = json!(1.2e-4 * scale);
+        case["dry_test"]["height_m"] = json!(DROP);
+        case["breakage"]["scale"] = json!(scale);
+        case["breakage"]["way"] = json!("re_enact");
+        case["breakage"]["duration_s"] = json!(1.2e-4 * scale);
         let breakage = handed_over(&case, &dir);
         let unit = &breakage.units[0];
         println!(

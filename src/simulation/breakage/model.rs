@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::blow::Blow;
-use crate::case::{Case, DryCase, Handover, UnitKind, UnitShape, Units};
+use crate::case::{BreakageSettings, Case, DryTestCase, UnitKind, UnitShape, Units};
 use crate::case::{ContactLawName, Material as CaseMaterial};
 use crate::geometry::section::Section;
 use crate::output::{Impact, Impacts};
@@ -38,7 +38,7 @@ impl Model {
     }
 
     /// Returns the units of a dry test.
-    pub fn of_dry(case: &DryCase) -> Self {
+    pub fn of_dry(case: &DryTestCase) -> Self {
         Self::of_units(&case.units, &case.materials, case.contact.law, case.gravity)
     }
 
@@ -86,15 +86,15 @@ impl Model {
 
     /// Computes the largest nominal stress of the recorded impacts in each unit, at prototype scale [Pa].
     /// Peak force by Hertz's law, stresses in the sections by beam theory without inertia; 0 for units without impacts.
-    pub fn nominal_stresses(&self, handover: &Handover, impacts: &Impacts) -> Vec<f64> {
+    pub fn nominal_stresses(&self, settings: &BreakageSettings, impacts: &Impacts) -> Vec<f64> {
         let mut stresses = vec![0.0f64; self.count];
         let sections = self.sections();
         for impact in &impacts.impacts {
             for role in Role::of(impact) {
                 let force = role.to_body * (role.sign * DVec3::from_array(impact.event.peak));
                 let found = sections.iter().filter_map(|section| section.stress(role.place, force)).fold(0.0, f64::max);
-                let blow = Blow::new(self, handover, impact);
-                let scaled = found * blow.scale.force / handover.scale.powi(2);
+                let blow = Blow::new(self, settings, impact);
+                let scaled = found * blow.scale.force / settings.scale.powi(2);
                 stresses[role.unit] = stresses[role.unit].max(scaled);
             }
         }

@@ -33,7 +33,7 @@ pub struct Start<'a> {
 
 impl<'a> Start<'a> {
     /// Put a case into the state of the checkpoint in another run's folder, whose case is the same but for
-    /// [`Case::MAY_DIFFER`]. Nothing is written.
+    /// [`Case::KEYS_FREE_AT_START`]. Nothing is written.
     ///
     /// # Errors
     /// If the other run has no checkpoint, is one of another case, or its units have moved.
@@ -77,14 +77,14 @@ impl<'a> Start<'a> {
 /// In what two case files differ that may not, in words.
 pub fn difference(one: &str, other: &str) -> String {
     let keys = apart(one, other);
-    let may = Case::MAY_DIFFER.join(", ");
+    let may = Case::KEYS_FREE_AT_START.join(", ");
     if keys.is_empty() {
         return "a file that both cases name has changed".to_owned();
     }
     format!("the cases differ in {}; only {may} may differ", keys.join(", "))
 }
 
-/// Keys at the top of two case files in which they differ, but for [`Case::MAY_DIFFER`].
+/// Keys at the top of two case files in which they differ, but for [`Case::KEYS_FREE_AT_START`].
 fn apart(one: &str, other: &str) -> Vec<String> {
     let parsed = |text: &str| {
         let mut keys: Map<String, Value> =
@@ -98,7 +98,7 @@ fn apart(one: &str, other: &str) -> Vec<String> {
     let mut keys: Vec<&String> = one.keys().chain(other.keys()).collect();
     keys.sort_unstable();
     keys.dedup();
-    let may = |key: &str| key == "$schema" || Case::MAY_DIFFER.contains(&key);
+    let may = |key: &str| key == "$schema" || Case::KEYS_FREE_AT_START.contains(&key);
     keys.retain(|key| !may(key) && one.get(*key) != other.get(*key));
     keys.into_iter().cloned().collect()
 }

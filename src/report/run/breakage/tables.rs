@@ -3,7 +3,7 @@
 use super::super::super::plot::{escape, short};
 use super::super::folder::RunFolder;
 use super::measure::Measure;
-use crate::case::HandoverWay;
+use crate::case::RerunMethod;
 use crate::simulation::breakage::froude::Froude;
 use crate::simulation::breakage::results::{Breakage, Found, Outcome, UnitBreakage};
 use crate::simulation::breakage::run::FOLDER;
@@ -59,7 +59,7 @@ pub fn units(breakage: &Breakage) -> String {
 /// The impacts that were computed again.
 pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
     if breakage.impacts.is_empty() {
-        return "<p>No impact was handed over: none was as hard as <code>fracture.select</code> asks for.</p>\n"
+        return "<p>No impact was handed over: none was as hard as <code>breakage.select</code> asks for.</p>\n"
             .to_owned();
     }
     let found = || breakage.impacts.iter().flat_map(|impact| &impact.found);
@@ -111,10 +111,10 @@ pub fn partner(impact: &Outcome) -> String {
     impact.partner.map_or("bed or wall".to_owned(), |unit| format!("unit {unit}"))
 }
 
-fn way(way: HandoverWay) -> &'static str {
+fn way(way: RerunMethod) -> &'static str {
     match way {
-        HandoverWay::LoadHistory => "recorded forces",
-        HandoverWay::ReEnact | HandoverWay::Both => "collision",
+        RerunMethod::LoadHistory => "recorded forces",
+        RerunMethod::ReEnact | RerunMethod::Both => "collision",
     }
 }
 
