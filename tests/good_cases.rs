@@ -142,6 +142,27 @@ fn case_files_survive_being_written_and_read() {
 }
 
 #[test]
+fn old_key_names_give_the_same_case_and_a_warning() {
+    for name in ["breakage/tetrapod-drop.json", "fudo/quick-look-1to50.json"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let old = text.replace("\"breakage\":", "\"fracture\":").replace("\"dry_test\":", "\"dry\":");
+        let [(hash, none), (old_hash, warnings)] = [text, old].map(|text| {
+            let document = Document::new(text, path.to_str().unwrap()).unwrap();
+            match InputFile::from_document(&document).unwrap_or_else(|errors| panic!("{errors}")) {
+                InputFile::Flume(case) => (case.hash, case.warnings),
+                InputFile::DryTest(case) => (case.hash, case.warnings),
+                other => panic!("{:?}", other.kind()),
+            }
+        });
+        assert_eq!(old_hash, hash, "{name}");
+        let is_of_old_key = |warning: &&String| warning.ends_with("the old name still works");
+        assert!(!none.iter().any(|warning| is_of_old_key(&warning)));
+        assert!(warnings.contains(&"fracture: is now called breakage; the old name still works".to_owned()), "{name}");
+    }
+}
+
+#[test]
 fn hash_sees_values_and_not_layout() {
     let text = template_text();
     let hash = Case::from_str(&text, "a").unwrap().hash;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::file::{BaseFile, BreakageFile, BreakageMaterialFile, ImpactMeasure, Joints, RerunMethod};
 use super::fracture::validate_concrete;
-use super::reading::check::{Checker, at_least, format_number, greater_than};
+use super::reading::check::{Checker, as_text, at_least, more_than};
 use super::units::shape::UnitShape;
 use crate::femdem::mesh;
 use crate::femdem::mesh::UnitMesh;
@@ -90,13 +90,7 @@ pub(super) fn validate(
         check.number(&path("poisson_ratio"), base.poisson_ratio, at_least(0.0).up_to(0.45), "", "rock has 0.25");
     }
     if let Some(duration) = file.duration_s {
-        check.number(
-            "breakage.duration_s",
-            duration,
-            greater_than(0.0).up_to(100.0),
-            "s",
-            "leave it out for the default",
-        );
+        check.number("breakage.duration_s", duration, more_than(0.0).up_to(100.0), "s", "leave it out for the default");
     }
     let least = file.select.at_least;
     check.number(
@@ -108,10 +102,10 @@ pub(super) fn validate(
     );
     if let Some(cores) = file.cores.filter(|cores| !(1..=MOST_CORES).contains(cores)) {
         let allowed = format!("between 1 and {MOST_CORES}");
-        check.add_error("breakage.cores", cores, allowed, "leave it out for one impact per thread");
+        check.reject("breakage.cores", cores, allowed, "leave it out for one impact per thread");
     }
     if file.select.worst == Some(0) {
-        check.add_error("breakage.select.worst", 0, "at least 1", "leave out `breakage` to skip the analysis");
+        check.reject("breakage.select.worst", 0, "at least 1", "leave out `breakage` to skip the analysis");
     }
     let (mesh_file, mesh) = read_mesh(file, shape, name, check)?;
     if check.count() > before {
@@ -138,7 +132,7 @@ fn read_mesh(file: &BreakageFile, shape: &UnitShape, name: &str, check: &mut Che
     let path = Path::new(name).parent().unwrap_or(Path::new("")).join(&file.mesh);
     let shown = format!("{:?}", path.display().to_string());
     let mut refuse = |allowed: String, advice: &str| {
-        check.add_error("breakage.mesh", &shown, allowed, advice);
+        check.reject("breakage.mesh", &shown, allowed, advice);
         None
     };
     let bytes = match std::fs::read(&path) {
@@ -170,8 +164,8 @@ fn warn_of_coarse_mesh(settings: &BreakageSettings, check: &mut Checker) {
         check.warn(format!(
             "breakage.mesh: mean edge length {} m at prototype scale; only edges of up to {} m, a quarter of \
              E G_f / f_t^2, resolve cracks: the results show whether units crack, but not how cracks run",
-            format_number((edge * 1e3).round() * 1e-3),
-            format_number((250.0 * opening).round() * 1e-3)
+            as_text((edge * 1e3).round() * 1e-3),
+            as_text((250.0 * opening).round() * 1e-3)
         ));
     }
 }

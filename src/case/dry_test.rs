@@ -8,7 +8,7 @@ use super::breakage::{self, BreakageSettings};
 use super::file::{DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
 use super::flume::{bed, site::Site, terrain};
 use super::output::{files, stop, stop::Stop};
-use super::reading::check::{Checker, at_least, greater_than};
+use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::Document;
 use super::reading::error::CaseErrors;
 use super::reading::hash::fingerprint;
@@ -94,7 +94,7 @@ impl DryTestCase {
 fn validate(file: &DryFile, document: &Document, check: &mut Checker) -> Option<DryTestCase> {
     let name = &document.name;
     check.title(&file.title);
-    check.number("gravity_m_s2", file.gravity_m_s2, greater_than(0.0).up_to(100.0), "m/s2", "9.81 on Earth");
+    check.number("gravity_m_s2", file.gravity_m_s2, more_than(0.0).up_to(100.0), "m/s2", "9.81 on Earth");
     let ground = validate_ground(file, name, check);
     let stop = stop::validate(&file.stop, true, check);
     let (test, lift) = validate_test(&file.dry_test, check);
@@ -185,23 +185,23 @@ fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mu
         check.number(&format!("domain.x_m[{index}]"), x, at_least(start).up_to(end), "m", advice);
     }
     let [x0, x1] = file.domain.x_m;
-    check.number("domain.x_m[1]", x1, greater_than(x0).up_to(f64::MAX), "m", "write the seaward end first");
+    check.number("domain.x_m[1]", x1, more_than(x0).up_to(f64::MAX), "m", "write the seaward end first");
     check.number(
         "domain.width_m",
         file.domain.width_m,
-        greater_than(0.0).up_to(1e4),
+        more_than(0.0).up_to(1e4),
         "m",
         "write the width across the flume",
     );
     if file.domain.sides == Sides::TwoDimensional {
         let advice = "dry tests are three-dimensional";
-        check.add_error("domain.sides", "\"two_dimensional\"", "\"periodic\" or \"walls\"", advice);
+        check.reject("domain.sides", "\"two_dimensional\"", "\"periodic\" or \"walls\"", advice);
     }
     if check.count() > before {
         return None;
     }
     let highest = flume.profile.extremes_between(file.domain.x_m).1;
-    let room = greater_than(highest).up_to(highest + 1000.0);
+    let room = more_than(highest).up_to(highest + 1000.0);
     let sound = check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units");
     let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
     sound.then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
@@ -212,27 +212,21 @@ fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTestKind, f64) 
     match file {
         DryTestFile::Settle {} => (DryTestKind::Settle, 0.0),
         DryTestFile::Drop(drop) => {
-            check.number(
-                "dry_test.height_m",
-                drop.height_m,
-                greater_than(0.0).up_to(100.0),
-                "m",
-                "write the lift height",
-            );
+            check.number("dry_test.height_m", drop.height_m, more_than(0.0).up_to(100.0), "m", "write the lift height");
             (DryTestKind::Drop, drop.height_m)
         }
         DryTestFile::Tilt(tilt) => {
             let advice = "at 1 degree/s the angle of sliding is found within 0.3 %";
-            check.number("dry_test.rate_deg_s", tilt.rate_deg_s, greater_than(0.0).up_to(90.0), "degrees/s", advice);
+            check.number("dry_test.rate_deg_s", tilt.rate_deg_s, more_than(0.0).up_to(90.0), "degrees/s", advice);
             check.number(
                 "dry_test.to_deg",
                 tilt.to_deg,
-                greater_than(0.0).below(90.0),
+                more_than(0.0).below(90.0),
                 "degrees",
                 "write the largest tilt angle",
             );
             let advice = "below this speed a unit counts as at rest";
-            check.number("dry_test.slide_speed_m_s", tilt.slide_speed_m_s, greater_than(0.0).up_to(1.0), "m/s", advice);
+            check.number("dry_test.slide_speed_m_s", tilt.slide_speed_m_s, more_than(0.0).up_to(1.0), "m/s", advice);
             let (rate, to, slide_speed) =
                 (tilt.rate_deg_s.to_radians(), tilt.to_deg.to_radians(), tilt.slide_speed_m_s);
             (DryTestKind::Tilt { rate, to, slide_speed }, 0.0)

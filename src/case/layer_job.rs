@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitsFile};
 use super::flume::{bed, domain, site::Site};
-use super::reading::check::{Checker, at_least, greater_than};
+use super::reading::check::{Checker, at_least, more_than};
 use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
 use super::units::contact::{self, Contact};
@@ -97,7 +97,7 @@ fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker
     let domain = domain::validate(&file.domain, Some(&flume), file.numerics.smoothing_factor, check)?;
     let contact = contact::validate(&file.contact, check);
     let Some(units) = &file.units else {
-        check.add_error("units", "(missing)", "given", "there is nothing to place without units");
+        check.reject("units", "(missing)", "given", "there is nothing to place without units");
         return None;
     };
     let site = domain.site(&flume);
@@ -115,7 +115,7 @@ fn validate_job(
     let units = units::validate_unplaced(file, around, check);
     let Some(armour) = &file.armour else {
         let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
-        check.add_error("units.armour", "(missing)", "the armour layers to place", advice);
+        check.reject("units.armour", "(missing)", "the armour layers to place", advice);
         return None;
     };
     let armour = validate(armour, around.site?, check)?;
@@ -124,7 +124,7 @@ fn validate_job(
     let count = job.count();
     if !(1..=MOST_UNITS as usize).contains(&count) {
         let advice = "change the length of the layers or the packing density";
-        check.add_error("units.armour", format!("{count} units"), format!("1 to {MOST_UNITS} units"), advice);
+        check.reject("units.armour", format!("{count} units"), format!("1 to {MOST_UNITS} units"), advice);
     }
     Some(job)
 }
@@ -135,12 +135,12 @@ fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armou
     let [x0, x1] = file.x_m;
     let advice = "the layers must lie inside the domain";
     check.number("units.armour.x_m[0]", x0, at_least(start).below(end), "m", advice);
-    check.number("units.armour.x_m[1]", x1, greater_than(x0).up_to(end), "m", advice);
+    check.number("units.armour.x_m[1]", x1, more_than(x0).up_to(end), "m", advice);
     if !(1..=10).contains(&file.layers) {
-        check.add_error("units.armour.layers", file.layers, "1 to 10", "two layers are usual");
+        check.reject("units.armour.layers", file.layers, "1 to 10", "two layers are usual");
     }
     let advice = "usual for two layers: Tetrapods 1.04, Dolosse 0.83, cubes 1.17";
-    check.number("units.armour.packing_density", file.packing_density, greater_than(0.0).up_to(5.0), "", advice);
+    check.number("units.armour.packing_density", file.packing_density, more_than(0.0).up_to(5.0), "", advice);
     let ArmourFile { layers, packing_density, orientation, seed, .. } = *file;
     (check.count() == before).then_some(Armour { x: file.x_m, layers, packing_density, orientation, seed })
 }

@@ -6,12 +6,12 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | [`input_file`] | an input file of any kind |
-//! | [`flume_case`], [`dry_test`], [`fracture`] | the three kinds of cases |
-//! | [`breakage`] | settings of the breakage analysis |
-//! | [`layer_job`] | what `breakwater place` needs of a case |
-//! | [`output`], [`units`], [`wave`], [`flume`] | sections of a case, from the top down |
-//! | [`reading`] | JSON, keys, types, errors |
+//! | `input_file` | an input file of any kind |
+//! | `flume_case`, `dry_test`, `fracture` | the three kinds of cases |
+//! | `breakage` | settings of the breakage analysis |
+//! | `layer_job` | what `breakwater place` needs of a case |
+//! | `output`, `units`, `wave`, `flume` | sections of a case, from the top down |
+//! | `reading` | JSON, keys, types, errors |
 //! | [`file`] | all files as the user writes them |
 
 mod breakage;

@@ -1,7 +1,7 @@
 //! The validated flume: bed, mound and still water level.
 
 use crate::case::file::{FlumeFile, MoundFile, ShorewardEndFile};
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::profile::Profile;
 use crate::waves::layered::{Friction, RightEnd};
 
@@ -63,7 +63,7 @@ impl Flume {
 }
 
 /// Validates the flume; `material` is the index of its material.
-pub(in crate::case) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) -> Option<Flume> {
+pub fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) -> Option<Flume> {
     let before = check.count();
     validate_bed(&file.bed_m, check);
     check.number(
@@ -100,7 +100,7 @@ pub(in crate::case) fn validate(file: &FlumeFile, material: Option<usize>, check
 
 fn validate_model(file: &FlumeFile, check: &mut Checker) {
     if !(1..=8).contains(&file.layers) {
-        check.add_error(
+        check.reject(
             "flume.layers",
             file.layers,
             "1 to 8",
@@ -112,13 +112,10 @@ fn validate_model(file: &FlumeFile, check: &mut Checker) {
     if let (true, [Some(first), Some(last)]) = (sound, [file.bed_m.first(), file.bed_m.last()]) {
         let length = last[0] - first[0];
         if length / file.cell_m > MOST_CELLS {
-            check.add_error(
+            check.reject(
                 "flume.cell_m",
-                format_number(file.cell_m),
-                format!(
-                    "at least {} m, for at most {MOST_CELLS} cells in the flume",
-                    format_number(length / MOST_CELLS)
-                ),
+                as_text(file.cell_m),
+                format!("at least {} m, for at most {MOST_CELLS} cells in the flume", as_text(length / MOST_CELLS)),
                 "write a larger cell or shorten `flume.bed_m`",
             );
         }
@@ -132,16 +129,16 @@ fn validate_right_end(file: &FlumeFile, check: &mut Checker) -> Option<RightEnd>
         ShorewardEndFile::Wall {} => Some(RightEnd::Wall),
         ShorewardEndFile::Radiating {} if file.still_water_level_m > bed_z => Some(RightEnd::Radiating),
         ShorewardEndFile::Radiating {} => {
-            check.add_error(
+            check.reject(
                 "flume.right_end.kind",
                 "\"radiating\"",
-                format!("\"wall\" where the bed ends on dry land (at z = {} m)", format_number(bed_z)),
+                format!("\"wall\" where the bed ends on dry land (at z = {} m)", as_text(bed_z)),
                 "let the bed end under water, or close the flume with a wall",
             );
             None
         }
         ShorewardEndFile::Sponge(sponge) => {
-            let allowed = greater_than(0.0).below(end - start);
+            let allowed = more_than(0.0).below(end - start);
             let advice = "the sponge must be shorter than the flume; two wavelengths absorb a wave";
             let sound = check.number("flume.right_end.length_m", sponge.length_m, allowed, "m", advice);
             sound.then_some(RightEnd::Sponge { length_m: sponge.length_m })
@@ -151,7 +148,7 @@ fn validate_right_end(file: &FlumeFile, check: &mut Checker) -> Option<RightEnd>
 
 fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
     if points.len() < 2 || points.len() > MOST_BED_POINTS {
-        check.add_error(
+        check.reject(
             "flume.bed_m",
             format!("{} points", points.len()),
             format!("2 to {MOST_BED_POINTS} points"),
@@ -166,10 +163,10 @@ fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
     for (index, pair) in points.windows(2).enumerate() {
         // A segment shorter than a micrometre is a vertical step, whose slope is not defined.
         if pair[1][0] - pair[0][0] < 1e-6 {
-            check.add_error(
+            check.reject(
                 &format!("flume.bed_m[{}][0]", index + 1),
-                format_number(pair[1][0]),
-                format!("greater than the x of the previous point, {} m", format_number(pair[0][0])),
+                as_text(pair[1][0]),
+                format!("greater than the x of the previous point, {} m", as_text(pair[0][0])),
                 "x must increase from point to point; write a step as a short steep segment",
             );
         }
@@ -182,7 +179,7 @@ fn validate_mound_numbers(mound: &MoundFile, check: &mut Checker) {
     check.number(
         "flume.mound.crest_width_m",
         mound.crest_width_m,
-        greater_than(0.0).up_to(1000.0),
+        more_than(0.0).up_to(1000.0),
         "m",
         "write the width of the horizontal crest",
     );
@@ -206,14 +203,10 @@ fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<
     let points = bed.points();
     let ends = [points[0][0], points[points.len() - 1][0]];
     if !(crest_x[0] > ends[0] && crest_x[1] < ends[1] && crest_x[1] - crest_x[0] > 1e-6) {
-        check.add_error(
+        check.reject(
             "flume.mound.centre_x_m",
-            format_number(mound.centre_x_m),
-            format!(
-                "such that the whole crest lies on the bed, {} to {} m",
-                format_number(ends[0]),
-                format_number(ends[1])
-            ),
+            as_text(mound.centre_x_m),
+            format!("such that the whole crest lies on the bed, {} to {} m", as_text(ends[0]), as_text(ends[1])),
             "move the mound or lengthen the bed",
         );
         return None;
@@ -221,19 +214,19 @@ fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<
     let bed_below = points.iter().filter(|p| p[0] > crest_x[0] && p[0] < crest_x[1]).map(|p| p[1]);
     let highest = bed_below.fold(bed.z(crest_x[0]).max(bed.z(crest_x[1])), f64::max);
     if mound.crest_z_m <= highest {
-        check.add_error(
+        check.reject(
             "flume.mound.crest_z_m",
-            format_number(mound.crest_z_m),
-            format!("above the bed under the crest, {} m", format_number(highest)),
+            as_text(mound.crest_z_m),
+            format!("above the bed under the crest, {} m", as_text(highest)),
             "write the level in the z of `flume.bed_m`, not the height above the bed",
         );
         return None;
     }
     let profile = bed.with_mound(crest_x, mound.crest_z_m, [mound.seaward_run_per_rise, mound.lee_run_per_rise]);
     if profile.is_none() {
-        check.add_error(
+        check.reject(
             "flume.mound.crest_z_m",
-            format_number(mound.crest_z_m),
+            as_text(mound.crest_z_m),
             "such that both slopes of the mound meet the bed inside the flume",
             "lower the crest, steepen the slopes or lengthen the bed",
         );

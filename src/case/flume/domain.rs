@@ -5,7 +5,7 @@ use super::obstacles;
 use super::site::Site;
 use super::zones::{self, DampingZone, RelaxationZone};
 use crate::case::file::{DomainFile, Sides, WaterFile};
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::axis_box::AxisBox;
 
 /// Largest number of particles along one direction.
@@ -86,7 +86,7 @@ impl Domain {
 }
 
 /// Validates the domain; `smoothing_factor` is `numerics.smoothing_factor`, not yet validated.
-pub(in crate::case) fn validate(
+pub fn validate(
     file: &DomainFile,
     flume: Option<&Flume>,
     smoothing_factor: f64,
@@ -111,9 +111,9 @@ pub(in crate::case) fn validate(
     let lengths = [file.x_m[1] - file.x_m[0], width, file.top_z_m - bottom_z];
     for (name, length) in ["along the flume", "across the flume", "upwards"].into_iter().zip(lengths) {
         if length / file.dp_m > MOST_ALONG {
-            check.add_error(
+            check.reject(
                 "domain.dp_m",
-                format_number(file.dp_m),
+                as_text(file.dp_m),
                 format!("at least {:e} m, for {MOST_ALONG:e} particles {name}", length / MOST_ALONG),
                 "write a larger particle spacing",
             );
@@ -156,7 +156,7 @@ fn validate_start(file: &DomainFile, check: &mut Checker) {
     check.number(
         "domain.start_at_share",
         file.start_at_share,
-        greater_than(0.0).below(1.0),
+        more_than(0.0).below(1.0),
         "",
         "0.03 starts the particles just before the wave arrives",
     );
@@ -166,18 +166,18 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
     let [start, end] = flume.ends();
     for (index, x) in file.x_m.into_iter().enumerate() {
         if !(x >= start && x <= end) {
-            check.add_error(
+            check.reject(
                 &format!("domain.x_m[{index}]"),
-                format_number(x),
-                format!("within the bed, {} to {} m", format_number(start), format_number(end)),
+                as_text(x),
+                format!("within the bed, {} to {} m", as_text(start), as_text(end)),
                 "move the end of the domain or lengthen `flume.bed_m`",
             );
         }
     }
     if file.x_m[1] - file.x_m[0] < 10.0 * file.dp_m {
-        check.add_error(
+        check.reject(
             "domain.x_m",
-            format!("[{}, {}]", format_number(file.x_m[0]), format_number(file.x_m[1])),
+            format!("[{}, {}]", as_text(file.x_m[0]), as_text(file.x_m[1])),
             "increasing, at least 10 particle spacings apart",
             "write the seaward end first",
         );
@@ -191,7 +191,7 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
     check.number(
         "domain.top_z_m",
         file.top_z_m,
-        greater_than(lowest_top).up_to(lowest_top + 1000.0),
+        more_than(lowest_top).up_to(lowest_top + 1000.0),
         "m",
         "the walls must rise above water and ground; leave room for the wave",
     );
@@ -202,41 +202,41 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
     let width = match (file.sides, file.width_m) {
         (Sides::TwoDimensional, None) => return Some(file.dp_m),
         (Sides::TwoDimensional, Some(width)) => {
-            check.add_error(
+            check.reject(
                 "domain.width_m",
-                format_number(width),
+                as_text(width),
                 "left out where `domain.sides` is \"two_dimensional\"",
                 "remove the key, or set `domain.sides` to \"periodic\" or \"walls\"",
             );
             return None;
         }
         (Sides::Periodic | Sides::Walls, None) => {
-            check.add_error("domain.width_m", "(missing)", "a width in metres", "write the width across the flume");
+            check.reject("domain.width_m", "(missing)", "a width in metres", "write the width across the flume");
             return None;
         }
         (Sides::Periodic | Sides::Walls, Some(width)) => width,
     };
-    if !check.number("domain.width_m", width, greater_than(0.0).up_to(1e4), "m", "write the width across the flume") {
+    if !check.number("domain.width_m", width, more_than(0.0).up_to(1e4), "m", "write the width across the flume") {
         return None;
     }
     let h = smoothing_factor * 3f64.sqrt() * file.dp_m;
     let least = 4.0 * h + file.dp_m;
     if file.sides == Sides::Periodic && width < least {
-        check.add_error(
+        check.reject(
             "domain.width_m",
-            format_number(width),
+            as_text(width),
             format!(
                 "at least 4h + dp = {} m with periodic sides; else a particle acts on its own image",
-                format_number(least)
+                as_text(least)
             ),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }
     if width < file.dp_m {
-        check.add_error(
+        check.reject(
             "domain.width_m",
-            format_number(width),
-            format!("at least one particle spacing, {} m", format_number(file.dp_m)),
+            as_text(width),
+            format!("at least one particle spacing, {} m", as_text(file.dp_m)),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }
@@ -246,7 +246,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
     if (stretch - 1.0).abs() > 0.03 {
         check.warn(format!(
             "domain.width_m = {} is {:.2} particle spacings: the spacing across the flume becomes {:.3} dp",
-            format_number(width),
+            as_text(width),
             width / file.dp_m,
             stretch
         ));
@@ -265,20 +265,16 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
         WaterFile::Block(block) => {
             let [x0, x1] = block.x_m;
             if !(x0 >= file.x_m[0] && x1 <= file.x_m[1] && x1 - x0 >= file.dp_m) {
-                check.add_error(
+                check.reject(
                     "domain.water.x_m",
-                    format!("[{}, {}]", format_number(x0), format_number(x1)),
-                    format!(
-                        "increasing and within the domain, {} to {} m",
-                        format_number(file.x_m[0]),
-                        format_number(file.x_m[1])
-                    ),
+                    format!("[{}, {}]", as_text(x0), as_text(x1)),
+                    format!("increasing and within the domain, {} to {} m", as_text(file.x_m[0]), as_text(file.x_m[1])),
                     "write the seaward face of the block first",
                 );
                 return None;
             }
             let (ground, _) = flume.profile.extremes_between(block.x_m);
-            let range = greater_than(ground).up_to(file.top_z_m);
+            let range = more_than(ground).up_to(file.top_z_m);
             if !check.number(
                 "domain.water.top_z_m",
                 block.top_z_m,
@@ -297,13 +293,10 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
         }
     };
     if depth < file.dp_m {
-        check.add_error(
+        check.reject(
             path,
-            format_number(level),
-            format!(
-                "at least one particle spacing above the ground of the domain (the depth is {} m)",
-                format_number(depth)
-            ),
+            as_text(level),
+            format!("at least one particle spacing above the ground of the domain (the depth is {} m)", as_text(depth)),
             "raise the water level or move the domain to deeper water",
         );
         return None;
@@ -311,9 +304,9 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
     if depth < 10.0 * file.dp_m {
         check.warn(format!(
             "domain.dp_m = {}: only {:.1} particle spacings over the largest depth, {} m",
-            format_number(file.dp_m),
+            as_text(file.dp_m),
             depth / file.dp_m,
-            format_number(depth)
+            as_text(depth)
         ));
     }
     Some((water, depth))

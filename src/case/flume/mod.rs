@@ -9,9 +9,9 @@
 //! | [`terrain`] | a triangulated ground of dry tests |
 //! | [`site`] | ground and limits of the area where units stand |
 
-pub(in crate::case) mod bed;
-pub(in crate::case) mod domain;
+pub mod bed;
+pub mod domain;
 mod obstacles;
-pub(in crate::case) mod site;
-pub(in crate::case) mod terrain;
-pub(in crate::case) mod zones;
+pub mod site;
+pub mod terrain;
+pub mod zones;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bed::Flume;
 use crate::case::file::{BoxFile, DomainFile, Sides};
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 use crate::geometry::axis_box::AxisBox;
 
 /// Largest number of obstacles in one case.
@@ -23,9 +23,9 @@ const FLUSH: f64 = 1e-6;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Validates the obstacles. A face on the ground or against a wall is not open. `width` is the domain width [m].
-pub(in crate::case) fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
+pub fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
     if file.obstacles.len() > MOST_OBSTACLES {
-        check.add_error(
+        check.reject(
             "domain.obstacles",
             file.obstacles.len(),
             format!("at most {MOST_OBSTACLES} obstacles"),
@@ -39,10 +39,10 @@ pub(in crate::case) fn validate(file: &DomainFile, width: f64, flume: &Flume, ch
         let Some(obstacle) = validate_one(&path, obstacle, file, width, flume, check) else { continue };
         let too_near = found.iter().position(|other| gap(&obstacle, other) < NARROWEST * file.dp_m);
         match too_near {
-            Some(other) => check.add_error(
+            Some(other) => check.reject(
                 &path,
                 corners(&obstacle),
-                format!("at least {} m from domain.obstacles[{other}]", format_number(NARROWEST * file.dp_m)),
+                format!("at least {} m from domain.obstacles[{other}]", as_text(NARROWEST * file.dp_m)),
                 "no water fits between them: merge them into one box, or move one",
             ),
             None => found.push(obstacle),
@@ -82,7 +82,7 @@ fn validate_one(
         validate_gaps(path, axis, gaps, dp, check);
     }
     if domain.sides == Sides::Periodic && open[1][0] != open[1][1] {
-        check.add_error(
+        check.reject(
             path,
             corners(&AxisBox::free(low, high)),
             "across the whole width, or clear of both periodic sides",
@@ -92,25 +92,18 @@ fn validate_one(
     let (lowest, highest) = flume.profile.extremes_between([low.x, high.x]);
     open[2][0] = low.z > lowest + FLUSH * dp;
     if open[2][0] && low.z < highest + NARROWEST * dp {
-        check.add_error(
+        check.reject(
             &format!("{path}.low_m[2]"),
-            format_number(low.z),
-            format!(
-                "at most {} m, the ground, or at least {} m",
-                format_number(lowest),
-                format_number(highest + NARROWEST * dp)
-            ),
+            as_text(low.z),
+            format!("at most {} m, the ground, or at least {} m", as_text(lowest), as_text(highest + NARROWEST * dp)),
             "let the obstacle stand on the ground, or leave room for the water below it",
         );
     }
     if high.z < highest + THINNEST * dp {
-        check.add_error(
+        check.reject(
             &format!("{path}.high_m[2]"),
-            format_number(high.z),
-            format!(
-                "at least {THINNEST} particle spacings above the ground, {} m",
-                format_number(highest + THINNEST * dp)
-            ),
+            as_text(high.z),
+            format!("at least {THINNEST} particle spacings above the ground, {} m", as_text(highest + THINNEST * dp)),
             "raise the obstacle, or write it as part of `flume.bed_m`",
         );
     }
@@ -122,25 +115,25 @@ fn validate_one(
 fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2], dp: f64, check: &mut Checker) {
     let name = AXES[axis];
     if !(low.is_finite() && high - low >= (THINNEST - FLUSH) * dp) {
-        check.add_error(
+        check.reject(
             &format!("{path}.high_m[{axis}]"),
-            format_number(high),
+            as_text(high),
             format!(
                 "at least {} m, {THINNEST} particle spacings above the {name} of `low_m`",
-                format_number(low + THINNEST * dp)
+                as_text(low + THINNEST * dp)
             ),
             "write the lower corner as `low_m`, and make the box thick enough",
         );
     } else if low < ends[0] || high > ends[1] {
         let (key, value) = if low < ends[0] { ("low_m", low) } else { ("high_m", high) };
         let allowed = if ends[0].is_finite() {
-            format!("inside the domain, {} to {} m", format_number(ends[0]), format_number(ends[1]))
+            format!("inside the domain, {} to {} m", as_text(ends[0]), as_text(ends[1]))
         } else {
-            format!("at most {} m, the top of the walls", format_number(ends[1]))
+            format!("at most {} m, the top of the walls", as_text(ends[1]))
         };
-        check.add_error(
+        check.reject(
             &format!("{path}.{key}[{axis}]"),
-            format_number(value),
+            as_text(value),
             allowed,
             "move the obstacle or enlarge the domain",
         );
@@ -151,10 +144,10 @@ fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2
 fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut Checker) {
     for (gap, key) in gaps.into_iter().zip(["low_m", "high_m"]) {
         if gap > FLUSH * dp && gap < (NARROWEST - FLUSH) * dp {
-            check.add_error(
+            check.reject(
                 &format!("{path}.{key}[{axis}]"),
-                format!("{} m from the end of the domain", format_number(gap)),
-                format!("0, or at least {} m", format_number(NARROWEST * dp)),
+                format!("{} m from the end of the domain", as_text(gap)),
+                format!("0, or at least {} m", as_text(NARROWEST * dp)),
                 "let the obstacle touch the end of the domain, or leave room for the water between them",
             );
         }
@@ -167,6 +160,6 @@ fn gap(a: &AxisBox, b: &AxisBox) -> f64 {
 }
 
 fn corners(obstacle: &AxisBox) -> String {
-    let point = |p: DVec3| format!("[{}, {}, {}]", format_number(p.x), format_number(p.y), format_number(p.z));
+    let point = |p: DVec3| format!("[{}, {}, {}]", as_text(p.x), as_text(p.y), as_text(p.z));
     format!("{} to {}", point(obstacle.low), point(obstacle.high))
 }

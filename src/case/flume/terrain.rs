@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::case::file::TerrainFile;
-use crate::case::reading::check::{Checker, greater_than};
+use crate::case::reading::check::{Checker, more_than};
 use crate::geometry::stl;
 use crate::geometry::terrain::Terrain;
 
@@ -32,15 +32,15 @@ impl SiteTerrain {
 }
 
 /// Reads the file. Its path is relative to the case file `case_name`.
-pub(in crate::case) fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Option<SiteTerrain> {
+pub fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Option<SiteTerrain> {
     let advice = "1 for a file in metres, 0.001 for one in millimetres";
-    if !check.number("flume.terrain.scale", file.scale, greater_than(0.0).up_to(1000.0), "", advice) {
+    if !check.number("flume.terrain.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
         return None;
     }
     let path = Path::new(case_name).parent().unwrap_or(Path::new("")).join(&file.path);
     let shown = format!("{:?}", path.display().to_string());
     let mut refuse = |allowed: String, advice: &str| {
-        check.add_error("flume.terrain.path", shown.clone(), allowed, advice);
+        check.reject("flume.terrain.path", shown.clone(), allowed, advice);
         None
     };
     let content = match std::fs::read(&path) {

@@ -1,7 +1,7 @@
 //! The validated damping zone and relaxation zone.
 
 use crate::case::file::{DampingZoneFile, RelaxationZoneFile};
-use crate::case::reading::check::{Checker, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, more_than};
 
 /// Largest rate at the end of a zone [1/s]. With it the water stops within a millimetre, which reflects waves like a
 /// wall.
@@ -45,7 +45,7 @@ impl RelaxationZone {
 }
 
 /// Validates a relaxation zone. It begins at the seaward end of the domain and must end before the damping zone.
-pub(in crate::case) fn validate_relaxation(
+pub fn validate_relaxation(
     file: &RelaxationZoneFile,
     domain_x: [f64; 2],
     damping: Option<&DampingZone>,
@@ -55,14 +55,14 @@ pub(in crate::case) fn validate_relaxation(
     check.number(
         "domain.relaxation_zone.end_x_m",
         file.end_x_m,
-        greater_than(seaward).up_to(shoreward),
+        more_than(seaward).up_to(shoreward),
         "m",
         "the zone begins at the wavemaker and is usually one wavelength long",
     );
     check.number(
         "domain.relaxation_zone.coefficient_per_s",
         file.coefficient_per_s,
-        greater_than(0.0).up_to(LARGEST_COEFFICIENT),
+        more_than(0.0).up_to(LARGEST_COEFFICIENT),
         "1/s",
         "10 is usual",
     );
@@ -70,28 +70,20 @@ pub(in crate::case) fn validate_relaxation(
 }
 
 /// Validates a damping zone in a domain between two x [m].
-pub(in crate::case) fn validate_damping(
-    file: &DampingZoneFile,
-    domain_x: [f64; 2],
-    check: &mut Checker,
-) -> DampingZone {
+pub fn validate_damping(file: &DampingZoneFile, domain_x: [f64; 2], check: &mut Checker) -> DampingZone {
     let [from, to] = file.x_m;
     if !(from >= domain_x[0] && to <= domain_x[1] && to - from > 0.0) {
-        check.add_error(
+        check.reject(
             "domain.damping_zone.x_m",
-            format!("[{}, {}]", format_number(from), format_number(to)),
-            format!(
-                "increasing and within the domain, {} to {} m",
-                format_number(domain_x[0]),
-                format_number(domain_x[1])
-            ),
+            format!("[{}, {}]", as_text(from), as_text(to)),
+            format!("increasing and within the domain, {} to {} m", as_text(domain_x[0]), as_text(domain_x[1])),
             "write the seaward end first; usually the last wavelength of the domain is the zone",
         );
     }
     check.number(
         "domain.damping_zone.coefficient_per_s",
         file.coefficient_per_s,
-        greater_than(0.0).up_to(LARGEST_COEFFICIENT),
+        more_than(0.0).up_to(LARGEST_COEFFICIENT),
         "1/s",
         "10 is usual (Altomare et al. 2017)",
     );

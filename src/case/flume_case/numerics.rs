@@ -1,7 +1,7 @@
 //! The validated water and SPH scheme.
 
 use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
-use crate::case::reading::check::{Checker, at_least, format_number};
+use crate::case::reading::check::{Checker, as_text, at_least};
 
 /// Water; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +50,7 @@ pub struct Numerics {
 }
 
 /// Validates the constants of the water; `depth` [m] gives the speed of sound.
-pub(in crate::case) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
+pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
     let before = check.count();
     check.number(
         "fluid.density_kg_m3",
@@ -83,12 +83,7 @@ pub(in crate::case) fn validate_fluid(file: &FluidFile, depth: Option<f64>, chec
 
 /// Validates the scheme; `dp` is the particle spacing [m], `longest_hold` the longest time for which this run can hold
 /// the units [s].
-pub(in crate::case) fn validate_numerics(
-    file: &NumericsFile,
-    dp: f64,
-    longest_hold: f64,
-    check: &mut Checker,
-) -> Option<Numerics> {
+pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check: &mut Checker) -> Option<Numerics> {
     let before = check.count();
     check.number(
         "numerics.smoothing_factor",
@@ -124,12 +119,7 @@ pub(in crate::case) fn validate_numerics(
     refuse_unstable_diffusion(file, check);
     warn_of_ignored_constants(file, check);
     if !(1..=10).contains(&file.boundary_layers) {
-        check.add_error(
-            "numerics.boundary_layers",
-            file.boundary_layers,
-            "1 to 10",
-            "3 layers cover the kernel radius",
-        );
+        check.reject("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 layers cover the kernel radius");
     }
     check.number(
         "numerics.hold_units_s",
@@ -177,7 +167,7 @@ fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
         (Boundary::Dbc, Some(slip)) => {
             let slip = if slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
             let advice = "set numerics.boundary to \"mdbc\"";
-            check.add_error("numerics.wall_slip", slip, "\"original\" with \"dbc\"", advice);
+            check.reject("numerics.wall_slip", slip, "\"original\" with \"dbc\"", advice);
             WallSlip::Original
         }
     }
@@ -189,10 +179,10 @@ fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
 fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
     let limit = 2.0 / (7.0 * file.cfl);
     if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > limit {
-        check.add_error(
+        check.reject(
             "numerics.diffusion_delta",
             file.diffusion_delta,
-            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", format_number(limit), file.cfl),
+            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", as_text(limit), file.cfl),
             "larger values are unstable; 0.1 is usual",
         );
     }

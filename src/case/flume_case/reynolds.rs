@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::case::file::{Sides, Viscosity};
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 
 /// Reynolds number below which `check` warns [-]. At 20 to 35 the force on a standing unit is proportional to the
 /// velocity, at 80 no longer (docs/validation.md). In real flumes it is 1e4 and more.
@@ -35,7 +35,7 @@ fn reynolds_number(case: &Case) -> Option<f64> {
 }
 
 /// Warns if the flow around the units is too viscous.
-pub(in crate::case) fn warn(case: &Case, check: &mut Checker) {
+pub fn warn(case: &Case, check: &mut Checker) {
     if let (Some(reynolds), Some(nu)) =
         (reynolds_number(case).filter(|re| *re < LEAST_REYNOLDS), artificial_viscosity(case))
     {
@@ -43,7 +43,7 @@ pub(in crate::case) fn warn(case: &Case, check: &mut Checker) {
             "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number \
              of a unit {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity, not its square, so \
              strong waves exert too little force compared with weak ones. Lower it or `domain.dp_m`",
-            format_number(case.numerics.alpha),
+            as_text(case.numerics.alpha),
             nu / WATER_VISCOSITY,
         ));
     }

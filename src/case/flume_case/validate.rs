@@ -9,7 +9,7 @@ use crate::case::file::{CaseFile, Sides};
 use crate::case::flume::{bed, bed::Flume, domain, domain::Domain, site::Site};
 use crate::case::output::gauges::{self, Gauge};
 use crate::case::output::{files, stop, stop::Stop};
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 use crate::case::reading::document::Document;
 use crate::case::reading::hash::fingerprint;
 use crate::case::units::contact::{self, Contact};
@@ -37,10 +37,10 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     let wave = sections.wave(wavemaker, check);
     let contact = contact::validate(&file.contact, check);
     let units = sections.units(&materials, contact, check);
-    let gauges = sections.gauges(wavemaker, &units, check);
+    let gauges = sections.gauges(wavemaker, units.as_ref().ok().and_then(Option::as_ref), check);
     let output = files::validate(&file.output, stop.duration, sections.domain.as_ref(), check);
-    let units = units.if_valid()?;
-    let breakage = sections.breakage(units.as_ref(), check).if_valid()?;
+    let units = units.ok()?;
+    let breakage = sections.breakage(units.as_ref(), check).ok()?;
     let Sections { flume, domain, .. } = sections;
     let (wave, domain) = (wave?, domain?);
     wave::refuse_relaxation_zone(domain.relaxation_zone.as_ref(), &wave, wavemaker, check);
@@ -82,27 +82,8 @@ struct Sections<'a> {
     domain: Option<Domain>,
 }
 
-/// An optional section of the case file.
-enum Section<T> {
-    LeftOut,
-    Valid(T),
-    Invalid,
-}
-
-impl<T> Section<T> {
-    fn new(validated: Option<T>) -> Self {
-        validated.map_or(Self::Invalid, Self::Valid)
-    }
-
-    /// Returns the value of the section unless the section is invalid.
-    fn if_valid(self) -> Option<Option<T>> {
-        match self {
-            Self::LeftOut => Some(None),
-            Self::Valid(value) => Some(Some(value)),
-            Self::Invalid => None,
-        }
-    }
-}
+/// An optional section is in the file but invalid.
+struct Invalid;
 
 impl Sections<'_> {
     fn wave(&self, wavemaker: Wavemaker, check: &mut Checker) -> Option<Wave> {
@@ -117,36 +98,36 @@ impl Sections<'_> {
         wave::validate(&self.file.wave, &around, check)
     }
 
-    fn units(&self, materials: &Materials, contact: Contact, check: &mut Checker) -> Section<Units> {
-        let Some(file) = &self.file.units else { return Section::LeftOut };
+    fn units(&self, materials: &Materials, contact: Contact, check: &mut Checker) -> Result<Option<Units>, Invalid> {
+        let Some(file) = &self.file.units else { return Ok(None) };
         let site = self.flume.as_ref().zip(self.domain.as_ref()).map(|(flume, domain)| domain.site(flume));
         let around = surroundings(self.file, self.name, site.as_ref(), materials, contact);
-        Section::new(units::validate(file, &around, check))
+        units::validate(file, &around, check).map(Some).ok_or(Invalid)
     }
 
-    fn gauges(&self, wavemaker: Wavemaker, units: &Section<Units>, check: &mut Checker) -> Vec<Gauge> {
+    fn gauges(&self, wavemaker: Wavemaker, units: Option<&Units>, check: &mut Checker) -> Vec<Gauge> {
         let reach = gauges::Reach::of(&self.file.wave, wavemaker);
-        let count = if let Section::Valid(units) = units { units.placements.len() } else { 0 };
+        let count = units.map_or(0, |units| units.placements.len());
         gauges::validate(&self.file.gauges, self.flume.as_ref(), self.domain.as_ref(), count, reach, check)
     }
 
     /// Validates the breakage analysis, which needs units in three dimensions.
-    fn breakage(&self, units: Option<&Units>, check: &mut Checker) -> Section<BreakageSettings> {
-        let Some(file) = &self.file.breakage else { return Section::LeftOut };
+    fn breakage(&self, units: Option<&Units>, check: &mut Checker) -> Result<Option<BreakageSettings>, Invalid> {
+        let Some(file) = &self.file.breakage else { return Ok(None) };
         let (allowed, advice) = match units {
             None => ("left out without units", "remove it: only units have impacts"),
             Some(_) if self.file.domain.sides == Sides::TwoDimensional => {
                 ("left out in two dimensions", "remove it: units in a two-dimensional domain cannot break")
             }
-            Some(units) => return Section::new(breakage::validate(file, &units.shape, self.name, check)),
+            Some(units) => return breakage::validate(file, &units.shape, self.name, check).map(Some).ok_or(Invalid),
         };
-        check.add_error("breakage", "{...}", allowed, advice);
-        Section::Invalid
+        check.reject("breakage", "{...}", allowed, advice);
+        Err(Invalid)
     }
 }
 
 /// Returns what the units of a flume case depend on.
-pub(in crate::case) fn surroundings<'a>(
+pub fn surroundings<'a>(
     file: &CaseFile,
     name: &'a str,
     site: Option<&'a Site>,
@@ -167,14 +148,14 @@ fn validate_numerics(file: &CaseFile, stop: &Stop, check: &mut Checker) -> Optio
 fn validate_size(case: &Case, check: &mut Checker) {
     let particles = case.estimate().particles();
     if particles > MOST_PARTICLES {
-        check.add_error(
+        check.reject(
             "domain.dp_m",
-            format_number(case.domain.dp),
+            as_text(case.domain.dp),
             format!("large enough for at most {MOST_PARTICLES:e} particles (it would be {particles:.1e})"),
             "write a larger particle spacing or a smaller domain",
         );
     } else if particles > MANY_PARTICLES {
-        let dp = format_number(case.domain.dp);
+        let dp = as_text(case.domain.dp);
         check.warn(format!("domain.dp_m = {dp}: about {:.0} million particles", particles / 1e6));
     }
 }

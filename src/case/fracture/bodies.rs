@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::case::file::{
     BreakageMaterialFile, FractureBodyFile, FractureFile, FractureMaterialFile, Joints, Softening, StrengthFile,
 };
-use crate::case::reading::check::{Checker, at_least, greater_than};
+use crate::case::reading::check::{Checker, at_least, more_than};
 use crate::femdem::cohesive_law::{Cohesion, Range};
 use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
@@ -20,13 +20,13 @@ use crate::femdem::setup::Body;
 const PENALTY: [f64; 2] = [50.0, 10.0];
 
 /// Returns the bodies in the order of the mesh.
-pub(in crate::case) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
+pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
     let before = check.count();
     let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
     for (index, material) in file.materials.iter().enumerate() {
         if file.materials[..index].iter().any(|other| other.name == material.name) {
             let path = format!("materials[{index}].name");
-            check.add_error(&path, format!("{:?}", material.name), "different from the others", "rename one");
+            check.reject(&path, format!("{:?}", material.name), "different from the others", "rename one");
         }
         validate_material(&format!("materials[{index}]"), material, check);
     }
@@ -34,11 +34,11 @@ pub(in crate::case) fn validate(file: &FractureFile, mesh: &PreparedMesh, check:
         if !names.contains(&body.name.as_str()) {
             let allowed = format!("one of {}", names.join(", "));
             let advice = "bodies are the physical volumes of the mesh";
-            check.add_error(&format!("bodies[{index}].name"), format!("{:?}", body.name), allowed, advice);
+            check.reject(&format!("bodies[{index}].name"), format!("{:?}", body.name), allowed, advice);
         }
         if file.bodies[..index].iter().any(|other| other.name == body.name) {
             let path = format!("bodies[{index}].name");
-            check.add_error(&path, format!("{:?}", body.name), "different from the others", "leave one out");
+            check.reject(&path, format!("{:?}", body.name), "different from the others", "leave one out");
         }
     }
     let mut bodies = Vec::new();
@@ -50,7 +50,7 @@ pub(in crate::case) fn validate(file: &FractureFile, mesh: &PreparedMesh, check:
             }
             None => {
                 let advice = "every physical volume of the mesh needs its entry";
-                check.add_error("bodies", "(missing)", format!("an entry named {:?}", mesh_body.name), advice);
+                check.reject("bodies", "(missing)", format!("an entry named {:?}", mesh_body.name), advice);
             }
         }
     }
@@ -58,7 +58,7 @@ pub(in crate::case) fn validate(file: &FractureFile, mesh: &PreparedMesh, check:
 }
 
 /// Validates concrete of units whose density follows from their mass.
-pub(in super::super) fn validate_concrete(path: &str, material: &BreakageMaterialFile, check: &mut Checker) {
+pub(in crate::case) fn validate_concrete(path: &str, material: &BreakageMaterialFile, check: &mut Checker) {
     let material = FractureMaterialFile {
         name: String::new(),
         // A valid placeholder: this entry has no density.
@@ -93,7 +93,7 @@ fn validate_material(entry: &str, material: &FractureMaterialFile, check: &mut C
     let path = |key: &str| format!("{entry}.strength.{key}");
     let StrengthFile { tensile_pa, cohesion_pa, friction_angle_deg, fracture_energy_j_m2, sliding_energy_j_m2 } =
         *strength;
-    check.number(&path("tensile_pa"), tensile_pa, greater_than(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
+    check.number(&path("tensile_pa"), tensile_pa, more_than(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
     check.number(
         &path("friction_angle_deg"),
         friction_angle_deg,
@@ -103,11 +103,11 @@ fn validate_material(entry: &str, material: &FractureMaterialFile, check: &mut C
     );
     let least = tensile_pa * friction_angle_deg.to_radians().tan();
     let advice = "the shear strength must be positive at the tensile strength";
-    check.number(&path("cohesion_pa"), cohesion_pa, greater_than(least).up_to(1e11), "Pa", advice);
+    check.number(&path("cohesion_pa"), cohesion_pa, more_than(least).up_to(1e11), "Pa", advice);
     check.number(
         &path("fracture_energy_j_m2"),
         fracture_energy_j_m2,
-        greater_than(0.0).up_to(1e7),
+        more_than(0.0).up_to(1e7),
         "J/m2",
         "concrete has 50",
     );
@@ -115,7 +115,7 @@ fn validate_material(entry: &str, material: &FractureMaterialFile, check: &mut C
         check.number(
             &path("sliding_energy_j_m2"),
             energy,
-            greater_than(0.0).up_to(1e7),
+            more_than(0.0).up_to(1e7),
             "J/m2",
             "leave it out to use fracture_energy_j_m2",
         );
@@ -132,7 +132,7 @@ fn validate_body(
     let Some(material) = file.materials.iter().find(|material| material.name == body.material) else {
         let allowed = "the name of one of `materials`";
         let path = format!("bodies[{index}].material");
-        check.add_error(&path, format!("{:?}", body.material), allowed, "add the material or correct the name");
+        check.reject(&path, format!("{:?}", body.material), allowed, "add the material or correct the name");
         return None;
     };
     let motion = [body.velocity_m_s, body.angular_velocity_rad_s, body.pivot_m];
@@ -150,7 +150,7 @@ fn validate_body(
     };
     if body.rigid && body.cracks {
         let path = format!("bodies[{index}].rigid");
-        check.add_error(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
+        check.reject(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
     }
     let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
     let cohesion = match &material.strength {
@@ -158,7 +158,7 @@ fn validate_body(
         None if body.cracks => {
             let advice = "give tensile strength, cohesion, friction angle and fracture energy";
             let path = format!("bodies[{index}].cracks");
-            check.add_error(&path, "true", format!("false, because {:?} has no strength", material.name), advice);
+            check.reject(&path, "true", format!("false, because {:?} has no strength", material.name), advice);
             None
         }
         _ => None,

@@ -11,7 +11,7 @@ use crate::femdem::mesh::faces::FaceSet;
 use crate::femdem::setup::Constraint;
 
 /// Returns the friction coefficients between the bodies, in the order of the mesh.
-pub(in crate::case) fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
+pub fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
     let count = mesh.mesh.bodies.len();
     let mut table = vec![vec![0.0; count]; count];
     for (index, BodyFrictionFile { between, coefficient }) in file.friction.iter().enumerate() {
@@ -23,7 +23,7 @@ pub(in crate::case) fn friction(file: &FractureFile, mesh: &PreparedMesh, check:
                 table[a][b] = *coefficient;
                 table[b][a] = *coefficient;
             }
-            _ => check.add_error(
+            _ => check.reject(
                 &format!("friction[{index}].between"),
                 format!("{between:?}"),
                 "names of two bodies of the mesh",
@@ -49,7 +49,7 @@ fn nodes_of(name: &str, mesh: &PreparedMesh) -> Option<Vec<u32>> {
 }
 
 /// Returns the constraints of the sets. A node of several sets takes each component from the last set that gives it.
-pub(in crate::case) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
+pub fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
     let mut histories: Vec<History<1>> = Vec::new();
     // Indices into `histories` for each node.
     let mut histories_of_node: Vec<[Option<u32>; 3]> = vec![[None; 3]; mesh.mesh.nodes.len()];
@@ -59,7 +59,7 @@ pub(in crate::case) fn constraints(file: &FractureFile, mesh: &PreparedMesh, che
             let names: Vec<&str> = surfaces.chain(mesh.mesh.node_sets.iter().map(|set| set.name.as_str())).collect();
             let allowed = format!("one of {}", names.join(", "));
             let advice = "sets are the physical surfaces, curves and points of the mesh";
-            check.add_error(&format!("constraints[{index}].set"), format!("{:?}", constraint.set), allowed, advice);
+            check.reject(&format!("constraints[{index}].set"), format!("{:?}", constraint.set), allowed, advice);
             continue;
         };
         for (axis, given) in constraint.velocity_m_s.iter().enumerate() {

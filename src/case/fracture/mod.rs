@@ -11,13 +11,13 @@ use std::path::Path;
 use glam::DVec3;
 
 use crate::case::file::FractureFile;
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::case::reading::document::Document;
 use crate::case::reading::error::CaseErrors;
 use crate::case::reading::hash::fingerprint;
 use crate::femdem::mesh::{self, PreparedMesh};
 use crate::femdem::setup::Setup;
-pub(in crate::case) use bodies::validate_concrete;
+pub(super) use bodies::validate_concrete;
 pub use places::{Landmark, Plane};
 
 /// Largest number of time steps of a run [-]; more would take years.
@@ -130,7 +130,7 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
     check.number(
         "fracture.step_share",
         method.step_share,
-        greater_than(0.0).up_to(1.0),
+        more_than(0.0).up_to(1.0),
         "",
         "0.8 leaves a margin for large strains",
     );
@@ -154,7 +154,7 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
 
 fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Vec<u8>, PreparedMesh)> {
     let advice = "0.001 for a mesh in millimetres";
-    if !check.number("fracture.scale", file.fracture.scale, greater_than(0.0).up_to(1e3), "", advice) {
+    if !check.number("fracture.scale", file.fracture.scale, more_than(0.0).up_to(1e3), "", advice) {
         return None;
     }
     let path = Path::new(name).parent().unwrap_or(Path::new("")).join(&file.fracture.mesh);
@@ -163,7 +163,7 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
         Ok(bytes) => bytes,
         Err(error) => {
             let advice = "paths are relative to the case file; tools/mesh/make.py makes the large meshes";
-            check.add_error("fracture.mesh", shown, format!("a file that can be read ({error})"), advice);
+            check.reject("fracture.mesh", shown, format!("a file that can be read ({error})"), advice);
             return None;
         }
     };
@@ -171,7 +171,7 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
         Ok(mesh) => Some((bytes, mesh)),
         Err(error) => {
             let advice = "docs/cases.md lists the requirements for a mesh";
-            check.add_error("fracture.mesh", shown, format!("a valid mesh ({error})"), advice);
+            check.reject("fracture.mesh", shown, format!("a valid mesh ({error})"), advice);
             None
         }
     }
@@ -185,7 +185,7 @@ fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) 
         }
         let Some(cohesion) = &body.cohesion else { continue };
         let [opening, sliding] = cohesion.strength.characteristic_lengths(body.elastic.young_modulus).map(|l| 0.25 * l);
-        let metres = |length: f64| format_number((length * 1e4).round() * 1e-4);
+        let metres = |length: f64| as_text((length * 1e4).round() * 1e-4);
         let edges = format!("{}: mean edge length {} m", quality.body, metres(quality.edge_mean));
         if quality.edge_mean > opening {
             let most = metres(opening);
@@ -199,10 +199,10 @@ fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) 
             ));
         }
         if quality.edge_max > cohesion.longest_edge() {
-            check.add_error(
+            check.reject(
                 "fracture.joint_penalty",
-                format_number(cohesion.penalty / body.elastic.young_modulus),
-                format!("so large that joints with edges of {} m store less than G_f", format_number(quality.edge_max)),
+                as_text(cohesion.penalty / body.elastic.young_modulus),
+                format!("so large that joints with edges of {} m store less than G_f", as_text(quality.edge_max)),
                 "refine the mesh, raise the joint penalty or use \"joints\": \"tied\"",
             );
         }

@@ -11,7 +11,7 @@ const CHECKPOINTS_SHARE: f64 = 0.02;
 const MOST_ROWS: f64 = 1e6;
 
 /// Validates the end and the intervals; returns the intervals of surfaces, tetrahedra and checkpoints [s].
-pub(in crate::case) fn validate(file: &FractureFile, check: &mut Checker) -> [Option<f64>; 3] {
+pub fn validate(file: &FractureFile, check: &mut Checker) -> [Option<f64>; 3] {
     let (duration, output) = (file.stop.duration_s, &file.output);
     check.number("stop.duration_s", duration, at_least(1e-9).up_to(1e3), "s", "an impact lasts a few milliseconds");
     let advice = "a hundredth of the duration gives a smooth curve";

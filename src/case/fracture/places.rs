@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::case::file::{FractureFile, LandmarkFile};
-use crate::case::reading::check::{Checker, at_least, greater_than};
+use crate::case::reading::check::{Checker, at_least, more_than};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Setup;
 
@@ -40,12 +40,12 @@ impl Plane {
     }
 }
 
-pub(in crate::case) fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
+pub fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
     let validate = |(index, landmark): (usize, &LandmarkFile)| {
         let path = |key: &str| format!("landmarks[{index}].{key}");
         if landmark.name.trim().is_empty() {
             let advice = "write a name that readers understand";
-            check.add_error(&path("name"), format!("{:?}", landmark.name), "some words", advice);
+            check.reject(&path("name"), format!("{:?}", landmark.name), "some words", advice);
         }
         for axis in 0..3 {
             let (low, high) = (landmark.low_m[axis], landmark.high_m[axis]);
@@ -64,7 +64,7 @@ pub(in crate::case) fn landmarks(file: &FractureFile, check: &mut Checker) -> Ve
 
 /// Returns the cut plane of the case. The default is normal to y through the centroid of the bodies that can crack, or
 /// of all bodies if none can.
-pub(in crate::case) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
+pub fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
     let Some(given) = file.output.section else {
         let cracks = |tet: usize| setup.bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&tet));
         let all = !setup.bodies.iter().any(|body| body.cohesion.is_some());
@@ -79,7 +79,7 @@ pub(in crate::case) fn section(file: &FractureFile, setup: &Setup, mesh: &Prepar
     };
     let normal = DVec3::from_array(given.normal);
     let advice = "[0, 1, 0] cuts along x and z";
-    check.number("output.section.normal (its length)", normal.length(), greater_than(0.0).up_to(1e6), "", advice);
+    check.number("output.section.normal (its length)", normal.length(), more_than(0.0).up_to(1e6), "", advice);
     for (axis, value) in given.point_m.into_iter().enumerate() {
         let advice = "write a point inside a body";
         check.number(&format!("output.section.point_m[{axis}]"), value, at_least(-1e4).up_to(1e4), "m", advice);

@@ -2,7 +2,7 @@
 
 use crate::case::file::{FluidField, OutputFile};
 use crate::case::flume::domain::Domain;
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 
 /// Largest number of snapshots or rows of one output in a run.
 const MOST_OUTPUTS: f64 = 1e6;
@@ -25,12 +25,7 @@ pub struct Output {
 }
 
 /// Validates the output settings of a run of `duration` [s].
-pub(in crate::case) fn validate(
-    file: &OutputFile,
-    duration: f64,
-    domain: Option<&Domain>,
-    check: &mut Checker,
-) -> Output {
+pub fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check: &mut Checker) -> Output {
     let mut interval = |key: &str, value: f64| validate_interval(key, value, duration, check);
     let fluid_interval = interval("fluid_interval_s", file.fluid_interval_s);
     let units_interval = interval("units_interval_s", file.units_interval_s);
@@ -51,7 +46,7 @@ pub(in crate::case) fn validate(
 }
 
 /// Validates an interval in a run of `duration` [s]. Returns `None` for 0 or an error.
-pub(in crate::case) fn validate_interval(key: &str, value: f64, duration: f64, check: &mut Checker) -> Option<f64> {
+pub fn validate_interval(key: &str, value: f64, duration: f64, check: &mut Checker) -> Option<f64> {
     if value == 0.0 {
         return None;
     }
@@ -61,9 +56,9 @@ pub(in crate::case) fn validate_interval(key: &str, value: f64, duration: f64, c
 }
 
 /// Validates the interval of the tables, which are always written.
-pub(in crate::case) fn validate_series_interval(value: f64, duration: f64, check: &mut Checker) {
+pub fn validate_series_interval(value: f64, duration: f64, check: &mut Checker) {
     let shortest = duration / MOST_OUTPUTS;
-    let range = if shortest > 0.0 { at_least(shortest) } else { greater_than(0.0) };
+    let range = if shortest > 0.0 { at_least(shortest) } else { more_than(0.0) };
     let advice = "write the time between two rows of the tables, e.g. 0.01";
     check.number("output.series_interval_s", value, range.up_to(1e6), "s", advice);
 }
@@ -71,7 +66,7 @@ pub(in crate::case) fn validate_series_interval(value: f64, duration: f64, check
 fn validate_fields(fields: &[FluidField], check: &mut Checker) {
     for (index, field) in fields.iter().enumerate() {
         if fields[..index].contains(field) {
-            check.add_error(
+            check.reject(
                 &format!("output.fluid_fields[{index}]"),
                 format!("{:?}", field.name()),
                 "different from the fields before it",
@@ -89,21 +84,13 @@ fn validate_box([low, high]: [[f64; 3]; 2], domain: &Domain, check: &mut Checker
         if high[axis] <= low[axis] {
             let path = format!("output.fluid_box_m[1][{axis}]");
             let advice = "write the lower corner first, then the upper one";
-            check.add_error(
-                &path,
-                format_number(high[axis]),
-                format!("> {} m, the lower {name}", format_number(low[axis])),
-                advice,
-            );
+            check.reject(&path, as_text(high[axis]), format!("> {} m, the lower {name}", as_text(low[axis])), advice);
         } else if high[axis] <= domain[0] || low[axis] >= domain[1] {
             let advice = "move the box to the water, or remove it to write all water";
-            let value = format!("{name} from {} to {}", format_number(low[axis]), format_number(high[axis]));
-            let allowed = format!(
-                "at least partly inside the domain, {} to {} m",
-                format_number(domain[0]),
-                format_number(domain[1])
-            );
-            check.add_error("output.fluid_box_m", value, allowed, advice);
+            let value = format!("{name} from {} to {}", as_text(low[axis]), as_text(high[axis]));
+            let allowed =
+                format!("at least partly inside the domain, {} to {} m", as_text(domain[0]), as_text(domain[1]));
+            check.reject("output.fluid_box_m", value, allowed, advice);
         }
     }
 }

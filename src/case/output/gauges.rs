@@ -3,7 +3,7 @@
 use crate::case::file::{GaugeFile, PointFile, Sides, WaveFile};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 use crate::case::wave::wavemaker::Wavemaker;
 
 /// Largest number of gauges in a case.
@@ -65,7 +65,7 @@ pub enum Quantity {
 
 /// Range in which elevation gauges are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::case) enum Reach {
+pub enum Reach {
     /// The whole flume: the flume model writes the gauges outside the domain.
     Flume,
     /// The domain, because there is no wave.
@@ -86,7 +86,7 @@ impl Reach {
 }
 
 /// Validates the gauges.
-pub(in crate::case) fn validate(
+pub fn validate(
     file: &[GaugeFile],
     flume: Option<&Flume>,
     domain: Option<&Domain>,
@@ -95,7 +95,7 @@ pub(in crate::case) fn validate(
     check: &mut Checker,
 ) -> Vec<Gauge> {
     if file.len() > MOST_GAUGES {
-        check.add_error("gauges", file.len(), format!("at most {MOST_GAUGES} gauges"), "remove some gauges");
+        check.reject("gauges", file.len(), format!("at most {MOST_GAUGES} gauges"), "remove some gauges");
         return Vec::new();
     }
     validate_names(file, check);
@@ -135,7 +135,7 @@ fn validate_names(file: &[GaugeFile], check: &mut Checker) {
         let path = format!("gauges[{index}].name");
         let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
         if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(is_allowed) {
-            check.add_error(
+            check.reject(
                 &path,
                 format!("{name:?}"),
                 format!("1 to {LONGEST_NAME} of the characters A-Z a-z 0-9 _ -"),
@@ -144,7 +144,7 @@ fn validate_names(file: &[GaugeFile], check: &mut Checker) {
         }
         // Some file systems do not distinguish capital letters.
         if file[..index].iter().any(|other| self::gauge_name(other).eq_ignore_ascii_case(name)) {
-            check.add_error(&path, format!("{name:?}"), "different from the names before it", "rename one of the two");
+            check.reject(&path, format!("{name:?}"), "different from the names before it", "rename one of the two");
         }
     }
 }
@@ -171,9 +171,9 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
     check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
     check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the walls' height", check);
     if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.holds(point.at_m.into())) {
-        check.add_error(
+        check.reject(
             &format!("{path}.at_m"),
-            format!("[{}, {}, {}]", format_number(x), format_number(y), format_number(z)),
+            format!("[{}, {}, {}]", as_text(x), as_text(y), as_text(z)),
             format!("outside domain.obstacles[{obstacle}]"),
             "there is no water inside an obstacle: move the gauge to its face",
         );
@@ -184,7 +184,7 @@ fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Chec
     let is_increasing = point.way.windows(2).all(|pair| pair[1][0] > pair[0][0]);
     let is_finite = point.way.iter().flatten().all(|value| value.is_finite());
     if !(is_increasing && is_finite) {
-        check.add_error(
+        check.reject(
             &format!("{path}.way"),
             format!("{} rows", point.way.len()),
             "rows [t, x, y, z] of finite numbers with increasing times",
@@ -198,16 +198,11 @@ fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Chec
             if unit == 0 || unit as usize > units {
                 let allowed =
                     if units == 0 { "left out: there are no units".to_owned() } else { format!("1 to {units}") };
-                check.add_error(
-                    &format!("{path}.on_unit"),
-                    unit,
-                    allowed,
-                    "units are numbered from 1, as in the tables",
-                );
+                check.reject(&format!("{path}.on_unit"), unit, allowed, "units are numbered from 1, as in the tables");
             }
             if !point.way.is_empty() {
                 let advice = "a gauge moves either with a unit or along a path";
-                check.add_error(&format!("{path}.way"), "given", "left out with `on_unit`", advice);
+                check.reject(&format!("{path}.way"), "given", "left out with `on_unit`", advice);
             }
             Motion::OnUnit((unit as usize).saturating_sub(1))
         }
@@ -216,10 +211,10 @@ fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Chec
 
 fn check_inside(path: &str, value: f64, [low, high]: [f64; 2], range: &str, check: &mut Checker) {
     if !(value >= low && value <= high) {
-        check.add_error(
+        check.reject(
             path,
-            format_number(value),
-            format!("inside {range}, {} to {} m", format_number(low), format_number(high)),
+            as_text(value),
+            format!("inside {range}, {} to {} m", as_text(low), as_text(high)),
             "move the gauge",
         );
     }

@@ -6,6 +6,6 @@
 //! | [`files`] | output files and their intervals |
 //! | [`stop`] | duration and rest criterion |
 
-pub(in crate::case) mod files;
-pub(in crate::case) mod gauges;
-pub(in crate::case) mod stop;
+pub mod files;
+pub mod gauges;
+pub mod stop;

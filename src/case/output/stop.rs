@@ -1,7 +1,7 @@
 //! Validates the stop criteria.
 
 use crate::case::file::StopFile;
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 
 /// When the run ends; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ pub struct AtRest {
 }
 
 /// Validates the stop criteria.
-pub(in crate::case) fn validate(file: &StopFile, has_units: bool, check: &mut Checker) -> Stop {
+pub fn validate(file: &StopFile, has_units: bool, check: &mut Checker) -> Stop {
     let is_duration_valid = check.number(
         "stop.duration_s",
         file.duration_s,
@@ -34,19 +34,19 @@ pub(in crate::case) fn validate(file: &StopFile, has_units: bool, check: &mut Ch
     );
     if let Some(rest) = &file.at_rest {
         if !has_units {
-            check.add_error("stop.at_rest", "{ ... }", "left out in a case without units", "remove it, or add `units`");
+            check.reject("stop.at_rest", "{ ... }", "left out in a case without units", "remove it, or add `units`");
         }
         check.number(
             "stop.at_rest.speed_m_s",
             rest.speed_m_s,
-            greater_than(0.0).up_to(1.0),
+            more_than(0.0).up_to(1.0),
             "m/s",
             "a unit slower than this is at rest, e.g. 0.002",
         );
         if is_duration_valid {
-            let end = format_number(file.duration_s);
+            let end = as_text(file.duration_s);
             let advice = format!("the run ends after {end} s");
-            check.number("stop.at_rest.for_s", rest.for_s, greater_than(0.0).up_to(file.duration_s), "s", &advice);
+            check.number("stop.at_rest.for_s", rest.for_s, more_than(0.0).up_to(file.duration_s), "s", &advice);
             check.number(
                 "stop.at_rest.not_before_s",
                 rest.not_before_s,

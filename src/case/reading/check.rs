@@ -4,7 +4,7 @@ use super::error::{CaseError, CaseErrors};
 
 /// Errors and warnings found so far in one case file.
 #[derive(Debug)]
-pub(in crate::case) struct Checker {
+pub struct Checker {
     file: String,
     errors: Vec<CaseError>,
     pub warnings: Vec<String>,
@@ -21,13 +21,7 @@ impl Checker {
     }
 
     /// Adds the error that the value at `path` "must be" `allowed`.
-    pub fn add_error(
-        &mut self,
-        path: &str,
-        value: impl ToString,
-        allowed: impl Into<String>,
-        advice: impl Into<String>,
-    ) {
+    pub fn reject(&mut self, path: &str, value: impl ToString, allowed: impl Into<String>, advice: impl Into<String>) {
         self.errors.push(CaseError::Invalid {
             file: self.file.clone(),
             path: path.to_owned(),
@@ -42,7 +36,7 @@ impl Checker {
         let inside = range.contains(value);
         if !inside {
             let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-            self.add_error(path, format_number(value), format!("{}{unit}", range.text()), advice);
+            self.reject(path, as_text(value), format!("{}{unit}", range.text()), advice);
         }
         inside
     }
@@ -50,7 +44,7 @@ impl Checker {
     /// Refuses an empty title.
     pub fn title(&mut self, title: &str) {
         if title.trim().is_empty() {
-            self.add_error("title", format!("{title:?}"), "a line of text", "name the case; reports show the title");
+            self.reject("title", format!("{title:?}"), "a line of text", "name the case; reports show the title");
         }
     }
 
@@ -67,7 +61,7 @@ impl Checker {
 
 /// An interval of allowed numbers; each end is open or closed.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::case) struct Range {
+pub struct Range {
     low: f64,
     low_open: bool,
     high: f64,
@@ -75,12 +69,12 @@ pub(in crate::case) struct Range {
 }
 
 /// Numbers greater than `low`.
-pub(in crate::case) fn greater_than(low: f64) -> Range {
+pub fn more_than(low: f64) -> Range {
     Range { low, low_open: true, high: f64::MAX, high_open: false }
 }
 
 /// Numbers of at least `low`.
-pub(in crate::case) fn at_least(low: f64) -> Range {
+pub fn at_least(low: f64) -> Range {
     Range { low, low_open: false, high: f64::MAX, high_open: false }
 }
 
@@ -104,12 +98,12 @@ impl Range {
     fn text(self) -> String {
         let low = if self.low_open { ">" } else { "at least" };
         let high = if self.high_open { "<" } else { "at most" };
-        format!("{low} {} and {high} {}", format_number(self.low), format_number(self.high))
+        format!("{low} {} and {high} {}", as_text(self.low), as_text(self.high))
     }
 }
 
 /// Formats a number for messages.
-pub(in crate::case) fn format_number(value: f64) -> String {
+pub fn as_text(value: f64) -> String {
     if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
         // Six decimals are enough for any case file and hide the rounding errors of derived values.
         format!("{}", (value * 1e6).round() / 1e6)
@@ -125,8 +119,8 @@ mod tests {
     #[test]
     fn error_for_a_number_names_file_path_value_and_range() {
         let mut check = Checker::new("x.json");
-        assert!(check.number("a", 0.5, greater_than(0.0).up_to(0.5), "m", ""));
-        assert!(!check.number("domain.dp_m", -0.01, greater_than(0.0).up_to(0.5), "m", "write it in metres"));
+        assert!(check.number("a", 0.5, more_than(0.0).up_to(0.5), "m", ""));
+        assert!(!check.number("domain.dp_m", -0.01, more_than(0.0).up_to(0.5), "m", "write it in metres"));
         assert!(!check.number("b", f64::NAN, at_least(0.0).below(1.0), "", "write a number"));
         let text = check.into_errors().to_string();
         assert_eq!(

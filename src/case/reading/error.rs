@@ -84,7 +84,7 @@ impl From<CaseError> for CaseErrors {
 }
 
 /// Returns the candidate with the smallest edit distance to `word`, if it is small enough for a typing error.
-pub(in crate::case) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // No key is this long; the search would be slow.
     if word.len() > 64 {
         return None;

@@ -6,7 +6,7 @@ use super::parse::RENAMED_KEYS;
 
 /// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with all defaults, and of `read`, the content of its
 /// other files. White space and key order do not matter. `file` must not contain its `$schema`.
-pub(in crate::case) fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
+pub fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
     // The structs fix the order of the keys. Serializing to a string cannot fail: every key is a string.
     let canonical = serde_json::to_string(file).unwrap_or_default();
     // Under its old name a key gives the hash that old runs have, so that they can resume. Quotes in values are escaped.

@@ -10,10 +10,10 @@
 //! | [`schema`] | JSON schemas of all kinds of files |
 //! | [`template`] | the example case of `breakwater init` |
 
-pub(in crate::case) mod check;
-pub(in crate::case) mod document;
-pub(in crate::case) mod error;
-pub(in crate::case) mod hash;
-pub(in crate::case) mod parse;
-pub(in crate::case) mod schema;
-pub(in crate::case) mod template;
+pub mod check;
+pub mod document;
+pub mod error;
+pub mod hash;
+pub mod parse;
+pub mod schema;
+pub mod template;

@@ -5,13 +5,13 @@ use super::shape::UnitShape;
 use super::{MOST_UNITS, UnitPose};
 use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 
 /// Tolerance on the position of a unit [m]: rounding of the numbers in the file.
 const SLACK: f64 = 1e-6;
 
 /// Places the units at the given centres. Checks that they fit into the domain and do not overlap.
-pub(in crate::case) fn place(
+pub fn place(
     centres: &[[f64; 3]],
     file: &UnitsFile,
     shape: &UnitShape,
@@ -25,11 +25,11 @@ pub(in crate::case) fn place(
         ("first_y_m", file.first_y_m.is_some()),
     ] {
         if written {
-            check.add_error(&format!("units.{key}"), "...", "left out with `centres_m`", "it gives every position");
+            check.reject(&format!("units.{key}"), "...", "left out with `centres_m`", "it gives every position");
         }
     }
     if !(1..=MOST_UNITS as usize).contains(&centres.len()) {
-        check.add_error(
+        check.reject(
             "units.centres_m",
             format!("{} centres", centres.len()),
             format!("1 to {MOST_UNITS}"),
@@ -67,10 +67,10 @@ fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site
     let up = [highest + shape.centre_height(), site.top_z + shape.centre_height() - shape.height()];
     for (axis, (value, [low, high])) in [(x, along), (y, across), (z, up)].into_iter().enumerate() {
         if !(value >= low - SLACK && value <= high + SLACK) {
-            check.add_error(
+            check.reject(
                 &format!("{path}[{axis}]"),
-                format_number(value),
-                format!("at least {} and at most {} m", format_number(low), format_number(high)),
+                as_text(value),
+                format!("at least {} and at most {} m", as_text(low), as_text(high)),
                 "the whole unit must stand on or above the ground, between the walls and below their top",
             );
         }
@@ -89,9 +89,9 @@ fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, site: &Site, chec
             shape.overlaps(offset)
         });
         if let Some(other) = overlapped {
-            check.add_error(
+            check.reject(
                 &format!("units.centres_m[{index}]"),
-                format!("[{}, {}, {}]", format_number(a[0]), format_number(a[1]), format_number(a[2])),
+                format!("[{}, {}, {}]", as_text(a[0]), as_text(a[1]), as_text(a[2])),
                 format!("clear of units.centres_m[{other}]"),
                 "units may touch but must not overlap",
             );

@@ -13,7 +13,7 @@ pub struct Contact {
 }
 
 /// Validates the contact settings.
-pub(in crate::case) fn validate(file: &ContactFile, check: &mut Checker) -> Contact {
+pub fn validate(file: &ContactFile, check: &mut Checker) -> Contact {
     check.number(
         "contact.rounding_share",
         file.rounding_share,

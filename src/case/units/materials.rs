@@ -1,7 +1,7 @@
 //! Validates materials and their friction.
 
 use crate::case::file::{FrictionFile, MaterialFile};
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::case::reading::error::nearest;
 
 const RESTITUTION_ADVICE: &str = "1 keeps the speed in a collision, 0.5 halves it";
@@ -41,7 +41,7 @@ pub struct FrictionPair {
 
 /// Materials and friction of a case.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::case) struct Materials {
+pub struct Materials {
     /// The materials.
     pub list: Vec<Material>,
     /// Friction of each pair of materials in the file.
@@ -51,7 +51,7 @@ pub(in crate::case) struct Materials {
 }
 
 /// Validates materials and friction, and looks up the material of the ground.
-pub(in crate::case) fn validate(
+pub fn validate(
     materials: &[MaterialFile],
     friction: &[FrictionFile],
     ground: Option<&str>,
@@ -66,16 +66,16 @@ pub(in crate::case) fn validate(
 /// Validates the materials. The result has one entry per material in the file, even for those with errors.
 fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Material> {
     if file.len() > MOST_MATERIALS {
-        check.add_error("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "leave out some");
+        check.reject("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "leave out some");
         return Vec::new();
     }
     for (index, material) in file.iter().enumerate() {
         let path = |key: &str| format!("materials[{index}].{key}");
         if material.name.trim().is_empty() {
-            check.add_error(&path("name"), "\"\"", "a name", "write e.g. \"mortar\"");
+            check.reject(&path("name"), "\"\"", "a name", "write e.g. \"mortar\"");
         }
         if file[..index].iter().any(|other| other.name == material.name) {
-            check.add_error(&path("name"), format!("{:?}", material.name), "different from the others", "rename one");
+            check.reject(&path("name"), format!("{:?}", material.name), "different from the others", "rename one");
         }
         check.number(
             &path("young_modulus_pa"),
@@ -87,11 +87,11 @@ fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Materia
         check.number(
             &path("poisson_ratio"),
             material.poisson_ratio,
-            greater_than(-1.0).below(0.5),
+            more_than(-1.0).below(0.5),
             "",
             "concrete has 0.2",
         );
-        check.number(&path("restitution"), material.restitution, greater_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
+        check.number(&path("restitution"), material.restitution, more_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
         if let Some(stiffness) = material.contact_stiffness_n_m {
             let advice = "force over overlap of two bodies pressed together";
             check.number(&path("contact_stiffness_n_m"), stiffness, at_least(1.0).up_to(1e12), "N/m", advice);
@@ -118,7 +118,7 @@ pub(super) fn find(materials: &[Material], name: &str, path: &str, check: &mut C
             None => "add it to `materials`".to_owned(),
         };
         let allowed = if names.is_empty() { "a name in `materials`, which is empty".to_owned() } else { list(&names) };
-        check.add_error(path, format!("{name:?}"), allowed, advice);
+        check.reject(path, format!("{name:?}"), allowed, advice);
     }
     found
 }
@@ -134,7 +134,7 @@ fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut 
     // At most one entry per pair of materials.
     let most = MOST_MATERIALS * (MOST_MATERIALS + 1) / 2;
     if file.len() > most {
-        check.add_error("friction", file.len(), format!("at most {most} pairs"), "write each pair once");
+        check.reject("friction", file.len(), format!("at most {most} pairs"), "write each pair once");
         return pairs;
     }
     for (index, friction) in file.iter().enumerate() {
@@ -152,10 +152,10 @@ fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut 
         let (Some(first), Some(second)) = (first, second) else { continue };
         let between = [first.min(second), first.max(second)];
         if let Some(other) = pairs.iter().find(|pair| pair.between == between) {
-            check.add_error(
+            check.reject(
                 &format!("friction[{index}].between"),
                 format!("{:?}", friction.between),
-                format!("a pair not yet given (it has {})", format_number(other.coefficient)),
+                format!("a pair not yet given (it has {})", as_text(other.coefficient)),
                 "keep one of the two",
             );
             continue;
@@ -178,7 +178,7 @@ fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 
         check.number(&path("rolling_coefficient"), rolling, at_least(0.0).up_to(2.0), "", advice);
     }
     if let Some(restitution) = file.restitution {
-        check.number(&path("restitution"), restitution, greater_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
+        check.number(&path("restitution"), restitution, more_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
     }
     kinetic
 }

@@ -9,14 +9,14 @@
 //! | [`materials`], [`contact`], [`resistance`] | materials, contact settings, friction and restitution |
 
 mod centres;
-pub(in crate::case) mod contact;
-pub(in crate::case) mod materials;
+pub mod contact;
+pub mod materials;
 mod planar;
 mod pose;
 mod poses;
 mod resistance;
 mod row;
-pub(in crate::case) mod shape;
+pub mod shape;
 mod stl;
 
 use self::contact::Contact;
@@ -25,7 +25,7 @@ pub use self::pose::UnitPose;
 use self::shape::{UnitKind, UnitShape};
 use super::file::{PoseFile, Sides, UnitsFile};
 use super::flume::site::Site;
-use super::reading::check::{Checker, format_number, greater_than};
+use super::reading::check::{Checker, as_text, more_than};
 use crate::rigid::Resistance;
 
 /// Largest number of units in one case.
@@ -119,14 +119,14 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
         check.number(
             "units.damage_distance_m",
             distance,
-            greater_than(0.0).up_to(1000.0),
+            more_than(0.0).up_to(1000.0),
             "m",
             "the unit's height is usual",
         );
     }
     let material = materials::find(&around.materials.list, &file.material, "units.material", check);
     if !around.ground_named {
-        check.add_error(
+        check.reject(
             "flume.material",
             "(missing)",
             "one of `materials` when there are units",
@@ -161,7 +161,7 @@ fn place(
 ) -> Option<Vec<UnitPose>> {
     let posed = file.poses.is_some() || file.placement_file.is_some();
     if file.armour.is_some() && !posed {
-        check.add_error(
+        check.reject(
             "units.armour",
             "{ ... }",
             "accompanied by `poses` or a `placement_file`",
@@ -194,7 +194,7 @@ fn place(
 /// Refuses obstacles, and warns of units that are small compared with the particle spacing.
 fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
     if water.obstacles > 0 {
-        check.add_error(
+        check.reject(
             "domain.obstacles",
             format!("{} obstacles", water.obstacles),
             "none in a case with units",
@@ -204,7 +204,7 @@ fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
     if shape.height() < 8.0 * water.dp {
         check.warn(format!(
             "domain.dp_m = {}: a unit is {:.1} particles high; with fewer than 8 the forces on it are inaccurate",
-            format_number(water.dp),
+            as_text(water.dp),
             shape.height() / water.dp
         ));
     }

@@ -9,15 +9,15 @@ use super::UnitPose;
 use super::shape::{UnitKind, UnitShape};
 use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 
 /// Largest quaternion component that turns out of the plane [-]: rounding to six written digits.
 const ROUNDING: f64 = 1e-6;
 
 /// Refuses units whose outline changes across the flume, and rows, which lie across it.
-pub(in crate::case) fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {
+pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {
     if !matches!(shape.kind, UnitKind::Cuboid { .. }) {
-        check.add_error(
+        check.reject(
             "units.shape",
             format!("{:?}", file.shape.key()),
             "\"cuboid\" where `domain.sides` is \"two_dimensional\"",
@@ -25,7 +25,7 @@ pub(in crate::case) fn validate(file: &UnitsFile, shape: &UnitShape, is_row: boo
         );
     }
     if is_row {
-        check.add_error(
+        check.reject(
             "units.centres_m",
             "(missing)",
             "a list of centres where `domain.sides` is \"two_dimensional\"",
@@ -35,14 +35,14 @@ pub(in crate::case) fn validate(file: &UnitsFile, shape: &UnitShape, is_row: boo
 }
 
 /// Moves the units into the layer, whatever their position across the flume.
-pub(in crate::case) fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
+pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
     let lay_one = |(index, UnitPose { mut centre, rotation }): (usize, UnitPose)| {
         centre.y = 0.5 * site.width;
         let out_of_plane = rotation.x.hypot(rotation.z);
         if out_of_plane > ROUNDING {
-            check.add_error(
+            check.reject(
                 &format!("units.poses[{index}].quaternion_xyzw"),
-                format!("turned out of the plane by {}", format_number(out_of_plane)),
+                format!("turned out of the plane by {}", as_text(out_of_plane)),
                 "a turn about y where `domain.sides` is \"two_dimensional\", [0, y, 0, w]",
                 "turn the unit about y only, or write \"periodic\" or \"walls\"",
             );
@@ -53,7 +53,7 @@ pub(in crate::case) fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut C
 }
 
 /// Returns the width of a unit over the thickness of the particle layer [-]; 1 in three dimensions.
-pub(in crate::case) fn slices(shape: &UnitShape, site: &Site) -> f64 {
+pub fn slices(shape: &UnitShape, site: &Site) -> f64 {
     match shape.kind {
         UnitKind::Cuboid { edges } if site.sides == Sides::TwoDimensional => edges[1] / site.width,
         _ => 1.0,

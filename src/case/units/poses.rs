@@ -7,19 +7,14 @@ use glam::{DQuat, DVec3};
 use super::{MOST_UNITS, UnitPose};
 use crate::case::file::{PlacementFile, PoseFile, Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, format_number};
+use crate::case::reading::check::{Checker, as_text};
 use crate::case::reading::document::Document;
 
 /// Tolerance on the length of a quaternion [-]: rounding to seven written digits.
 const ROUNDING: f64 = 1e-6;
 
 /// Places the units at the poses of the file or of its placement file, whose path is relative to the case file.
-pub(in crate::case) fn place(
-    file: &UnitsFile,
-    case_name: &str,
-    site: &Site,
-    check: &mut Checker,
-) -> Option<Vec<UnitPose>> {
+pub fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut Checker) -> Option<Vec<UnitPose>> {
     for (key, written) in [
         ("count", file.count.is_some()),
         ("pitch_m", file.pitch_m.is_some()),
@@ -28,7 +23,7 @@ pub(in crate::case) fn place(
         ("centres_m", file.centres_m.is_some()),
     ] {
         if written {
-            check.add_error(&format!("units.{key}"), "...", "left out with poses", "poses give every position");
+            check.reject(&format!("units.{key}"), "...", "left out with poses", "poses give every position");
         }
     }
     let (poses, path) = match (&file.poses, &file.placement_file) {
@@ -36,13 +31,13 @@ pub(in crate::case) fn place(
         (None, Some(path)) => (read(path, case_name, check)?, "units.placement_file"),
         _ => {
             let advice = "keep one of the two";
-            check.add_error("units.poses", "[...]", "left out with `placement_file`", advice);
+            check.reject("units.poses", "[...]", "left out with `placement_file`", advice);
             return None;
         }
     };
     if !(1..=MOST_UNITS as usize).contains(&poses.len()) {
         let advice = "leave out `units` for a case without units";
-        check.add_error(path, format!("{} poses", poses.len()), format!("1 to {MOST_UNITS}"), advice);
+        check.reject(path, format!("{} poses", poses.len()), format!("1 to {MOST_UNITS}"), advice);
         return None;
     }
     Some(
@@ -61,7 +56,7 @@ fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile
         Err(reason) => {
             let advice = "`breakwater place CASE` writes one";
             let shown = format!("{:?}", path.display().to_string());
-            check.add_error("units.placement_file", shown, format!("a placement file ({reason})"), advice);
+            check.reject("units.placement_file", shown, format!("a placement file ({reason})"), advice);
             None
         }
     }
@@ -79,10 +74,10 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
     let ground = site.profile.z(centre.x);
     for (axis, [low, high]) in [site.x, y, [ground, site.top_z]].into_iter().enumerate() {
         if !(centre[axis] >= low && centre[axis] <= high) {
-            check.add_error(
+            check.reject(
                 &format!("{path}.centre_m[{axis}]"),
-                format_number(centre[axis]),
-                format!("at least {} and at most {} m", format_number(low), format_number(high)),
+                as_text(centre[axis]),
+                format!("at least {} and at most {} m", as_text(low), as_text(high)),
                 "the centre of a unit must lie above the ground, between the walls and below their top",
             );
         }
@@ -90,9 +85,9 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
     let length = rotation.length();
     if (length - 1.0).abs() > ROUNDING || length.is_nan() {
         let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] is no rotation";
-        check.add_error(
+        check.reject(
             &format!("{path}.quaternion_xyzw"),
-            format!("of length {}", format_number(length)),
+            format!("of length {}", as_text(length)),
             "of length 1",
             advice,
         );

@@ -13,7 +13,7 @@ pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &m
         let (a, b) = (&around.materials.list[a], &around.materials.list[b]);
         if found.is_none() {
             let (a, b) = (&a.name, &b.name);
-            check.add_error(
+            check.reject(
                 "friction",
                 format!("no entry for {a:?} on {b:?}"),
                 "complete for the pairs that can touch",
@@ -22,7 +22,7 @@ pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &m
         }
         for material in [a, b] {
             if around.contact.law == ContactLawName::Linear && material.contact_stiffness.is_none() {
-                check.add_error(
+                check.reject(
                     "materials",
                     format!("no `contact_stiffness_n_m` of {:?}", material.name),
                     "given for each material with the linear contact law",

@@ -6,11 +6,11 @@ use super::shape::{UnitKind, UnitShape};
 use super::{MOST_UNITS, UnitPose};
 use crate::case::file::{Orientation, Sides, UnitsFile};
 use crate::case::flume::site::Site;
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 
 /// A row as the case file gives it; SI units.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::case) struct Row {
+pub struct Row {
     count: u32,
     pitch: f64,
     x: f64,
@@ -19,13 +19,13 @@ pub(in crate::case) struct Row {
 }
 
 /// Validates each number of a row on its own.
-pub(in crate::case) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker) -> Option<Row> {
+pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker) -> Option<Row> {
     let before = check.count();
     for (key, missing) in
         [("count", file.count.is_none()), ("pitch_m", file.pitch_m.is_none()), ("x_m", file.x_m.is_none())]
     {
         if missing {
-            check.add_error(
+            check.reject(
                 &format!("units.{key}"),
                 "(missing)",
                 "given for a row of units",
@@ -37,7 +37,7 @@ pub(in crate::case) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, che
     if let Some(shape) = shape {
         let range = match shape.kind {
             UnitKind::Cuboid { .. } => at_least(shape.least_pitch()).up_to(1000.0),
-            _ => greater_than(shape.least_pitch()).up_to(1000.0),
+            _ => more_than(shape.least_pitch()).up_to(1000.0),
         };
         let advice = match shape.kind {
             UnitKind::Tetrapod { .. } => "units closer than 0.75 of their height overlap",
@@ -47,33 +47,28 @@ pub(in crate::case) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, che
         check.number("units.pitch_m", pitch, range, "m", advice);
     }
     if !(1..=MOST_UNITS).contains(&count) {
-        check.add_error(
-            "units.count",
-            count,
-            format!("1 to {MOST_UNITS}"),
-            "leave out `units` for a case without units",
-        );
+        check.reject("units.count", count, format!("1 to {MOST_UNITS}"), "leave out `units` for a case without units");
     }
     let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation };
     (check.count() == before).then_some(row)
 }
 
 /// Places the units of the row and checks that the row fits into the domain.
-pub(in crate::case) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
+pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
     let [margin, reach] = shape.reach();
     check.number(
         "units.x_m",
         row.x,
-        greater_than(site.x[0] + margin).below(site.x[1] - margin),
+        more_than(site.x[0] + margin).below(site.x[1] - margin),
         "m",
         "the whole unit must stand inside `domain.x_m`",
     );
     let top = site.profile.z(row.x) + shape.height();
     if top > site.top_z {
-        check.add_error(
+        check.reject(
             "domain.top_z_m",
-            format_number(site.top_z),
-            format!("above the top of the units, {} m", format_number(top)),
+            as_text(site.top_z),
+            format!("above the top of the units, {} m", as_text(top)),
             "raise the walls",
         );
     }
@@ -85,22 +80,18 @@ pub(in crate::case) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &
         Sides::Walls | Sides::TwoDimensional => {
             let widest = length + 2.0 * reach;
             if widest > site.width {
-                check.add_error(
+                check.reject(
                     "units.count",
                     row.count,
-                    format!("such that the row, {} m wide, fits between the walls", format_number(widest)),
-                    format!("write fewer units, a smaller pitch or a width of more than {} m", format_number(widest)),
+                    format!("such that the row, {} m wide, fits between the walls", as_text(widest)),
+                    format!("write fewer units, a smaller pitch or a width of more than {} m", as_text(widest)),
                 );
             } else if first_y < reach || first_y + length > site.width - reach {
                 let last = site.width - reach - length;
-                check.add_error(
+                check.reject(
                     "units.first_y_m",
-                    format_number(first_y),
-                    format!(
-                        "at least {} and at most {} m between the walls",
-                        format_number(reach),
-                        format_number(last)
-                    ),
+                    as_text(first_y),
+                    format!("at least {} and at most {} m between the walls", as_text(reach), as_text(last)),
                     "leave it out to centre the row",
                 );
             }
@@ -118,14 +109,10 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     // Rounding of count * pitch.
     let slack = 1e-9;
     if length > width + slack || f64::from(row.count) != (width / row.pitch).round() {
-        check.add_error(
+        check.reject(
             "units.count",
             row.count,
-            format!(
-                "such that count x pitch = {} m fills the periodic width, {} m",
-                format_number(length),
-                format_number(width)
-            ),
+            format!("such that count x pitch = {} m fills the periodic width, {} m", as_text(length), as_text(width)),
             "the pitch must hold across the periodic sides: change `units.count`, `units.pitch_m` or `domain.width_m`",
         );
         return;
@@ -133,13 +120,13 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     if length < width - 1e-6 {
         check.warn(format!(
             "units.pitch_m = {}: neighbours across the periodic sides are {} m apart",
-            format_number(row.pitch),
-            format_number(width - length + row.pitch)
+            as_text(row.pitch),
+            as_text(width - length + row.pitch)
         ));
     }
     let turned = matches!(row.orientation, Orientation::Alternating | Orientation::AlternatingReversed);
     if turned && row.count > 1 && row.count % 2 == 1 {
-        check.add_error(
+        check.reject(
             "units.count",
             row.count,
             "even when the units alternate and the sides are periodic",
@@ -148,17 +135,17 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     }
     let last = width - (length - row.pitch);
     if !(first_y >= 0.0 && first_y <= last + slack) {
-        check.add_error(
+        check.reject(
             "units.first_y_m",
-            format_number(first_y),
-            format!("at least 0 and at most {} m", format_number(last)),
+            as_text(first_y),
+            format!("at least 0 and at most {} m", as_text(last)),
             "leave it out to centre the row",
         );
     }
 }
 
 /// Returns the rotation of the unit at `index` about the vertical [rad].
-pub(in crate::case) fn azimuth(orientation: Orientation, index: u32) -> f64 {
+pub fn azimuth(orientation: Orientation, index: u32) -> f64 {
     let shoreward = match orientation {
         Orientation::Alternating => !index.is_multiple_of(2),
         Orientation::AlternatingReversed => index.is_multiple_of(2),

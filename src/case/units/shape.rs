@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::stl::{self, StlUnit};
 use crate::case::file::{Shape, UnitsFile};
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
 /// Longest over shortest edge of a cuboid, at most [-]: the contact rounding, a share of the height, must fit all
@@ -143,12 +143,7 @@ impl UnitShape {
 }
 
 /// Validates the dimensions of the shape and builds it; `name` is the case file.
-pub(in crate::case) fn validate(
-    file: &UnitsFile,
-    rounding_share: f64,
-    name: &str,
-    check: &mut Checker,
-) -> Option<UnitShape> {
+pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut Checker) -> Option<UnitShape> {
     let before = check.count();
     refuse_keys_of_other_shapes(file, check);
     let kind = match file.shape {
@@ -164,19 +159,14 @@ pub(in crate::case) fn validate(
             Some(edges) => validate_cuboid(edges, check),
             None => {
                 let advice = "write the edges along x, y, z";
-                check.add_error("units.size_m", "(missing)", "the three edges of a cuboid", advice);
+                check.reject("units.size_m", "(missing)", "the three edges of a cuboid", advice);
                 None
             }
         },
         Shape::Stl => match &file.stl {
             Some(stl) => stl::validate(stl, rounding_share, name, check).map(UnitKind::Stl),
             None => {
-                check.add_error(
-                    "units.stl",
-                    "(missing)",
-                    "the STL files of the unit",
-                    "write \"stl\": { \"path\": ... }",
-                );
+                check.reject("units.stl", "(missing)", "the STL files of the unit", "write \"stl\": { \"path\": ... }");
                 None
             }
         },
@@ -188,17 +178,17 @@ pub(in crate::case) fn validate(
         Ok(unit) => Some(UnitShape { kind, unit: Arc::new(unit) }),
         Err(error @ ArmourUnitError::Waist { waist, allowed: [low, high] }) => {
             let range = format!("between {low} and {high}");
-            check.add_error("units.waist_ratio", format_number(waist), range, error.to_string());
+            check.reject("units.waist_ratio", as_text(waist), range, error.to_string());
             None
         }
         Err(ArmourUnitError::Rounding { share, largest }) => {
             let advice = "a larger rounding removes parts of the unit";
             let allowed = format!("at most {largest:.4} for this unit");
-            check.add_error("contact.rounding_share", format_number(share), allowed, advice);
+            check.reject("contact.rounding_share", as_text(share), allowed, advice);
             None
         }
         Err(error) => {
-            check.add_error("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change its lengths");
+            check.reject("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change its lengths");
             None
         }
     }
@@ -209,19 +199,15 @@ fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
     let shape = file.shape;
     let mut refuse = |key: &str, written: Option<String>, advice: &str| {
         if let Some(value) = written {
-            check.add_error(&format!("units.{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
+            check.reject(&format!("units.{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
         }
     };
     let by_size = shape == Shape::Cuboid;
     let by_height = !by_size && shape != Shape::Stl;
     let advice = if by_size { "the third edge of `size_m` is the height" } else { "the STL file gives the dimensions" };
-    refuse("height_m", file.height_m.filter(|_| !by_height).map(format_number), advice);
+    refuse("height_m", file.height_m.filter(|_| !by_height).map(as_text), advice);
     refuse("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
-    refuse(
-        "waist_ratio",
-        file.waist_ratio.filter(|_| shape != Shape::Dolos).map(format_number),
-        "only a Dolos has a waist",
-    );
+    refuse("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(as_text), "only a Dolos has a waist");
     let stl = file.stl.as_ref().filter(|_| shape != Shape::Stl).map(|_| "{ ... }".to_owned());
     refuse("stl", stl, "write \"shape\": \"stl\" to use the files");
 }
@@ -229,7 +215,7 @@ fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
 fn height(file: &UnitsFile, check: &mut Checker) -> Option<f64> {
     let advice = "write the unit's height in metres";
     let Some(height) = file.height_m else {
-        check.add_error("units.height_m", "(missing)", format!("the height of a {}", file.shape.key()), advice);
+        check.reject("units.height_m", "(missing)", format!("the height of a {}", file.shape.key()), advice);
         return None;
     };
     check_length("units.height_m", height, advice, check).then_some(height)
@@ -242,9 +228,9 @@ fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
     }
     let (shortest, longest) = edges.iter().fold((f64::MAX, 0.0_f64), |(a, b), e| (a.min(*e), b.max(*e)));
     if check.count() == before && longest > MOST_SLENDER * shortest {
-        check.add_error(
+        check.reject(
             "units.size_m",
-            format!("{} to {} m", format_number(shortest), format_number(longest)),
+            format!("{} to {} m", as_text(shortest), as_text(longest)),
             format!("edges that differ by a factor of {MOST_SLENDER} at most"),
             "the rounding of the edges does not fit a more slender block",
         );
@@ -257,12 +243,12 @@ fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bo
 }
 
 /// Validates the mass of a unit against its volume. `rho0` is the water density; `None` without water.
-pub(in crate::case) fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
+pub fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
     let volume = shape.volume();
-    let range = greater_than(100.0 * volume).up_to(20_000.0 * volume);
+    let range = more_than(100.0 * volume).up_to(20_000.0 * volume);
     let advice = format!("a unit of this size has {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
     let sound = check.number("units.mass_kg", mass, range, "kg", &advice);
     if sound && rho0.is_some_and(|rho0| mass < rho0 * volume) {
-        check.warn(format!("units.mass_kg = {}: lighter than water, the units will float", format_number(mass)));
+        check.warn(format!("units.mass_kg = {}: lighter than water, the units will float", as_text(mass)));
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::case::file::StlFile;
-use crate::case::reading::check::{Checker, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, more_than};
 use crate::geometry::armour_unit::LARGEST_ROUNDING;
 use crate::geometry::decomposition::{self, Decomposition};
 use crate::geometry::polyhedron::Polyhedron;
@@ -59,19 +59,14 @@ impl StlUnit {
 }
 
 /// Reads the files and checks that the parts fill the surface. Paths are relative to the case file `case_name`.
-pub(in crate::case) fn validate(
-    file: &StlFile,
-    rounding_share: f64,
-    case_name: &str,
-    check: &mut Checker,
-) -> Option<StlUnit> {
+pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
     let advice = "1 for a file in metres, 0.001 for one in millimetres";
-    if !check.number("units.stl.scale", file.scale, greater_than(0.0).up_to(1000.0), "", advice) {
+    if !check.number("units.stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
         return None;
     }
     if file.parts.len() > MOST_PARTS {
         let given = format!("{} files", file.parts.len());
-        check.add_error("units.stl.parts", given, format!("at most {MOST_PARTS}"), "use fewer convex parts");
+        check.reject("units.stl.parts", given, format!("at most {MOST_PARTS}"), "use fewer convex parts");
         return None;
     }
     let folder = Path::new(case_name).parent().unwrap_or(Path::new(""));
@@ -81,7 +76,7 @@ pub(in crate::case) fn validate(
         let mut refuse = |reason: String| {
             let advice =
                 "the surface must be closed, without holes, and its triangles counter-clockwise seen from outside";
-            check.add_error(key, format!("{:?}", path.display().to_string()), reason, advice);
+            check.reject(key, format!("{:?}", path.display().to_string()), reason, advice);
         };
         match std::fs::read(&path) {
             Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
@@ -112,7 +107,7 @@ pub(in crate::case) fn validate(
             Ok(hull) => parts.push(hull),
             Err(error) => {
                 let advice = "each part is replaced by its convex hull";
-                check.add_error(&format!("units.stl.parts[{index}]"), format!("{path:?}"), error.to_string(), advice);
+                check.reject(&format!("units.stl.parts[{index}]"), format!("{path:?}"), error.to_string(), advice);
                 return None;
             }
         }
@@ -130,14 +125,14 @@ pub(in crate::case) fn validate(
     let Decomposition { parts, volume_error } = found;
     if volume_error > LARGEST_ERROR || parts.is_empty() {
         let key = if file.parts.is_empty() { "units.stl.path" } else { "units.stl.parts" };
-        check.add_error(
+        check.reject(
             key,
             format!(
                 "{} convex parts that differ from the unit by {:.1} % of its volume",
                 parts.len(),
                 100.0 * volume_error
             ),
-            format!("parts that differ by at most {} %", format_number(100.0 * LARGEST_ERROR)),
+            format!("parts that differ by at most {} %", as_text(100.0 * LARGEST_ERROR)),
             "give the convex parts as separate STL files in `units.stl.parts`",
         );
         return None;

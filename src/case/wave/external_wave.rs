@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::case::file::{ExternalWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
-use crate::case::reading::check::{Checker, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, more_than};
 use crate::waves::external::{
     error::ExternalError,
     openfoam::{Frame, Up, Vertical, lines, probes},
@@ -45,7 +45,7 @@ impl ExternalWave {
 
 /// Reads the files, relative to the folder of the case file `case_name`, and validates them at the wavemaker's
 /// position.
-pub(in crate::case) fn validate(
+pub fn validate(
     file: &ExternalWaveFile,
     case_name: &str,
     flume: &Flume,
@@ -57,7 +57,7 @@ pub(in crate::case) fn validate(
         // The fastest wave is a solitary wave at breaking, sqrt(1.8 g d); the factor 2 allows for currents.
         let fastest = 2.0 * (1.8 * gravity * flume.still_depth(domain.x[0])).sqrt();
         let advice = "a long wave travels at sqrt(g (d + H))";
-        check.number("wave.celerity_m_s", celerity, greater_than(0.0).up_to(fastest), "m/s", advice);
+        check.number("wave.celerity_m_s", celerity, more_than(0.0).up_to(fastest), "m/s", advice);
     }
     let x0 = domain.x[0];
     let place = Place {
@@ -77,7 +77,7 @@ pub(in crate::case) fn validate(
             Some(ExternalWave { rows: Arc::new(rows), celerity: file.celerity_m_s })
         }
         Err(error) => {
-            check.add_error(
+            check.reject(
                 "wave.source",
                 "the files",
                 "files with the velocity of the wave at the wavemaker",
@@ -141,7 +141,7 @@ fn parse_columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Opt
             ("-", _) => Column::Ignored,
             (_, Some(layer)) => Column::VelkX(layer),
             _ => {
-                check.add_error(
+                check.reject(
                     &format!("{path}.columns[{index}]"),
                     format!("{name:?}"),
                     "\"tsec\", \"watl\", \"velk1\", \"velk2\" and so on, \"velx\" or \"-\"",
@@ -155,13 +155,13 @@ fn parse_columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Opt
 }
 
 /// Refuses a start of the particles outside the times of the files.
-pub(in crate::case) fn refuse_late_start(wave: &ExternalWave, start: f64, check: &mut Checker) {
+pub fn refuse_late_start(wave: &ExternalWave, start: f64, check: &mut Checker) {
     let [first, last] = wave.times();
     if !(first..last).contains(&start) {
-        check.add_error(
+        check.reject(
             "domain.start_s",
-            format_number(start),
-            format!("within the times of the files, {} to {} s", format_number(first), format_number(last)),
+            as_text(start),
+            format!("within the times of the files, {} to {} s", as_text(first), as_text(last)),
             "write a time of the other program",
         );
     }

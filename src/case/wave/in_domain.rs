@@ -5,7 +5,7 @@ use super::wavemaker::Wavemaker;
 use crate::case::flume::bed::Flume;
 use crate::case::flume::domain::Domain;
 use crate::case::flume::zones::RelaxationZone;
-use crate::case::reading::check::{Checker, at_least, format_number};
+use crate::case::reading::check::{Checker, as_text, at_least};
 use crate::waves::regular::RegularWave;
 
 /// Largest stroke of a paddle over the length of the domain [-].
@@ -18,10 +18,10 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
     let depth = flume.still_depth(domain.x[0]);
     // A wavemaker needs a depth of at least four particles to act as a wall.
     if depth < 4.0 * domain.dp {
-        check.add_error(
+        check.reject(
             "domain.x_m[0]",
-            format_number(domain.x[0]),
-            format!("in still water at least 4 particles deep (the depth there is {} m)", format_number(depth)),
+            as_text(domain.x[0]),
+            format!("in still water at least 4 particles deep (the depth there is {} m)", as_text(depth)),
             "move the seaward end of the domain away from the shore",
         );
     }
@@ -59,7 +59,7 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
             check.warn(format!(
                 "domain.dp_m = {}: {particles:.1} particle spacings per wave height, 5 to 10 needed \
                  (Altomare et al. 2017)",
-                format_number(domain.dp)
+                as_text(domain.dp)
             ));
         }
     }
@@ -67,10 +67,10 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
 
 fn validate_distance(limit: &str, nearest: f64, domain: &Domain, check: &mut Checker) {
     if domain.x[0] <= nearest {
-        check.add_error(
+        check.reject(
             "domain.x_m[0]",
-            format_number(domain.x[0]),
-            format!("beyond {limit}, > {} m", format_number(nearest)),
+            as_text(domain.x[0]),
+            format!("beyond {limit}, > {} m", as_text(nearest)),
             "move the seaward end of the domain shoreward; the flume model carries the wave there",
         );
     }
@@ -79,13 +79,13 @@ fn validate_distance(limit: &str, nearest: f64, domain: &Domain, check: &mut Che
 fn validate_sweep(stroke: f64, height: f64, domain: &Domain, check: &mut Checker) {
     let most = LARGEST_SWEEP * (domain.x[1] - domain.x[0]);
     if stroke.is_nan() || stroke > most {
-        check.add_error(
+        check.reject(
             "wave.height_m",
-            format_number(height),
+            as_text(height),
             format!(
                 "such that the stroke of the paddle, {} m, is at most half of the domain's length, {} m",
-                format_number(stroke),
-                format_number(most)
+                as_text(stroke),
+                as_text(most)
             ),
             "lengthen the domain or lower the wave",
         );
@@ -99,8 +99,8 @@ fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker
     if rise.abs() > EVEN_SLOPE * depth {
         check.warn(format!(
             "domain.x_m[0] = {}: the bed changes by {} m over one depth; the wavemaker theory has a horizontal bed",
-            format_number(x0),
-            format_number(rise)
+            as_text(x0),
+            as_text(rise)
         ));
     }
 }
@@ -110,21 +110,16 @@ fn warn_of_order(wave: &RegularWave, wavemaker: Wavemaker, check: &mut Checker) 
         check.warn(format!(
             "wave.height_m = {}: H L^2 / d^3 exceeds 8 pi^2 / 3, the limit of the piston's second-order motion \
              (Madsen 1971); a free secondary wave will follow each crest",
-            format_number(wave.height_m)
+            as_text(wave.height_m)
         ));
     }
 }
 
 /// Refuses a relaxation zone if no wave comes from the flume model.
-pub(in crate::case) fn refuse_relaxation_zone(
-    zone: Option<&RelaxationZone>,
-    wave: &Wave,
-    wavemaker: Wavemaker,
-    check: &mut Checker,
-) {
+pub fn refuse_relaxation_zone(zone: Option<&RelaxationZone>, wave: &Wave, wavemaker: Wavemaker, check: &mut Checker) {
     let from_flume = wavemaker.is_ml_piston() && !matches!(wave, Wave::None | Wave::External(_));
     if zone.is_some() && !from_flume {
-        check.add_error(
+        check.reject(
             "domain.relaxation_zone",
             "present",
             "absent, because no wave comes from the flume model",

@@ -7,17 +7,17 @@
 //! | [`wavemaker`] | kind of wavemaker |
 //! | [`in_domain`] | checks of wave and wavemaker against the particle domain |
 
-pub(in crate::case) mod external_wave;
+pub mod external_wave;
 mod in_domain;
 mod theory;
-pub(in crate::case) mod wavemaker;
+pub mod wavemaker;
 
 use self::external_wave::ExternalWave;
 pub(super) use self::in_domain::refuse_relaxation_zone;
 use self::wavemaker::Wavemaker;
 use super::file::{self, DomainFile, ExternalWaveFile, WaterFile, WaveFile};
 use super::flume::{bed::Flume, domain::Domain, domain::Start};
-use super::reading::check::{Checker, format_number};
+use super::reading::check::{Checker, as_text};
 use crate::waves::irregular::JonswapSea;
 use crate::waves::regular::RegularWave;
 use crate::waves::solitary::{SolitaryWave, ThirdOrderSolitary};
@@ -93,7 +93,7 @@ pub(super) fn validate(file: &WaveFile, around: &Surroundings, check: &mut Check
         WaveFile::File(_) => ("\"file\"", check.count()),
     };
     if matches!(around.domain_file.water, WaterFile::Block(_)) {
-        check.add_error(
+        check.reject(
             "wave.kind",
             kind,
             "\"none\" while `domain.water` is a block",
@@ -122,9 +122,9 @@ fn refuse_start(file: &DomainFile, check: &mut Checker) {
     let share = Some(file.start_at_share).filter(|&share| share != file::default_start_share());
     for (key, value) in [("start_s", file.start_s), ("start_at_share", share)] {
         if let Some(value) = value {
-            check.add_error(
+            check.reject(
                 &format!("domain.{key}"),
-                format_number(value),
+                as_text(value),
                 "left out while `wavemaker.kind` is \"piston\" or \"flap\"",
                 "remove it: the flume model does not run, and the paddle starts with the particles in still water",
             );
@@ -158,16 +158,16 @@ impl Surroundings<'_> {
             return Some(depth);
         }
         if self.wavemaker.is_ml_piston() {
-            check.add_error(
+            check.reject(
                 "flume.still_water_level_m",
-                format_number(self.flume?.still_water_level),
-                format!("above the bed at the seaward end, {} m", format_number(self.flume?.still_water_level - depth)),
+                as_text(self.flume?.still_water_level),
+                format!("above the bed at the seaward end, {} m", as_text(self.flume?.still_water_level - depth)),
                 "raise the still water level or lower the bed there",
             );
         } else {
-            check.add_error(
+            check.reject(
                 "domain.x_m[0]",
-                format_number(self.domain?.x[0]),
+                as_text(self.domain?.x[0]),
                 "in still water (the bed there is dry)",
                 "move the seaward end of the domain, where the paddle stands, into the water",
             );

@@ -2,7 +2,7 @@
 
 use super::{Surroundings, Wave};
 use crate::case::file::{IrregularFile, RegularFile, SolitaryFile, SolitaryTheory};
-use crate::case::reading::check::{Checker, at_least, format_number, greater_than};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::waves::irregular::{IrregularWave, JonswapSea};
 use crate::waves::regular::{MeanFlow, RegularWave, WaveError};
 use crate::waves::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
@@ -14,10 +14,10 @@ const SHORTEST_LENGTH: f64 = 0.1;
 pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
     let (flume, depth) = (around.flume?, around.depth()?);
     if depth <= 0.0 {
-        check.add_error(
+        check.reject(
             "flume.still_water_level_m",
-            format_number(flume.still_water_level),
-            format!("above the bed at the wavemaker, {} m", format_number(flume.still_water_level - depth)),
+            as_text(flume.still_water_level),
+            format!("above the bed at the wavemaker, {} m", as_text(flume.still_water_level - depth)),
             "raise the still water level: the wave starts in still water at the seaward end of the bed",
         );
         return None;
@@ -26,9 +26,9 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
     check.number(
         "wave.height_m",
         file.height_m,
-        greater_than(0.0).up_to(0.6 * depth),
+        more_than(0.0).up_to(0.6 * depth),
         "m",
-        &format!("at most 0.6 of the offshore depth, {} m", format_number(depth)),
+        &format!("at most 0.6 of the offshore depth, {} m", as_text(depth)),
     );
     let (height_m, depth_m, gravity) = (file.height_m, depth, around.gravity);
     let piston = |theory| Wave::Solitary(SolitaryWave { height_m, depth_m, gravity, theory });
@@ -37,7 +37,7 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
         SolitaryTheory::Rayleigh => piston(PistonTheory::Rayleigh),
         SolitaryTheory::ThirdOrder => {
             if !around.wavemaker.is_ml_piston() {
-                check.add_error(
+                check.reject(
                     "wave.theory",
                     "\"third_order\"",
                     "\"rayleigh\" or \"boussinesq\" with a piston in the particles",
@@ -61,10 +61,10 @@ pub(super) fn regular(file: &RegularFile, around: &Surroundings, check: &mut Che
     let wave = RegularWave { height_m, period_s, depth_m: depth, gravity };
     let length = wave.length_m();
     if length < SHORTEST_LENGTH * depth {
-        check.add_error(
+        check.reject(
             "wave.period_s",
-            format_number(period_s),
-            format!("such that the wavelength is at least {} m, depth / 10", format_number(SHORTEST_LENGTH * depth)),
+            as_text(period_s),
+            format!("such that the wavelength is at least {} m, depth / 10", as_text(SHORTEST_LENGTH * depth)),
             "shorter waves move only the surface: write a longer period or make the domain shallower",
         );
         return None;
@@ -72,13 +72,9 @@ pub(super) fn regular(file: &RegularFile, around: &Surroundings, check: &mut Che
     let is_valid = check.number(
         "wave.height_m",
         height_m,
-        greater_than(0.0).up_to(wave.breaking_height_m()),
+        more_than(0.0).up_to(wave.breaking_height_m()),
         "m",
-        &format!(
-            "higher waves of this period (wavelength {} m, depth {} m) break",
-            format_number(length),
-            format_number(depth)
-        ),
+        &format!("higher waves of this period (wavelength {} m, depth {} m) break", as_text(length), as_text(depth)),
     );
     if is_valid && around.wavemaker.is_ml_piston() {
         let permanent = StreamFunctionWave::new(wave, MeanFlow::NoTransport);
@@ -98,11 +94,11 @@ pub(super) fn irregular(file: &IrregularFile, around: &Surroundings, check: &mut
     validate_ramp(file.ramp_periods, check);
     let depth = around.wet_depth(check)?;
     // The highest of 3,000 waves is twice as high; that is the height at which a solitary wave breaks.
-    let height = format!("at most 0.4 of the depth, {} m", format_number(depth));
+    let height = format!("at most 0.4 of the depth, {} m", as_text(depth));
     check.number(
         "wave.significant_height_m",
         file.significant_height_m,
-        greater_than(0.0).up_to(0.4 * depth),
+        more_than(0.0).up_to(0.4 * depth),
         "m",
         &height,
     );
@@ -127,7 +123,7 @@ pub(super) fn irregular(file: &IrregularFile, around: &Surroundings, check: &mut
 fn refuse_impossible(error: Option<WaveError>, path: &str, value: f64, check: &mut Checker) {
     if let Some(error) = error {
         let advice = "lower the wave or change its period or the depth";
-        check.add_error(path, format_number(value), format!("the height of a possible wave ({error})"), advice);
+        check.reject(path, as_text(value), format!("the height of a possible wave ({error})"), advice);
     }
 }
 

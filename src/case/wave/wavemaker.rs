@@ -58,14 +58,9 @@ impl Wavemaker {
 }
 
 /// Validates the wavemaker and refuses combinations with the wave that are not implemented.
-pub(in crate::case) fn validate(
-    file: &WavemakerFile,
-    wave: &WaveFile,
-    flume: Option<&Flume>,
-    check: &mut Checker,
-) -> Wavemaker {
+pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, check: &mut Checker) -> Wavemaker {
     let mut refuse = |value: &str, allowed: &str, advice: &str| {
-        check.add_error("wavemaker.kind", format!("{value:?}"), allowed, advice);
+        check.reject("wavemaker.kind", format!("{value:?}"), allowed, advice);
     };
     match (wave, file) {
         (WaveFile::None {}, WavemakerFile::Piston(_) | WavemakerFile::Flap(_)) => refuse(
@@ -94,7 +89,7 @@ pub(in crate::case) fn validate(
         WavemakerFile::MlPiston(piston)
             if piston.absorption_gauge_m.is_some() && matches!(wave, WaveFile::None {} | WaveFile::File(_)) =>
         {
-            check.add_error(
+            check.reject(
                 "wavemaker.absorption_gauge_m",
                 "present",
                 "absent, because no wave comes from the flume model: the generated elevation at the gauge is not known",
