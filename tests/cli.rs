@@ -174,7 +174,10 @@ fn faults_in_any_kind_of_file_name_line_and_likely_key() {
         ("{ \"vary\": [],\n \"title\": }", "line 2, column 11: not valid JSON"),
         ("{ \"vary\": [], \"titel\": \"\" }", "unknown key \"titel\"; did you mean \"title\"?"),
         ("{ \"poses\": [], \"titel\": \"\" }", "unknown key \"titel\"; did you mean \"title\"?"),
-        ("{ \"dry_test\": { \"kind\": \"drop\", \"hight_m\": 1 } }", "dry_test (line 1): unknown key"),
+        (
+            "{ \"dry_test\": { \"kind\": \"drop\", \"hight_m\": 1 } }",
+            "unknown key \"hight_m\"; did you mean \"height_m\"?",
+        ),
         ("{ \"fracture\": { \"mesh\": \"\", \"scales\": 1 } }", "did you mean \"scale\"?"),
     ] {
         let file = folder.path().join("file.json");

@@ -29,7 +29,12 @@ pub(super) fn read_run(dir: &Path, accepted: &[InputKind]) -> Result<Document, T
         let what = format!("is {}, but must be the folder of a run; {}", kind.name(), advice(kind));
         return Err(Trouble::refused(format!("{}: {what}", dir.display())));
     }
-    read(&dir.join("case.json"), accepted)
+    let file = dir.join("case.json");
+    if !file.exists() {
+        let what = "is not the folder of a run, which has case.json and summary.json";
+        return Err(Trouble::refused(format!("{}: {what}", dir.display())));
+    }
+    read(&file, accepted)
 }
 
 /// Reads and validates the case of a run, and shows its warnings.
