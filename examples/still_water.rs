@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for gauge in &case.gauges {
         let point = now.place_of(gauge);
         if let Some(sample) = now.sampler()?.sample(point) {
-            let depth = case.flume.still_level - point.z;
+            let depth = case.flume.still_water_level - point.z;
             let hydrostatic = case.fluid.rho0 * case.fluid.gravity * depth;
             println!("{}: {:.0} Pa, hydrostatic {hydrostatic:.0} Pa", gauge.name, sample.pressure);
         }

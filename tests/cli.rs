@@ -146,6 +146,48 @@ fn run_refuses_bad_arguments_and_leaves_no_folder() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_refused_with_the_command_that_fits() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let [flume, dry, fracture, sweep] =
+        ["fudo/quick-look.json", "contact/drop-dolos.json", "fracture/dolos-drop.json", "fudo/friction-sweep.json"]
+            .map(|name| cases.join(name).display().to_string());
+    for (command, file, expected) in [
+        ("run", &fracture, "is a fracture case; run it with breakwater fracture"),
+        ("run", &sweep, "is a sweep; run it with breakwater sweep"),
+        ("fracture", &flume, "is a flume case; run it with breakwater run"),
+        ("wave", &dry, "is a dry test; run it with breakwater run"),
+        ("sweep", &dry, "is a dry test; run it with breakwater run"),
+        ("place", &sweep, "is a sweep; run it with breakwater sweep"),
+        ("resume", &flume, "is a flume case, but must be the folder of a run; run it with breakwater run"),
+        ("report", &fracture, "must be the folder of a run; run it with breakwater fracture"),
+        ("run", &cases.display().to_string(), "is a folder, but must be an input file"),
+    ] {
+        let message = refuse(&[command, file]);
+        assert!(message.contains(expected), "{command} {file}: {message}");
+    }
+}
+
+#[test]
+fn faults_in_any_kind_of_file_name_line_and_likely_key() {
+    let folder = tempfile::tempdir().unwrap();
+    for (text, expected) in [
+        ("{ \"vary\": [],\n \"title\": }", "line 2, column 11: not valid JSON"),
+        ("{ \"vary\": [], \"titel\": \"\" }", "unknown key \"titel\"; did you mean \"title\"?"),
+        ("{ \"poses\": [], \"titel\": \"\" }", "unknown key \"titel\"; did you mean \"title\"?"),
+        (
+            "{ \"dry_test\": { \"kind\": \"drop\", \"hight_m\": 1 } }",
+            "unknown key \"hight_m\"; did you mean \"height_m\"?",
+        ),
+        ("{ \"fracture\": { \"mesh\": \"\", \"scales\": 1 } }", "did you mean \"scale\"?"),
+    ] {
+        let file = folder.path().join("file.json");
+        std::fs::write(&file, text).unwrap();
+        let message = refuse(&["check", path(&file)]);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+}
+
+#[test]
 fn init_writes_a_case_that_check_accepts() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("mine.json");
@@ -246,7 +288,7 @@ fn impacts_hold_the_water_loads(out: &Path) {
 
 /// Asserts a factor of two at most: large parts of so small a file are reserved and empty.
 fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
-    let estimate = breakwater::case::Case::load(case).unwrap().output_size();
+    let estimate = breakwater::output::OutputSize::estimate(&breakwater::case::Case::load(case).unwrap());
     let size = |file: &str| std::fs::metadata(out.join(file)).unwrap().len() as f64;
     let tables = ["diagnostics.csv", "energy.csv", "gauges.csv", "units.csv"].map(size).iter().sum::<f64>();
     let sizes = [

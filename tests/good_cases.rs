@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use breakwater::case::file::{CaseFile, DryFile, FractureFile};
-use breakwater::case::{Case, DryCase, FractureCase, Handover, Wave, schema_text, template_text};
+use breakwater::case::{
+    BreakageSettings, Case, Document, DryTestCase, FractureCase, InputFile, InputKind, Wave, schema_text, template_text,
+};
 use breakwater::sweep::plan::Sweep;
 
 fn json_files(folder: &Path) -> Vec<PathBuf> {
@@ -24,29 +26,10 @@ fn all_files() -> Vec<PathBuf> {
     json_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"))
 }
 
-/// Lists the flume cases.
-fn cases() -> Vec<PathBuf> {
-    let others = [dry_cases(), fracture_cases(), sweeps()].concat();
-    all_files().into_iter().filter(|path| !others.contains(path) && !is_placement(path)).collect()
-}
-
-fn fracture_cases() -> Vec<PathBuf> {
-    let is_of_kind = |path: &PathBuf| FractureCase::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_of_kind).collect()
-}
-
-fn dry_cases() -> Vec<PathBuf> {
-    let is_dry = |path: &PathBuf| DryCase::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_dry).collect()
-}
-
-fn sweeps() -> Vec<PathBuf> {
-    let is_of_kind = |path: &PathBuf| Sweep::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_of_kind).collect()
-}
-
-fn is_placement(path: &Path) -> bool {
-    path.to_string_lossy().ends_with(".placement.json")
+/// All files of a kind.
+fn files(kind: InputKind) -> Vec<PathBuf> {
+    let is_one = |path: &PathBuf| Document::read(path).unwrap().kind() == kind;
+    all_files().into_iter().filter(is_one).collect()
 }
 
 fn case(name: &str) -> Case {
@@ -56,7 +39,7 @@ fn case(name: &str) -> Case {
 
 #[test]
 fn every_case_file_loads() {
-    let files = cases();
+    let files = files(InputKind::Flume);
     assert!(files.len() >= 9, "only {} case files found", files.len());
     for path in files {
         let case = Case::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
@@ -81,7 +64,7 @@ fn every_dry_test_loads_and_survives_a_round_trip() {
     let files = dry_cases();
     assert!(files.len() >= 5, "only {} dry tests found", files.len());
     for path in files {
-        let case = DryCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
+        let case = DryTestCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
         assert!(!case.assumptions.is_empty(), "{}: no assumption listed", path.display());
         let file: DryFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
@@ -92,10 +75,10 @@ fn every_dry_test_loads_and_survives_a_round_trip() {
             std::fs::write(folder.path().join("terrain.stl"), terrain.content.as_slice()).unwrap();
         }
         if let Some(breakage) = &case.fracture {
-            std::fs::write(folder.path().join(Handover::MESH), &breakage.mesh_file).unwrap();
+            std::fs::write(folder.path().join(BreakageSettings::MESH), &breakage.mesh_file).unwrap();
         }
         let name = folder.path().join("case.json").display().to_string();
-        let kept = DryCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
+        let kept = DryTestCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(kept.hash, case.hash, "{}", path.display());
         assert_eq!(kept.units.placements, case.units.placements, "{}", path.display());
     }
@@ -122,7 +105,7 @@ fn every_fracture_case_loads_and_survives_a_round_trip() {
 
 #[test]
 fn every_sweep_loads_and_its_runs_differ() {
-    let files = sweeps();
+    let files = files(InputKind::Sweep);
     assert!(!files.is_empty());
     for path in files {
         let sweep = Sweep::load(&path).unwrap_or_else(|reason| panic!("{reason}"));
@@ -152,14 +135,35 @@ fn flume_cases_survive_a_round_trip() {
         // The case that a run keeps needs only the mesh that the run writes, and is the same case.
         let Some(breakage) = &case.fracture else { continue };
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(Handover::MESH), &breakage.mesh_file).unwrap();
+        std::fs::write(folder.path().join(BreakageSettings::MESH), &breakage.mesh_file).unwrap();
         let name = folder.path().join("case.json").display().to_string();
         assert_eq!(Case::from_str(&case.text, &name).unwrap().hash, case.hash, "{}", path.display());
     }
 }
 
 #[test]
-fn hash_depends_on_values_and_not_on_layout() {
+fn old_key_names_give_the_same_case_and_a_warning() {
+    for name in ["breakage/tetrapod-drop.json", "fudo/quick-look-1to50.json"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let old = text.replace("\"breakage\":", "\"fracture\":").replace("\"dry_test\":", "\"dry\":");
+        let [(hash, none), (old_hash, warnings)] = [text, old].map(|text| {
+            let document = Document::new(text, path.to_str().unwrap()).unwrap();
+            match InputFile::from_document(&document).unwrap_or_else(|errors| panic!("{errors}")) {
+                InputFile::Flume(case) => (case.hash, case.warnings),
+                InputFile::DryTest(case) => (case.hash, case.warnings),
+                other => panic!("{:?}", other.kind()),
+            }
+        });
+        assert_eq!(old_hash, hash, "{name}");
+        let is_of_old_key = |warning: &&String| warning.ends_with("the old name still works");
+        assert!(!none.iter().any(|warning| is_of_old_key(&warning)));
+        assert!(warnings.contains(&"fracture: is now called breakage; the old name still works".to_owned()), "{name}");
+    }
+}
+
+#[test]
+fn hash_sees_values_and_not_layout() {
     let text = template_text();
     let hash = Case::from_str(&text, "a").unwrap().hash;
     assert_eq!(hash.len(), 32);
@@ -215,7 +219,9 @@ fn schema_lists_every_key() {
     let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(schema.is_object());
     let mut keys = Vec::new();
-    for text in cases().iter().map(|path| std::fs::read_to_string(path).unwrap()).chain([template_text()]) {
+    for text in
+        files(InputKind::Flume).iter().map(|path| std::fs::read_to_string(path).unwrap()).chain([template_text()])
+    {
         let file: CaseFile = serde_json::from_str(&text).unwrap();
         collect_keys(&serde_json::to_value(&file).unwrap(), &mut keys);
     }

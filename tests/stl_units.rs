@@ -3,10 +3,10 @@
 use std::{path::Path, sync::Arc};
 
 use breakwater::{
-    case::DryCase,
+    case::DryTestCase,
     geometry::{armour_unit::ArmourUnit, stl},
     output::driver::Control,
-    simulation::dry_test::DryRun,
+    simulation::dry_test::DryTest,
 };
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 fn settling_case(stl: Value, poses: Value) -> Value {
     json!({
         "title": "unit from STL",
-        "dry": { "kind": "settle" },
+        "dry_test": { "kind": "settle" },
         "flume": { "bed_m": [[-2.0, 0.0], [2.0, 0.0]], "material": "concrete" },
         "domain": { "x_m": [-1.0, 1.0], "width_m": 1.0, "sides": "walls", "top_z_m": 2.0 },
         "units": { "shape": "stl", "stl": stl, "mass_kg": 2.0, "material": "concrete", "poses": poses },
@@ -29,8 +29,8 @@ fn settling_case(stl: Value, poses: Value) -> Value {
 /// Validates and runs a case; returns the error message if it is refused or fails.
 fn try_run(case: &Value, folder: &Path) -> Result<(), String> {
     let name = folder.join("case.json").display().to_string();
-    let case = DryCase::from_str(&case.to_string(), &name).map_err(|errors| errors.to_string())?;
-    let mut run = DryRun::new(Arc::new(case)).map_err(|error| error.to_string())?;
+    let case = DryTestCase::from_str(&case.to_string(), &name).map_err(|errors| errors.to_string())?;
+    let mut run = DryTest::new(Arc::new(case)).map_err(|error| error.to_string())?;
     while run.time() < 0.02 {
         run.advance(0.02).map_err(|error| error.to_string())?;
     }
@@ -70,8 +70,8 @@ fn a_unit_from_stl_moves_like_the_same_catalogue_unit() {
     units.insert("size_m".into(), json!([0.1, 0.15, 0.2]));
     let end = |case: &Value| {
         let name = folder.path().join("case.json").display().to_string();
-        let case = DryCase::from_str(&case.to_string(), &name).unwrap_or_else(|errors| panic!("{errors}"));
-        let mut run = DryRun::new(Arc::new(case)).unwrap();
+        let case = DryTestCase::from_str(&case.to_string(), &name).unwrap_or_else(|errors| panic!("{errors}"));
+        let mut run = DryTest::new(Arc::new(case)).unwrap();
         for _ in 0..400 {
             run.advance(10.0).unwrap();
         }
@@ -243,11 +243,11 @@ fn a_run_on_terrain_keeps_the_surface_in_its_folder() {
     let mut case = case;
     case["domain"]["sides"] = json!("periodic");
     let name = folder.path().join("case.json").display().to_string();
-    let parsed = DryCase::from_str(&case.to_string(), &name).unwrap();
+    let parsed = DryTestCase::from_str(&case.to_string(), &name).unwrap();
     let run = folder.path().join("run");
     std::fs::create_dir(&run).unwrap();
     breakwater::simulation::dry_test::run::run(Arc::new(parsed.clone()), &run, &Control::quiet()).unwrap();
-    let kept = DryCase::load(run.join("case.json")).unwrap();
+    let kept = DryTestCase::load(run.join("case.json")).unwrap();
     assert_eq!(kept.site.terrain, parsed.site.terrain);
     assert_eq!(
         std::fs::read(run.join("terrain.stl")).unwrap(),

@@ -155,7 +155,7 @@ fn a_base_case_that_is_not_a_json_object_is_refused() {
     let ended = breakwater(&["check", sweep.to_str().unwrap()]);
     let message = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(2), "{message}");
-    assert!(message.contains("tank.json: must hold an object"), "{message}");
+    assert!(message.contains("tank.json: top level (line 1): wrong type: sequence; write an object"), "{message}");
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn invalid_sweeps_are_refused_before_any_run_starts() {
         (json!([{ "key": "domain.dp_mm", "values": [0.1] }]), "run 1 of the sweep (dp_mm=0.1) is refused"),
         (json!([{ "key": "domain.dp_m", "values": [0.05, -1] }]), "run 2 of the sweep (dp_m=-1) is refused"),
         (json!([{ "key": "stop.duration_s", "from": 1, "to": 2, "count": 20000 }]), "must have either"),
-        (json!("dp_m"), "invalid type"),
+        (json!("dp_m"), "vary (line 1): wrong type"),
     ];
     for (vary, expected) in cases {
         let (folder, sweep) = sweep_of(&vary);

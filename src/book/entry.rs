@@ -8,7 +8,7 @@ use std::{
 use serde_json::Value;
 
 use crate::{
-    case::{Handover, file::CaseFile},
+    case::{BreakageSettings, file::CaseFile},
     output::{OutputError, Summary, Table, write_atomically},
     simulation::breakage::results::Breakage,
 };
@@ -66,7 +66,7 @@ impl Entry {
         let case = serde_json::from_str(&text).map_err(OutputError::json(&path))?;
         let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy().into_owned();
         let mut others = Vec::new();
-        for file in [Handover::MESH, Breakage::FILE] {
+        for file in [BreakageSettings::MESH, Breakage::FILE] {
             match fs::read(folder.join(file)) {
                 Ok(content) => others.push((file, content)),
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}

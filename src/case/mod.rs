@@ -1,71 +1,60 @@
-//! Case files: parsing, validation and error messages.
+//! Input files: parsing, validation and error messages.
 //!
-//! Parsing turns the text into a [`file::CaseFile`] (keys and types). Validation turns that into a [`Case`] (consistent
-//! values). Solvers read only the [`Case`].
+//! An input file becomes a [`Document`], which knows its kind from its keys. Parsing turns that into a struct of
+//! [`file`] (keys and types), validation into a [`Case`] or another entry of [`InputFile`] (consistent values). Solvers
+//! read only the validated form.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `input_file` | an input file of any kind |
+//! | `flume_case`, `dry_test`, `fracture` | the three kinds of cases |
+//! | `breakage` | settings of the breakage analysis |
+//! | `layer_job` | what `breakwater place` needs of a case |
+//! | `output`, `units`, `wave`, `flume` | sections of a case, from the top down |
+//! | `reading` | JSON, keys, types, errors |
+//! | [`file`] | all files as the user writes them |
 
-mod centres;
-mod check;
-mod domain;
-mod dry;
-mod error;
-mod estimate;
+mod breakage;
+mod dry_test;
 pub mod file;
 mod flume;
+mod flume_case;
 mod fracture;
-mod gauges;
-mod given_wave;
-mod handover;
-mod hash;
-mod materials;
-mod numerics;
-mod obstacles;
+mod input_file;
+mod layer_job;
 mod output;
-mod output_size;
-mod parse;
-mod placing;
-mod planar;
-mod poses;
-mod row;
-mod run;
-mod schema;
-mod site;
-mod stl_unit;
-mod template;
-mod terrain;
-mod thickness;
-mod unit_shape;
+mod reading;
 mod units;
-mod validate;
 mod wave;
-mod wavemaker;
-mod zones;
 
-pub use domain::{Domain, Start, Water};
-pub use dry::{DryCase, DryOutput, DryTest};
-pub use error::{CaseError, CaseErrors};
-pub use estimate::Estimate;
+pub use breakage::{BreakageSettings, Selection};
+pub use dry_test::{DryOutput, DryTestCase, DryTestKind};
 pub use file::{
-    ArmourOrientation, Boundary, ContactLawName, DensityDiffusion, FluidField, PlacementFile, PoseFile, Sides,
-    SolitaryTheory, Viscosity, WallSlip,
+    ArmourOrientation, Boundary, ContactLawName, DensityDiffusion, FluidField, ImpactMeasure, PlacementFile, PoseFile,
+    RerunMethod, Sides, SolitaryTheory, Viscosity, WallSlip,
 };
-pub use flume::{Flume, Mound};
+pub use flume::bed::{Flume, Mound};
+pub use flume::domain::{Domain, Start, Water};
+pub use flume::site::Site;
+pub use flume::terrain::SiteTerrain;
+pub use flume::zones::{DampingZone, RelaxationZone};
+pub use flume_case::Case;
+pub use flume_case::estimate::Estimate;
+pub use flume_case::numerics::{Fluid, Numerics};
 pub use fracture::{FractureCase, Landmark, Plane};
-pub use gauges::{Gauge, Motion, Quantity};
-pub use given_wave::{GivenWave, ROWS_FILE};
-pub use handover::{Handover, HandoverWay, Hardness, Selection};
-pub use materials::{FrictionPair, Material};
-pub use numerics::{Fluid, Numerics};
-pub use output::Output;
-pub use output_size::OutputSize;
-pub use placing::{Armour, PlacementJob};
-pub use run::{AtRest, Contact, Stop};
-pub use schema::{dry_schema_text, fracture_schema_text, schema_text};
-pub use site::Site;
-pub use template::template_text;
-pub use terrain::SiteTerrain;
-pub use unit_shape::{UnitKind, UnitShape};
-pub use units::{Placement, Units};
-pub use validate::Case;
+pub use input_file::InputFile;
+pub use layer_job::{Armour, LayerJob};
+pub use output::files::Output;
+pub use output::gauges::{Gauge, Motion, Quantity};
+pub use output::stop::{AtRest, Stop};
+pub use reading::document::{Document, InputKind};
+pub use reading::error::{CaseError, CaseErrors};
+pub use reading::schema::{dry_schema_text, fracture_schema_text, schema_text, sweep_schema_text};
+pub use reading::template::template_text;
+pub use units::contact::Contact;
+pub use units::materials::{FrictionPair, Material};
+pub use units::shape::{UnitKind, UnitShape};
+pub use units::{UnitPose, Units};
 pub use wave::Wave;
-pub use wavemaker::Wavemaker;
-pub use zones::{DampingZone, RelaxationZone};
+pub use wave::external_wave::{ExternalWave, ROWS_FILE};
+pub use wave::wavemaker::Wavemaker;

@@ -4,18 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{
-    Trouble,
-    input::{AnyCase, is_fracture, is_sweep, load_any, placement},
-    run,
-};
+use super::{Trouble, input::load, run};
 use crate::{
-    case::{Case, DryCase, DryTest, Handover, Hardness, Sides, Units, Wave},
-    output::progress::readable,
-    rigid::{RigidError, RigidSetup, RigidWorld},
+    case::{BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Sides, Units, Wave},
+    output::{OutputSize, progress::readable},
+    rigid::{RigidSetup, RigidWorld},
     simulation::{
         bodies::rigid_setup,
-        dry_test::DryRun,
+        dry_test::DryTest,
         flume::{incoming::particle_start, setup::check_times},
     },
     sweep::plan::{Sweep, in_words},
@@ -40,47 +36,43 @@ impl CheckArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let mut refusals = Vec::new();
         for path in &self.cases {
-            if let Some(file) = placement(path) {
-                println!("{}: placement of {} units, made for: {}", path.display(), file.poses.len(), file.title);
-                continue;
-            }
-            if is_sweep(path) {
-                match Sweep::load(path) {
-                    Ok(sweep) => print_sweep(path, &sweep),
-                    Err(reason) => refusals.push(reason.to_string()),
-                }
-                continue;
-            }
-            if is_fracture(path) {
-                if let Err(Trouble::Refused(reason) | Trouble::Failed(reason)) = run::fracture::check(path) {
-                    refusals.push(reason);
-                }
-                continue;
-            }
-            match load_any(path) {
-                Ok(AnyCase::Dry(case)) => {
-                    print_dry(&case);
-                    if let Err(reason) = check_overlap(DryRun::setup(&case), &case.units) {
-                        refusals.push(format!("{}: units: {reason}", path.display()));
-                    }
-                }
-                Ok(AnyCase::Wet(case)) => {
-                    if let Err(reason) = check_times(&case, particle_start(&case, None)) {
-                        refusals.push(format!("{}: {reason}", path.display()));
-                    }
-                    print(&case);
-                    let Some(units) = &case.units else { continue };
-                    let (law, gravity) = (case.contact.law, case.fluid.gravity);
-                    let setup = rigid_setup(units, &case.site(), &case.materials, law, gravity);
-                    if let Err(reason) = check_overlap(setup, units) {
-                        refusals.push(format!("{}: units: {reason}", path.display()));
-                    }
-                }
-                Err(Trouble::Refused(reason) | Trouble::Failed(reason)) => refusals.push(reason),
+            if let Err(Trouble::Refused(reason) | Trouble::Failed(reason)) = check(path) {
+                refusals.push(reason);
             }
         }
         if refusals.is_empty() { Ok(()) } else { Err(Trouble::refused(refusals.join("\n"))) }
     }
+}
+
+const ALL_KINDS: [InputKind; 5] =
+    [InputKind::Flume, InputKind::DryTest, InputKind::Fracture, InputKind::Sweep, InputKind::Placement];
+
+fn check(path: &Path) -> Result<(), Trouble> {
+    match load(path, &ALL_KINDS)? {
+        InputFile::Flume(case) => check_flume(&case, path),
+        InputFile::DryTest(case) => {
+            print_dry(&case);
+            check_overlap(DryTest::setup(&case), &case.units, path)
+        }
+        InputFile::Fracture(case) => run::fracture::check(&case, path),
+        InputFile::Sweep(file) => {
+            print_sweep(path, &Sweep::new(file, path).map_err(Trouble::refused)?);
+            Ok(())
+        }
+        InputFile::Placement(file) => {
+            println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+            Ok(())
+        }
+    }
+}
+
+fn check_flume(case: &Case, path: &Path) -> Result<(), Trouble> {
+    let times = check_times(case, particle_start(case, None))
+        .map_err(|reason| Trouble::refused(format!("{}: {reason}", path.display())));
+    print(case);
+    let Some(units) = &case.units else { return times };
+    let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
+    times.and(check_overlap(setup, units, path))
 }
 
 fn print_sweep(path: &Path, sweep: &Sweep) {
@@ -122,7 +114,7 @@ fn print(case: &Case) {
                 println!("; stroke {:.4} m at the still water level", motion.stroke_m());
             }
         }
-        Wave::Given(wave) => {
+        Wave::External(wave) => {
             let [first, last] = wave.times();
             let count = wave.rows.times_s.len();
             println!("  wave        from files: velocities at {count} times from {first} to {last} s");
@@ -146,7 +138,7 @@ fn print(case: &Case) {
     if let Some(units) = &case.units {
         print_units(units);
     }
-    case.fracture.iter().for_each(print_handover);
+    case.breakage.iter().for_each(print_breakage);
     println!(
         "  particles   about {:.0} thousand: water {:.0}, bed and walls {:.0}, units {:.1}; dp = {} m",
         estimate.particles() / 1e3,
@@ -156,7 +148,7 @@ fn print(case: &Case) {
         case.domain.dp
     );
     println!("  memory      about {:.2} GB", estimate.bytes / 1e9);
-    let files = case.output_size();
+    let files = OutputSize::estimate(case);
     println!(
         "  files       about {}: fluid.vtkhdf {}, units.vtkhdf {}, tables {}, checkpoint {}",
         size(files.total()),
@@ -193,9 +185,11 @@ fn print_units(units: &Units) {
 /// wedged in a layer up to 0.005.
 const TOLD_OVERLAP: f64 = 0.01;
 
-/// Warns of units that overlap each other, the bed or a wall at the start.
-fn check_overlap(setup: RigidSetup, units: &Units) -> Result<(), RigidError> {
-    let overlap = RigidWorld::new(setup)?.deepest_overlap() / units.shape.height();
+/// Tell how deep units start in each other, the bed or a wall, if they do.
+fn check_overlap(setup: RigidSetup, units: &Units, path: &Path) -> Result<(), Trouble> {
+    let world =
+        RigidWorld::new(setup).map_err(|error| Trouble::refused(format!("{}: units: {error}", path.display())))?;
+    let overlap = world.deepest_overlap() / units.shape.height();
     if overlap > TOLD_OVERLAP {
         eprintln!(
             "warning: units overlap each other, the bed or a wall by up to {:.2} % of their height at the start; \
@@ -206,38 +200,38 @@ fn check_overlap(setup: RigidSetup, units: &Units) -> Result<(), RigidError> {
     Ok(())
 }
 
-fn print_dry(case: &DryCase) {
+fn print_dry(case: &DryTestCase) {
     println!("{}: {}", case.name, case.title);
     let test = match case.test {
-        DryTest::Settle => "units settle from their start positions".to_owned(),
-        DryTest::Drop => "units are dropped".to_owned(),
-        DryTest::Tilt { rate, to, .. } => {
+        DryTestKind::Settle => "units settle from their start positions".to_owned(),
+        DryTestKind::Drop => "units are dropped".to_owned(),
+        DryTestKind::Tilt { rate, to, .. } => {
             format!("the bed is tilted by {:.3} degrees/s up to {:.1}", rate.to_degrees(), to.to_degrees())
         }
     };
     println!("  dry test    {test}");
     println!("  bed         x = {} to {} m, {} m wide", case.site.x[0], case.site.x[1], case.site.width);
     print_units(&case.units);
-    case.fracture.iter().for_each(print_handover);
+    case.breakage.iter().for_each(print_breakage);
     println!("  duration    at most {} s", case.stop.duration);
 }
 
 /// Prints the settings of the breakage analysis.
-fn print_handover(handover: &Handover) {
-    let by = match handover.select.by {
-        Hardness::PeakForce => "force",
-        Hardness::ApproachVelocity => "approach velocity",
-        Hardness::KineticEnergy => "kinetic energy",
+fn print_breakage(settings: &BreakageSettings) {
+    let by = match settings.select.by {
+        ImpactMeasure::PeakForce => "force",
+        ImpactMeasure::ApproachVelocity => "approach velocity",
+        ImpactMeasure::KineticEnergy => "kinetic energy",
     };
-    let which = match handover.select.worst {
+    let which = match settings.select.worst {
         Some(worst) => format!("the {worst} hardest impacts by {by}"),
         None => format!("all recorded impacts, the hardest by {by} first"),
     };
     println!(
         "  breakage    {which}, re-run at length scale {}; {} tetrahedra per unit, edges of {:.3} m",
-        handover.scale,
-        handover.mesh.tets(),
-        handover.mesh.edge() * handover.scale
+        settings.scale,
+        settings.mesh.tets(),
+        settings.mesh.edge() * settings.scale
     );
 }
 

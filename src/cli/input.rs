@@ -1,64 +1,61 @@
 //! Reads input files and recognises their kind.
 
-use std::{path::Path, sync::Arc};
+use std::path::Path;
 
 use super::Trouble;
-use crate::{
-    case::{Case, DryCase, FractureCase, PlacementFile},
-    sweep::plan::Sweep,
-};
+use crate::case::{Document, InputFile, InputKind};
 
-/// A flume case or a dry test.
-pub(super) enum AnyCase {
-    /// A flume case: water, and perhaps units.
-    Wet(Arc<Case>),
-    /// A dry test: units on a bed without water.
-    Dry(Arc<DryCase>),
-}
-
-/// Reads a flume case or a dry test and shows its warnings.
-pub(super) fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
-    if placement(path).is_some() {
-        let what = "is a placement file, not a case; run the case that names it as `units.placement_file`";
+/// Reads an input file. A file of a kind that is not accepted is refused before it is validated.
+pub(super) fn read(path: &Path, accepted: &[InputKind]) -> Result<Document, Trouble> {
+    if path.is_dir() {
+        let what = "is a folder, but must be an input file";
         return Err(Trouble::refused(format!("{}: {what}", path.display())));
     }
-    if is_fracture(path) {
-        let what = "is a fracture case; run it with breakwater fracture";
-        return Err(Trouble::refused(format!("{}: {what}", path.display())));
+    let document = Document::read(path).map_err(Trouble::refused)?;
+    if accepted.contains(&document.kind()) { Ok(document) } else { Err(other_kind(path, document.kind())) }
+}
+
+/// Reads and validates an input file, and shows its warnings.
+pub(super) fn load(path: &Path, accepted: &[InputKind]) -> Result<InputFile, Trouble> {
+    let file = InputFile::from_document(&read(path, accepted)?).map_err(Trouble::refused)?;
+    show_warnings(file.warnings());
+    Ok(file)
+}
+
+/// Reads the case of a run from the run's folder.
+pub(super) fn read_run(dir: &Path, accepted: &[InputKind]) -> Result<Document, Trouble> {
+    if dir.is_file() {
+        let kind = Document::read(dir).map_err(Trouble::refused)?.kind();
+        let what = format!("is {}, but must be the folder of a run; {}", kind.name(), advice(kind));
+        return Err(Trouble::refused(format!("{}: {what}", dir.display())));
     }
-    if is_sweep(path) {
-        let what = "is a sweep file; run it with breakwater sweep";
-        return Err(Trouble::refused(format!("{}: {what}", path.display())));
+    let file = dir.join("case.json");
+    if !file.exists() {
+        let what = "is not the folder of a run, which has case.json and summary.json";
+        return Err(Trouble::refused(format!("{}: {what}", dir.display())));
     }
-    let is_dry = std::fs::read_to_string(path).is_ok_and(|text| DryCase::is_one(&text));
-    if !is_dry {
-        return load(path).map(AnyCase::Wet);
+    read(&file, accepted)
+}
+
+/// Reads and validates the case of a run, and shows its warnings.
+pub(super) fn load_run(dir: &Path, accepted: &[InputKind]) -> Result<InputFile, Trouble> {
+    let file = InputFile::from_document(&read_run(dir, accepted)?).map_err(Trouble::refused)?;
+    show_warnings(file.warnings());
+    Ok(file)
+}
+
+/// Says what a file is and which command fits.
+pub(super) fn other_kind(path: &Path, kind: InputKind) -> Trouble {
+    Trouble::refused(format!("{}: is {}; {}", path.display(), kind.name(), advice(kind)))
+}
+
+fn advice(kind: InputKind) -> &'static str {
+    match kind {
+        InputKind::Flume | InputKind::DryTest => "run it with breakwater run",
+        InputKind::Fracture => "run it with breakwater fracture",
+        InputKind::Sweep => "run it with breakwater sweep",
+        InputKind::Placement => "run the case that names it as `units.placement_file`",
     }
-    let case = DryCase::load(path).map_err(Trouble::refused)?;
-    show_warnings(&case.warnings);
-    Ok(AnyCase::Dry(Arc::new(case)))
-}
-
-/// Returns whether a file is a sweep file.
-pub(super) fn is_sweep(path: &Path) -> bool {
-    std::fs::read_to_string(path).is_ok_and(|text| Sweep::is_one(&text))
-}
-
-/// Returns whether a file is a fracture case.
-pub(super) fn is_fracture(path: &Path) -> bool {
-    std::fs::read_to_string(path).is_ok_and(|text| FractureCase::is_one(&text))
-}
-
-/// Reads the poses from a file, if it is a placement file.
-pub(super) fn placement(path: &Path) -> Option<PlacementFile> {
-    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
-}
-
-/// Reads a flume case and shows its warnings.
-pub(super) fn load(path: &Path) -> Result<Arc<Case>, Trouble> {
-    let case = Case::load(path).map_err(Trouble::refused)?;
-    show_warnings(&case.warnings);
-    Ok(Arc::new(case))
 }
 
 pub(super) fn show_warnings(warnings: &[String]) {

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::Trouble;
+use super::{Trouble, input::read};
 use crate::{
-    case::PlacementJob,
+    case::{InputKind, LayerJob},
     output::write_atomically,
     simulation::armour_layer::{PlacementError, place},
 };
@@ -34,7 +34,8 @@ pub struct PlaceArguments {
 
 impl PlaceArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let job = PlacementJob::load(&self.case).map_err(Trouble::refused)?;
+        let document = read(&self.case, &[InputKind::Flume, InputKind::DryTest])?;
+        let job = LayerJob::from_document(&document).map_err(Trouble::refused)?;
         let out = self.out.unwrap_or_else(|| self.case.with_extension("placement.json"));
         if out.exists() && !self.overwrite {
             let what = "exists already; add --overwrite to replace it, or choose another with --out FILE";

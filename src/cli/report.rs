@@ -4,8 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Trouble, input::is_fracture};
-use crate::report::{fracture::write_fracture_report, run::write_report};
+use super::{Trouble, input::read_run};
+use crate::{
+    case::InputKind,
+    report::{fracture::write_fracture_report, run::write_report},
+};
 
 /// Write the report of a finished run again.
 #[derive(Args)]
@@ -16,7 +19,15 @@ pub struct ReportArguments {
 
 impl ReportArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let write = if is_fracture(&self.dir.join("case.json")) { write_fracture_report } else { write_report };
+        let kind = read_run(&self.dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])?.kind();
+        let write = match kind {
+            InputKind::Fracture => write_fracture_report,
+            InputKind::DryTest => {
+                let what = "the run is a dry test, which has no report; see summary.json and units.csv";
+                return Err(Trouble::refused(format!("{}: {what}", self.dir.display())));
+            }
+            _ => write_report,
+        };
         let path = write(&self.dir).map_err(Trouble::refused)?;
         println!("{}", path.display());
         Ok(())

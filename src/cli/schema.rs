@@ -23,7 +23,7 @@ impl SchemaArguments {
         let text = match self {
             Self { dry: true, .. } => crate::case::dry_schema_text(),
             Self { fracture: true, .. } => crate::case::fracture_schema_text(),
-            Self { sweep: true, .. } => crate::sweep::plan::schema_text(),
+            Self { sweep: true, .. } => crate::case::sweep_schema_text(),
             _ => crate::case::schema_text(),
         };
         println!("{text}");

@@ -12,11 +12,12 @@ use super::{
     Trouble,
     devices::DeviceArgument,
     folder::{fresh_folder, stem},
+    input::read,
     machine::MachineArguments,
     run::{breakage, flume},
 };
 use crate::{
-    case::Case,
+    case::{Case, InputKind},
     output::Summary,
     report::sweep::write_sweep_chart,
     simulation::flume::{
@@ -76,7 +77,8 @@ enum Launcher {
 
 impl SweepArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let sweep = Sweep::load(&self.sweep).map_err(Trouble::refused)?;
+        let file = read(&self.sweep, &[InputKind::Sweep])?.parse().map_err(Trouble::refused)?;
+        let sweep = Sweep::new(file, &self.sweep).map_err(Trouble::refused)?;
         let dir = self.out.clone().unwrap_or_else(|| Path::new("runs").join(stem(&self.sweep)));
         fs::create_dir_all(&dir).map_err(|error| Trouble::refused(format!("{}: {error}", dir.display())))?;
         if let Some(number) = self.member {

@@ -7,10 +7,10 @@ use clap::Args;
 use super::{
     Trouble,
     folder::{fresh_folder, stem},
-    input::load,
+    input::{read, show_warnings},
 };
 use crate::{
-    case::{Quantity, Wave},
+    case::{Case, InputKind, Quantity, Wave},
     output::{OutputError, write_atomically, write_flume_gauges, write_flume_piston},
     report::wave_page::write_wave_page,
     simulation::flume::incoming::{ml_piston, particle_start, run_flume},
@@ -41,9 +41,10 @@ pub struct WaveArguments {
 
 impl WaveArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let case = load(&self.case)?;
+        let case = Case::from_document(&read(&self.case, &[InputKind::Flume])?).map_err(Trouble::refused)?;
+        show_warnings(&case.warnings);
         let refuse = |reason: &str| Err(Trouble::refused(format!("{}: {reason}", self.case.display())));
-        if matches!(case.wave, Wave::Given(_)) {
+        if matches!(case.wave, Wave::External(_)) {
             return refuse("wave.kind: the wave is read from files of another program; there is no flume model");
         }
         if case.wave != Wave::None && !case.wavemaker.is_ml_piston() {
@@ -86,7 +87,7 @@ impl WaveArguments {
             let (height, time) = record.crest(number);
             println!("  {:8} x = {:6.2} m: crest {:.4} m at {time:.2} s", gauge.name, gauge.at[0], height);
             let Some(series) = beside.get(number) else { continue };
-            match Comparison::new(&record, number, series, case.flume.still_level) {
+            match Comparison::new(&record, number, series, case.flume.still_water_level) {
                 Some(other) => println!(
                     "  {:22} OpenFOAM {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",

@@ -23,6 +23,7 @@ mod flume_tables;
 mod impacts;
 pub mod progress;
 mod series;
+mod size;
 pub(crate) mod state_file;
 mod summary;
 mod table;
@@ -36,6 +37,7 @@ pub use execution::Execution;
 pub use flume_tables::{write_flume_gauges, write_flume_piston};
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
 pub use series::{CsvSeries, is_due};
+pub use size::OutputSize;
 pub use summary::{
     BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
     UnitSummary, WaveSummary,

@@ -63,7 +63,7 @@ fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> L
         .collect();
     lines.extend(beside.iter().enumerate().map(|(colour, series)| Line {
         name: if colour == 0 { "dashed: other program".to_owned() } else { String::new() },
-        points: series.points().map(|[t, z]| [t, z - case.flume.still_level]).collect(),
+        points: series.points().map(|[t, z]| [t, z - case.flume.still_water_level]).collect(),
         colour,
         dashed: true,
         ..Line::default()

@@ -1,15 +1,17 @@
-//! The sweep file, and the runs that follow from it.
+//! The runs that follow from a sweep file.
 
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
 use super::key::{get, set, short};
+pub use crate::case::file::Combine;
 use crate::{
-    case::{Case, CaseErrors},
+    case::{
+        Case, CaseError, CaseErrors, Document, InputKind,
+        file::{SweepFile, VaryFile},
+    },
     simulation::flume::branch::difference,
 };
 
@@ -19,14 +21,9 @@ const MOST_RUNS: usize = 10_000;
 /// Why a sweep is refused.
 #[derive(Debug, Error)]
 pub enum SweepError {
-    /// The file cannot be read.
-    #[error("{}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Error of the operating system.
-        source: std::io::Error,
-    },
+    /// The sweep file or its case cannot be read, or has wrong keys.
+    #[error(transparent)]
+    File(#[from] CaseError),
     /// The file is not a valid sweep.
     #[error("{}: {what}", path.display())]
     Content {
@@ -45,66 +42,6 @@ pub enum SweepError {
         /// Errors in its case.
         errors: CaseErrors,
     },
-}
-
-/// A sweep: many runs of one case with keys that vary.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct SweepFile {
-    /// Path of the JSON schema, for editors (`breakwater schema --sweep` prints it). Not used by the solver.
-    #[serde(rename = "$schema", default)]
-    _schema: Option<String>,
-    /// Title of chart and runs.
-    title: String,
-    /// The case file, relative to the sweep file. Paths in the case file are relative to the case file.
-    case: PathBuf,
-    /// Keys with values that differ from the case but are the same in all runs: `{"domain.dp_m": 0.014}`.
-    #[serde(default)]
-    set: Map<String, Value>,
-    /// Keys with their values; the last key varies fastest.
-    vary: Vec<VaryFile>,
-    /// How the values of different keys are combined.
-    #[serde(default)]
-    combine: Combine,
-    /// Simulated time [s] until which the units do not move in any run. One common run with the first values covers
-    /// this time, and the other runs start from its checkpoint. Only friction, the rest criterion and titles may
-    /// then vary.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    common_start_s: Option<f64>,
-}
-
-/// How the values of the varied keys are combined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Combine {
-    /// All combinations of all values.
-    #[default]
-    All,
-    /// The base case, then each value alone; shows how much the result depends on each key.
-    OneAtATime,
-}
-
-/// A key of the case with its values: either `values`, or `from`, `to` and `count`.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct VaryFile {
-    /// Path of the key, as in `domain.dp_m` or `friction[1].coefficient`.
-    key: String,
-    /// Values of any type that the key allows.
-    #[schemars(length(min = 1))]
-    values: Option<Vec<Value>>,
-    /// First value.
-    from: Option<f64>,
-    /// Last value.
-    to: Option<f64>,
-    /// Number of equally spaced values, including both ends.
-    #[schemars(range(min = 2, max = 10_000))]
-    count: Option<usize>,
-}
-
-/// Returns the JSON schema of sweep files, indented.
-pub fn schema_text() -> String {
-    format!("{:#}", schemars::schema_for!(SweepFile).as_value())
 }
 
 /// A varied key of the case and its values.
@@ -153,27 +90,26 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Returns whether a text describes a sweep.
-    pub fn is_one(text: &str) -> bool {
-        serde_json::from_str::<Value>(text).is_ok_and(|value| value.get("vary").is_some())
-    }
-
     /// Reads a sweep and validates all of its runs.
     ///
     /// # Errors
     /// If the file is not a valid sweep, or the case of a run is refused.
     pub fn load(path: &Path) -> Result<Self, SweepError> {
+        Self::new(Document::read(path)?.parse()?, path)
+    }
+
+    /// Validates all runs of the sweep in the file `path`.
+    ///
+    /// # Errors
+    /// If the file is not a valid sweep, or the case of a run is refused.
+    pub fn new(file: SweepFile, path: &Path) -> Result<Self, SweepError> {
         let content = |what: String| SweepError::Content { path: path.to_owned(), what };
-        let read = |path: &Path| {
-            std::fs::read_to_string(path).map_err(|source| SweepError::Read { path: path.to_owned(), source })
-        };
-        let file: SweepFile = serde_json::from_str(&read(path)?).map_err(|error| content(error.to_string()))?;
         let case = path.parent().unwrap_or(Path::new("")).join(&file.case);
-        let mut base: Value = serde_json::from_str(&read(&case)?)
-            .map_err(|error| SweepError::Content { path: case.clone(), what: error.to_string() })?;
-        if !base.is_object() {
-            return Err(SweepError::Content { path: case, what: "must hold an object, { ... }".to_owned() });
+        let document = Document::read(&case)?;
+        if document.kind() != InputKind::Flume {
+            return Err(content(format!("case: {} is not a flume case; sweeps vary flume cases", case.display())));
         }
+        let mut base = Value::Object(document.parse::<Map<String, Value>>()?);
         let varied = file.vary.iter().enumerate().map(|(k, vary)| vary.values(k)).collect::<Result<Vec<_>, _>>();
         let varied = varied.map_err(&content)?;
         if varied.is_empty() {

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use breakwater::case::{DryCase, FractureCase, HandoverWay};
+use breakwater::case::{DryTestCase, FractureCase, RerunMethod};
 use breakwater::output::Impacts;
 use breakwater::output::driver::Control;
 use breakwater::simulation::breakage::model::Model;
 use breakwater::simulation::breakage::results::{Breakage, Moved, Outcome};
-use breakwater::simulation::breakage::run::{FOLDER, hand_over};
+use breakwater::simulation::breakage::run::{FOLDER, analyse_breakage};
 use breakwater::simulation::dry_test::run::run;
 use breakwater::simulation::fracture::run::world;
 use glam::DVec3;
@@ -19,21 +19,21 @@ fn drop_case() -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(root.join("cases/breakage/tetrapod-drop.json")).unwrap();
     let mut case: Value = serde_json::from_str(&text).unwrap();
-    case["fracture"]["mesh"] = json!(root.join("cases/fracture/meshes/tetrapod-coarse.msh"));
+    case["breakage"]["mesh"] = json!(root.join("cases/fracture/meshes/tetrapod-coarse.msh"));
     case
 }
 
 /// Runs a dry test and re-runs its impacts at prototype scale.
 fn rerun_impacts(case: &Value, dir: &Path) -> Breakage {
-    let case = DryCase::from_str(&case.to_string(), "drop.json").unwrap_or_else(|errors| panic!("{errors}"));
+    let case = DryTestCase::from_str(&case.to_string(), "drop.json").unwrap_or_else(|errors| panic!("{errors}"));
     let case = Arc::new(case);
     let summary = run(case.clone(), dir, &Control::quiet()).unwrap();
     let moved: Vec<Moved> =
         summary.units.iter().map(|unit| Moved { displacement: unit.moved_m, damaged: false }).collect();
-    hand_over(&Model::of_dry(&case), case.fracture.as_ref().unwrap(), &moved, dir, &Control::quiet()).unwrap()
+    analyse_breakage(&Model::of_dry(&case), case.breakage.as_ref().unwrap(), &moved, dir, &Control::quiet()).unwrap()
 }
 
-fn impact_by(breakage: &Breakage, way: HandoverWay) -> &Outcome {
+fn impact_by(breakage: &Breakage, way: RerunMethod) -> &Outcome {
     breakage.impacts.iter().find(|impact| impact.way == way).unwrap()
 }
 
@@ -46,7 +46,7 @@ fn a_dropped_tetrapod_keeps_momentum_energy_and_impulse() {
     let breakage = rerun_impacts(&case, folder.path());
     let impacts = Impacts::read(&folder.path().join(Impacts::FILE)).unwrap().impacts;
     // Momentum and energy of the nodes in the solver, compared with those of the rigid unit by Froude's law.
-    let file = folder.path().join(FOLDER).join(format!("{}.json", impact_by(&breakage, HandoverWay::ReEnact).name));
+    let file = folder.path().join(FOLDER).join(format!("{}.json", impact_by(&breakage, RerunMethod::ReEnact).name));
     let mut start = world(&FractureCase::load(&file).unwrap()).unwrap();
     let nodes = start.setup().bodies[0].tets.clone().flat_map(|tet| start.tets.nodes[tet]);
     let unit_nodes: std::collections::BTreeSet<u32> = nodes.collect();
@@ -65,7 +65,7 @@ fn a_dropped_tetrapod_keeps_momentum_energy_and_impulse() {
     let rigid: f64 = impacts.iter().map(|impact| impact.event.impulse[2]).sum::<f64>() * 50f64.powf(3.5);
     let weight = 37_500.0 * 9.81 * 0.02;
     let [reenacted, by_loads] =
-        [HandoverWay::ReEnact, HandoverWay::LoadHistory].map(|way| impact_by(&breakage, way).found[0].impulse_n_s[2]);
+        [RerunMethod::ReEnact, RerunMethod::LoadHistory].map(|way| impact_by(&breakage, way).found[0].impulse_n_s[2]);
     println!(
         "impulse over that of the rigid unit: re-enacted {:.4}, by load history {:.4}",
         (reenacted + weight) / rigid,

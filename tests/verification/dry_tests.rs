@@ -3,11 +3,11 @@
 use std::{path::Path, sync::Arc};
 
 use breakwater::{
-    case::{DryCase, PlacementJob},
+    case::{DryTestCase, LayerJob},
     output::{Impacts, driver::Control},
     simulation::{
         armour_layer::place,
-        dry_test::{DryRun, run::run},
+        dry_test::{DryTest, run::run},
     },
 };
 use serde_json::{Value, json};
@@ -17,8 +17,8 @@ fn case_file(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-fn dry_case(case: &Value) -> Arc<DryCase> {
-    let case = DryCase::from_str(&case.to_string(), "cases/contact/test.json");
+fn dry_case(case: &Value) -> Arc<DryTestCase> {
+    let case = DryTestCase::from_str(&case.to_string(), "cases/contact/test.json");
     Arc::new(case.unwrap_or_else(|errors| panic!("{errors}")))
 }
 
@@ -72,9 +72,8 @@ fn small_layer() -> Value {
 }
 
 #[test]
-fn a_placed_layer_is_at_rest_and_can_be_run() {
-    let job =
-        PlacementJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
+fn a_placed_layer_rests_and_can_be_run() {
+    let job = LayerJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let placed = place(&job, |_, _| ()).unwrap();
     println!(
         "{} units, packing density {:.3}, {} rolled off, overlap {:.2e} H, kinetic energy {:.1e} of the potential energy, {} contacts",
@@ -93,7 +92,7 @@ fn a_placed_layer_is_at_rest_and_can_be_run() {
     let mut case = small_layer();
     let file = placed.file("layer");
     case["units"]["poses"] = serde_json::to_value(&file.poses).unwrap();
-    let mut run = DryRun::new(dry_case(&case)).unwrap();
+    let mut run = DryTest::new(dry_case(&case)).unwrap();
     for _ in 0..200 {
         run.advance(1.0).unwrap();
     }
@@ -105,8 +104,7 @@ fn a_placed_layer_is_at_rest_and_can_be_run() {
 
 #[test]
 fn a_layer_is_the_same_for_any_number_of_threads() {
-    let job =
-        PlacementJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
+    let job = LayerJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let layer_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| place(&job, |_, _| ()).unwrap().units)

@@ -123,7 +123,7 @@ fn a_run_keeps_the_wave_that_it_read() {
     let first = simulation(folder.path(), &json!({ "kind": "file", "source": swash }));
     // These are the files that a run writes at its start.
     fs::write(run.path().join("case.json"), &first.case.text).unwrap();
-    let Wave::Given(wave) = &first.case.wave else { panic!("the wave does not come from files") };
+    let Wave::External(wave) = &first.case.wave else { panic!("the wave does not come from files") };
     fs::write(run.path().join(ROWS_FILE), wave.rows_text()).unwrap();
     drop(folder);
     let kept = Case::load(run.path().join("case.json")).unwrap_or_else(|errors| panic!("{errors}"));

@@ -128,7 +128,7 @@ fn mound_with_two_units(x: [f64; 2], end: f64) -> Simulation {
 fn assert_nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
     let mut flume = mound_with_two_units(x, end);
     let case = flume.case.clone();
-    let (level, deepest) = (case.flume.still_level, case.domain.depth);
+    let (level, deepest) = (case.flume.still_water_level, case.domain.depth);
     let on_bed = |x: f64| DVec3::new(x, 0.08, case.flume.profile.z(x));
     // Points seaward and shoreward of the mound, on its flanks, and on its crest away from the units.
     let places = [38.5, 38.6, 38.8, 38.88, 39.12, 39.2, 39.45, 39.55];

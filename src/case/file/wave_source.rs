@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A wave from another program: the velocity of its water at the wavemaker, over height and time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct GivenWaveFile {
+pub struct ExternalWaveFile {
     /// The files of the other program.
     pub source: WaveSourceFile,
     /// Celerity of the wave [m/s]. With it, the rows of the wavemaker follow the moving water. Without it, they move

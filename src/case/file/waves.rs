@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::wave_source::GivenWaveFile;
+use super::wave_source::ExternalWaveFile;
 
 /// The wave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,7 +18,7 @@ pub enum WaveFile {
     /// Irregular waves.
     Irregular(IrregularFile),
     /// A wave from another program.
-    File(GivenWaveFile),
+    File(ExternalWaveFile),
 }
 
 impl Default for WaveFile {

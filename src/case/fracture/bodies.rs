@@ -4,10 +4,10 @@ use std::ops::Range as TetRange;
 
 use glam::DVec3;
 
-use super::super::check::{Checker, above, from};
-use super::super::file::{
-    FractureBodyFile, FractureFile, FractureMaterialFile, HandoverMaterialFile, Joints, Softening, StrengthFile,
+use crate::case::file::{
+    BreakageMaterialFile, FractureBodyFile, FractureFile, FractureMaterialFile, Joints, Softening, StrengthFile,
 };
+use crate::case::reading::check::{Checker, at_least, more_than};
 use crate::femdem::material::cohesive_law::{Cohesion, Range};
 use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
@@ -20,13 +20,13 @@ use crate::femdem::setup::Body;
 const PENALTY: [f64; 2] = [50.0, 10.0];
 
 /// Returns the bodies in the order of the mesh.
-pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
+pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
     let before = check.count();
     let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
     for (index, material) in file.materials.iter().enumerate() {
         if file.materials[..index].iter().any(|other| other.name == material.name) {
             let path = format!("materials[{index}].name");
-            check.refuse(&path, format!("{:?}", material.name), "different from the others", "rename one");
+            check.reject(&path, format!("{:?}", material.name), "different from the others", "rename one");
         }
         validate_material(&format!("materials[{index}]"), material, check);
     }
@@ -34,11 +34,11 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
         if !names.contains(&body.name.as_str()) {
             let allowed = format!("one of {}", names.join(", "));
             let advice = "bodies are the physical volumes of the mesh";
-            check.refuse(&format!("bodies[{index}].name"), format!("{:?}", body.name), allowed, advice);
+            check.reject(&format!("bodies[{index}].name"), format!("{:?}", body.name), allowed, advice);
         }
         if file.bodies[..index].iter().any(|other| other.name == body.name) {
             let path = format!("bodies[{index}].name");
-            check.refuse(&path, format!("{:?}", body.name), "different from the others", "leave one out");
+            check.reject(&path, format!("{:?}", body.name), "different from the others", "leave one out");
         }
     }
     let mut bodies = Vec::new();
@@ -50,7 +50,7 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
             }
             None => {
                 let advice = "every physical volume of the mesh needs its entry";
-                check.refuse("bodies", "(missing)", format!("an entry named {:?}", mesh_body.name), advice);
+                check.reject("bodies", "(missing)", format!("an entry named {:?}", mesh_body.name), advice);
             }
         }
     }
@@ -58,7 +58,7 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
 }
 
 /// Validates concrete of units whose density follows from their mass.
-pub(in super::super) fn validate_concrete(path: &str, material: &HandoverMaterialFile, check: &mut Checker) {
+pub(in crate::case) fn validate_concrete(path: &str, material: &BreakageMaterialFile, check: &mut Checker) {
     let material = FractureMaterialFile {
         name: String::new(),
         // A valid placeholder: this entry has no density.
@@ -73,31 +73,49 @@ pub(in super::super) fn validate_concrete(path: &str, material: &HandoverMateria
 
 fn validate_material(entry: &str, material: &FractureMaterialFile, check: &mut Checker) {
     let path = |key: &str| format!("{entry}.{key}");
-    check.number(&path("density_kg_m3"), material.density_kg_m3, from(1.0).up_to(1e5), "kg/m3", "concrete has 2340");
+    check.number(
+        &path("density_kg_m3"),
+        material.density_kg_m3,
+        at_least(1.0).up_to(1e5),
+        "kg/m3",
+        "concrete has 2340",
+    );
     check.number(
         &path("young_modulus_pa"),
         material.young_modulus_pa,
-        from(1e3).up_to(1e13),
+        at_least(1e3).up_to(1e13),
         "Pa",
         "concrete has 2.6e10",
     );
-    check.number(&path("poisson_ratio"), material.poisson_ratio, from(0.0).up_to(0.45), "", "concrete has 0.2");
-    check.number(&path("viscosity_pa_s"), material.viscosity_pa_s, from(0.0).up_to(1e9), "Pa s", "0 for none");
+    check.number(&path("poisson_ratio"), material.poisson_ratio, at_least(0.0).up_to(0.45), "", "concrete has 0.2");
+    check.number(&path("viscosity_pa_s"), material.viscosity_pa_s, at_least(0.0).up_to(1e9), "Pa s", "0 for none");
     let Some(strength) = &material.strength else { return };
     let path = |key: &str| format!("{entry}.strength.{key}");
     let StrengthFile { tensile_pa, cohesion_pa, friction_angle_deg, fracture_energy_j_m2, sliding_energy_j_m2 } =
         *strength;
-    check.number(&path("tensile_pa"), tensile_pa, above(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
-    check.number(&path("friction_angle_deg"), friction_angle_deg, from(0.0).below(90.0), "degrees", "concrete has 30");
+    check.number(&path("tensile_pa"), tensile_pa, more_than(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
+    check.number(
+        &path("friction_angle_deg"),
+        friction_angle_deg,
+        at_least(0.0).below(90.0),
+        "degrees",
+        "concrete has 30",
+    );
     let least = tensile_pa * friction_angle_deg.to_radians().tan();
     let advice = "the shear strength must be positive at the tensile strength";
-    check.number(&path("cohesion_pa"), cohesion_pa, above(least).up_to(1e11), "Pa", advice);
-    check.number(&path("fracture_energy_j_m2"), fracture_energy_j_m2, above(0.0).up_to(1e7), "J/m2", "concrete has 50");
+    check.number(&path("cohesion_pa"), cohesion_pa, more_than(least).up_to(1e11), "Pa", advice);
+    check.number(
+        &path("fracture_energy_j_m2"),
+        fracture_energy_j_m2,
+        more_than(0.0).up_to(1e7),
+        "J/m2",
+        "concrete has 50",
+    );
     if let Some(energy) = sliding_energy_j_m2 {
         check.number(
             &path("sliding_energy_j_m2"),
             energy,
-            above(0.0).up_to(1e7),
+            more_than(0.0).up_to(1e7),
             "J/m2",
             "leave it out to use fracture_energy_j_m2",
         );
@@ -114,14 +132,14 @@ fn validate_body(
     let Some(material) = file.materials.iter().find(|material| material.name == body.material) else {
         let allowed = "the name of one of `materials`";
         let path = format!("bodies[{index}].material");
-        check.refuse(&path, format!("{:?}", body.material), allowed, "add the material or correct the name");
+        check.reject(&path, format!("{:?}", body.material), allowed, "add the material or correct the name");
         return None;
     };
     let motion = [body.velocity_m_s, body.angular_velocity_rad_s, body.pivot_m];
     for (values, key) in motion.iter().zip(["velocity_m_s", "angular_velocity_rad_s", "pivot_m"]) {
         for (axis, value) in values.iter().enumerate() {
             let path = format!("bodies[{index}].{key}[{axis}]");
-            check.number(&path, *value, from(-1e4).up_to(1e4), "", "check the number and its unit");
+            check.number(&path, *value, at_least(-1e4).up_to(1e4), "", "check the number and its unit");
         }
     }
     let elastic = Elastic {
@@ -132,7 +150,7 @@ fn validate_body(
     };
     if body.rigid && body.cracks {
         let path = format!("bodies[{index}].rigid");
-        check.refuse(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
+        check.reject(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
     }
     let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
     let cohesion = match &material.strength {
@@ -140,7 +158,7 @@ fn validate_body(
         None if body.cracks => {
             let advice = "give tensile strength, cohesion, friction angle and fracture energy";
             let path = format!("bodies[{index}].cracks");
-            check.refuse(&path, "true", format!("false, because {:?} has no strength", material.name), advice);
+            check.reject(&path, "true", format!("false, because {:?} has no strength", material.name), advice);
             None
         }
         _ => None,

@@ -2,28 +2,28 @@
 
 use std::collections::BTreeSet;
 
-use super::super::check::{Checker, from};
-use super::super::file::{BodyFrictionFile, FractureFile, VelocityFile};
 use super::loads::factor;
+use crate::case::file::{BodyFrictionFile, FractureFile, VelocityFile};
+use crate::case::reading::check::{Checker, at_least};
 use crate::femdem::loads::history::History;
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::FaceSet;
 use crate::femdem::setup::Constraint;
 
 /// Returns the friction coefficients between the bodies, in the order of the mesh.
-pub(super) fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
+pub fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
     let count = mesh.mesh.bodies.len();
     let mut table = vec![vec![0.0; count]; count];
     for (index, BodyFrictionFile { between, coefficient }) in file.friction.iter().enumerate() {
         let path = format!("friction[{index}].coefficient");
-        check.number(&path, *coefficient, from(0.0).up_to(10.0), "", "concrete on concrete has 0.6");
+        check.number(&path, *coefficient, at_least(0.0).up_to(10.0), "", "concrete on concrete has 0.6");
         let numbers = between.each_ref().map(|name| mesh.mesh.bodies.iter().position(|body| body.name == *name));
         match numbers {
             [Some(a), Some(b)] => {
                 table[a][b] = *coefficient;
                 table[b][a] = *coefficient;
             }
-            _ => check.refuse(
+            _ => check.reject(
                 &format!("friction[{index}].between"),
                 format!("{between:?}"),
                 "names of two bodies of the mesh",
@@ -49,7 +49,7 @@ fn nodes_of(name: &str, mesh: &PreparedMesh) -> Option<Vec<u32>> {
 }
 
 /// Returns the constraints of the sets. A node of several sets takes each component from the last set that gives it.
-pub(super) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
+pub fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
     let mut histories: Vec<History<1>> = Vec::new();
     // Indices into `histories` for each node.
     let mut histories_of_node: Vec<[Option<u32>; 3]> = vec![[None; 3]; mesh.mesh.nodes.len()];
@@ -59,7 +59,7 @@ pub(super) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut 
             let names: Vec<&str> = surfaces.chain(mesh.mesh.node_sets.iter().map(|set| set.name.as_str())).collect();
             let allowed = format!("one of {}", names.join(", "));
             let advice = "sets are the physical surfaces, curves and points of the mesh";
-            check.refuse(&format!("constraints[{index}].set"), format!("{:?}", constraint.set), allowed, advice);
+            check.reject(&format!("constraints[{index}].set"), format!("{:?}", constraint.set), allowed, advice);
             continue;
         };
         for (axis, given) in constraint.velocity_m_s.iter().enumerate() {
@@ -89,7 +89,7 @@ pub(super) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut 
 }
 
 fn velocity(given: &VelocityFile, path: &str, check: &mut Checker) -> Option<History<1>> {
-    let range = || from(-1e4).up_to(1e4);
+    let range = || at_least(-1e4).up_to(1e4);
     match given {
         VelocityFile::Constant(v) => check.number(path, *v, range(), "m/s", "0 fixes it").then(|| History::from(*v)),
         VelocityFile::History(rows) => {

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::super::check::{Checker, from, show};
-use super::super::file::{FractureFile, LoadAxes, LoadFile, LoadedFaces};
+use crate::case::file::{FractureFile, LoadAxes, LoadFile, LoadedFaces};
+use crate::case::reading::check::{Checker, as_text, at_least};
 use crate::femdem::loads::history::History;
 use crate::femdem::loads::patch::{Axes, Patch, faces_near};
 use crate::femdem::loads::{Load, Surface};
@@ -14,7 +14,7 @@ use crate::femdem::mesh::faces::Exterior;
 const MOST: f64 = 1e12;
 
 /// Returns the loads without errors.
-pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Load> {
+pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Load> {
     let each = file.loads.iter().enumerate();
     each.filter_map(|(index, load)| {
         let path = format!("loads[{index}]");
@@ -57,7 +57,7 @@ fn faces_of(name: &str, path: &str, mesh: &PreparedMesh, check: &mut Checker) ->
         let names: Vec<&str> = mesh.faces.boundaries.iter().map(|set| set.name.as_str()).collect();
         let allowed = format!("one of {}", names.join(", "));
         let advice = "loaded sets are physical surfaces of the mesh";
-        check.refuse(&format!("{path}.set"), format!("{name:?}"), allowed, advice);
+        check.reject(&format!("{path}.set"), format!("{name:?}"), allowed, advice);
     }
     found.map(|set| set.faces.iter().map(|face| mesh.faces.exteriors[*face as usize]).collect())
 }
@@ -75,25 +75,26 @@ fn loaded_faces(
     if body.is_none() {
         let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
         let allowed = format!("one of {}", names.join(", "));
-        check.refuse(&format!("{path}.body"), format!("{name:?}"), allowed, "name the body on which the force acts");
+        check.reject(&format!("{path}.body"), format!("{name:?}"), allowed, "name the body on which the force acts");
     }
     let mut good = true;
     for (axis, x) in place_m.iter().enumerate() {
-        good &= check.number(&format!("{path}.place_m[{axis}]"), *x, from(-1e4).up_to(1e4), "m", "write it in metres");
+        good &=
+            check.number(&format!("{path}.place_m[{axis}]"), *x, at_least(-1e4).up_to(1e4), "m", "write it in metres");
     }
     let advice = "0 loads the nearest face";
-    good &= check.number(&format!("{path}.radius_m"), radius_m, from(0.0).up_to(1e3), "m", advice);
+    good &= check.number(&format!("{path}.radius_m"), radius_m, at_least(0.0).up_to(1e3), "m", advice);
     let body = body.filter(|_| good)?;
     let near = faces_near(mesh, body, DVec3::from_array(place_m), radius_m);
     let farthest = near.edge.max(radius_m);
     if near.distance > farthest {
-        check.refuse(
+        check.reject(
             &format!("{path}.place_m"),
             format!("{place_m:?}"),
             format!(
                 "at most {} m from the surface of {name:?} (the face length or the radius); it is {} m away",
-                show(farthest),
-                show(near.distance)
+                as_text(farthest),
+                as_text(near.distance)
             ),
             "give the position in the undeformed mesh",
         );
@@ -112,7 +113,7 @@ fn given_factor(rows: Option<&[[f64; 2]]>, path: &str, check: &mut Checker) -> O
 }
 
 /// Returns the history of one value; its times must rise.
-pub(super) fn factor(rows: &[[f64; 2]], path: &str, check: &mut Checker) -> Option<History<1>> {
+pub fn factor(rows: &[[f64; 2]], path: &str, check: &mut Checker) -> Option<History<1>> {
     rising(rows.iter().map(|[t, value]| (*t, [*value])).collect(), path, check)
 }
 
@@ -124,7 +125,7 @@ fn forces(rows: &[Vec<f64>], path: &str, check: &mut Checker) -> Option<History<
         let path = format!("{path}[{index}]");
         if !matches!(row.len(), 4 | 7) {
             let allowed = "t, F_x, F_y, F_z, or these and M_x, M_y, M_z";
-            check.refuse(&path, format!("{row:?}"), allowed, "seconds, newtons, newton metres");
+            check.reject(&path, format!("{row:?}"), allowed, "seconds, newtons, newton metres");
             return None;
         }
         if !numbers(&row[1..], &path, "", check) {
@@ -143,9 +144,10 @@ fn rising<const N: usize>(rows: Vec<(f64, [f64; N])>, path: &str, check: &mut Ch
     let history = History::new(rows).filter(|_| finite);
     if history.is_none() {
         let bad = times.windows(2).position(|pair| pair[1].is_nan() || pair[0] >= pair[1]);
-        let value =
-            bad.map_or("no row".to_owned(), |row| format!("{} s after {} s", show(times[row + 1]), show(times[row])));
-        check.refuse(path, value, "at least one row, each later than the one before", "sort the rows by time");
+        let value = bad.map_or("no row".to_owned(), |row| {
+            format!("{} s after {} s", as_text(times[row + 1]), as_text(times[row]))
+        });
+        check.reject(path, value, "at least one row, each later than the one before", "sort the rows by time");
     }
     history
 }
@@ -155,7 +157,7 @@ fn numbers(values: &[f64], path: &str, unit: &str, check: &mut Checker) -> bool 
     let mut good = true;
     for (index, value) in values.iter().enumerate() {
         let path = if values.len() == 1 { path.to_owned() } else { format!("{path}[{index}]") };
-        good &= check.number(&path, *value, from(-MOST).up_to(MOST), unit, "check the number and its unit");
+        good &= check.number(&path, *value, at_least(-MOST).up_to(MOST), unit, "check the number and its unit");
     }
     good
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::super::check::{Checker, above, from};
-use super::super::file::{FractureFile, LandmarkFile};
+use crate::case::file::{FractureFile, LandmarkFile};
+use crate::case::reading::check::{Checker, at_least, more_than};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Setup;
 
@@ -40,19 +40,19 @@ impl Plane {
     }
 }
 
-pub(super) fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
+pub fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
     let validate = |(index, landmark): (usize, &LandmarkFile)| {
         let path = |key: &str| format!("landmarks[{index}].{key}");
         if landmark.name.trim().is_empty() {
             let advice = "write a name that readers understand";
-            check.refuse(&path("name"), format!("{:?}", landmark.name), "some words", advice);
+            check.reject(&path("name"), format!("{:?}", landmark.name), "some words", advice);
         }
         for axis in 0..3 {
             let (low, high) = (landmark.low_m[axis], landmark.high_m[axis]);
             let advice = "write a coordinate of the undeformed mesh";
-            check.number(&path(&format!("low_m[{axis}]")), low, from(-1e4).up_to(1e4), "m", advice);
+            check.number(&path(&format!("low_m[{axis}]")), low, at_least(-1e4).up_to(1e4), "m", advice);
             let advice = "high_m must not be below low_m";
-            check.number(&path(&format!("high_m[{axis}]")), high, from(low).up_to(1e4), "m", advice);
+            check.number(&path(&format!("high_m[{axis}]")), high, at_least(low).up_to(1e4), "m", advice);
         }
         Landmark {
             name: landmark.name.trim().to_owned(),
@@ -64,7 +64,7 @@ pub(super) fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmar
 
 /// Returns the cut plane of the case. The default is normal to y through the centroid of the bodies that can crack, or
 /// of all bodies if none can.
-pub(super) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
+pub fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
     let Some(given) = file.output.section else {
         let cracks = |tet: usize| setup.bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&tet));
         let all = !setup.bodies.iter().any(|body| body.cohesion.is_some());
@@ -79,10 +79,10 @@ pub(super) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, c
     };
     let normal = DVec3::from_array(given.normal);
     let advice = "[0, 1, 0] cuts along x and z";
-    check.number("output.section.normal (its length)", normal.length(), above(0.0).up_to(1e6), "", advice);
+    check.number("output.section.normal (its length)", normal.length(), more_than(0.0).up_to(1e6), "", advice);
     for (axis, value) in given.point_m.into_iter().enumerate() {
         let advice = "write a point inside a body";
-        check.number(&format!("output.section.point_m[{axis}]"), value, from(-1e4).up_to(1e4), "m", advice);
+        check.number(&format!("output.section.point_m[{axis}]"), value, at_least(-1e4).up_to(1e4), "m", advice);
     }
     Plane { point: DVec3::from_array(given.point_m), normal: normal.normalize_or(DVec3::Y) }
 }

@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::Trouble;
 use crate::{
-    case::{Case, DryCase, Handover},
+    case::{BreakageSettings, Case, DryTestCase, InputFile, InputKind},
     cli::{
-        input::{AnyCase, load_any},
+        input::{load_run, other_kind},
         machine::MachineArguments,
     },
     output::{BreakageSummary, Summary, UnitSummary, driver::Control},
@@ -17,16 +17,15 @@ use crate::{
         breakage::{
             model::Model,
             results::{Breakage, Moved, state_in_words},
-            run::{FOLDER, hand_over},
+            run::{FOLDER, analyse_breakage},
         },
-        dry_test::summary::{DrySummary, DryUnit},
+        dry_test::summary::{DryTestSummary, DryUnit},
     },
 };
 
-/// Re-run the hardest impacts of a finished run at prototype scale, with units that can break.
-///
-/// Settings: `fracture` in the case. `run` does this at its end; use this command to continue after an interruption, or
-/// to repeat it after a change of `fracture` in the case.json of the run.
+/// Do the units break? Re-runs the hardest impacts of a finished run at prototype scale, with units that deform and crack,
+/// as the case's `breakage` says. `run` does so at its end; this command continues after an interruption, or starts again
+/// with another `breakage` in the run's case.json.
 #[derive(Args)]
 pub struct BreakageArguments {
     /// Folder of the run.
@@ -37,26 +36,22 @@ pub struct BreakageArguments {
 
 impl BreakageArguments {
     pub(in crate::cli) fn execute(self) -> Result<(), Trouble> {
-        let file = self.dir.join("case.json");
-        let case = load_any(&file)?;
+        let case = load_run(&self.dir, &[InputKind::Flume, InputKind::DryTest])?;
         let control = self.machine.prepare()?;
-        let asks = match &case {
-            AnyCase::Wet(case) => case.fracture.is_some(),
-            AnyCase::Dry(case) => case.fracture.is_some(),
-        };
-        if !asks {
-            let what = "has no `fracture`; add it with the material of the units to the case, and rerun the case";
-            return Err(Trouble::refused(format!("{}: {what}", file.display())));
-        }
-        match &case {
-            AnyCase::Wet(case) => {
+        match case {
+            InputFile::Flume(case) if case.breakage.is_some() => {
                 let summary = Summary::read(&self.dir).map_err(Trouble::refused)?;
-                after_flume_run(case, &summary, &self.dir, &control)
+                after_flume_run(&case, &summary, &self.dir, &control)
             }
-            AnyCase::Dry(case) => {
-                let summary = DrySummary::read(&self.dir).map_err(Trouble::refused)?;
-                after_dry_test(case, &summary, &self.dir, &control)
+            InputFile::DryTest(case) if case.breakage.is_some() => {
+                let summary = DryTestSummary::read(&self.dir).map_err(Trouble::refused)?;
+                after_dry_test(&case, &summary, &self.dir, &control)
             }
+            InputFile::Flume(_) | InputFile::DryTest(_) => {
+                let what = "has no `breakage`: write there what the units are made of, and run the case again";
+                Err(Trouble::refused(format!("{}: {what}", self.dir.join("case.json").display())))
+            }
+            other => Err(other_kind(&self.dir, other.kind())),
         }
     }
 }
@@ -68,7 +63,7 @@ pub(in crate::cli) fn after_flume_run(
     dir: &Path,
     control: &Control,
 ) -> Result<(), Trouble> {
-    let (Some(settings), Some(model)) = (&case.fracture, Model::of_case(case)) else { return Ok(()) };
+    let (Some(settings), Some(model)) = (&case.breakage, Model::of_case(case)) else { return Ok(()) };
     let moved = |unit: &UnitSummary| Moved { displacement: unit.displacement_m, damaged: unit.damaged };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     let ended = analyse(&model, settings, &moved, dir, control);
@@ -81,23 +76,29 @@ pub(in crate::cli) fn after_flume_run(
 
 /// Analyses breakage after a dry test, if its case asks for it.
 pub(super) fn after_dry_test(
-    case: &DryCase,
-    summary: &DrySummary,
+    case: &DryTestCase,
+    summary: &DryTestSummary,
     dir: &Path,
     control: &Control,
 ) -> Result<(), Trouble> {
-    let Some(settings) = &case.fracture else { return Ok(()) };
+    let Some(settings) = &case.breakage else { return Ok(()) };
     let limit = case.units.damage_distance;
     let moved = |unit: &DryUnit| Moved { displacement: unit.moved_m, damaged: unit.moved_m > limit };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     analyse(&Model::of_dry(case), settings, &moved, dir, control)
 }
 
-fn analyse(model: &Model, settings: &Handover, moved: &[Moved], dir: &Path, control: &Control) -> Result<(), Trouble> {
+fn analyse(
+    model: &Model,
+    settings: &BreakageSettings,
+    moved: &[Moved],
+    dir: &Path,
+    control: &Control,
+) -> Result<(), Trouble> {
     if !control.quiet {
         eprintln!("impacts re-run at prototype scale, length scale {}:", settings.scale);
     }
-    let breakage = hand_over(model, settings, moved, dir, control).map_err(Trouble::failed)?;
+    let breakage = analyse_breakage(model, settings, moved, dir, control).map_err(Trouble::failed)?;
     for impact in breakage.impacts.iter().filter(|impact| impact.failure.is_none()) {
         write_fracture_report(&dir.join(FOLDER).join(&impact.name)).map_err(Trouble::failed)?;
     }

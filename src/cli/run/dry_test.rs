@@ -4,14 +4,14 @@ use std::{path::Path, sync::Arc};
 
 use super::{Trouble, breakage, trouble};
 use crate::{
-    case::DryCase,
+    case::DryTestCase,
     output::{
         driver::{Control, RunError},
         progress::readable,
     },
     simulation::dry_test::{
         run::{resume, run},
-        summary::DrySummary,
+        summary::DryTestSummary,
     },
 };
 
@@ -19,20 +19,20 @@ use crate::{
 const MOST_LINES: usize = 20;
 
 /// Runs a test from its start; then the breakage analysis, if the case has one.
-pub(super) fn run_case(case: &Arc<DryCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
+pub(super) fn run_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
     introduce(case, dir, control.quiet);
     let summary = finish(run(case.clone(), dir, control), dir)?;
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
 /// Continues a test from its last checkpoint.
-pub(super) fn resume_case(case: &Arc<DryCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
+pub(super) fn resume_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
     introduce(case, dir, control.quiet);
     let summary = finish(resume(case.clone(), dir, control), dir)?;
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
-fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
+fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
     if quiet {
         return;
     }
@@ -50,7 +50,7 @@ fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
 }
 
 /// Prints how a test ended.
-fn finish(ended: Result<DrySummary, RunError>, dir: &Path) -> Result<DrySummary, Trouble> {
+fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTestSummary, Trouble> {
     let summary = ended.map_err(trouble)?;
     println!(
         "{:.2} s simulated in {} substeps and {} ({})",
@@ -75,6 +75,6 @@ fn finish(ended: Result<DrySummary, RunError>, dir: &Path) -> Result<DrySummary,
         100.0 * summary.deepest_overlap,
         summary.kinetic_j
     );
-    println!("summary: {}; units.vtkhdf opens in ParaView", dir.join(DrySummary::FILE).display());
+    println!("summary: {}; units.vtkhdf opens in ParaView", dir.join(DryTestSummary::FILE).display());
     Ok(summary)
 }

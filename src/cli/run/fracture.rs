@@ -6,10 +6,10 @@ use clap::Args;
 
 use super::{Trouble, require_checkpoint, trouble};
 use crate::{
-    case::FractureCase,
+    case::{FractureCase, InputKind},
     cli::{
         folder::{fresh_folder, stem},
-        input::show_warnings,
+        input::{read, show_warnings},
         machine::MachineArguments,
     },
     femdem::world::World,
@@ -45,7 +45,9 @@ pub struct FractureArguments {
 
 impl FractureArguments {
     pub(in crate::cli) fn execute(self) -> Result<(), Trouble> {
-        let case = load(&self.case)?;
+        let document = read(&self.case, &[InputKind::Fracture])?;
+        let case = FractureCase::from_document(&document).map_err(Trouble::refused)?;
+        show_warnings(&case.warnings);
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let control = self.machine.prepare()?;
         let world = at_start(&case, &self.case)?;
@@ -55,15 +57,13 @@ impl FractureArguments {
     }
 }
 
-/// Continues an interrupted run.
-pub(super) fn resume_run(dir: &Path, machine: &MachineArguments) -> Result<(), Trouble> {
-    let path = dir.join("case.json");
-    let case = load(&path)?;
+/// Go on with an interrupted run.
+pub(super) fn resume_run(case: &FractureCase, dir: &Path, machine: &MachineArguments) -> Result<(), Trouble> {
     require_checkpoint(&dir.join(checkpoint::FILE))?;
     let control = machine.prepare()?;
-    let world = at_start(&case, &path)?;
-    introduce(&case, dir, &control);
-    finish(resume(&case, world, dir, &control), dir)
+    let world = at_start(case, &dir.join("case.json"))?;
+    introduce(case, dir, &control);
+    finish(resume(case, world, dir, &control), dir)
 }
 
 /// Builds the world of a case read from a file.
@@ -87,16 +87,9 @@ fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), Tr
     Ok(())
 }
 
-fn load(path: &Path) -> Result<FractureCase, Trouble> {
-    let case = FractureCase::load(path).map_err(Trouble::refused)?;
-    show_warnings(&case.warnings);
-    Ok(case)
-}
-
-/// Prints the contents of a fracture case and the cost of a run.
-pub(in crate::cli) fn check(path: &Path) -> Result<(), Trouble> {
-    let case = load(path)?;
-    let world = at_start(&case, path)?;
+/// Tell what a fracture case holds and what it costs.
+pub(in crate::cli) fn check(case: &FractureCase, path: &Path) -> Result<(), Trouble> {
+    let world = at_start(case, path)?;
     println!("{}: {}", path.display(), case.title);
     for quality in &case.mesh.quality {
         println!(

@@ -5,7 +5,10 @@ mod dry_test;
 pub(super) mod flume;
 pub(super) mod fracture;
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use clap::Args;
 
@@ -13,13 +16,14 @@ use super::{
     Trouble,
     devices::DeviceArgument,
     folder::{fresh_folder, stem},
-    input::{AnyCase, is_fracture, load_any},
+    input::{load, load_run, other_kind},
     machine::MachineArguments,
 };
 use crate::{
+    case::{InputFile, InputKind},
     output::driver::RunError,
     simulation::{
-        dry_test::recorder::DryRecorder,
+        dry_test::recorder::DryTestRecorder,
         flume::{
             branch::Start,
             checkpoint::{Checkpoint, device_of},
@@ -64,11 +68,12 @@ pub struct ResumeArguments {
 
 impl RunArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let case = load_any(&self.case)?;
+        let case = load(&self.case, &[InputKind::Flume, InputKind::DryTest])?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let control = self.machine.prepare()?;
         match case {
-            AnyCase::Wet(case) => {
+            InputFile::Flume(case) => {
+                let case = Arc::from(case);
                 let device = self.device.open(&case, control.quiet)?;
                 let options = RunOptions { device, control, until: None };
                 let start = match &self.from {
@@ -76,48 +81,45 @@ impl RunArguments {
                         let what = "is the folder of the results; give another one with --out";
                         return Err(Trouble::refused(format!("--from {}: {what}", from.display())));
                     }
-                    Some(from) => Some(Start::at(case.clone(), from, &options).map_err(Trouble::refused)?),
+                    Some(from) => Some(Start::at(Arc::clone(&case), from, &options).map_err(Trouble::refused)?),
                     None => None,
                 };
                 fresh_folder(&dir, self.overwrite)?;
                 flume::run_case(&case, start, &dir, &options)
             }
-            AnyCase::Dry(case) => {
+            InputFile::DryTest(case) => {
                 self.device.refuse_card()?;
                 if let Some(from) = &self.from {
                     let what = "only flume cases can begin at the checkpoint of another run";
                     return Err(Trouble::refused(format!("--from {}: {what}", from.display())));
                 }
                 fresh_folder(&dir, self.overwrite)?;
-                dry_test::run_case(&case, &dir, &control)
+                dry_test::run_case(&Arc::from(case), &dir, &control)
             }
+            other => Err(other_kind(&self.case, other.kind())),
         }
     }
 }
 
 impl ResumeArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = self.dir.join("case.json");
-        if is_fracture(&file) {
-            return fracture::resume_run(&self.dir, &self.machine);
-        }
-        let case = load_any(&file)?;
-        require_checkpoint(&self.dir.join(match &case {
-            AnyCase::Wet(_) => Checkpoint::FILE,
-            AnyCase::Dry(_) => DryRecorder::CHECKPOINT,
-        }))?;
-        let control = self.machine.prepare()?;
-        match case {
-            AnyCase::Wet(case) => {
+        match load_run(&self.dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])? {
+            InputFile::Flume(case) => {
+                require_checkpoint(&self.dir.join(Checkpoint::FILE))?;
+                let (case, control) = (Arc::from(case), self.machine.prepare()?);
                 let before = || device_of(&self.dir).map_or(DeviceChoice::Auto, |name| DeviceChoice::named(&name));
                 let device = DeviceArgument { device: self.device.unwrap_or_else(before) };
                 let device = device.open(&case, control.quiet)?;
                 flume::resume_case(&case, &self.dir, &RunOptions { device, control, until: None })
             }
-            AnyCase::Dry(case) => {
+            InputFile::DryTest(case) => {
+                require_checkpoint(&self.dir.join(DryTestRecorder::CHECKPOINT))?;
+                let control = self.machine.prepare()?;
                 DeviceArgument { device: self.device.unwrap_or_default() }.refuse_card()?;
-                dry_test::resume_case(&case, &self.dir, &control)
+                dry_test::resume_case(&Arc::from(case), &self.dir, &control)
             }
+            InputFile::Fracture(case) => fracture::resume_run(&case, &self.dir, &self.machine),
+            other => Err(other_kind(&self.dir, other.kind())),
         }
     }
 }

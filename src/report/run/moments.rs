@@ -152,7 +152,7 @@ impl<'a> Moments<'a> {
             + &self.scale.drawing(&moment.dots, &self.scene.window, self.slab.spacing)
             + &self.scene.bed()
             + &self.scene.units(&moment.poses, false)
-            + &self.scene.still_level()
+            + &self.scene.still_water_level()
             + &self.wavemaker(moment);
         self.scene.window.framed(id, "z [m]", &drawing)
     }

@@ -68,7 +68,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Draws the line of the still water level with its label.
-    pub fn still_level(&self) -> String {
+    pub fn still_water_level(&self) -> String {
         let [left, _, right, _] = self.window.edges();
         let surface = self.window.at(0.0, self.run.summary.still_water_level_m)[1];
         format!("<path class=\"still\" d=\"M{left:.1} {surface:.1}H{right:.1}\"/>")

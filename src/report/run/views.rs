@@ -40,8 +40,10 @@ fn side_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])], moment: us
     let heights = centres.flat_map(|z| [z - radius, z + radius]).chain(bed_in(run, x).into_iter().map(|p| p[1]));
     let [low, high] = range(heights.chain([level])).unwrap_or([0.0, 1.0]);
     let scene = Scene::new(run, Window::new(x, [low - 0.5 * radius, high + 0.6 * radius]), Eye::Side);
-    let drawing =
-        scene.still_water() + &scene.bed() + &scene.units(&poses_at(ends, moment), moment == 1) + &scene.still_level();
+    let drawing = scene.still_water()
+        + &scene.bed()
+        + &scene.units(&poses_at(ends, moment), moment == 1)
+        + &scene.still_water_level();
     svg(title, scene.window.height(), &scene.window.framed(&format!("side{moment}"), "z [m]", &drawing))
 }
 

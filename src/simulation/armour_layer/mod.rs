@@ -11,7 +11,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::{
-    case::{PlacementFile, PlacementJob, PoseFile, Site},
+    case::{LayerJob, PlacementFile, PoseFile, Site},
     rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
     simulation::bodies::rigid_setup,
 };
@@ -52,7 +52,7 @@ pub enum PlacementError {
 
 /// A layer that has settled.
 #[derive(Debug, Clone)]
-pub struct Placement {
+pub struct ArmourLayer {
     /// The units at rest.
     pub units: Vec<BodyState>,
     /// Number of units whose centre came to rest outside the ends of the layers.
@@ -73,7 +73,7 @@ pub struct Placement {
     pub contacts: usize,
 }
 
-impl Placement {
+impl ArmourLayer {
     /// Returns the poses as a placement file.
     pub fn file(&self, title: &str) -> PlacementFile {
         let pose = |state: &BodyState| PoseFile {
@@ -92,7 +92,7 @@ impl Placement {
 ///
 /// # Errors
 /// If there is no room for a unit, or the contact solver becomes unstable.
-pub fn place(job: &PlacementJob, mut report: impl FnMut(usize, f64)) -> Result<Placement, PlacementError> {
+pub fn place(job: &LayerJob, mut report: impl FnMut(usize, f64)) -> Result<ArmourLayer, PlacementError> {
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
     let height = job.units.shape.height();
@@ -124,7 +124,7 @@ pub fn place(job: &PlacementJob, mut report: impl FnMut(usize, f64)) -> Result<P
     let [x0, x1] = job.armour.x;
     let rolled_off = units.iter().filter(|unit| !(x0..=x1).contains(&unit.position.x)).count();
     let energy = world.energy();
-    Ok(Placement {
+    Ok(ArmourLayer {
         rolled_off,
         packing_density: (units.len() - rolled_off) as f64 / job.area(),
         deepest_overlap: world.deepest_overlap() / height,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DQuat;
 
 use crate::{
-    case::{ArmourOrientation, PlacementJob, Sides},
+    case::{ArmourOrientation, LayerJob, Sides},
     random::SplitMix64,
 };
 
@@ -21,7 +21,7 @@ pub(super) struct Slot {
 const FROM_WALL: f64 = 0.68;
 
 /// Returns the rows in the order of placing: layer by layer, each from its lower end upwards.
-pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
+pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
     let (armour, unit) = (&job.armour, job.units.shape.unit());
     let mut random = SplitMix64::new(armour.seed);
     let slope = job.slope();

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::froude::{BlowScale, Froude};
 use super::model::Model;
-use crate::case::{ContactLawName, Handover};
+use crate::case::{BreakageSettings, ContactLawName};
 use crate::femdem::mesh::unit_mesh::Pose;
 use crate::output::Impact;
 use crate::rigid::{BodyState, Material, effective_young_modulus, impact_overlap};
@@ -15,7 +15,7 @@ pub struct Blow<'a> {
     /// The units of the run.
     pub model: &'a Model,
     /// Settings of the breakage analysis.
-    pub handover: &'a Handover,
+    pub settings: &'a BreakageSettings,
     /// The recorded impact.
     pub impact: &'a Impact,
     /// Scale factors of lengths, velocities and masses.
@@ -50,13 +50,13 @@ pub struct Balance {
 
 impl<'a> Blow<'a> {
     /// Scales an impact of a run to the prototype.
-    pub fn new(model: &'a Model, handover: &'a Handover, impact: &'a Impact) -> Self {
-        let froude = Froude { scale: handover.scale };
+    pub fn new(model: &'a Model, settings: &'a BreakageSettings, impact: &'a Impact) -> Self {
+        let froude = Froude { scale: settings.scale };
         let event = &impact.event;
         let on_unit = event.partner_unit().is_some();
         let partner = if on_unit { &model.material } else { &model.ground };
         let recorded = effective_young_modulus(&model.material, partner);
-        let [unit, base] = handover.materials();
+        let [unit, base] = settings.materials();
         let prototype = effective_young_modulus(&unit, if on_unit { &unit } else { &base });
         let scale = match model.law {
             ContactLawName::HertzMindlin => froude.blow(recorded, prototype),
@@ -65,8 +65,8 @@ impl<'a> Blow<'a> {
                 BlowScale { force: froude.mass(), time: froude.velocity() }
             }
         };
-        let duration = hertz_duration(model, handover, event.approach_normal, on_unit, prototype);
-        Self { model, handover, impact, froude, scale, duration }
+        let duration = hertz_duration(model, settings, event.approach_normal, on_unit, prototype);
+        Self { model, settings, impact, froude, scale, duration }
     }
 
     /// Returns the recorded unit, and its partner if that is a unit.
@@ -94,12 +94,12 @@ impl<'a> Blow<'a> {
 
     /// Returns the density that gives the tetrahedra of a unit its mass [kg/m3].
     pub fn density(&self) -> f64 {
-        self.model.mass / self.handover.mesh.volume()
+        self.model.mass / self.settings.mesh.volume()
     }
 
     /// Returns the angular velocity that gives the nodes the angular momentum of the rigid unit [rad/s].
     pub fn angular_velocity(&self, mover: &Mover) -> DVec3 {
-        self.handover.mesh.angular_velocity(self.model.gyration, mover.pose.rotation, mover.angular_velocity)
+        self.settings.mesh.angular_velocity(self.model.gyration, mover.pose.rotation, mover.angular_velocity)
     }
 
     /// Compares mass, momentum and energy of the rigid body and of the nodes. Only the energy may differ a little.
@@ -108,21 +108,21 @@ impl<'a> Blow<'a> {
         let in_body = mover.pose.rotation.inverse() * mover.angular_velocity;
         let turning = in_body.dot(self.model.gyration * in_body) * self.froude.length().powi(2);
         let rigid = 0.5 * mass * (mover.velocity.length_squared() + turning);
-        let of_nodes = self.density() * self.handover.mesh.volume() * self.froude.mass();
+        let of_nodes = self.density() * self.settings.mesh.volume() * self.froude.mass();
         let omega = self.angular_velocity(mover);
         Balance {
             mass_kg: [mass, of_nodes],
             momentum: [mass, of_nodes].map(|mass| (mover.velocity * mass).to_array()),
-            kinetic_j: [rigid, self.handover.mesh.kinetic_energy(of_nodes, &mover.pose, mover.velocity, omega)],
+            kinetic_j: [rigid, self.settings.mesh.kinetic_energy(of_nodes, &mover.pose, mover.velocity, omega)],
         }
     }
 
     /// Returns the time that is simulated after first contact [s].
     pub fn time_after(&self) -> f64 {
-        let unit = &self.handover.material;
+        let unit = &self.settings.material;
         let celerity = (unit.young_modulus_pa / self.density()).sqrt();
         let waves = WAVES * self.model.shape.height() * self.froude.length() / celerity;
-        self.handover.duration.unwrap_or((LASTS * self.duration).max(waves))
+        self.settings.duration.unwrap_or((LASTS * self.duration).max(waves))
     }
 }
 
@@ -138,15 +138,15 @@ const SLOWEST: f64 = 1e-3;
 /// Duration of a Hertzian impact of elastic bodies at a speed v over overlap / v [-] (Johnson 1985, section 11.4).
 const HERTZ: f64 = 2.943;
 
-fn hertz_duration(model: &Model, handover: &Handover, approach: f64, on_unit: bool, modulus: f64) -> f64 {
-    let froude = Froude { scale: handover.scale };
+fn hertz_duration(model: &Model, settings: &BreakageSettings, approach: f64, on_unit: bool, modulus: f64) -> f64 {
+    let froude = Froude { scale: settings.scale };
     let share = if on_unit { 0.5 } else { 1.0 };
     let speed = approach.max(SLOWEST * (model.gravity * model.shape.height()).sqrt()) * froude.velocity();
     let radius = share * model.shape.unit().rounding() * froude.length();
     HERTZ * impact_overlap(modulus, radius, share * model.mass * froude.mass(), speed) / speed
 }
 
-impl Handover {
+impl BreakageSettings {
     /// Returns the elastic constants of the prototype's units and of the bed.
     fn materials(&self) -> [Material; 2] {
         let unit = &self.material;

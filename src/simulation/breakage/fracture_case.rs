@@ -60,8 +60,8 @@ impl Part {
 
 /// Returns the case of a scene; `mesh` is the name of its mesh file.
 pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFile {
-    let handover = blow.handover;
-    let units = handover.material.clone();
+    let settings = blow.settings;
+    let units = settings.material.clone();
     let concrete = FractureMaterialFile {
         name: "unit".to_owned(),
         density_kg_m3: blow.density(),
@@ -70,7 +70,7 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
         viscosity_pa_s: units.viscosity_pa_s,
         strength: Some(units.strength),
     };
-    let base = match &handover.base {
+    let base = match &settings.base {
         Some(base) => FractureMaterialFile {
             density_kg_m3: base.density_kg_m3,
             young_modulus_pa: base.young_modulus_pa,
@@ -99,7 +99,7 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
         for other in &scene.parts[index..] {
             if part.held.is_none() {
                 let between = [part.name, other.name].map(str::to_owned);
-                friction.push(BodyFrictionFile { between, coefficient: handover.friction });
+                friction.push(BodyFrictionFile { between, coefficient: settings.friction });
             }
         }
     }
@@ -110,7 +110,7 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
         fracture: MethodFile {
             mesh: mesh.to_owned(),
             scale: 1.0,
-            joints: handover.joints,
+            joints: settings.joints,
             joint_penalty: None,
             softening: Softening::default(),
             contact_penalty: 1.0,
@@ -141,8 +141,8 @@ fn assumptions(blow: &Blow) -> Vec<String> {
          gravity and density as in the model. Contact follows from the prototype's concrete, not from scaled forces.",
         blow.froude.scale
     )];
-    let [opening, _] = blow.handover.characteristic_lengths();
-    let edge = blow.handover.mesh.edge() * blow.froude.length();
+    let [opening, _] = blow.settings.characteristic_lengths();
+    let edge = blow.settings.mesh.edge() * blow.froude.length();
     if edge > 0.25 * opening {
         assumptions.push(format!(
             "Elements of {edge:.2} m are larger than {:.3} m, a quarter of E G_f / f_t^2: the results show whether and \

@@ -35,7 +35,7 @@ pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
             loads.push(LoadFile::Force {
                 body: UnitMesh::NAME.to_owned(),
                 place_m: mover.pose.place(role.place).to_array(),
-                radius_m: blow.handover.mesh.edge() * blow.froude.length(),
+                radius_m: blow.settings.mesh.edge() * blow.froude.length(),
                 axes: LoadAxes::Space,
                 history: rows,
             });
@@ -54,7 +54,7 @@ pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
             history: vec![row],
         });
     }
-    let mesh = blow.handover.mesh.posed(&mover.pose, UnitMesh::NAME);
+    let mesh = blow.settings.mesh.posed(&mover.pose, UnitMesh::NAME);
     Scene { mesh, parts: vec![part(blow, UnitMesh::NAME, &mover)], loads, duration }
 }
 
@@ -63,7 +63,7 @@ pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
 /// loads and scales by Froude's law.
 fn start_and_scale(blow: &Blow, other: &Impact) -> (f64, BlowScale) {
     let since = other.event.start - blow.impact.event.start;
-    let own = Blow::new(blow.model, blow.handover, other).scale;
+    let own = Blow::new(blow.model, blow.settings, other).scale;
     let slow = BlowScale { force: blow.froude.mass(), time: blow.froude.velocity() };
     if same_collision(blow.impact, other) {
         (since * own.time, own)

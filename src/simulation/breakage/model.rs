@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::case::{Case, DryCase, UnitShape, Units};
+use crate::case::{Case, DryTestCase, UnitShape, Units};
 use crate::case::{ContactLawName, Material as CaseMaterial};
 use crate::output::Impact;
 use crate::rigid::{BodyState, Material};
@@ -36,7 +36,7 @@ impl Model {
     }
 
     /// Returns the units of a dry test.
-    pub fn of_dry(case: &DryCase) -> Self {
+    pub fn of_dry(case: &DryTestCase) -> Self {
         Self::of_units(&case.units, &case.materials, case.contact.law, case.gravity)
     }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::blow::Blow;
 use super::model::{Model, Role};
-use crate::case::{Handover, UnitKind};
+use crate::case::{BreakageSettings, UnitKind};
 use crate::geometry::section::Section;
 use crate::output::Impacts;
 
@@ -16,7 +16,7 @@ impl Model {
 
     /// Computes the largest nominal stress of the recorded impacts in each unit, at prototype scale [Pa].
     /// Peak force by Hertz's law, stresses in the sections by beam theory without inertia; 0 for units without impacts.
-    pub fn nominal_stresses(&self, handover: &Handover, impacts: &Impacts) -> Vec<f64> {
+    pub fn nominal_stresses(&self, handover: &BreakageSettings, impacts: &Impacts) -> Vec<f64> {
         let mut stresses = vec![0.0f64; self.count];
         let sections = self.sections();
         for impact in &impacts.impacts {

@@ -19,11 +19,11 @@ pub fn scene(blow: &Blow) -> Scene {
     let height = blow.model.shape.height() * blow.froude.length();
     let normal = DVec3::from_array(blow.impact.event.normal).normalize_or(DVec3::Z);
     let (mover, partner) = blow.movers();
-    let mesh = blow.handover.mesh.posed(&mover.pose, UnitMesh::NAME);
+    let mesh = blow.settings.mesh.posed(&mover.pose, UnitMesh::NAME);
     let unit = part(blow, UnitMesh::NAME, &mover);
     let (mesh, parts, gap) = match partner {
         Some(partner) => {
-            let other = blow.handover.mesh.posed(&partner.pose, PARTNER);
+            let other = blow.settings.mesh.posed(&partner.pose, PARTNER);
             let levels_near_contact = |mesh: &Mesh| -> Vec<f64> {
                 let within = mesh.nodes.iter().filter(|node| node.length() < ABOUT * height);
                 within.map(|node| node.dot(normal)).collect()
@@ -41,7 +41,7 @@ pub fn scene(blow: &Blow) -> Scene {
             let velocity = |node: DVec3| mover.velocity + mover.angular_velocity.cross(node - mover.pose.position);
             let path = |node: DVec3| velocity(node) * blow.time_after();
             let seat = Seat::below(&mesh.nodes, path, mover.pose.position, normal, height);
-            let cell = BASE_CELL * blow.handover.mesh.edge() * blow.froude.length();
+            let cell = BASE_CELL * blow.settings.mesh.edge() * blow.froude.length();
             let base = Part::held(base::NAME, base::BOTTOM);
             (together(mesh, seat.block(normal, cell)), vec![unit, base], seat.gap)
         }
@@ -58,7 +58,7 @@ pub fn part(blow: &Blow, name: &'static str, mover: &Mover) -> Part {
         name,
         velocity: mover.velocity,
         angular_velocity: blow.angular_velocity(mover),
-        pivot: blow.handover.mesh.centre(&mover.pose),
+        pivot: blow.settings.mesh.centre(&mover.pose),
         held: None,
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::blow::{Balance, Blow};
 use super::fracture_case::{PARTNER, is_unit};
 use super::model::{Model, Role};
-use crate::case::{Handover, HandoverWay};
+use crate::case::{BreakageSettings, RerunMethod};
 use crate::output::{BreakageSummary, CsvSeries, Impacts, OutputError, columns, write_atomically};
 use crate::simulation::fracture::summary::FractureSummary;
 
@@ -70,7 +70,7 @@ pub struct Outcome {
     /// Name of its case and folder in `impacts/`.
     pub name: String,
     /// How it was re-run.
-    pub way: HandoverWay,
+    pub way: RerunMethod,
     /// Number of the unit from 1.
     pub unit: usize,
     /// Number of the other unit from 1; none for bed and walls.
@@ -123,12 +123,12 @@ impl Outcome {
     /// Returns the outcome of an impact whose fracture run ended with a summary or with an error.
     pub fn of(
         name: &str,
-        way: HandoverWay,
+        way: RerunMethod,
         blow: &Blow,
         balance: Balance,
         ended: Result<FractureSummary, String>,
     ) -> Self {
-        let touched = |summary: &FractureSummary| way == HandoverWay::LoadHistory || summary.impact_s.is_some();
+        let touched = |summary: &FractureSummary| way == RerunMethod::LoadHistory || summary.impact_s.is_some();
         let ended = match ended {
             Ok(summary) if !touched(&summary) => Err("the bodies did not touch: increase duration_s".to_owned()),
             ended => ended,
@@ -209,15 +209,21 @@ impl Breakage {
     pub const TABLE: &str = "breakage.csv";
 
     /// Collects the results of the impacts for each unit of a run.
-    pub fn of(model: &Model, handover: &Handover, impacts: &Impacts, moved: &[Moved], outcomes: Vec<Outcome>) -> Self {
+    pub fn of(
+        model: &Model,
+        settings: &BreakageSettings,
+        impacts: &Impacts,
+        moved: &[Moved],
+        outcomes: Vec<Outcome>,
+    ) -> Self {
         let mut peaks = vec![0.0f64; moved.len()];
         for impact in &impacts.impacts {
-            let force = impact.event.peak_force * Blow::new(model, handover, impact).scale.force;
+            let force = impact.event.peak_force * Blow::new(model, settings, impact).scale.force;
             for role in Role::of(impact) {
                 peaks[role.unit] = peaks[role.unit].max(force);
             }
         }
-        let nominal = model.nominal_stresses(handover, impacts);
+        let nominal = model.nominal_stresses(settings, impacts);
         let is_known = !model.sections().is_empty();
         let unit = |(index, moved): (usize, &Moved)| {
             let found = || outcomes.iter().flat_map(|outcome| &outcome.found).filter(|f| f.unit == index + 1);
@@ -241,7 +247,7 @@ impl Breakage {
             units.iter().filter(|unit| is_counted(unit)).count() as f64 / units.len().max(1) as f64
         };
         Self {
-            scale: handover.scale,
+            scale: settings.scale,
             damaged_ratio: ratio(|unit| unit.damaged),
             broken_ratio: ratio(|unit| unit.broken == Some(true)),
             units,

@@ -12,7 +12,7 @@ use super::fracture_case::{self, Scene};
 use super::model::Model;
 use super::selection::select;
 use super::{load_history, reenact};
-use crate::case::{FractureCase, Handover, HandoverWay};
+use crate::case::{BreakageSettings, FractureCase, RerunMethod};
 use crate::output::{Impacts, OutputError, driver::Control};
 use crate::simulation::breakage::results::{Breakage, Moved, Outcome};
 use crate::simulation::fracture::run::{run, world};
@@ -23,7 +23,7 @@ pub const FOLDER: &str = "impacts";
 
 /// Why a breakage analysis ended without a result.
 #[derive(Debug, Error)]
-pub enum HandoverError {
+pub enum BreakageError {
     /// A file cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -41,7 +41,7 @@ pub enum HandoverError {
 /// One impact to re-run.
 struct Job<'a> {
     blow: Blow<'a>,
-    way: HandoverWay,
+    way: RerunMethod,
     name: String,
 }
 
@@ -51,13 +51,13 @@ struct Job<'a> {
 ///
 /// # Errors
 /// If a file cannot be read or written. The result lists fracture runs that failed.
-pub fn hand_over(
+pub fn analyse_breakage(
     model: &Model,
-    handover: &Handover,
+    settings: &BreakageSettings,
     moved: &[Moved],
     dir: &Path,
     control: &Control,
-) -> Result<Breakage, HandoverError> {
+) -> Result<Breakage, BreakageError> {
     let file = dir.join(Impacts::FILE);
     let impacts = Impacts::read(&file)?;
     if moved.len() != model.count {
@@ -70,30 +70,30 @@ pub fn hand_over(
     }
     let folder = dir.join(FOLDER);
     fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;
-    let jobs = jobs(model, handover, &impacts);
+    let jobs = jobs(model, settings, &impacts);
     for job in &jobs {
         fracture_case::write(&job.blow, &job.scene(&impacts), job.title(), &folder, &job.name)?;
     }
     let threads = rayon::current_num_threads();
-    let at_once = handover.cores.unwrap_or(threads).min(jobs.len()).max(1);
+    let at_once = settings.cores.unwrap_or(threads).min(jobs.len()).max(1);
     let outcomes = compute(&jobs, &folder, at_once, (threads / at_once).max(1), control)?;
-    let breakage = Breakage::of(model, handover, &impacts, moved, outcomes);
+    let breakage = Breakage::of(model, settings, &impacts, moved, outcomes);
     breakage.write(dir)?;
     Ok(breakage)
 }
 
-fn jobs<'a>(model: &'a Model, handover: &'a Handover, impacts: &'a Impacts) -> Vec<Job<'a>> {
-    let ways: &[HandoverWay] = match handover.way {
-        HandoverWay::Both => &[HandoverWay::ReEnact, HandoverWay::LoadHistory],
-        HandoverWay::ReEnact => &[HandoverWay::ReEnact],
-        HandoverWay::LoadHistory => &[HandoverWay::LoadHistory],
+fn jobs<'a>(model: &'a Model, settings: &'a BreakageSettings, impacts: &'a Impacts) -> Vec<Job<'a>> {
+    let ways: &[RerunMethod] = match settings.way {
+        RerunMethod::Both => &[RerunMethod::ReEnact, RerunMethod::LoadHistory],
+        RerunMethod::ReEnact => &[RerunMethod::ReEnact],
+        RerunMethod::LoadHistory => &[RerunMethod::LoadHistory],
     };
-    let chosen = select(impacts, &handover.select);
+    let chosen = select(impacts, &settings.select);
     let jobs_of_impact = |(rank, index): (usize, usize)| {
-        let blow = Blow::new(model, handover, &impacts.impacts[index]);
+        let blow = Blow::new(model, settings, &impacts.impacts[index]);
         let unit = blow.impact.event.body + 1;
         ways.iter().map(move |way| {
-            let by_loads = if *way == HandoverWay::LoadHistory { "-loads" } else { "" };
+            let by_loads = if *way == RerunMethod::LoadHistory { "-loads" } else { "" };
             Job { blow, way: *way, name: format!("impact-{:02}-unit-{unit:02}{by_loads}", rank + 1) }
         })
     };
@@ -103,8 +103,8 @@ fn jobs<'a>(model: &'a Model, handover: &'a Handover, impacts: &'a Impacts) -> V
 impl Job<'_> {
     fn scene(&self, impacts: &Impacts) -> Scene {
         match self.way {
-            HandoverWay::LoadHistory => load_history::scene(&self.blow, impacts),
-            HandoverWay::ReEnact | HandoverWay::Both => reenact::scene(&self.blow),
+            RerunMethod::LoadHistory => load_history::scene(&self.blow, impacts),
+            RerunMethod::ReEnact | RerunMethod::Both => reenact::scene(&self.blow),
         }
     }
 
@@ -115,8 +115,8 @@ impl Job<'_> {
             None => "the bed".to_owned(),
         };
         let way = match self.way {
-            HandoverWay::LoadHistory => ", recorded forces",
-            HandoverWay::ReEnact | HandoverWay::Both => "",
+            RerunMethod::LoadHistory => ", recorded forces",
+            RerunMethod::ReEnact | RerunMethod::Both => "",
         };
         format!(
             "Unit {} on {on} at {:.3} s, {:.2} m/s, scale {}{way}",
@@ -128,7 +128,7 @@ impl Job<'_> {
     }
 
     /// Runs the fracture case, or reads the results of an earlier run of the same case.
-    fn outcome(&self, folder: &Path, threads: usize, control: &Control) -> Result<Outcome, HandoverError> {
+    fn outcome(&self, folder: &Path, threads: usize, control: &Control) -> Result<Outcome, BreakageError> {
         let file = folder.join(format!("{}.json", self.name));
         let out = folder.join(&self.name);
         let outcome_of = |ended: Result<FractureSummary, String>| {
@@ -152,7 +152,7 @@ impl Job<'_> {
             run(&case, world, &out, &silent).map_err(|error| error.to_string())
         });
         if control.stop.load(Ordering::Relaxed) {
-            return Err(HandoverError::Interrupted { dir: folder.parent().unwrap_or(folder).to_owned() });
+            return Err(BreakageError::Interrupted { dir: folder.parent().unwrap_or(folder).to_owned() });
         }
         Ok(outcome_of(ended))
     }
@@ -173,9 +173,9 @@ fn compute(
     at_once: usize,
     threads: usize,
     control: &Control,
-) -> Result<Vec<Outcome>, HandoverError> {
+) -> Result<Vec<Outcome>, BreakageError> {
     let next = AtomicUsize::new(0);
-    let results: Vec<Mutex<Option<Result<Outcome, HandoverError>>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
+    let results: Vec<Mutex<Option<Result<Outcome, BreakageError>>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
     std::thread::scope(|scope| {
         for _ in 0..at_once {
             scope.spawn(|| {

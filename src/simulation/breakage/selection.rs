@@ -1,15 +1,15 @@
 //! Selects the impacts that are re-run at prototype scale.
 
-use crate::case::{Hardness, Selection};
+use crate::case::{ImpactMeasure, Selection};
 use crate::output::{Impact, Impacts};
 use crate::rigid::Feature;
 
 /// Returns the quantity by which impacts are ranked.
-pub fn hardness(impact: &Impact, by: Hardness) -> f64 {
+pub fn hardness(impact: &Impact, by: ImpactMeasure) -> f64 {
     match by {
-        Hardness::PeakForce => impact.event.peak_force,
-        Hardness::ApproachVelocity => impact.event.approach_normal,
-        Hardness::KineticEnergy => impact.event.approach_energy,
+        ImpactMeasure::PeakForce => impact.event.peak_force,
+        ImpactMeasure::ApproachVelocity => impact.event.approach_normal,
+        ImpactMeasure::KineticEnergy => impact.event.approach_energy,
     }
 }
 
@@ -86,10 +86,10 @@ mod tests {
         ];
         let impacts = Impacts { places: Vec::new(), impacts: list };
         let chosen = |by, worst, at_least| select(&impacts, &Selection { by, worst, at_least });
-        assert_eq!(chosen(Hardness::PeakForce, None, 0.0), [0, 2, 3]);
-        assert_eq!(chosen(Hardness::PeakForce, Some(2), 0.0), [0, 2]);
-        assert_eq!(chosen(Hardness::PeakForce, None, 35.0), [0, 2]);
-        assert_eq!(chosen(Hardness::ApproachVelocity, Some(1), 0.0), [3]);
-        assert_eq!(chosen(Hardness::KineticEnergy, None, 0.1), [3]);
+        assert_eq!(chosen(ImpactMeasure::PeakForce, None, 0.0), [0, 2, 3]);
+        assert_eq!(chosen(ImpactMeasure::PeakForce, Some(2), 0.0), [0, 2]);
+        assert_eq!(chosen(ImpactMeasure::PeakForce, None, 35.0), [0, 2]);
+        assert_eq!(chosen(ImpactMeasure::ApproachVelocity, Some(1), 0.0), [3]);
+        assert_eq!(chosen(ImpactMeasure::KineticEnergy, None, 0.1), [3]);
     }
 }

@@ -17,7 +17,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    case::{DryCase, DryTest},
+    case::{DryTestCase, DryTestKind},
     rigid::{BodyState, Load, RigidError, RigidSetup, RigidWorld},
     simulation::bodies::rigid_setup,
 };
@@ -29,9 +29,9 @@ const MEASUREMENT_INTERVAL: f64 = 1e-3;
 const LEVEL_TIME: f64 = 0.5;
 
 /// State of a dry test.
-pub struct DryRun {
+pub struct DryTest {
     /// The case.
-    pub case: Arc<DryCase>,
+    pub case: Arc<DryTestCase>,
     /// The units.
     pub world: RigidWorld,
     /// Poses of the units at the start.
@@ -59,12 +59,12 @@ pub struct Measured {
     pub peak_force: f64,
 }
 
-impl DryRun {
+impl DryTest {
     /// Places the units of a case at their start.
     ///
     /// # Errors
     /// If they overlap each other or the ground too much.
-    pub fn new(case: Arc<DryCase>) -> Result<Self, RigidError> {
+    pub fn new(case: Arc<DryTestCase>) -> Result<Self, RigidError> {
         let setup = Self::setup(&case);
         let start = setup.bodies.clone();
         let world = RigidWorld::new(setup)?;
@@ -75,7 +75,7 @@ impl DryRun {
     }
 
     /// Returns the set-up of the rigid world of a case.
-    pub fn setup(case: &DryCase) -> RigidSetup {
+    pub fn setup(case: &DryTestCase) -> RigidSetup {
         rigid_setup(&case.units, &case.site, &case.materials, case.contact.law, case.gravity)
     }
 
@@ -87,8 +87,8 @@ impl DryRun {
     /// Returns the present slope of the bed [rad].
     pub fn slope(&self) -> f64 {
         match self.case.test {
-            DryTest::Tilt { rate, to, .. } => (rate * (self.time() - LEVEL_TIME)).clamp(0.0, to),
-            DryTest::Settle | DryTest::Drop => 0.0,
+            DryTestKind::Tilt { rate, to, .. } => (rate * (self.time() - LEVEL_TIME)).clamp(0.0, to),
+            DryTestKind::Settle | DryTestKind::Drop => 0.0,
         }
     }
 
@@ -99,7 +99,7 @@ impl DryRun {
     pub fn advance(&mut self, until: f64) -> Result<(), RigidError> {
         let loads = vec![Load::default(); self.start.len()];
         let dt = MEASUREMENT_INTERVAL.min(until - self.time()).max(0.0);
-        if let DryTest::Tilt { .. } = self.case.test {
+        if let DryTestKind::Tilt { .. } = self.case.test {
             let slope = self.slope();
             // In the axes of the bed, gravity turns towards the shore.
             self.world.set_gravity(self.case.gravity * DVec3::new(slope.sin(), 0.0, -slope.cos()));
@@ -111,12 +111,12 @@ impl DryRun {
 
     fn measure(&mut self) {
         let energy = mechanical_energy(&self.world);
-        if !matches!(self.case.test, DryTest::Tilt { .. }) {
+        if !matches!(self.case.test, DryTestKind::Tilt { .. }) {
             self.measured.largest_rise = self.measured.largest_rise.max(energy - self.measured.energy);
         }
         self.measured.energy = energy;
         let (slope, time) = (self.slope(), self.time());
-        if let DryTest::Tilt { slide_speed, .. } = self.case.test
+        if let DryTestKind::Tilt { slide_speed, .. } = self.case.test
             && slope > 0.0
         {
             for (slides_at, state) in self.measured.slides_at.iter_mut().zip(self.world.states()) {

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{DryRun, Measured};
+use super::{DryTest, Measured};
 use crate::{
-    case::{Handover, SiteTerrain},
+    case::{BreakageSettings, SiteTerrain},
     output::{
         Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, is_due, write_atomically,
     },
@@ -43,7 +43,7 @@ const ENERGY_FILE: &str = "energy.csv";
 const SURFACES_FILE: &str = "units.vtkhdf";
 
 /// Open output files of a dry test.
-pub struct DryRecorder {
+pub struct DryTestRecorder {
     dir: PathBuf,
     counts: Counts,
     units: CsvSeries,
@@ -52,7 +52,7 @@ pub struct DryRecorder {
     surfaces: Option<PolyDataSeries>,
 }
 
-impl DryRecorder {
+impl DryTestRecorder {
     /// File name of the checkpoint in the run folder.
     pub const CHECKPOINT: &str = "checkpoint.json";
 
@@ -63,14 +63,14 @@ impl DryRecorder {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn create(run: &DryRun, dir: &Path) -> Result<Self, OutputError> {
+    pub fn create(run: &DryTest, dir: &Path) -> Result<Self, OutputError> {
         let case = &run.case;
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
         for (name, content) in case.units.files() {
             write_atomically(&dir.join(name), content)?;
         }
-        if let Some(handover) = &case.fracture {
-            write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
+        if let Some(settings) = &case.breakage {
+            write_atomically(&dir.join(BreakageSettings::MESH), &settings.mesh_file)?;
         }
         if let Some(terrain) = &case.site.terrain {
             write_atomically(&dir.join(SiteTerrain::FILE), &terrain.content)?;
@@ -94,7 +94,7 @@ impl DryRecorder {
     ///
     /// # Errors
     /// If the checkpoint is missing, damaged or of another case; if a file is missing or shorter than it was then.
-    pub fn reopen(run: &mut DryRun, dir: &Path) -> Result<Self, OutputError> {
+    pub fn reopen(run: &mut DryTest, dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::CHECKPOINT);
         let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
         let state: Checkpoint = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
@@ -135,7 +135,7 @@ impl DryRecorder {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_due(&mut self, run: &mut DryRun) -> Result<(), OutputError> {
+    pub fn record_due(&mut self, run: &mut DryTest) -> Result<(), OutputError> {
         let (time, output) = (run.time(), run.case.output);
         if is_due(self.counts.series, Some(output.series_interval), time) {
             self.record_series(run)?;
@@ -157,7 +157,7 @@ impl DryRecorder {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_end(&mut self, run: &mut DryRun) -> Result<(), OutputError> {
+    pub fn record_end(&mut self, run: &mut DryTest) -> Result<(), OutputError> {
         self.record_series(run)?;
         if self.surfaces.is_some() {
             self.record_surfaces(run)?;
@@ -172,7 +172,7 @@ impl DryRecorder {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn record_state(&self, run: &DryRun, file: &str) -> Result<(), OutputError> {
+    pub fn record_state(&self, run: &DryTest, file: &str) -> Result<(), OutputError> {
         let path = self.dir.join(file);
         let state = Checkpoint {
             version: VERSION,
@@ -189,7 +189,7 @@ impl DryRecorder {
         self.counts.bytes = [&self.units, &self.contacts, &self.energy].map(CsvSeries::bytes);
     }
 
-    fn record_series(&mut self, run: &mut DryRun) -> Result<(), OutputError> {
+    fn record_series(&mut self, run: &mut DryTest) -> Result<(), OutputError> {
         let time = run.time();
         let rows =
             run.world.states().iter().zip(run.world.contact_loads()).enumerate().map(|(number, (state, load))| {
@@ -216,7 +216,7 @@ impl DryRecorder {
         self.record_contacts(run, &ended)
     }
 
-    fn record_contacts(&mut self, run: &mut DryRun, events: &[ContactEvent]) -> Result<(), OutputError> {
+    fn record_contacts(&mut self, run: &mut DryTest, events: &[ContactEvent]) -> Result<(), OutputError> {
         for event in events {
             let between = usize::from(event.partner_unit().is_some());
             run.measured.contacts[between] += 1;
@@ -225,7 +225,7 @@ impl DryRecorder {
         self.contacts.append_rows(events.iter().map(|event| columns::contact_row(event, 0.0)))
     }
 
-    fn record_surfaces(&mut self, run: &DryRun) -> Result<(), OutputError> {
+    fn record_surfaces(&mut self, run: &DryTest) -> Result<(), OutputError> {
         let Some(series) = &mut self.surfaces else { return Ok(()) };
         let solid = run.case.units.shape.unit().solid();
         Frame::of_surfaces(solid, run.world.states(), run.world.time()).append_to(series)

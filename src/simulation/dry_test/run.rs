@@ -5,9 +5,9 @@ use std::{
     sync::Arc,
 };
 
-use super::{DryRun, recorder::DryRecorder, summary::DrySummary};
+use super::{DryTest, recorder::DryTestRecorder, summary::DryTestSummary};
 use crate::{
-    case::{DryCase, DryTest},
+    case::{DryTestCase, DryTestKind},
     output::{
         OutputError, Stopped,
         driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
@@ -18,9 +18,9 @@ use crate::{
 ///
 /// # Errors
 /// If the units overlap too much at the start or later, a file cannot be written, or the user stops the run.
-pub fn run(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
-    let run = DryRun::new(case).map_err(RunError::setup)?;
-    let recorder = DryRecorder::create(&run, dir)?;
+pub fn run(case: Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<DryTestSummary, RunError> {
+    let run = DryTest::new(case).map_err(RunError::setup)?;
+    let recorder = DryTestRecorder::create(&run, dir)?;
     drive(RecordedRun { run, recorder }, dir, control)
 }
 
@@ -28,34 +28,34 @@ pub fn run(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySumma
 ///
 /// # Errors
 /// As [`run`], and if the checkpoint does not belong to the case.
-pub fn resume(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
-    let mut run = DryRun::new(case).map_err(RunError::setup)?;
-    let recorder = DryRecorder::reopen(&mut run, dir)?;
+pub fn resume(case: Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<DryTestSummary, RunError> {
+    let mut run = DryTest::new(case).map_err(RunError::setup)?;
+    let recorder = DryTestRecorder::reopen(&mut run, dir)?;
     drive(RecordedRun { run, recorder }, dir, control)
 }
 
 /// A dry test with its open files.
 struct RecordedRun {
-    run: DryRun,
-    recorder: DryRecorder,
+    run: DryTest,
+    recorder: DryTestRecorder,
 }
 
 impl Run for RecordedRun {
-    type Summary = DrySummary;
+    type Summary = DryTestSummary;
 
     fn clock(&self) -> Clock {
         Clock { time: self.run.time(), end: self.run.case.stop.duration, steps: self.run.world.substeps() }
     }
 
-    fn step(&mut self, session: Session) -> Result<Step<DrySummary>, StepFailure> {
+    fn step(&mut self, session: Session) -> Result<Step<DryTestSummary>, StepFailure> {
         if let Some(stopped) = stop_rule(&self.run) {
             self.recorder.record_end(&mut self.run)?;
-            let summary = DrySummary::of(&self.run, stopped, session.wall);
+            let summary = DryTestSummary::of(&self.run, stopped, session.wall);
             summary.write(self.recorder.dir())?;
             return Ok(Step::Ended(summary));
         }
         if session.stop {
-            self.recorder.record_state(&self.run, DryRecorder::CHECKPOINT)?;
+            self.recorder.record_state(&self.run, DryTestRecorder::CHECKPOINT)?;
             return Ok(Step::Stopped);
         }
         self.recorder.record_due(&mut self.run)?;
@@ -64,8 +64,8 @@ impl Run for RecordedRun {
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
-        self.recorder.record_state(&self.run, DryRecorder::FAILED)?;
-        Ok(self.recorder.dir().join(DryRecorder::FAILED))
+        self.recorder.record_state(&self.run, DryTestRecorder::FAILED)?;
+        Ok(self.recorder.dir().join(DryTestRecorder::FAILED))
     }
 
     fn details(&self) -> String {
@@ -75,13 +75,13 @@ impl Run for RecordedRun {
 }
 
 /// Returns why the run is over, if it is.
-fn stop_rule(run: &DryRun) -> Option<Stopped> {
+fn stop_rule(run: &DryTest) -> Option<Stopped> {
     let (stop, time) = (&run.case.stop, run.time());
     // The sum of the steps may fall short of the duration by rounding.
     if time >= stop.duration - 1e-9 {
         return Some(Stopped::Duration);
     }
-    if let DryTest::Tilt { to, .. } = run.case.test
+    if let DryTestKind::Tilt { to, .. } = run.case.test
         && (run.slope() >= to || run.measured.slides_at.iter().all(Option::is_some))
     {
         return Some(Stopped::TestOver);

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::DryRun;
+use super::DryTest;
 use crate::output::{Execution, OutputError, Stopped, write_atomically};
 
 /// Content of `summary.json` of a dry test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DrySummary {
+pub struct DryTestSummary {
     /// Title of the case.
     pub title: String,
     /// Version of breakwater that computed the run.
@@ -71,12 +71,12 @@ pub struct DryUnit {
     pub friction: Option<f64>,
 }
 
-impl DrySummary {
+impl DryTestSummary {
     /// File name in the run folder.
     pub const FILE: &str = "summary.json";
 
     /// Summarises a run that has ended after the wall time `wall_s` [s].
-    pub fn of(run: &DryRun, stopped: Stopped, wall_s: f64) -> Self {
+    pub fn of(run: &DryTest, stopped: Stopped, wall_s: f64) -> Self {
         let (measured, energy) = (&run.measured, run.world.energy());
         let unit = |number: usize| {
             let (start, end) = (&run.start[number], &run.world.states()[number]);
@@ -91,7 +91,7 @@ impl DrySummary {
                 friction: slides_at.map(f64::tan),
             }
         };
-        let tilts = matches!(run.case.test, crate::case::DryTest::Tilt { .. });
+        let tilts = matches!(run.case.test, crate::case::DryTestKind::Tilt { .. });
         Self {
             title: run.case.title.clone(),
             breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),

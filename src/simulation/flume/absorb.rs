@@ -29,7 +29,7 @@ impl Simulation {
                 unreachable!("a case with this gauge and without the flume model is refused")
             }
         };
-        surface.map_or(0.0, |z| z - flume.still_level - made)
+        surface.map_or(0.0, |z| z - flume.still_water_level - made)
     }
 }
 

@@ -33,7 +33,7 @@ pub struct Start<'a> {
 
 impl<'a> Start<'a> {
     /// Puts a case into the state of the checkpoint in the folder of another run. The cases may differ only in
-    /// [`Case::MAY_DIFFER`]. Nothing is written.
+    /// [`Case::KEYS_FREE_AT_START`]. Nothing is written.
     ///
     /// # Errors
     /// If the other run has no checkpoint, its case differs too much, or its units have moved.
@@ -80,14 +80,14 @@ impl<'a> Start<'a> {
 /// Describes the differences of two case files that are not allowed.
 pub fn difference(one: &str, other: &str) -> String {
     let keys = differing_keys(one, other);
-    let allowed = Case::MAY_DIFFER.join(", ");
+    let allowed = Case::KEYS_FREE_AT_START.join(", ");
     if keys.is_empty() {
         return "a file named in both cases has changed".to_owned();
     }
     format!("the cases differ in {}; only {allowed} may differ", keys.join(", "))
 }
 
-/// Returns the top-level keys in which two case files differ, except [`Case::MAY_DIFFER`].
+/// Returns the top-level keys in which two case files differ, except [`Case::KEYS_FREE_AT_START`].
 fn differing_keys(one: &str, other: &str) -> Vec<String> {
     let parsed = |text: &str| {
         let mut keys: Map<String, Value> =
@@ -101,7 +101,7 @@ fn differing_keys(one: &str, other: &str) -> Vec<String> {
     let mut keys: Vec<&String> = one.keys().chain(other.keys()).collect();
     keys.sort_unstable();
     keys.dedup();
-    let may_differ = |key: &str| key == "$schema" || Case::MAY_DIFFER.contains(&key);
+    let may_differ = |key: &str| key == "$schema" || Case::KEYS_FREE_AT_START.contains(&key);
     keys.retain(|key| !may_differ(key) && one.get(*key) != other.get(*key));
     keys.into_iter().cloned().collect()
 }

@@ -50,7 +50,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
     let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
     let record = flume_model::run(&FlumeSetup {
         profile: case.flume.profile.clone(),
-        still_level_m: case.flume.still_level,
+        still_level_m: case.flume.still_water_level,
         gravity_m_s2: case.fluid.gravity,
         wave,
         right_end: case.flume.right_end,
@@ -71,7 +71,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
 /// Returns the source of the wave at the seaward end of the flume.
 fn source(wave: &Wave) -> Result<Option<WaveSource>, WaveError> {
     let inflow = match *wave {
-        Wave::None | Wave::Given(_) => return Ok(None),
+        Wave::None | Wave::External(_) => return Ok(None),
         Wave::Solitary(wave) => return Ok(Some(WaveSource::Piston(wave))),
         Wave::SolitaryInflow(wave) => IncomingWave::solitary(wave),
         Wave::Regular { wave, ramp_periods } => IncomingWave::Regular {
@@ -106,18 +106,18 @@ fn latest_arrival(case: &Case, x: f64) -> f64 {
         }
         Wave::Solitary(wave) => (long, wave.duration_s()),
         Wave::SolitaryInflow(wave) => (long, 2.0 * wave.half_length_m() / wave.celerity_m_s()),
-        Wave::None | Wave::Given(_) => (long, 0.0),
+        Wave::None | Wave::External(_) => (long, 0.0),
     };
     ARRIVAL_ALLOWANCE * distance / speed + growth
 }
 
 /// Returns the time at which the particles start [s]: flume time, or time of the files with the wave.
 pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
-    let (place, level) = (case.domain.x[0], case.flume.still_level);
+    let (place, level) = (case.domain.x[0], case.flume.still_water_level);
     match (case.domain.start, record, &case.wave) {
         (Start::At(start), ..) => start,
         (Start::AtShare(share), Some(record), _) => motion_start_time(record, place, share),
-        (Start::AtShare(share), None, Wave::Given(wave)) => velx_start_time(&wave.rows, level, share),
+        (Start::AtShare(share), None, Wave::External(wave)) => velx_start_time(&wave.rows, level, share),
         (Start::AtShare(_), None, _) => 0.0,
     }
 }
@@ -163,7 +163,7 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
     let place = case.domain.x[0];
     let bed = case.flume.profile.z(place);
     let (motion, depth) = match case.wave {
-        Wave::Given(ref wave) => {
+        Wave::External(ref wave) => {
             let end = (start + case.stop.duration).max(start + LONGEST_INTERVAL);
             return Some(Wavemaker::MlPiston(MlPiston::from_velx(
                 &wave.rows,

@@ -19,7 +19,7 @@ use super::{
     water_at_impacts::pressure_places,
 };
 use crate::{
-    case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Wave},
+    case::{BreakageSettings, Case, Gauge, Quantity, ROWS_FILE, Wave},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, is_due, write_atomically,
         write_flume_gauges,
@@ -54,10 +54,10 @@ impl Recorder {
     pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
         let case = &simulation.case;
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
-        if let Some(handover) = &case.fracture {
-            write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
+        if let Some(settings) = &case.breakage {
+            write_atomically(&dir.join(BreakageSettings::MESH), &settings.mesh_file)?;
         }
-        if let Wave::Given(wave) = &case.wave {
+        if let Wave::External(wave) = &case.wave {
             write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;
         }
         let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
@@ -293,7 +293,7 @@ fn gauge_row(simulation: &Simulation) -> Vec<f64> {
             Quantity::Elevation => {
                 let (bed, top) = (case.flume.profile.z(at.x), case.domain.top_z);
                 let level = sampler.surface(at.truncate(), bed, top).filter(|_| at.x > wet_from);
-                row.push(level.map_or(f64::NAN, |z| z - case.flume.still_level));
+                row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
             }
             Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),
             Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),

@@ -154,7 +154,7 @@ impl Simulation {
 /// # Errors
 /// If the files end before the run.
 pub fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
-    let case::Wave::Given(wave) = &case.wave else { return Ok(()) };
+    let case::Wave::External(wave) = &case.wave else { return Ok(()) };
     let ([_, end], duration) = (wave.times(), case.stop.duration);
     if start + duration <= end { Ok(()) } else { Err(SetupError::WaveEnds { duration, start, end }) }
 }
@@ -279,7 +279,7 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
     let surface = |x: f64| match (case.domain.water, flume) {
         (case::Water::Block { top_z, .. }, _) => top_z,
         (case::Water::StillLevel, Some(record)) => record.surface_level_m(x, start),
-        (case::Water::StillLevel, None) => case.flume.still_level,
+        (case::Water::StillLevel, None) => case.flume.still_water_level,
     };
     let velocity = |x: f64, z: f64| flume.map_or(DVec2::ZERO, |record| record.velocity(x, z, start).into());
     basin(case, across, &bed, &surface, &velocity).fill(&tait(case))

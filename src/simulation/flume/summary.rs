@@ -40,7 +40,7 @@ pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Resul
         particle_counts: counts,
         dp_m: case.domain.dp,
         speed_of_sound_m_s: case.fluid.sound_speed,
-        still_water_level_m: case.flume.still_level,
+        still_water_level_m: case.flume.still_water_level,
         domain_x_m: case.domain.x,
         domain_width_m: case.domain.width,
         side_walls: case.domain.sides == Sides::Walls,
@@ -85,7 +85,7 @@ fn wave(case: &Case) -> Option<WaveSummary> {
         (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
         (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),
         // The height of a wave from files is not known.
-        (Wave::Given(_), _) => return None,
+        (Wave::External(_), _) => return None,
     };
     let (kind, theory) = (kind.to_owned(), theory.to_owned());
     Some(WaveSummary { kind, theory, height_m: case.wave.height()?, period_s: case.wave.period() })

@@ -75,7 +75,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::case::HandoverWay;
+    use crate::case::RerunMethod;
     use crate::simulation::breakage::blow::Balance;
     use crate::simulation::breakage::results::{Found, Outcome};
     use crate::{output::Summary, report::run::write_report};
@@ -106,7 +106,7 @@ mod tests {
         };
         Outcome {
             name: name.to_owned(),
-            way: HandoverWay::ReEnact,
+            way: RerunMethod::ReEnact,
             unit: 1,
             partner: None,
             t_s: 12.345,

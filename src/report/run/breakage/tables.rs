@@ -3,7 +3,7 @@
 use super::super::super::plot::{escape, short};
 use super::super::folder::RunFolder;
 use super::measure::Measure;
-use crate::case::HandoverWay;
+use crate::case::RerunMethod;
 use crate::simulation::breakage::froude::Froude;
 use crate::simulation::breakage::results::{Breakage, Found, Outcome, UnitBreakage};
 use crate::simulation::breakage::run::FOLDER;
@@ -59,7 +59,8 @@ pub fn units(breakage: &Breakage) -> String {
 /// Table of the impacts that were re-run at prototype scale.
 pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
     if breakage.impacts.is_empty() {
-        return "<p>No impact was re-run: none met the criteria in <code>fracture.select</code>.</p>\n".to_owned();
+        return "<p>No impact was handed over: none was as hard as <code>breakage.select</code> asks for.</p>\n"
+            .to_owned();
     }
     let found = || breakage.impacts.iter().flat_map(|impact| &impact.found);
     let area = Measure::of_areas(found().map(|found| found.crack_area_m2));
@@ -110,10 +111,10 @@ pub fn partner(impact: &Outcome) -> String {
     impact.partner.map_or("bed or wall".to_owned(), |unit| format!("unit {unit}"))
 }
 
-fn method(way: HandoverWay) -> &'static str {
+fn method(way: RerunMethod) -> &'static str {
     match way {
-        HandoverWay::LoadHistory => "recorded forces",
-        HandoverWay::ReEnact | HandoverWay::Both => "collision",
+        RerunMethod::LoadHistory => "recorded forces",
+        RerunMethod::ReEnact | RerunMethod::Both => "collision",
     }
 }
 

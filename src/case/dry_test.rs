@@ -1,0 +1,243 @@
+//! Validates a dry test: units on a bed without water.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::breakage::{self, BreakageSettings};
+use super::file::{DryFile, DryOutputFile, DryTestFile, FlumeFile, Sides};
+use super::flume::{bed, site::Site, terrain};
+use super::output::{files, stop, stop::Stop};
+use super::reading::check::{Checker, at_least, more_than};
+use super::reading::document::Document;
+use super::reading::error::CaseErrors;
+use super::reading::hash::fingerprint;
+use super::units::contact::{self, Contact};
+use super::units::materials::{self, Material, Materials};
+use super::units::{self, Surroundings, Units};
+
+/// The kind of dry test. SI units, angles in radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DryTestKind {
+    /// The units are released where they are.
+    Settle,
+    /// The units are lifted, then released.
+    Drop,
+    /// The bed is tilted at `rate` [rad/s] up to the angle `to` [rad]; a unit faster than `slide_speed` [m/s] slides.
+    Tilt { rate: f64, to: f64, slide_speed: f64 },
+}
+
+/// Output intervals of a dry test [s]; `None` for no output.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DryOutput {
+    /// Surfaces of the units.
+    pub units_interval: Option<f64>,
+    /// Motion and energy.
+    pub series_interval: f64,
+    /// Checkpoints.
+    pub checkpoint_interval: Option<f64>,
+}
+
+/// A validated dry test; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DryTestCase {
+    /// One line that names the case.
+    pub title: String,
+    /// Assumptions listed in the case file.
+    pub assumptions: Vec<String>,
+    /// Values that are allowed but probably not intended.
+    pub warnings: Vec<String>,
+    /// Name of the file as given.
+    pub name: String,
+    /// Fingerprint of the case: 32 hexadecimal digits.
+    pub hash: String,
+    /// Case text that is saved with the run.
+    pub text: String,
+    /// The test.
+    pub test: DryTestKind,
+    /// Ground and walls.
+    pub site: Site,
+    /// Acceleration of gravity [m/s2].
+    pub gravity: f64,
+    /// The units.
+    pub units: Units,
+    /// Elastic constants; other structs hold indices into this list.
+    pub materials: Vec<Material>,
+    /// Contact parameters.
+    pub contact: Contact,
+    /// Breakage analysis of the hardest impacts, if requested.
+    pub breakage: Option<BreakageSettings>,
+    /// Output intervals.
+    pub output: DryOutput,
+    /// Stop criteria.
+    pub stop: Stop,
+}
+
+impl DryTestCase {
+    /// Reads and validates a case file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
+        Self::from_document(&Document::read(path.as_ref())?)
+    }
+
+    /// Validates the text of a case file; `name` is its name in messages.
+    pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
+        Self::from_document(&Document::new(text, name)?)
+    }
+
+    /// Validates a document.
+    pub fn from_document(document: &Document) -> Result<Self, CaseErrors> {
+        let (case, warnings) = document.validate(validate)?;
+        Ok(Self { warnings, ..case })
+    }
+}
+
+fn validate(file: &DryFile, document: &Document, check: &mut Checker) -> Option<DryTestCase> {
+    let name = &document.name;
+    check.title(&file.title);
+    check.number("gravity_m_s2", file.gravity_m_s2, more_than(0.0).up_to(100.0), "m/s2", "9.81 on Earth");
+    let ground = validate_ground(file, name, check);
+    let stop = stop::validate(&file.stop, true, check);
+    let (test, lift) = validate_test(&file.dry_test, check);
+    let mut units = units::validate(&file.units, &ground.surroundings(name), check)?;
+    let breakage = match &file.breakage {
+        None => None,
+        Some(entry) => Some(breakage::validate(entry, &units.shape, name, check)?),
+    };
+    let output = validate_output(&file.output, stop.duration, check);
+    let Ground { materials, site, contact } = ground;
+    let site = site?;
+    let (kept, read) = self_contained(file, &units, &site, breakage.as_ref());
+    for pose in &mut units.placements {
+        pose.centre += DVec3::Z * lift;
+    }
+    Some(DryTestCase {
+        title: file.title.clone(),
+        assumptions: file.assumptions.clone(),
+        warnings: Vec::new(),
+        name: name.clone(),
+        hash: fingerprint(&DryFile { schema: None, ..kept.clone() }, &read),
+        text: document.text_of(file, &kept),
+        test,
+        site,
+        gravity: file.gravity_m_s2,
+        units,
+        materials: materials.list,
+        contact,
+        breakage,
+        output,
+        stop,
+    })
+}
+
+/// Returns the case as a run stores it, and the bytes read from other files. The case refers only to files in the run
+/// folder.
+fn self_contained(
+    file: &DryFile,
+    units: &Units,
+    site: &Site,
+    breakage: Option<&BreakageSettings>,
+) -> (DryFile, Vec<u8>) {
+    let (mut kept, mut read) = (file.clone(), Vec::new());
+    units.make_self_contained(&mut kept.units, &mut read);
+    if let Some(settings) = breakage {
+        kept.breakage = kept.breakage.as_ref().map(BreakageSettings::entry);
+        read.extend(&settings.mesh_file);
+    }
+    if let Some(terrain) = &site.terrain {
+        kept.flume.terrain = Some(terrain.entry());
+        read.extend(terrain.content.iter());
+    }
+    (kept, read)
+}
+
+/// What the units of a dry test stand on and touch.
+pub(super) struct Ground {
+    pub materials: Materials,
+    pub site: Option<Site>,
+    pub contact: Contact,
+}
+
+/// Validates materials, ground and contact.
+pub(super) fn validate_ground(file: &DryFile, name: &str, check: &mut Checker) -> Ground {
+    let materials = materials::validate(&file.materials, &file.friction, Some(&file.flume.material), check);
+    let site = validate_site(file, name, materials.ground, check);
+    let contact = contact::validate(&file.contact, check);
+    Ground { materials, site, contact }
+}
+
+impl Ground {
+    /// Returns what the units of the case `name` depend on.
+    pub(super) fn surroundings<'a>(&'a self, name: &'a str) -> Surroundings<'a> {
+        let Self { materials, site, contact } = self;
+        Surroundings { name, site: site.as_ref(), materials, ground_named: true, contact: *contact, water: None }
+    }
+}
+
+/// Validates ground, ends and walls.
+fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mut Checker) -> Option<Site> {
+    let ground = FlumeFile::dry(file.flume.bed_m.clone(), file.flume.mound.clone());
+    let flume = bed::validate(&ground, material, check)?;
+    let before = check.count();
+    let terrain = file.flume.terrain.as_ref().and_then(|file| terrain::validate(file, name, check));
+    let [start, end] = flume.ends();
+    for (index, x) in file.domain.x_m.into_iter().enumerate() {
+        let advice = "move the end of the domain or lengthen `flume.bed_m`";
+        check.number(&format!("domain.x_m[{index}]"), x, at_least(start).up_to(end), "m", advice);
+    }
+    let [x0, x1] = file.domain.x_m;
+    check.number("domain.x_m[1]", x1, more_than(x0).up_to(f64::MAX), "m", "write the seaward end first");
+    check.number(
+        "domain.width_m",
+        file.domain.width_m,
+        more_than(0.0).up_to(1e4),
+        "m",
+        "write the width across the flume",
+    );
+    if file.domain.sides == Sides::TwoDimensional {
+        let advice = "dry tests are three-dimensional";
+        check.reject("domain.sides", "\"two_dimensional\"", "\"periodic\" or \"walls\"", advice);
+    }
+    if check.count() > before {
+        return None;
+    }
+    let highest = flume.profile.extremes_between(file.domain.x_m).1;
+    let room = more_than(highest).up_to(highest + 1000.0);
+    let sound = check.number("domain.top_z_m", file.domain.top_z_m, room, "m", "leave room for the units");
+    let (x, width, sides, top_z) = (file.domain.x_m, file.domain.width_m, file.domain.sides, file.domain.top_z_m);
+    sound.then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
+}
+
+/// Returns the test and the height by which it lifts the units [m].
+fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTestKind, f64) {
+    match file {
+        DryTestFile::Settle {} => (DryTestKind::Settle, 0.0),
+        DryTestFile::Drop(drop) => {
+            check.number("dry_test.height_m", drop.height_m, more_than(0.0).up_to(100.0), "m", "write the lift height");
+            (DryTestKind::Drop, drop.height_m)
+        }
+        DryTestFile::Tilt(tilt) => {
+            let advice = "at 1 degree/s the angle of sliding is found within 0.3 %";
+            check.number("dry_test.rate_deg_s", tilt.rate_deg_s, more_than(0.0).up_to(90.0), "degrees/s", advice);
+            check.number(
+                "dry_test.to_deg",
+                tilt.to_deg,
+                more_than(0.0).below(90.0),
+                "degrees",
+                "write the largest tilt angle",
+            );
+            let advice = "below this speed a unit counts as at rest";
+            check.number("dry_test.slide_speed_m_s", tilt.slide_speed_m_s, more_than(0.0).up_to(1.0), "m/s", advice);
+            let (rate, to, slide_speed) =
+                (tilt.rate_deg_s.to_radians(), tilt.to_deg.to_radians(), tilt.slide_speed_m_s);
+            (DryTestKind::Tilt { rate, to, slide_speed }, 0.0)
+        }
+    }
+}
+
+fn validate_output(file: &DryOutputFile, duration: f64, check: &mut Checker) -> DryOutput {
+    let mut interval = |key: &str, value: f64| files::validate_interval(key, value, duration, check);
+    let units_interval = interval("units_interval_s", file.units_interval_s);
+    let checkpoint_interval = interval("checkpoint_interval_s", file.checkpoint_interval_s);
+    files::validate_series_interval(file.series_interval_s, duration, check);
+    DryOutput { units_interval, series_interval: file.series_interval_s, checkpoint_interval }
+}

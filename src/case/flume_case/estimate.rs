@@ -1,0 +1,134 @@
+//! Estimated size of a run, before any particle is created.
+
+use glam::DVec3;
+
+use super::Case;
+use super::numerics::Numerics;
+use crate::case::file::{Sides, Viscosity};
+use crate::case::flume::domain::Water;
+use crate::geometry::{axis_box::AxisBox, profile::Profile};
+use crate::sph::time_step::viscous_limit;
+
+/// Memory per particle, with its neighbour lists [bytes].
+const BYTES_PER_PARTICLE: f64 = 600.0;
+
+/// Size of a run, estimated from areas and volumes; within some ten per cent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Number of water particles.
+    pub fluid: f64,
+    /// Number of particles in bed, walls and wavemaker.
+    pub boundary: f64,
+    /// Number of particles in the armour units.
+    pub units: f64,
+    /// Memory [bytes].
+    pub bytes: f64,
+    /// Time step [s]: cfl h / c0 from the speed of sound, or the limit from the viscosity if that is smaller.
+    pub dt: f64,
+    /// Number of time steps of the whole run.
+    pub steps: f64,
+}
+
+impl Estimate {
+    /// Returns the number of all particles.
+    pub fn particles(&self) -> f64 {
+        self.fluid + self.boundary + self.units
+    }
+}
+
+impl Case {
+    /// Returns the two ends and the level of the initial water [m].
+    fn water_at_start(&self) -> ([f64; 2], f64) {
+        match self.domain.water {
+            Water::StillLevel => (self.domain.x, self.flume.still_water_level),
+            Water::Block { x, top_z } => (x, top_z),
+        }
+    }
+
+    /// Returns the share of the initial water inside a box, given by its lower and upper corner [-].
+    pub fn share_of_water_in(&self, [low, high]: [[f64; 3]; 2]) -> f64 {
+        let (profile, (x, top)) = (&self.flume.profile, self.water_at_start());
+        let overlap = |[a0, a1]: [f64; 2], [b0, b1]: [f64; 2]| [a0.max(b0), a1.min(b1).max(a0.max(b0))];
+        let [x0, x1] = overlap(x, [low[0], high[0]]);
+        let [y0, y1] = overlap([0.0, self.domain.width], [low[1], high[1]]);
+        let area_below = |level: f64| if x1 > x0 { area_under(profile, [x0, x1], level.min(top)) } else { 0.0 };
+        let (in_box, all) = (area_below(high[2]) - area_below(low[2]), area_under(profile, x, top));
+        if all > 0.0 { in_box / all * (y1 - y0) / self.domain.width } else { 0.0 }
+    }
+
+    /// Estimates the size of the run.
+    pub fn estimate(&self) -> Estimate {
+        let domain = &self.domain;
+        let profile = &self.flume.profile;
+        let per_volume = 1.0 / (domain.dp * domain.dp * domain.dy);
+        let thickness = self.numerics.boundary_layers as f64 * domain.dp;
+        let (water_x, water_top) = self.water_at_start();
+        let water_area = area_under(profile, water_x, water_top);
+        let end_walls = domain.x.iter().map(|x| (domain.top_z - profile.z(*x)).max(0.0)).sum::<f64>();
+        let bed = length_along(profile, domain.x);
+        let mut solid = (bed + end_walls) * thickness * domain.width;
+        if domain.sides == Sides::Walls {
+            solid += 2.0 * thickness * area_under(profile, domain.x, domain.top_z);
+        }
+        let shell = |obstacle: &AxisBox| {
+            let core = (obstacle.edges() - 2.0 * thickness).max(DVec3::ZERO);
+            obstacle.volume() - core.element_product()
+        };
+        solid += domain.obstacles.iter().map(shell).sum::<f64>();
+        let unit_volume =
+            self.units.as_ref().map_or(0.0, |row| row.placements.len() as f64 * row.shape.volume() / row.slices);
+        let (fluid, boundary, units) =
+            (water_area * domain.width * per_volume, solid * per_volume, unit_volume * per_volume);
+        let Numerics { h, cfl, viscosity, nu, .. } = self.numerics;
+        let courant = cfl * h / self.fluid.sound_speed;
+        let dt = if viscosity == Viscosity::Artificial { courant } else { courant.min(viscous_limit(h, nu)) };
+        Estimate {
+            fluid: fluid.round(),
+            boundary: boundary.round(),
+            units: units.round(),
+            bytes: BYTES_PER_PARTICLE * (fluid + boundary + units),
+            dt,
+            steps: (self.stop.duration / dt).ceil(),
+        }
+    }
+}
+
+/// Returns the corner points of the ground between two x, with both ends.
+fn ground_points(profile: &Profile, [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
+    let inner = profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
+    [[x0, profile.z(x0)]].into_iter().chain(inner).chain([[x1, profile.z(x1)]]).collect()
+}
+
+/// Returns the area between the ground and a level where the ground is below the level [m2].
+fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
+    let wet_area = |pair: &[[f64; 2]]| {
+        let (a, b) = (level - pair[0][1], level - pair[1][1]);
+        let length = pair[1][0] - pair[0][0];
+        match (a > 0.0, b > 0.0) {
+            (true, true) => 0.5 * (a + b) * length,
+            // The wet part of a segment that crosses the level is a triangle.
+            (true, false) => 0.5 * a * length * a / (a - b),
+            (false, true) => 0.5 * b * length * b / (b - a),
+            (false, false) => 0.0,
+        }
+    };
+    ground_points(profile, x).windows(2).map(wet_area).sum()
+}
+
+/// Returns the length of the ground surface between two x [m].
+fn length_along(profile: &Profile, x: [f64; 2]) -> f64 {
+    ground_points(profile, x).windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn areas_and_lengths_follow_the_ground() {
+        let bed = Profile::new(vec![[0.0, 0.0], [2.0, 0.0], [4.0, 2.0]]);
+        assert!((area_under(&bed, [0.0, 4.0], 1.0) - 2.5).abs() < 1e-12);
+        assert!((area_under(&bed, [1.0, 4.0], 3.0) - 7.0).abs() < 1e-12);
+        assert!((length_along(&bed, [1.0, 3.0]) - (1.0 + 2f64.sqrt())).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,269 @@
+//! The validated water and SPH scheme.
+
+use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
+use crate::case::reading::check::{Checker, as_text, at_least};
+
+/// Water; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fluid {
+    /// Reference density [kg/m3].
+    pub rho0: f64,
+    /// Gravitational acceleration, positive [m/s2].
+    pub gravity: f64,
+    /// Exponent of Tait's equation of state [-].
+    pub gamma: f64,
+    /// Speed of sound c0 = factor sqrt(g d), with the largest water depth d in the domain [m/s].
+    pub sound_speed: f64,
+}
+
+/// Options and constants of the SPH scheme; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numerics {
+    /// Smoothing length h = factor sqrt(3) dp [m]; the kernel radius is 2h.
+    pub h: f64,
+    /// Viscosity model.
+    pub viscosity: Viscosity,
+    /// Coefficient of artificial viscosity [-].
+    pub alpha: f64,
+    /// Kinematic viscosity [m2/s].
+    pub nu: f64,
+    /// Kind of density diffusion.
+    pub density_diffusion: DensityDiffusion,
+    /// Coefficient of density diffusion [-].
+    pub delta: f64,
+    /// Coefficient of particle shifting [-], 0 for none.
+    pub shifting: f64,
+    /// Courant number [-].
+    pub cfl: f64,
+    /// Boundary condition of walls, wavemaker and units.
+    pub boundary: Boundary,
+    /// Velocity condition at walls.
+    pub wall_slip: WallSlip,
+    /// Whether free slip holds for units, too.
+    pub slip_on_units: bool,
+    /// Whether the water pressure acts on units through gaps without water particles.
+    pub gap_pressure: bool,
+    /// Number of particle layers in walls and bed.
+    pub boundary_layers: usize,
+    /// Time for which the units are held at the start [s].
+    pub hold_units: f64,
+}
+
+/// Validates the constants of the water; `depth` [m] gives the speed of sound.
+pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
+    let before = check.count();
+    check.number(
+        "fluid.density_kg_m3",
+        file.density_kg_m3,
+        at_least(1.0).up_to(20_000.0),
+        "kg/m3",
+        "fresh water has 1000, sea water 1025",
+    );
+    check.number(
+        "fluid.gravity_m_s2",
+        file.gravity_m_s2,
+        at_least(0.01).up_to(1000.0),
+        "m/s2",
+        "write a positive number, 9.81 on earth; gravity acts downwards",
+    );
+    check.number(
+        "fluid.sound_speed_factor",
+        file.sound_speed_factor,
+        at_least(5.0).up_to(200.0),
+        "",
+        "10 to 20 keeps density changes below about 1 %; larger values shorten the time step",
+    );
+    check.number("fluid.tait_exponent", file.tait_exponent, at_least(1.0).up_to(10.0), "", "water has 7");
+    if check.count() > before {
+        return None;
+    }
+    let sound_speed = file.sound_speed_factor * (file.gravity_m_s2 * depth?).sqrt();
+    Some(Fluid { rho0: file.density_kg_m3, gravity: file.gravity_m_s2, gamma: file.tait_exponent, sound_speed })
+}
+
+/// Validates the scheme; `dp` is the particle spacing [m], `longest_hold` the longest time for which this run can hold
+/// the units [s].
+pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check: &mut Checker) -> Option<Numerics> {
+    let before = check.count();
+    check.number(
+        "numerics.smoothing_factor",
+        file.smoothing_factor,
+        at_least(0.8).up_to(2.5),
+        "",
+        "h = factor sqrt(3) dp; 1.2 is usual",
+    );
+    check.number(
+        "numerics.viscosity_alpha",
+        file.viscosity_alpha,
+        at_least(0.0).up_to(1.0),
+        "",
+        "0.01 to 0.1 is usual",
+    );
+    check.number(
+        "numerics.kinematic_viscosity_m2_s",
+        file.kinematic_viscosity_m2_s,
+        at_least(0.0).up_to(1.0),
+        "m2/s",
+        "water has 1e-6",
+    );
+    check.number(
+        "numerics.shifting_coefficient",
+        file.shifting_coefficient,
+        at_least(0.0).up_to(10.0),
+        "",
+        "0 for none; 2 is usual",
+    );
+    let wall_slip = validate_slip(file, check);
+    check.number("numerics.diffusion_delta", file.diffusion_delta, at_least(0.0).up_to(1.0), "", "0.1 is usual");
+    check.number("numerics.cfl", file.cfl, at_least(0.001).up_to(0.5), "", "0.2 is usual; larger values are unstable");
+    refuse_unstable_diffusion(file, check);
+    warn_of_ignored_constants(file, check);
+    if !(1..=10).contains(&file.boundary_layers) {
+        check.reject("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 layers cover the kernel radius");
+    }
+    check.number(
+        "numerics.hold_units_s",
+        file.hold_units_s,
+        at_least(0.0).up_to(longest_hold),
+        "s",
+        "hold the units only at the start of the run, e.g. 0.2",
+    );
+    if check.count() > before {
+        return None;
+    }
+    let h = file.smoothing_factor * 3f64.sqrt() * dp;
+    // The outer 30 % of the kernel radius contribute only a few per cent of the kernel's integral.
+    if f64::from(file.boundary_layers) * dp < 0.7 * 2.0 * h {
+        check.warn(format!(
+            "numerics.boundary_layers = {}: the layers are thinner than the kernel radius, 2h = {:.3} m",
+            file.boundary_layers,
+            2.0 * h
+        ));
+    }
+    Some(Numerics {
+        h,
+        viscosity: file.viscosity,
+        alpha: file.viscosity_alpha,
+        nu: file.kinematic_viscosity_m2_s,
+        density_diffusion: file.density_diffusion,
+        delta: file.diffusion_delta,
+        shifting: file.shifting_coefficient,
+        cfl: file.cfl,
+        boundary: file.boundary,
+        wall_slip,
+        slip_on_units: file.slip_on_units,
+        gap_pressure: file.gap_pressure,
+        boundary_layers: file.boundary_layers as usize,
+        hold_units: file.hold_units_s,
+    })
+}
+
+/// Returns the velocity condition at walls. The default with mDBC is free slip: the viscosity of the scheme makes a
+/// boundary layer much thicker than in real water, which takes height and speed from long waves.
+fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
+    match (file.boundary, file.wall_slip) {
+        (Boundary::Mdbc, slip) => slip.unwrap_or(WallSlip::FreeSlip),
+        (Boundary::Dbc, None | Some(WallSlip::Original)) => WallSlip::Original,
+        (Boundary::Dbc, Some(slip)) => {
+            let slip = if slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
+            let advice = "set numerics.boundary to \"mdbc\"";
+            check.reject("numerics.wall_slip", slip, "\"original\" with \"dbc\"", advice);
+            WallSlip::Original
+        }
+    }
+}
+
+/// Refuses unstable density diffusion. The shortest wave of the particles decays at the rate lambda = 2 delta h c0
+/// sum_b V_b |G_ab|, at most 7 delta c0 / h, because the kernel's |G| integrates to 7 / (2 h^2). One time step,
+/// dt = cfl h / c0, multiplies it by 1 - z + z^2 / 2 with z = lambda dt, which is unstable if z > 2.
+fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
+    let limit = 2.0 / (7.0 * file.cfl);
+    if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > limit {
+        check.reject(
+            "numerics.diffusion_delta",
+            file.diffusion_delta,
+            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", as_text(limit), file.cfl),
+            "larger values are unstable; 0.1 is usual",
+        );
+    }
+}
+
+/// Warns of constants that differ from their defaults but that the chosen scheme ignores.
+fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
+    let defaults = NumericsFile::default();
+    let artificial = file.viscosity == Viscosity::Artificial;
+    let has_free_slip = file.boundary == Boundary::Mdbc && matches!(file.wall_slip, None | Some(WallSlip::FreeSlip));
+    let no_diffusion = file.density_diffusion == DensityDiffusion::None;
+    let ignored = [
+        (!artificial && file.viscosity_alpha != defaults.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
+        (
+            artificial && file.kinematic_viscosity_m2_s != defaults.kinematic_viscosity_m2_s,
+            "kinematic_viscosity_m2_s",
+            "viscosity is artificial",
+        ),
+        (
+            no_diffusion && file.diffusion_delta != defaults.diffusion_delta && file.diffusion_delta != 0.0,
+            "diffusion_delta",
+            "density_diffusion is none",
+        ),
+        (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
+        (file.slip_on_units && !has_free_slip, "slip_on_units", "wall_slip is not free_slip"),
+    ];
+    for (_, key, reason) in ignored.iter().filter(|(is_ignored, ..)| *is_ignored) {
+        check.warn(format!("numerics.{key} has no effect: numerics.{reason}"));
+    }
+    if file.viscosity == Viscosity::Laminar && file.kinematic_viscosity_m2_s == 0.0 {
+        check.warn("numerics.kinematic_viscosity_m2_s = 0: the water has no viscosity; real water has 1e-6 m2/s");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Validates the changed defaults. Returns whether they are accepted, and the warnings.
+    fn warnings(change: impl FnOnce(&mut NumericsFile)) -> (bool, Vec<String>) {
+        let mut file = NumericsFile::default();
+        change(&mut file);
+        let mut check = Checker::new("x.json");
+        let accepted = validate_numerics(&file, 0.01, 1.0, &mut check).is_some();
+        (accepted, check.warnings)
+    }
+
+    #[test]
+    fn ignored_constants_give_a_warning() {
+        assert_eq!(warnings(|_| ()), (true, vec![]));
+        let (accepted, found) = warnings(|file| file.kinematic_viscosity_m2_s = 1e-3);
+        assert!(accepted && found[0].starts_with("numerics.kinematic_viscosity_m2_s has no effect"), "{found:?}");
+        let (accepted, found) = warnings(|file| {
+            file.viscosity = Viscosity::LaminarSps;
+            file.viscosity_alpha = 0.1;
+        });
+        assert!(accepted && found[0].starts_with("numerics.viscosity_alpha has no effect"), "{found:?}");
+        let (accepted, found) = warnings(|file| {
+            file.density_diffusion = DensityDiffusion::None;
+            file.diffusion_delta = 0.2;
+        });
+        assert!(accepted && found[0].starts_with("numerics.diffusion_delta has no effect"), "{found:?}");
+        let (accepted, found) =
+            warnings(|file| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::Original)));
+        assert!(accepted && found[0].starts_with("numerics.slip_on_units has no effect"), "{found:?}");
+        assert_eq!(warnings(|file| file.slip_on_units = true), (true, vec![]));
+        let (accepted, found) = warnings(|file| {
+            file.viscosity = Viscosity::Laminar;
+            file.kinematic_viscosity_m2_s = 0.0;
+        });
+        assert!(accepted && found[0].contains("the water has no viscosity"), "{found:?}");
+    }
+
+    #[test]
+    fn diffusion_is_limited_by_the_time_step() {
+        assert!(warnings(|file| (file.diffusion_delta, file.cfl) = (0.57, 0.5)).0);
+        assert!(!warnings(|file| (file.diffusion_delta, file.cfl) = (0.58, 0.5)).0);
+        let no_diffusion = |file: &mut NumericsFile| {
+            file.density_diffusion = DensityDiffusion::None;
+            (file.diffusion_delta, file.cfl) = (0.58, 0.5);
+        };
+        assert!(warnings(no_diffusion).0);
+    }
+}

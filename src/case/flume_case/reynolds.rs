@@ -1,0 +1,79 @@
+//! Warning of over-viscous water: the Reynolds number of the units under artificial viscosity.
+
+use super::Case;
+use crate::case::file::{Sides, Viscosity};
+use crate::case::reading::check::{Checker, as_text};
+
+/// Reynolds number below which `check` warns [-]. At 20 to 35 the force on a standing unit is proportional to the
+/// velocity, at 80 no longer (docs/validation.md). In real flumes it is 1e4 and more.
+const LEAST_REYNOLDS: f64 = 50.0;
+/// Kinematic viscosity of water at 20 degrees [m2/s].
+const WATER_VISCOSITY: f64 = 1e-6;
+
+/// Returns the kinematic viscosity that artificial viscosity gives the water [m2/s]: alpha h c0 / 10 in three
+/// dimensions, alpha h c0 / 8 in two (Monaghan 2005). `None` with other viscosity models.
+fn artificial_viscosity(case: &Case) -> Option<f64> {
+    let numerics = &case.numerics;
+    let divisor = if case.domain.sides == Sides::TwoDimensional { 8.0 } else { 10.0 };
+    let is_artificial = numerics.viscosity == Viscosity::Artificial;
+    is_artificial.then_some(numerics.alpha * numerics.h * case.fluid.sound_speed / divisor)
+}
+
+/// Returns the velocity of the water in a long wave at x, H sqrt(g / d) [m/s]; `None` if the wave height is not known
+/// or the ground is dry.
+fn long_wave_velocity(case: &Case, x: f64) -> Option<f64> {
+    let depth = Some(case.flume.still_depth(x)).filter(|depth| *depth > 0.0)?;
+    Some(case.wave.height()? * (case.fluid.gravity / depth).sqrt())
+}
+
+/// Returns the largest Reynolds number of a unit, with its height as the length [-].
+fn reynolds_number(case: &Case) -> Option<f64> {
+    let units = case.units.as_ref()?;
+    let fastest =
+        units.placements.iter().filter_map(|unit| long_wave_velocity(case, unit.centre.x)).reduce(f64::max)?;
+    Some(fastest * units.shape.height() / artificial_viscosity(case).filter(|nu| *nu > 0.0)?)
+}
+
+/// Warns if the flow around the units is too viscous.
+pub fn warn(case: &Case, check: &mut Checker) {
+    if let (Some(reynolds), Some(nu)) =
+        (reynolds_number(case).filter(|re| *re < LEAST_REYNOLDS), artificial_viscosity(case))
+    {
+        check.warn(format!(
+            "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number \
+             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity, not its square, so \
+             strong waves exert too little force compared with weak ones. Lower it or `domain.dp_m`",
+            as_text(case.numerics.alpha),
+            nu / WATER_VISCOSITY,
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn slice(alpha: f64) -> Case {
+        let text = include_str!("../../../cases/fudo/H2.6-slice.json");
+        let text = text.replace("\"wall_slip\"", &format!("\"viscosity_alpha\": {alpha}, \"wall_slip\""));
+        Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn over_viscous_water_gives_a_warning() {
+        let warned = |case: &Case| case.warnings.iter().any(|warning| warning.contains("Reynolds number"));
+        assert!(warned(&slice(0.04)) && !warned(&slice(0.01)) && !warned(&slice(0.0)));
+    }
+
+    #[test]
+    fn reynolds_number_uses_the_wave_over_the_mound() {
+        // nu = 0.04 h c0 / 10 with h = 1.2 sqrt(3) 7 mm and c0 = 10 sqrt(g 0.217 m), the depth at x = 36.5 m. The depth
+        // at the units, which are 77 mm high, is 83 mm.
+        let depth: f64 = 0.8 - 17.5 / 30.0;
+        let nu = 0.004 * 1.2 * 3.0_f64.sqrt() * 0.007 * 10.0 * (9.81 * depth).sqrt();
+        let expected = 0.026 * (9.81_f64 / 0.083).sqrt() * 0.077 / nu;
+        let found = reynolds_number(&slice(0.04)).unwrap();
+        // The depth comes from the corner points of the bed: rounding errors.
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    }
+}

@@ -1,0 +1,38 @@
+//! The case as a run stores it.
+
+use crate::case::breakage::BreakageSettings;
+use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
+use crate::case::units::Units;
+use crate::case::wave::Wave;
+use crate::case::wave::external_wave::ROWS_FILE;
+
+/// Returns the case as a run stores it, and the bytes read from other files. The case refers only to files in the run
+/// folder, so that the folder can be moved and resumed: wave files become one file that the run writes, STL files
+/// become copies, and a placement file becomes poses in the case.
+pub(super) fn self_contained(
+    file: &CaseFile,
+    wave: &Wave,
+    units: Option<&Units>,
+    breakage: Option<&BreakageSettings>,
+) -> (CaseFile, Vec<u8>) {
+    let (mut kept, mut read) = (file.clone(), Vec::new());
+    if let Wave::External(wave) = wave {
+        let source = WaveSourceFile::Dualsphysics(VelxFile { path: ROWS_FILE.into() });
+        kept.wave = WaveFile::File(ExternalWaveFile { source, celerity_m_s: wave.celerity });
+        read = wave.rows_text();
+    }
+    if let (Some(file), Some(units)) = (&mut kept.units, units) {
+        units.make_self_contained(file, &mut read);
+    }
+    if let Some(settings) = breakage {
+        kept.breakage = kept.breakage.as_ref().map(BreakageSettings::entry);
+        read.extend(&settings.mesh_file);
+    }
+    (kept, read)
+}
+
+/// Returns the case file without its schema and without [`KEYS_FREE_AT_START`](super::Case::KEYS_FREE_AT_START).
+pub(super) fn without_keys_free_at_start(file: &CaseFile) -> CaseFile {
+    let stop = StopFile { at_rest: None, ..file.stop.clone() };
+    CaseFile { schema: None, title: String::new(), assumptions: Vec::new(), friction: Vec::new(), stop, ..file.clone() }
+}

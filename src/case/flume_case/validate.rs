@@ -1,0 +1,161 @@
+//! Validates a flume case, section by section.
+
+use super::Case;
+use super::numerics::{self, Numerics};
+use super::reynolds;
+use super::self_contained::{self_contained, without_keys_free_at_start};
+use crate::case::breakage::{self, BreakageSettings};
+use crate::case::file::{CaseFile, Sides};
+use crate::case::flume::{bed, bed::Flume, domain, domain::Domain, site::Site};
+use crate::case::output::gauges::{self, Gauge};
+use crate::case::output::{files, stop, stop::Stop};
+use crate::case::reading::check::{Checker, as_text};
+use crate::case::reading::document::Document;
+use crate::case::reading::hash::fingerprint;
+use crate::case::units::contact::{self, Contact};
+use crate::case::units::materials::{self, Materials};
+use crate::case::units::{self, Surroundings, Units, WaterAround};
+use crate::case::wave::wavemaker::{self, Wavemaker};
+use crate::case::wave::{self, Wave};
+
+/// Number of particles above which `check` warns.
+const MANY_PARTICLES: f64 = 50e6;
+/// Largest number of particles.
+const MOST_PARTICLES: f64 = 1e9;
+
+/// Validates section by section. A section that depends on an invalid one checks what it can and returns `None`.
+pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<Case> {
+    check.title(&file.title);
+    let materials = materials::validate(&file.materials, &file.friction, file.flume.material.as_deref(), check);
+    let flume = bed::validate(&file.flume, materials.ground, check);
+    let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
+    let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
+    let stop = stop::validate(&file.stop, file.units.is_some(), check);
+    let numerics = validate_numerics(file, &stop, check);
+    let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), check);
+    let sections = Sections { file, name: &document.name, flume, domain };
+    let wave = sections.wave(wavemaker, check);
+    let contact = contact::validate(&file.contact, check);
+    let units = sections.units(&materials, contact, check);
+    let gauges = sections.gauges(wavemaker, units.as_ref().ok().and_then(Option::as_ref), check);
+    let output = files::validate(&file.output, stop.duration, sections.domain.as_ref(), check);
+    let units = units.ok()?;
+    let breakage = sections.breakage(units.as_ref(), check).ok()?;
+    let Sections { flume, domain, .. } = sections;
+    let (wave, domain) = (wave?, domain?);
+    wave::refuse_relaxation_zone(domain.relaxation_zone.as_ref(), &wave, wavemaker, check);
+    let (kept, read) = self_contained(file, &wave, units.as_ref(), breakage.as_ref());
+    let case = Case {
+        title: file.title.clone(),
+        assumptions: file.assumptions.clone(),
+        warnings: Vec::new(),
+        name: document.name.clone(),
+        hash: fingerprint(&CaseFile { schema: None, ..kept.clone() }, &read),
+        start_hash: fingerprint(&without_keys_free_at_start(&kept), &read),
+        text: document.text_of(file, &kept),
+        flume: flume?,
+        domain,
+        fluid: fluid?,
+        numerics: numerics?,
+        wave,
+        wavemaker,
+        units,
+        materials: materials.list,
+        friction: materials.friction,
+        contact,
+        breakage,
+        gauges,
+        output,
+        stop,
+    };
+    validate_size(&case, check);
+    reynolds::warn(&case, check);
+    Some(case)
+}
+
+/// Sections on which later ones depend.
+struct Sections<'a> {
+    file: &'a CaseFile,
+    /// Name of the case file.
+    name: &'a str,
+    flume: Option<Flume>,
+    domain: Option<Domain>,
+}
+
+/// An optional section is in the file but invalid.
+struct Invalid;
+
+impl Sections<'_> {
+    fn wave(&self, wavemaker: Wavemaker, check: &mut Checker) -> Option<Wave> {
+        let around = wave::Surroundings {
+            name: self.name,
+            domain_file: &self.file.domain,
+            wavemaker,
+            gravity: self.file.fluid.gravity_m_s2,
+            flume: self.flume.as_ref(),
+            domain: self.domain.as_ref(),
+        };
+        wave::validate(&self.file.wave, &around, check)
+    }
+
+    fn units(&self, materials: &Materials, contact: Contact, check: &mut Checker) -> Result<Option<Units>, Invalid> {
+        let Some(file) = &self.file.units else { return Ok(None) };
+        let site = self.flume.as_ref().zip(self.domain.as_ref()).map(|(flume, domain)| domain.site(flume));
+        let around = surroundings(self.file, self.name, site.as_ref(), materials, contact);
+        units::validate(file, &around, check).map(Some).ok_or(Invalid)
+    }
+
+    fn gauges(&self, wavemaker: Wavemaker, units: Option<&Units>, check: &mut Checker) -> Vec<Gauge> {
+        let reach = gauges::Reach::of(&self.file.wave, wavemaker);
+        let count = units.map_or(0, |units| units.placements.len());
+        gauges::validate(&self.file.gauges, self.flume.as_ref(), self.domain.as_ref(), count, reach, check)
+    }
+
+    /// Validates the breakage analysis, which needs units in three dimensions.
+    fn breakage(&self, units: Option<&Units>, check: &mut Checker) -> Result<Option<BreakageSettings>, Invalid> {
+        let Some(file) = &self.file.breakage else { return Ok(None) };
+        let (allowed, advice) = match units {
+            None => ("left out without units", "remove it: only units have impacts"),
+            Some(_) if self.file.domain.sides == Sides::TwoDimensional => {
+                ("left out in two dimensions", "remove it: units in a two-dimensional domain cannot break")
+            }
+            Some(units) => return breakage::validate(file, &units.shape, self.name, check).map(Some).ok_or(Invalid),
+        };
+        check.reject("breakage", "{...}", allowed, advice);
+        Err(Invalid)
+    }
+}
+
+/// Returns what the units of a flume case depend on.
+pub fn surroundings<'a>(
+    file: &CaseFile,
+    name: &'a str,
+    site: Option<&'a Site>,
+    materials: &'a Materials,
+    contact: Contact,
+) -> Surroundings<'a> {
+    let (dp, rho0) = (file.domain.dp_m, file.fluid.density_kg_m3);
+    let water = Some(WaterAround { dp, obstacles: file.domain.obstacles.len(), rho0 });
+    Surroundings { name, site, materials, ground_named: file.flume.material.is_some(), contact, water }
+}
+
+fn validate_numerics(file: &CaseFile, stop: &Stop, check: &mut Checker) -> Option<Numerics> {
+    // The hold time has a default, so compare it with the duration only if there are units.
+    let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
+    numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check)
+}
+
+fn validate_size(case: &Case, check: &mut Checker) {
+    let particles = case.estimate().particles();
+    if particles > MOST_PARTICLES {
+        check.reject(
+            "domain.dp_m",
+            as_text(case.domain.dp),
+            format!("large enough for at most {MOST_PARTICLES:e} particles (it would be {particles:.1e})"),
+            "write a larger particle spacing or a smaller domain",
+        );
+    } else if particles > MANY_PARTICLES {
+        let dp = as_text(case.domain.dp);
+        check.warn(format!("domain.dp_m = {dp}: about {:.0} million particles", particles / 1e6));
+    }
+}

@@ -1,0 +1,146 @@
+//! Validates the parts of a flume case or dry test that the placing of armour layers needs.
+
+use std::path::Path;
+
+use super::file::{ArmourFile, ArmourOrientation, CaseFile, DryFile, UnitsFile};
+use super::flume::{bed, domain, site::Site};
+use super::reading::check::{Checker, at_least, more_than};
+use super::reading::document::{Document, InputKind};
+use super::reading::error::CaseErrors;
+use super::units::contact::{self, Contact};
+use super::units::materials::{self, Material};
+use super::units::{self, MOST_UNITS, Surroundings, Units};
+use super::{dry_test, flume_case};
+
+/// Armour layers on a slope; SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Armour {
+    /// Seaward and shoreward end [m].
+    pub x: [f64; 2],
+    /// Number of layers.
+    pub layers: u32,
+    /// Number of units in all layers per area D_n^2 of the slope [-].
+    pub packing_density: f64,
+    /// Orientation of the units.
+    pub orientation: ArmourOrientation,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+/// Armour layers to be placed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerJob {
+    /// Title of the case.
+    pub title: String,
+    /// Ground and walls.
+    pub site: Site,
+    /// The units, not yet placed.
+    pub units: Units,
+    /// The layers.
+    pub armour: Armour,
+    /// Elastic constants.
+    pub materials: Vec<Material>,
+    /// Contact parameters.
+    pub contact: Contact,
+    /// Acceleration of gravity [m/s2].
+    pub gravity: f64,
+}
+
+impl LayerJob {
+    /// Reads a flume case or dry test and validates what the placing needs.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
+        Self::from_document(&Document::read(path.as_ref())?)
+    }
+
+    /// Like [`Self::load`], from the text of a case file; `name` is its name in messages.
+    pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
+        Self::from_document(&Document::new(text, name)?)
+    }
+
+    /// Validates what the placing needs; a document that is not a dry test is read as a flume case.
+    pub fn from_document(document: &Document) -> Result<Self, CaseErrors> {
+        let (job, _) = match document.kind() {
+            InputKind::DryTest => document.validate(validate_dry_test)?,
+            _ => document.validate(validate_flume_case)?,
+        };
+        Ok(job)
+    }
+
+    /// Returns the corners (x, z) of the slope under the layers, including both ends [m].
+    pub fn slope(&self) -> Vec<[f64; 2]> {
+        let [x0, x1] = self.armour.x;
+        let inner = self.site.profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
+        let end = |x: f64| [x, self.site.profile.z(x)];
+        [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
+    }
+
+    /// Returns the slope area under the layers over D_n^2 [-].
+    pub fn area(&self) -> f64 {
+        let length: f64 = self.slope().windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
+        length * self.site.width / self.units.shape.nominal_diameter().powi(2)
+    }
+
+    /// Returns the number of units in all layers.
+    pub fn count(&self) -> usize {
+        (self.armour.packing_density * self.area()).round() as usize
+    }
+}
+
+fn validate_dry_test(file: &DryFile, document: &Document, check: &mut Checker) -> Option<LayerJob> {
+    let ground = dry_test::validate_ground(file, &document.name, check);
+    validate_job(&file.title, &file.units, &ground.surroundings(&document.name), file.gravity_m_s2, check)
+}
+
+fn validate_flume_case(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<LayerJob> {
+    let materials = materials::validate(&file.materials, &file.friction, file.flume.material.as_deref(), check);
+    let flume = bed::validate(&file.flume, materials.ground, check)?;
+    let domain = domain::validate(&file.domain, Some(&flume), file.numerics.smoothing_factor, check)?;
+    let contact = contact::validate(&file.contact, check);
+    let Some(units) = &file.units else {
+        check.reject("units", "(missing)", "given", "there is nothing to place without units");
+        return None;
+    };
+    let site = domain.site(&flume);
+    let around = flume_case::surroundings(file, &document.name, Some(&site), &materials, contact);
+    validate_job(&file.title, units, &around, file.fluid.gravity_m_s2, check)
+}
+
+fn validate_job(
+    title: &str,
+    file: &UnitsFile,
+    around: &Surroundings,
+    gravity: f64,
+    check: &mut Checker,
+) -> Option<LayerJob> {
+    let units = units::validate_unplaced(file, around, check);
+    let Some(armour) = &file.armour else {
+        let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
+        check.reject("units.armour", "(missing)", "the armour layers to place", advice);
+        return None;
+    };
+    let armour = validate(armour, around.site?, check)?;
+    let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
+    let job = LayerJob { title, site, units: units?, armour, materials, contact: around.contact, gravity };
+    let count = job.count();
+    if !(1..=MOST_UNITS as usize).contains(&count) {
+        let advice = "change the length of the layers or the packing density";
+        check.reject("units.armour", format!("{count} units"), format!("1 to {MOST_UNITS} units"), advice);
+    }
+    Some(job)
+}
+
+fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armour> {
+    let before = check.count();
+    let [start, end] = site.x;
+    let [x0, x1] = file.x_m;
+    let advice = "the layers must lie inside the domain";
+    check.number("units.armour.x_m[0]", x0, at_least(start).below(end), "m", advice);
+    check.number("units.armour.x_m[1]", x1, more_than(x0).up_to(end), "m", advice);
+    if !(1..=10).contains(&file.layers) {
+        check.reject("units.armour.layers", file.layers, "1 to 10", "two layers are usual");
+    }
+    let advice = "usual for two layers: Tetrapods 1.04, Dolosse 0.83, cubes 1.17";
+    check.number("units.armour.packing_density", file.packing_density, more_than(0.0).up_to(5.0), "", advice);
+    let ArmourFile { layers, packing_density, orientation, seed, .. } = *file;
+    (check.count() == before).then_some(Armour { x: file.x_m, layers, packing_density, orientation, seed })
+}

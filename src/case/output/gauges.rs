@@ -1,0 +1,221 @@
+//! The validated gauges.
+
+use crate::case::file::{GaugeFile, PointFile, Sides, WaveFile};
+use crate::case::flume::bed::Flume;
+use crate::case::flume::domain::Domain;
+use crate::case::reading::check::{Checker, as_text};
+use crate::case::wave::wavemaker::Wavemaker;
+
+/// Largest number of gauges in a case.
+const MOST_GAUGES: usize = 1000;
+/// Largest number of characters in a gauge's name; names become file names and table headings.
+const LONGEST_NAME: usize = 64;
+
+/// A gauge; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gauge {
+    /// Name, unique and safe as a file name.
+    pub name: String,
+    /// Measured quantity.
+    pub quantity: Quantity,
+    /// Position [m]; z of an elevation gauge is the still water level.
+    pub at: [f64; 3],
+    /// Motion of the gauge.
+    pub motion: Motion,
+    /// Whether the gauge is inside the particle domain; outside, only the flume model writes it.
+    pub in_domain: bool,
+}
+
+/// How a gauge moves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Motion {
+    /// Fixed in space.
+    Fixed,
+    /// With a unit, counted from 0.
+    OnUnit(usize),
+    /// Along a path: rows of the time from the start of the particles [s] and the displacement [m].
+    Way(Vec<[f64; 4]>),
+}
+
+impl Gauge {
+    /// Returns the displacement along the path [m] at a time after the start of the particles [s]; 0 without a path.
+    pub fn displacement(&self, time: f64) -> [f64; 3] {
+        let Motion::Way(way) = &self.motion else { return [0.0; 3] };
+        let after = way.partition_point(|point| point[0] <= time);
+        let row = |i: usize| [way[i][1], way[i][2], way[i][3]];
+        if after == 0 || after == way.len() {
+            return row(after.saturating_sub(1));
+        }
+        let (from, to) = (row(after - 1), row(after));
+        let share = (time - way[after - 1][0]) / (way[after][0] - way[after - 1][0]);
+        std::array::from_fn(|k| from[k] + share * (to[k] - from[k]))
+    }
+}
+
+/// Quantity that a gauge measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Elevation of the free surface above the still water level [m].
+    Elevation,
+    /// Pressure [Pa].
+    Pressure,
+    /// Velocity [m/s].
+    Velocity,
+}
+
+/// Range in which elevation gauges are allowed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// The whole flume: the flume model writes the gauges outside the domain.
+    Flume,
+    /// The domain, because there is no wave.
+    DomainWithoutWave,
+    /// The domain, because the wave is generated there.
+    DomainWithPaddle,
+}
+
+impl Reach {
+    pub(in crate::case) fn of(wave: &WaveFile, wavemaker: Wavemaker) -> Self {
+        match wave {
+            WaveFile::None {} => Self::DomainWithoutWave,
+            WaveFile::File(_) => Self::DomainWithPaddle,
+            _ if wavemaker.is_ml_piston() => Self::Flume,
+            _ => Self::DomainWithPaddle,
+        }
+    }
+}
+
+/// Validates the gauges.
+pub fn validate(
+    file: &[GaugeFile],
+    flume: Option<&Flume>,
+    domain: Option<&Domain>,
+    units: usize,
+    reach: Reach,
+    check: &mut Checker,
+) -> Vec<Gauge> {
+    if file.len() > MOST_GAUGES {
+        check.reject("gauges", file.len(), format!("at most {MOST_GAUGES} gauges"), "remove some gauges");
+        return Vec::new();
+    }
+    validate_names(file, check);
+    let (Some(flume), Some(domain)) = (flume, domain) else { return Vec::new() };
+    let mut gauges = Vec::new();
+    for (index, gauge) in file.iter().enumerate() {
+        let path = format!("gauges[{index}]");
+        let (quantity, at, motion) = match gauge {
+            GaugeFile::Elevation(elevation) => {
+                let y = elevation.y_m.unwrap_or(0.5 * domain.width);
+                validate_elevation(&path, elevation.x_m, y, flume, domain, reach, check);
+                (Quantity::Elevation, [elevation.x_m, y, flume.still_water_level], Motion::Fixed)
+            }
+            GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => {
+                validate_point(&path, point, flume, domain, check);
+                let pressure = matches!(gauge, GaugeFile::Pressure(_));
+                let quantity = if pressure { Quantity::Pressure } else { Quantity::Velocity };
+                (quantity, point.at_m, validate_motion(&path, point, units, check))
+            }
+        };
+        let in_domain = at[0] >= domain.x[0] && at[0] <= domain.x[1];
+        gauges.push(Gauge { name: gauge_name(gauge).to_owned(), quantity, at, motion, in_domain });
+    }
+    gauges
+}
+
+fn gauge_name(gauge: &GaugeFile) -> &str {
+    match gauge {
+        GaugeFile::Elevation(elevation) => &elevation.name,
+        GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => &point.name,
+    }
+}
+
+fn validate_names(file: &[GaugeFile], check: &mut Checker) {
+    for (index, gauge) in file.iter().enumerate() {
+        let name = gauge_name(gauge);
+        let path = format!("gauges[{index}].name");
+        let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
+        if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(is_allowed) {
+            check.reject(
+                &path,
+                format!("{name:?}"),
+                format!("1 to {LONGEST_NAME} of the characters A-Z a-z 0-9 _ -"),
+                "the name becomes part of a file name, e.g. \"WG1\"",
+            );
+        }
+        // Some file systems do not distinguish capital letters.
+        if file[..index].iter().any(|other| self::gauge_name(other).eq_ignore_ascii_case(name)) {
+            check.reject(&path, format!("{name:?}"), "different from the names before it", "rename one of the two");
+        }
+    }
+}
+
+/// Returns the range of y for gauges [m]; in two dimensions any y is allowed.
+fn y_range(domain: &Domain) -> [f64; 2] {
+    let everywhere = [f64::MIN, f64::MAX];
+    if domain.sides == Sides::TwoDimensional { everywhere } else { [0.0, domain.width] }
+}
+
+fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain, reach: Reach, check: &mut Checker) {
+    let (ends, range) = match reach {
+        Reach::Flume => (flume.ends(), "the flume"),
+        Reach::DomainWithoutWave => (domain.x, "the domain (there is no wave)"),
+        Reach::DomainWithPaddle => (domain.x, "the domain (the wave is generated there)"),
+    };
+    check_inside(&format!("{path}.x_m"), x, ends, range, check);
+    check_inside(&format!("{path}.y_m"), y, y_range(domain), "the domain's width", check);
+}
+
+fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain, check: &mut Checker) {
+    let [x, y, z] = point.at_m;
+    check_inside(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
+    check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
+    check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the walls' height", check);
+    if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.contains(point.at_m.into())) {
+        check.reject(
+            &format!("{path}.at_m"),
+            format!("[{}, {}, {}]", as_text(x), as_text(y), as_text(z)),
+            format!("outside domain.obstacles[{obstacle}]"),
+            "there is no water inside an obstacle: move the gauge to its face",
+        );
+    }
+}
+
+fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Checker) -> Motion {
+    let is_increasing = point.way.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+    let is_finite = point.way.iter().flatten().all(|value| value.is_finite());
+    if !(is_increasing && is_finite) {
+        check.reject(
+            &format!("{path}.way"),
+            format!("{} rows", point.way.len()),
+            "rows [t, x, y, z] of finite numbers with increasing times",
+            "write times from the start of the particles [s] and displacements [m]",
+        );
+    }
+    match point.on_unit {
+        None if point.way.is_empty() => Motion::Fixed,
+        None => Motion::Way(point.way.clone()),
+        Some(unit) => {
+            if unit == 0 || unit as usize > units {
+                let allowed =
+                    if units == 0 { "left out: there are no units".to_owned() } else { format!("1 to {units}") };
+                check.reject(&format!("{path}.on_unit"), unit, allowed, "units are numbered from 1, as in the tables");
+            }
+            if !point.way.is_empty() {
+                let advice = "a gauge moves either with a unit or along a path";
+                check.reject(&format!("{path}.way"), "given", "left out with `on_unit`", advice);
+            }
+            Motion::OnUnit((unit as usize).saturating_sub(1))
+        }
+    }
+}
+
+fn check_inside(path: &str, value: f64, [low, high]: [f64; 2], range: &str, check: &mut Checker) {
+    if !(value >= low && value <= high) {
+        check.reject(
+            path,
+            as_text(value),
+            format!("inside {range}, {} to {} m", as_text(low), as_text(high)),
+            "move the gauge",
+        );
+    }
+}

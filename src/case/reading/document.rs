@@ -1,0 +1,147 @@
+//! An input file whose kind is known from its top-level keys, before anything else is parsed.
+
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::path::Path;
+
+use serde::Serialize;
+use serde::de::{DeserializeOwned, IgnoredAny};
+
+use super::check::Checker;
+use super::error::{CaseError, CaseErrors};
+use super::parse::{RENAMED_KEYS, parse, syntax_error};
+
+/// Largest input file [bytes].
+const LARGEST_FILE: u64 = 16 << 20;
+
+/// Kind of an input file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InputKind {
+    /// A flume case.
+    Flume,
+    /// A dry test.
+    DryTest,
+    /// A fracture case.
+    Fracture,
+    /// A sweep.
+    Sweep,
+    /// A placement file.
+    Placement,
+}
+
+impl InputKind {
+    /// Returns the name of the kind, with its article.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Flume => "a flume case",
+            Self::DryTest => "a dry test",
+            Self::Fracture => "a fracture case",
+            Self::Sweep => "a sweep",
+            Self::Placement => "a placement file",
+        }
+    }
+}
+
+/// The text of an input file, which is valid JSON.
+#[derive(Debug, Clone)]
+pub struct Document {
+    /// Name of the file, as passed by the user.
+    pub name: String,
+    /// The text.
+    pub text: String,
+    /// Top-level keys.
+    keys: Vec<String>,
+}
+
+impl Document {
+    /// Reads an input file.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is not valid JSON.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let name = path.display().to_string();
+        match read_text(path) {
+            Ok(text) => Self::new(text, &name),
+            Err(reason) => Err(CaseError::Read { file: name, reason }),
+        }
+    }
+
+    /// Takes the text of an input file; `name` is its name in messages.
+    ///
+    /// # Errors
+    /// If the text is not valid JSON.
+    pub fn new(text: impl Into<String>, name: &str) -> Result<Self, CaseError> {
+        let (text, name) = (text.into(), name.to_owned());
+        let keys = match serde_json::from_str::<BTreeMap<String, IgnoredAny>>(without_mark(&text)) {
+            Ok(object) => object.into_keys().collect(),
+            // Valid JSON, but not an object: parsing it as a flume case reports that.
+            Err(error) if error.is_data() => Vec::new(),
+            Err(error) => return Err(syntax_error(&error, &name)),
+        };
+        Ok(Self { name, text, keys })
+    }
+
+    /// Returns the kind of the file. A file without the keys of another kind is a flume case.
+    pub fn kind(&self) -> InputKind {
+        let has = |key: &str| self.has(key);
+        let has_flume = has("flume") || has("domain");
+        match () {
+            () if has("vary") => InputKind::Sweep,
+            () if has("dry_test") || has("dry") => InputKind::DryTest,
+            // Old flume cases have a key `fracture` for their breakage analysis.
+            () if has("fracture") && !has_flume => InputKind::Fracture,
+            () if has("poses") && !has_flume => InputKind::Placement,
+            () => InputKind::Flume,
+        }
+    }
+
+    fn has(&self, key: &str) -> bool {
+        self.keys.iter().any(|found| found == key)
+    }
+
+    /// Parses the file: keys and types.
+    ///
+    /// # Errors
+    /// If a key is unknown or missing, or a value has the wrong type.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, CaseError> {
+        parse(without_mark(&self.text), &self.name)
+    }
+
+    /// Returns the text that a run stores: the user's own if `kept`, the file as the run stores it, does not differ.
+    pub(in crate::case) fn text_of<F: PartialEq + Serialize>(&self, file: &F, kept: &F) -> String {
+        // Writing to memory cannot fail, because every key is a string.
+        if kept == file { self.text.clone() } else { serde_json::to_string_pretty(kept).unwrap_or_default() }
+    }
+
+    /// Parses and validates the file. Returns the result with the warnings, or all errors.
+    pub(in crate::case) fn validate<F: DeserializeOwned, C>(
+        &self,
+        validate: impl FnOnce(&F, &Self, &mut Checker) -> Option<C>,
+    ) -> Result<(C, Vec<String>), CaseErrors> {
+        let file = self.parse()?;
+        let mut check = Checker::new(&self.name);
+        if self.kind() != InputKind::Fracture {
+            let old_keys = RENAMED_KEYS.iter().filter(|(old, _)| self.has(old));
+            old_keys.for_each(|(old, new)| check.warn(format!("{old}: is now called {new}; the old name still works")));
+        }
+        match validate(&file, self, &mut check) {
+            Some(case) if check.count() == 0 => Ok((case, check.warnings)),
+            _ => Err(check.into_errors()),
+        }
+    }
+}
+
+/// Returns the text without its byte order mark.
+fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    let mut text = String::new();
+    let size = file.take(LARGEST_FILE + 1).read_to_string(&mut text).map_err(|error| error.to_string())?;
+    if size as u64 > LARGEST_FILE {
+        return Err(format!("larger than {} MiB, the limit for input files", LARGEST_FILE >> 20));
+    }
+    Ok(text)
+}

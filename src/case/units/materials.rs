@@ -1,0 +1,189 @@
+//! Validates materials and their friction.
+
+use crate::case::file::{FrictionFile, MaterialFile};
+use crate::case::reading::check::{Checker, as_text, at_least, more_than};
+use crate::case::reading::error::nearest;
+
+const RESTITUTION_ADVICE: &str = "1 keeps the speed in a collision, 0.5 halves it";
+
+/// Largest number of materials in one case.
+const MOST_MATERIALS: usize = 100;
+
+/// Contact properties of a material; SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name in the case file.
+    pub name: String,
+    /// Young's modulus in contact [Pa].
+    pub young_modulus: f64,
+    /// Poisson's ratio [-].
+    pub poisson_ratio: f64,
+    /// Coefficient of restitution [-].
+    pub restitution: f64,
+    /// Measured contact stiffness of two bodies of this material [N/m].
+    pub contact_stiffness: Option<f64>,
+}
+
+/// Friction between two materials, each an index into `Case::materials`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionPair {
+    /// The two materials, the smaller index first.
+    pub between: [usize; 2],
+    /// Static friction coefficient [-].
+    pub coefficient: f64,
+    /// Kinetic friction coefficient [-].
+    pub kinetic: f64,
+    /// Coefficient of rolling resistance [-].
+    pub rolling: f64,
+    /// Coefficient of restitution [-]; `None` for the smaller one of the two materials.
+    pub restitution: Option<f64>,
+}
+
+/// Materials and friction of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Materials {
+    /// The materials.
+    pub list: Vec<Material>,
+    /// Friction of each pair of materials in the file.
+    pub friction: Vec<FrictionPair>,
+    /// Material of bed and mound, an index into the list; `None` if the file has none or an unknown one.
+    pub ground: Option<usize>,
+}
+
+/// Validates materials and friction, and looks up the material of the ground.
+pub fn validate(
+    materials: &[MaterialFile],
+    friction: &[FrictionFile],
+    ground: Option<&str>,
+    check: &mut Checker,
+) -> Materials {
+    let list = validate_materials(materials, check);
+    let friction = validate_friction(friction, &list, check);
+    let ground = ground.and_then(|name| find(&list, name, "flume.material", check));
+    Materials { list, friction, ground }
+}
+
+/// Validates the materials. The result has one entry per material in the file, even for those with errors.
+fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Material> {
+    if file.len() > MOST_MATERIALS {
+        check.reject("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "leave out some");
+        return Vec::new();
+    }
+    for (index, material) in file.iter().enumerate() {
+        let path = |key: &str| format!("materials[{index}].{key}");
+        if material.name.trim().is_empty() {
+            check.reject(&path("name"), "\"\"", "a name", "write e.g. \"mortar\"");
+        }
+        if file[..index].iter().any(|other| other.name == material.name) {
+            check.reject(&path("name"), format!("{:?}", material.name), "different from the others", "rename one");
+        }
+        check.number(
+            &path("young_modulus_pa"),
+            material.young_modulus_pa,
+            at_least(1e5).up_to(1e12),
+            "Pa",
+            "concrete has 3e10; about 1e8 is stiff enough in small-scale models and allows a longer time step",
+        );
+        check.number(
+            &path("poisson_ratio"),
+            material.poisson_ratio,
+            more_than(-1.0).below(0.5),
+            "",
+            "concrete has 0.2",
+        );
+        check.number(&path("restitution"), material.restitution, more_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
+        if let Some(stiffness) = material.contact_stiffness_n_m {
+            let advice = "force over overlap of two bodies pressed together";
+            check.number(&path("contact_stiffness_n_m"), stiffness, at_least(1.0).up_to(1e12), "N/m", advice);
+        }
+    }
+    let validated = |material: &MaterialFile| Material {
+        name: material.name.clone(),
+        young_modulus: material.young_modulus_pa,
+        poisson_ratio: material.poisson_ratio,
+        restitution: material.restitution,
+        contact_stiffness: material.contact_stiffness_n_m,
+    };
+    file.iter().map(validated).collect()
+}
+
+/// Returns the index of the material called `name`.
+pub(super) fn find(materials: &[Material], name: &str, path: &str, check: &mut Checker) -> Option<usize> {
+    let found = materials.iter().position(|material| material.name == name);
+    if found.is_none() {
+        let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
+        let guess = nearest(name, names.iter().copied());
+        let advice = match guess {
+            Some(guess) => format!("did you mean \"{guess}\"?"),
+            None => "add it to `materials`".to_owned(),
+        };
+        let allowed = if names.is_empty() { "a name in `materials`, which is empty".to_owned() } else { list(&names) };
+        check.reject(path, format!("{name:?}"), allowed, advice);
+    }
+    found
+}
+
+fn list(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    format!("one of {}", quoted.join(", "))
+}
+
+/// Validates the table of friction coefficients.
+fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut Checker) -> Vec<FrictionPair> {
+    let mut pairs: Vec<FrictionPair> = Vec::new();
+    // At most one entry per pair of materials.
+    let most = MOST_MATERIALS * (MOST_MATERIALS + 1) / 2;
+    if file.len() > most {
+        check.reject("friction", file.len(), format!("at most {most} pairs"), "write each pair once");
+        return pairs;
+    }
+    for (index, friction) in file.iter().enumerate() {
+        let coefficient = friction.coefficient;
+        check.number(
+            &format!("friction[{index}].coefficient"),
+            coefficient,
+            at_least(0.0).up_to(2.0),
+            "",
+            "write the tangent of the angle at which sliding starts, e.g. 0.6",
+        );
+        let path = |side: usize| format!("friction[{index}].between[{side}]");
+        let first = find(materials, &friction.between[0], &path(0), check);
+        let second = find(materials, &friction.between[1], &path(1), check);
+        let (Some(first), Some(second)) = (first, second) else { continue };
+        let between = [first.min(second), first.max(second)];
+        if let Some(other) = pairs.iter().find(|pair| pair.between == between) {
+            check.reject(
+                &format!("friction[{index}].between"),
+                format!("{:?}", friction.between),
+                format!("a pair not yet given (it has {})", as_text(other.coefficient)),
+                "keep one of the two",
+            );
+            continue;
+        }
+        let kinetic = validate_pair(index, friction, check);
+        let (rolling, restitution) = (friction.rolling_coefficient.unwrap_or(0.0), friction.restitution);
+        pairs.push(FrictionPair { between, coefficient, kinetic, rolling, restitution });
+    }
+    pairs
+}
+
+/// Validates the other values of a pair; returns its kinetic friction coefficient.
+fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 {
+    let path = |key: &str| format!("friction[{index}].{key}");
+    let kinetic = file.kinetic_coefficient.unwrap_or(file.coefficient);
+    let advice = "kinetic friction must not exceed static friction";
+    check.number(&path("kinetic_coefficient"), kinetic, at_least(0.0).up_to(file.coefficient.max(0.0)), "", advice);
+    if let Some(rolling) = file.rolling_coefficient {
+        let advice = "the tangent of the slope at which a ball begins to roll";
+        check.number(&path("rolling_coefficient"), rolling, at_least(0.0).up_to(2.0), "", advice);
+    }
+    if let Some(restitution) = file.restitution {
+        check.number(&path("restitution"), restitution, more_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
+    }
+    kinetic
+}
+
+/// Returns the entry of two materials, if the table has it.
+pub(super) fn pair(pairs: &[FrictionPair], a: usize, b: usize) -> Option<&FrictionPair> {
+    pairs.iter().find(|pair| pair.between == [a.min(b), a.max(b)])
+}

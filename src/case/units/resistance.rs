@@ -1,0 +1,46 @@
+//! Looks up friction and restitution of the units against each other and against the ground.
+
+use super::{Surroundings, materials};
+use crate::case::file::ContactLawName;
+use crate::case::reading::check::Checker;
+use crate::rigid::Resistance;
+
+/// Returns friction and restitution between two units, and between a unit and the ground.
+pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<[Resistance; 2]> {
+    let (unit, ground) = (material?, around.materials.ground?);
+    let mut lookup = |a: usize, b: usize| {
+        let found = materials::pair(&around.materials.friction, a, b);
+        let (a, b) = (&around.materials.list[a], &around.materials.list[b]);
+        if found.is_none() {
+            let (a, b) = (&a.name, &b.name);
+            check.reject(
+                "friction",
+                format!("no entry for {a:?} on {b:?}"),
+                "complete for the pairs that can touch",
+                format!("add {{ \"between\": [{a:?}, {b:?}], \"coefficient\": ... }}"),
+            );
+        }
+        for material in [a, b] {
+            if around.contact.law == ContactLawName::Linear && material.contact_stiffness.is_none() {
+                check.reject(
+                    "materials",
+                    format!("no `contact_stiffness_n_m` of {:?}", material.name),
+                    "given for each material with the linear contact law",
+                    "add the measured stiffness, or use \"hertz_mindlin\"",
+                );
+            }
+        }
+        // Springs in series: each body has twice the stiffness of a contact between two bodies of its material.
+        let stiffness = a.contact_stiffness.zip(b.contact_stiffness).map(|(a, b)| 2.0 * a * b / (a + b));
+        found.map(|pair| Resistance {
+            static_friction: pair.coefficient,
+            kinetic_friction: pair.kinetic,
+            rolling: pair.rolling,
+            restitution: pair.restitution,
+            stiffness,
+        })
+    };
+    let on_unit = lookup(unit, unit);
+    let on_ground = if ground == unit { on_unit } else { lookup(unit, ground) };
+    Some([on_unit?, on_ground?])
+}

@@ -1,0 +1,147 @@
+//! Validates a unit from STL files: its surface, and its convex parts from files or by decomposition.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::case::file::StlFile;
+use crate::case::reading::check::{Checker, as_text, more_than};
+use crate::geometry::armour_unit::LARGEST_ROUNDING;
+use crate::geometry::decomposition::{self, Decomposition};
+use crate::geometry::polyhedron::Polyhedron;
+use crate::geometry::solid::Solid;
+use crate::geometry::stl;
+
+/// Largest volume by which the convex parts may differ from the unit, over the unit's volume [-].
+const LARGEST_ERROR: f64 = 0.05;
+
+/// Largest number of files with convex parts.
+const MOST_PARTS: usize = 63;
+
+/// A unit from STL files, with the content of the files, which a run saves next to its case.
+#[derive(Debug, Clone)]
+pub struct StlUnit {
+    solid: Arc<Solid>,
+    parts: Arc<Vec<Polyhedron>>,
+    /// Volume that parts and surface do not have in common, over the unit's volume [-].
+    pub volume_error: f64,
+    /// Name in the run folder and content of each file.
+    files: Arc<Vec<(String, Vec<u8>)>>,
+    scale: f64,
+}
+
+impl PartialEq for StlUnit {
+    fn eq(&self, other: &Self) -> bool {
+        self.files == other.files && self.scale == other.scale
+    }
+}
+
+impl StlUnit {
+    /// Returns the closed surface [m].
+    pub fn solid(&self) -> &Solid {
+        &self.solid
+    }
+
+    /// Returns the convex parts [m].
+    pub fn parts(&self) -> &[Polyhedron] {
+        &self.parts
+    }
+
+    /// Returns the name in the run folder and the content of each file.
+    pub fn files(&self) -> &[(String, Vec<u8>)] {
+        &self.files
+    }
+
+    /// Returns the entry for a case file in the same folder as [`Self::files`].
+    pub fn entry(&self) -> StlFile {
+        let names: Vec<String> = self.files.iter().map(|(name, _)| name.clone()).collect();
+        StlFile { path: names[0].clone(), scale: self.scale, parts: names[1..].to_vec() }
+    }
+}
+
+/// Reads the files and checks that the parts fill the surface. Paths are relative to the case file `case_name`.
+pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
+    let advice = "1 for a file in metres, 0.001 for one in millimetres";
+    if !check.number("units.stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
+        return None;
+    }
+    if file.parts.len() > MOST_PARTS {
+        let given = format!("{} files", file.parts.len());
+        check.reject("units.stl.parts", given, format!("at most {MOST_PARTS}"), "use fewer convex parts");
+        return None;
+    }
+    let folder = Path::new(case_name).parent().unwrap_or(Path::new(""));
+    let mut files = Vec::new();
+    let mut read = |path: &str, key: &str, name: String, check: &mut Checker| {
+        let path: PathBuf = folder.join(path);
+        let mut refuse = |reason: String| {
+            let advice =
+                "the surface must be closed, without holes, and its triangles counter-clockwise seen from outside";
+            check.reject(key, format!("{:?}", path.display().to_string()), reason, advice);
+        };
+        match std::fs::read(&path) {
+            Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
+                Ok(solid) => {
+                    if let Some(point) = solid.self_intersection() {
+                        refuse(format!("a surface that does not intersect itself; it does so near {point} m"));
+                        return None;
+                    }
+                    files.push((name, bytes));
+                    Some(solid)
+                }
+                Err(error) => {
+                    refuse(format!("a closed surface ({error})"));
+                    None
+                }
+            },
+            Err(error) => {
+                refuse(format!("a file that can be read ({error})"));
+                None
+            }
+        }
+    };
+    let solid = read(&file.path, "units.stl.path", "unit.stl".to_owned(), check)?;
+    let mut parts = Vec::new();
+    for (index, path) in file.parts.iter().enumerate() {
+        let part = read(path, &format!("units.stl.parts[{index}]"), format!("unit_part_{}.stl", index + 1), check)?;
+        match Polyhedron::hull(part.vertices()) {
+            Ok(hull) => parts.push(hull),
+            Err(error) => {
+                let advice = "each part is replaced by its convex hull";
+                check.reject(&format!("units.stl.parts[{index}]"), format!("{path:?}"), error.to_string(), advice);
+                return None;
+            }
+        }
+    }
+    let found = if parts.is_empty() {
+        // Drop parts that are thinner than the rounding; their volume counts as error.
+        let [low, high] = solid.bounds();
+        let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
+        let mut found = decomposition::decompose(&solid);
+        found.parts.retain(|part| part.inner_radius() >= thinnest);
+        decomposition::measure(&solid, found.parts)
+    } else {
+        decomposition::measure(&solid, parts)
+    };
+    let Decomposition { parts, volume_error } = found;
+    if volume_error > LARGEST_ERROR || parts.is_empty() {
+        let key = if file.parts.is_empty() { "units.stl.path" } else { "units.stl.parts" };
+        check.reject(
+            key,
+            format!(
+                "{} convex parts that differ from the unit by {:.1} % of its volume",
+                parts.len(),
+                100.0 * volume_error
+            ),
+            format!("parts that differ by at most {} %", as_text(100.0 * LARGEST_ERROR)),
+            "give the convex parts as separate STL files in `units.stl.parts`",
+        );
+        return None;
+    }
+    Some(StlUnit {
+        solid: Arc::new(solid),
+        parts: Arc::new(parts),
+        volume_error,
+        files: Arc::new(files),
+        scale: file.scale,
+    })
+}

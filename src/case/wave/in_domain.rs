@@ -1,0 +1,129 @@
+//! Checks the wave and its wavemaker against the particle domain.
+
+use super::Wave;
+use super::wavemaker::Wavemaker;
+use crate::case::flume::bed::Flume;
+use crate::case::flume::domain::Domain;
+use crate::case::flume::zones::RelaxationZone;
+use crate::case::reading::check::{Checker, as_text, at_least};
+use crate::waves::theory::regular::RegularWave;
+
+/// Largest stroke of a paddle over the length of the domain [-].
+const LARGEST_SWEEP: f64 = 0.5;
+/// Bed slope above which the wave at a paddle differs visibly from its theory, which assumes a horizontal bed [-].
+const EVEN_SLOPE: f64 = 0.02;
+
+/// Validates the position of the wavemaker and its stroke.
+pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain: &Domain, check: &mut Checker) {
+    let depth = flume.still_depth(domain.x[0]);
+    // A wavemaker needs a depth of at least four particles to act as a wall.
+    if depth < 4.0 * domain.dp {
+        check.reject(
+            "domain.x_m[0]",
+            as_text(domain.x[0]),
+            format!("in still water at least 4 particles deep (the depth there is {} m)", as_text(depth)),
+            "move the seaward end of the domain away from the shore",
+        );
+    }
+    if let Some(gauge) = wavemaker.absorption_gauge() {
+        // Nearer than four particle spacings the gauge would measure the gap at the piston.
+        let (nearest, furthest) = (4.0 * domain.dp, 0.5 * (domain.x[1] - domain.x[0]));
+        let advice = "a distance of about one depth is usual";
+        check.number("wavemaker.absorption_gauge_m", gauge, at_least(nearest).up_to(furthest), "m", advice);
+    }
+    match wave {
+        Wave::None | Wave::External(_) => {}
+        Wave::Solitary(wave) if wavemaker.is_ml_piston() => {
+            validate_distance("the stroke of the flume's piston", flume.ends()[0] + wave.stroke_m(), domain, check);
+        }
+        _ if wavemaker.is_ml_piston() => {
+            validate_distance("one depth from the inflow", flume.ends()[0] + flume.offshore_depth(), domain, check);
+        }
+        Wave::SolitaryInflow(_) | Wave::Irregular { .. } => {}
+        Wave::Solitary(wave) => {
+            validate_sweep(wave.stroke_m(), wave.height_m, domain, check);
+            warn_of_slope(flume, domain, depth, check);
+        }
+        Wave::Regular { wave, ramp_periods } => {
+            let bed_z = flume.profile.z(domain.x[0]);
+            let top_share = wavemaker.shape(bed_z).relative_displacement(domain.top_z - bed_z, depth).max(1.0);
+            let stroke = 2.0 * top_share * wavemaker.motion(wave, *ramp_periods, bed_z).max_displacement_m();
+            validate_sweep(stroke, wave.height_m, domain, check);
+            warn_of_slope(flume, domain, depth, check);
+            warn_of_order(wave, wavemaker, check);
+        }
+    }
+    if let Some(height) = wave.height() {
+        let particles = height / domain.dp;
+        if particles < 5.0 {
+            check.warn(format!(
+                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, 5 to 10 needed \
+                 (Altomare et al. 2017)",
+                as_text(domain.dp)
+            ));
+        }
+    }
+}
+
+fn validate_distance(limit: &str, nearest: f64, domain: &Domain, check: &mut Checker) {
+    if domain.x[0] <= nearest {
+        check.reject(
+            "domain.x_m[0]",
+            as_text(domain.x[0]),
+            format!("beyond {limit}, > {} m", as_text(nearest)),
+            "move the seaward end of the domain shoreward; the flume model carries the wave there",
+        );
+    }
+}
+
+fn validate_sweep(stroke: f64, height: f64, domain: &Domain, check: &mut Checker) {
+    let most = LARGEST_SWEEP * (domain.x[1] - domain.x[0]);
+    if stroke.is_nan() || stroke > most {
+        check.reject(
+            "wave.height_m",
+            as_text(height),
+            format!(
+                "such that the stroke of the paddle, {} m, is at most half of the domain's length, {} m",
+                as_text(stroke),
+                as_text(most)
+            ),
+            "lengthen the domain or lower the wave",
+        );
+    }
+}
+
+/// Warns of a sloping bed, because the theory of a paddle assumes a horizontal one.
+fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker) {
+    let x0 = domain.x[0];
+    let rise = flume.profile.z(x0 + depth) - flume.profile.z(x0);
+    if rise.abs() > EVEN_SLOPE * depth {
+        check.warn(format!(
+            "domain.x_m[0] = {}: the bed changes by {} m over one depth; the wavemaker theory has a horizontal bed",
+            as_text(x0),
+            as_text(rise)
+        ));
+    }
+}
+
+fn warn_of_order(wave: &RegularWave, wavemaker: Wavemaker, check: &mut Checker) {
+    if matches!(wavemaker, Wavemaker::Piston { .. }) && !wave.is_second_order() {
+        check.warn(format!(
+            "wave.height_m = {}: H L^2 / d^3 exceeds 8 pi^2 / 3, the limit of the piston's second-order motion \
+             (Madsen 1971); a free secondary wave will follow each crest",
+            as_text(wave.height_m)
+        ));
+    }
+}
+
+/// Refuses a relaxation zone if no wave comes from the flume model.
+pub fn refuse_relaxation_zone(zone: Option<&RelaxationZone>, wave: &Wave, wavemaker: Wavemaker, check: &mut Checker) {
+    let from_flume = wavemaker.is_ml_piston() && !matches!(wave, Wave::None | Wave::External(_));
+    if zone.is_some() && !from_flume {
+        check.reject(
+            "domain.relaxation_zone",
+            "present",
+            "absent, because no wave comes from the flume model",
+            "remove it, or use a wave that the flume model carries and the wavemaker \"ml_piston\"",
+        );
+    }
+}

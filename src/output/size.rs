@@ -1,0 +1,127 @@
+//! Estimated size of the output files, before any particle is created.
+
+use super::columns;
+use crate::case::{Case, FluidField, Quantity};
+
+/// Size of a number in a table with its comma [bytes]; measured in the tables of a run: 19.0 to 19.6.
+const BYTES_PER_NUMBER: f64 = 19.0;
+/// Number of columns per unit in `units.csv`, in `energy.csv` and in `diagnostics.csv`.
+const UNIT_COLUMNS: f64 = columns::UNITS.len() as f64;
+const ENERGY_COLUMNS: f64 = columns::ENERGY.len() as f64;
+const DIAGNOSTICS_COLUMNS: f64 = columns::DIAGNOSTICS.len() as f64;
+/// Size of a point in a snapshot: three f32 [bytes].
+const BYTES_PER_POINT: f64 = 12.0;
+/// Size of a cell, which a file stores once for all snapshots: its offset and one or three corners, i64 [bytes].
+const BYTES_PER_VERTEX: f64 = 16.0;
+const BYTES_PER_TRIANGLE: f64 = 32.0;
+/// Space that a VTKHDF file reserves for short lists: five lists of 16384 i64 [bytes].
+const RESERVED: f64 = 5.0 * 16_384.0 * 8.0;
+/// Size of a vertex of a unit surface with its velocity and number [bytes].
+const BYTES_PER_SURFACE_POINT: f64 = 28.0;
+/// Size of a particle in a checkpoint [bytes]. Water: position, velocity, density, mass, number; boundary: density.
+const BYTES_PER_WATER_STATE: f64 = 68.0;
+const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
+
+/// Size of the files of a complete run [bytes], within some ten per cent. It does not contain the list of contacts and
+/// the report, which are small.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputSize {
+    /// `fluid.vtkhdf`, if the water in the box of the snapshots stays as at the start.
+    pub fluid: f64,
+    /// `units.vtkhdf`.
+    pub units: f64,
+    /// All tables.
+    pub tables: f64,
+    /// `checkpoint.h5`; a run has one.
+    pub checkpoint: f64,
+}
+
+impl OutputSize {
+    /// Estimates the size of the files of the run.
+    pub fn estimate(case: &Case) -> Self {
+        let (estimate, output) = (case.estimate(), &case.output);
+        // Two more: one at the start, one at the end.
+        let count = |interval: Option<f64>| interval.map_or(0.0, |dt| (case.stop.duration / dt).floor() + 2.0);
+        let bytes_per_particle =
+            BYTES_PER_POINT + output.fluid_fields.iter().map(|field| field_bytes(*field)).sum::<f64>();
+        let particles = estimate.fluid * output.fluid_box.map_or(1.0, |corners| case.share_of_water_in(corners));
+        let fluid_bytes = |snapshots: f64| RESERVED + particles * (snapshots * bytes_per_particle + BYTES_PER_VERTEX);
+        Self {
+            fluid: if output.fluid_interval.is_some() { fluid_bytes(count(output.fluid_interval)) } else { 0.0 },
+            units: surfaces_bytes(case, count(output.units_interval)),
+            tables: table_bytes(case, count(Some(output.series_interval))),
+            checkpoint: BYTES_PER_WATER_STATE * estimate.fluid
+                + BYTES_PER_BOUNDARY_STATE * (estimate.boundary + estimate.units),
+        }
+    }
+
+    /// Returns the size of all files.
+    pub fn total(&self) -> f64 {
+        self.fluid + self.units + self.tables + self.checkpoint
+    }
+}
+
+fn surfaces_bytes(case: &Case, snapshots: f64) -> f64 {
+    let Some(units) = case.units.as_ref().filter(|_| snapshots > 0.0) else { return 0.0 };
+    let solid = units.shape.unit().solid();
+    let (vertices, triangles) = (solid.vertices().len() as f64, solid.triangles().len() as f64);
+    let stored_once = BYTES_PER_TRIANGLE * triangles;
+    RESERVED + units.placements.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + stored_once)
+}
+
+fn table_bytes(case: &Case, rows: f64) -> f64 {
+    let gauge_columns = |quantity: Quantity| if quantity == Quantity::Velocity { 3.0 } else { 1.0 };
+    let gauges = case.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(gauge.quantity));
+    let units = case.units.as_ref().map_or(0, |units| units.placements.len()) as f64;
+    let columns = 1.0 + gauges.sum::<f64>() + ENERGY_COLUMNS + DIAGNOSTICS_COLUMNS + UNIT_COLUMNS * units;
+    BYTES_PER_NUMBER * rows * columns
+}
+
+/// Returns the size of a field in a snapshot per particle [bytes].
+fn field_bytes(field: FluidField) -> f64 {
+    match field {
+        FluidField::Velocity => 12.0,
+        FluidField::Pressure | FluidField::Density | FluidField::Id => 4.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tank of 2 m x 0.4 m x 0.5 m with a water depth of 0.25 m: 25,000 particles, 1 s.
+    fn case(output: &str) -> Case {
+        let text = format!(
+            r#"{{ "title": "tank",
+                "flume": {{ "bed_m": [[0.0, 0.0], [2.0, 0.0]], "still_water_level_m": 0.25 }},
+                "domain": {{ "x_m": [0.0, 2.0], "width_m": 0.4, "sides": "periodic", "top_z_m": 0.5, "dp_m": 0.02 }},
+                "output": {{ "fluid_interval_s": 0.1, "series_interval_s": 0.1 {output} }},
+                "stop": {{ "duration_s": 1.0 }} }}"#
+        );
+        Case::from_str(&text, "tank").unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn snapshot_size_is_the_sum_of_its_fields() {
+        let particles = case("").estimate().fluid;
+        assert_eq!(particles, 25_000.0);
+        // 12 snapshots with 9 numbers of 4 bytes per particle; cells once.
+        assert_eq!(OutputSize::estimate(&case("")).fluid, RESERVED + particles * (12.0 * 36.0 + 16.0));
+        let some = OutputSize::estimate(&case(r#", "fluid_fields": ["velocity"]"#));
+        assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
+        assert_eq!(some.units, 0.0);
+        assert_eq!(some.tables, 19.0 * 12.0 * 21.0);
+        assert_eq!(some.checkpoint, OutputSize::estimate(&case("")).checkpoint);
+    }
+
+    #[test]
+    fn box_limits_the_snapshots_to_the_water_inside() {
+        let water = |output: &str| OutputSize::estimate(&case(output)).fluid - RESERVED;
+        let share = |corners: &str| water(&format!(r#", "fluid_box_m": {corners}"#)) / water("");
+        assert!((share("[[-1, -1, -1], [9, 9, 9]]") - 1.0).abs() < 1e-12);
+        // A quarter of the length, half of the width, the upper 0.1 m of 0.25 m.
+        assert!((share("[[0.5, 0.2, 0.15], [1.0, 0.6, 0.5]]") - 0.25 * 0.5 * 0.4).abs() < 1e-12);
+        // Above the initial water.
+        assert_eq!(share("[[0.5, 0.2, 0.3], [1.0, 0.6, 0.5]]"), 0.0);
+    }
+}
