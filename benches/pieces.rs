@@ -3,10 +3,9 @@
 
 use breakwater::bench::tank::Tank;
 use breakwater::sph::{
-    kernel::Wendland,
     lanes::{InstructionSet, Lanes, WithLanes},
     parameters::Parameters,
-    wall_slip::WallSlip,
+    terms::{kernel::Wendland, wall_slip::WallSlip},
 };
 use divan::{Bencher, counter::ItemsCount};
 use glam::DVec2;

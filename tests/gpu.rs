@@ -11,8 +11,8 @@ use breakwater::case::Case;
 use breakwater::simulation::flume::Simulation;
 use breakwater::simulation::flume::checkpoint::{self, Checkpoint};
 use breakwater::simulation::flume::recorder_state::RecorderState;
-use breakwater::sph::backend::Surfaces;
 use breakwater::sph::device::{Device, DeviceChoice};
+use breakwater::sph::solver::backend::Surfaces;
 use glam::DVec3;
 use serde_json::{Value, json};
 

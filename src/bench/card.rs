@@ -4,12 +4,12 @@ use std::time::{Duration, Instant};
 
 use super::{FLOPS_PER_PAIR, Measurement, PHASES, block::Block, phases_of};
 use crate::sph::{
-    backend::{Backend, DeviceError},
     gpu::{
         card::{Card, groups},
         shaders::Shader,
         solver::GpuSolver,
     },
+    solver::backend::{Backend, DeviceError},
 };
 
 /// The shader of the peaks.

@@ -7,7 +7,7 @@ use super::file::{Sides, Viscosity};
 use super::numerics::Numerics;
 use super::validate::Case;
 use crate::geometry::{axis_box::AxisBox, profile::Profile};
-use crate::sph::time_step::viscous_limit;
+use crate::sph::solver::time_step::viscous_limit;
 
 /// Memory of one particle with its neighbour lists [bytes].
 const BYTES_PER_PARTICLE: f64 = 600.0;

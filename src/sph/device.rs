@@ -7,9 +7,11 @@ use glam::DVec3;
 #[cfg(feature = "gpu")]
 use super::gpu::{card::Card, memory::most_particles, solver::GpuSolver};
 use super::{
-    backend::{Backend, DeviceError, PROCESSOR},
     parameters::Parameters,
-    step::Solver,
+    solver::{
+        backend::{Backend, DeviceError, PROCESSOR},
+        step::Solver,
+    },
 };
 
 /// Device that the user requests.
@@ -161,36 +163,17 @@ impl Device {
     }
 }
 
-/// Returns the part of a scheme that graphics cards do not support, if any.
-pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
-    use super::{
-        density_diffusion::DensityDiffusion, parameters::BoundaryCondition, viscosity::Viscosity, wall_slip::WallSlip,
-    };
-    if parameters.boundary == BoundaryCondition::Dynamic {
-        return Some("the dynamic boundary condition (numerics.boundary = \"dbc\")");
-    }
-    if !matches!(parameters.viscosity, Viscosity::Artificial { .. }) {
-        return Some("laminar viscosity (numerics.viscosity)");
-    }
-    if parameters.diffusion.kind == DensityDiffusion::Antuono {
-        return Some("density diffusion with renormalised gradients (numerics.density_diffusion = \"antuono\")");
-    }
-    if parameters.slip != WallSlip::Original {
-        return Some("free slip or no slip at walls (numerics.wall_slip other than \"original\")");
-    }
-    if !parameters.gap_pressure {
-        return Some("units without gap pressure (numerics.gap_pressure = false)");
-    }
-    parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn unsupported_schemes_are_named() {
-        use super::super::{density_diffusion::DensityDiffusion, parameters::BoundaryCondition, wall_slip::WallSlip};
+        use crate::sph::{
+            parameters::BoundaryCondition,
+            solver::backend::not_on_cards,
+            terms::{density_diffusion::DensityDiffusion, wall_slip::WallSlip},
+        };
         let published = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         assert_eq!(not_on_cards(&published), None);
         let free_slip = Parameters { slip: WallSlip::FreeSlip, ..published };

@@ -1,6 +1,6 @@
 //! Constants of the numerical scheme, derived once from the case.
 
-use super::{
+use super::terms::{
     density_diffusion::{DensityDiffusion, Diffusion},
     equation_of_state::Tait,
     kernel::Wendland,

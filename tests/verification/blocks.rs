@@ -2,18 +2,21 @@
 
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
-    gradients::Gradients,
-    grid::{Bins, Grid},
-    kernel::Wendland,
     lanes::InstructionSet,
-    neighbours::{NeighbourLists, SortedPositions, Sources},
+    neighbours::{
+        grid::{Bins, Grid},
+        lists::{NeighbourLists, SortedPositions, Sources},
+        records::record,
+    },
+    pairs::{gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::Parameters,
-    rates::{PairLoop, Rate},
-    records::record,
-    step::Solver,
-    turbulence::Smagorinsky,
-    viscosity::Viscosity,
+    solver::step::Solver,
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        kernel::Wendland,
+        turbulence::Smagorinsky,
+        viscosity::Viscosity,
+    },
 };
 use glam::DVec3;
 

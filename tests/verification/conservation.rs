@@ -3,12 +3,14 @@
 use breakwater::simulation::flume::balance::Balance;
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
     parameters::Parameters,
-    shifting::Shifting,
-    step::Solver,
-    turbulence::Smagorinsky,
-    viscosity::Viscosity,
+    solver::step::Solver,
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        shifting::Shifting,
+        turbulence::Smagorinsky,
+        viscosity::Viscosity,
+    },
 };
 use glam::DVec3;
 

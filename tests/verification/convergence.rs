@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
-    kernel::Wendland,
-    rates::Rate,
+    pairs::rate::Rate,
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        kernel::Wendland,
+    },
 };
 use glam::DVec3;
 

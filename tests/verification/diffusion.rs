@@ -2,8 +2,8 @@
 
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
     parameters::BoundaryCondition,
+    terms::density_diffusion::{DensityDiffusion, Diffusion},
 };
 use glam::DVec3;
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use breakwater::sph::kernel::Wendland;
+use breakwater::sph::terms::kernel::Wendland;
 use glam::DVec3;
 
 /// Points dp (i, j, k) from a corner [m], each moved by up to `jitter` dp along each axis.

@@ -1,6 +1,9 @@
 //! The sums of the solver against what they stand for: moments of the kernel, gradients, divergence.
 
-use breakwater::sph::{kernel::Wendland, rates::Rate, turbulence::Smagorinsky};
+use breakwater::sph::{
+    pairs::rate::Rate,
+    terms::{kernel::Wendland, turbulence::Smagorinsky},
+};
 use glam::DVec3;
 
 use super::blocks::{

@@ -13,10 +13,10 @@ use breakwater::sph::particles::fill::{Basin, clear_solid};
 use breakwater::sph::particles::unit::LEAST_DEPTH;
 use breakwater::sph::particles::water::Water;
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
     lanes::InstructionSet,
     parameters::Parameters,
-    step::Solver,
+    solver::step::Solver,
+    terms::density_diffusion::{DensityDiffusion, Diffusion},
 };
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};

@@ -8,8 +8,7 @@ use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::simulation::flume::setup::particles_of;
 use breakwater::sph::{
     parameters::BoundaryCondition::{self, Dynamic, ModifiedDynamic},
-    viscosity::Viscosity,
-    wall_slip::WallSlip,
+    terms::{viscosity::Viscosity, wall_slip::WallSlip},
 };
 use glam::{DQuat, DVec3};
 

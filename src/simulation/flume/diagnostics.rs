@@ -7,7 +7,7 @@ use super::{
     extremes::Extremes,
     failure::{self, Failure, LARGEST_COMPRESSION, Particle},
 };
-use crate::sph::backend::Watched;
+use crate::sph::solver::backend::Watched;
 
 /// Mach number above which the water is no longer nearly incompressible: the density changes with its square, and one
 /// per cent is what weakly compressible SPH allows itself (Monaghan 1994).
@@ -63,7 +63,7 @@ impl Simulation {
     }
 
     /// A row of `diagnostics.csv`; `dt` is the length of the step that comes [s], `divergence` is that of
-    /// [`crate::sph::power::Powers`] [1/s]. Mach number and densities are the extremes since the last row.
+    /// [`crate::sph::solver::power::Powers`] [1/s]. Mach number and densities are the extremes since the last row.
     pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
         let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));

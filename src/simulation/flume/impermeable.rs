@@ -16,9 +16,9 @@ use crate::{
     geometry::{axis_box::AxisBox, convex_part::ConvexPart},
     rigid::{BodyState, Load},
     sph::{
-        backend::{DeviceError, Surfaces},
-        grid::{Bins, Grid},
+        neighbours::grid::{Bins, Grid},
         particles::{bed::Outline, water::Water},
+        solver::backend::{DeviceError, Surfaces},
     },
     waves::wavemaker::Wavemaker,
 };

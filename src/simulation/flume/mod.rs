@@ -56,9 +56,9 @@ use crate::{
     geometry::armour_unit::ArmourUnit,
     rigid::{BodyState, Load, RigidWorld},
     sph::{
-        backend::{Backend, DeviceError},
+        pairs::rate::Rate,
         particles::{bed::Outline, boundary::Boundary, water::Water},
-        rates::Rate,
+        solver::backend::{Backend, DeviceError},
     },
     waves::{absorption::AbsorptionState, record::FlumeRecord, wavemaker::Wavemaker},
 };

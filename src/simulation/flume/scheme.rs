@@ -3,15 +3,17 @@
 use crate::{
     case::{self, Case},
     sph::{
-        density_diffusion::{DensityDiffusion, Diffusion},
-        device,
-        equation_of_state::Tait,
-        kernel::Wendland,
         parameters::{BoundaryCondition, Parameters},
-        shifting::Shifting,
-        turbulence::Smagorinsky,
-        viscosity::Viscosity,
-        wall_slip::WallSlip,
+        solver::backend,
+        terms::{
+            density_diffusion::{DensityDiffusion, Diffusion},
+            equation_of_state::Tait,
+            kernel::Wendland,
+            shifting::Shifting,
+            turbulence::Smagorinsky,
+            viscosity::Viscosity,
+            wall_slip::WallSlip,
+        },
     },
 };
 
@@ -68,7 +70,7 @@ pub fn not_on_cards(case: &Case) -> Option<&'static str> {
     if case.wavemaker.absorption_gauge().is_some() {
         return Some("wavemakers that absorb (wavemaker.absorption)");
     }
-    device::not_on_cards(&parameters(case))
+    backend::not_on_cards(&parameters(case))
 }
 
 /// Equation of state of the water.

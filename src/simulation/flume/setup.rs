@@ -19,7 +19,6 @@ use crate::{
     geometry::{armour_unit::ArmourUnit, profile::Profile},
     rigid::{Load, RigidError, RigidWorld},
     sph::{
-        backend::DeviceError,
         device::Device,
         particles::{
             bed::{Across, Outline, outline_particles, side_wall_particles},
@@ -29,6 +28,7 @@ use crate::{
             unit::{LEAST_DEPTH, unit_particles},
             water::Water,
         },
+        solver::backend::DeviceError,
     },
     waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };

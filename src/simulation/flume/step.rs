@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::{Simulation, Units, absorb::move_wavemaker, failure, failure::Failure};
 use crate::{
     rigid::{BodyState, Load},
-    sph::{backend::DeviceError, power::Powers, sampling::Sampler},
+    sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
 /// A simulation whose present state is evaluated: the water can be measured, and the time step can be made.

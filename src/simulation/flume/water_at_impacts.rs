@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::{
     output::{FluidAtPeak, PressurePlace},
     rigid::{Load, RigidWorld},
-    sph::{equation_of_state::Tait, particles::boundary::Boundary},
+    sph::{particles::boundary::Boundary, terms::equation_of_state::Tait},
 };
 
 /// The water at the peak so far of each contact that is among the hardest of a unit, by the number of the contact.

@@ -4,12 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 use crate::sph::{
-    density_diffusion::Diffusion,
-    equation_of_state::Tait,
-    grid::Grid,
-    mdbc::{DRY, LEAST_DETERMINANT, SPREAD, TRUST},
+    boundary::mdbc::{DRY, LEAST_DETERMINANT, SPREAD, TRUST},
+    neighbours::grid::Grid,
     parameters::Parameters,
-    viscosity::Viscosity,
+    terms::{density_diffusion::Diffusion, equation_of_state::Tait, viscosity::Viscosity},
 };
 
 /// `Parameters` of the shaders, with the same fields in the same order.

@@ -7,7 +7,7 @@ use super::{
     sort::Sort,
     state::CardState,
 };
-use crate::sph::backend::DeviceError;
+use crate::sph::solver::backend::DeviceError;
 
 /// Size of a record [bytes].
 const RECORD: usize = 48;

@@ -6,12 +6,12 @@ use glam::{DVec3, Vec3};
 use super::{
     card::{Card, groups},
     memory::Memory,
-    shaders::{Bound, IMPERMEABLE, Kernel, Shader},
+    shaders::{Bound, Kernel, NEAR, Shader},
     state::CardState,
 };
 use crate::sph::{
-    backend::{DeviceError, NearWater, Surfaces},
-    grid::Grid,
+    neighbours::grid::Grid,
+    solver::backend::{DeviceError, NearWater, Surfaces},
 };
 
 /// Initial capacity for particles near surfaces.
@@ -71,7 +71,7 @@ struct SearchMemory {
 impl NearSearch {
     /// Creates a search in the water of `memory`.
     pub fn new(card: &Card, memory: &Memory) -> Result<Self, DeviceError> {
-        let shader = Shader::new(card, IMPERMEABLE).periodic(memory.is_periodic);
+        let shader = Shader::new(card, NEAR).periodic(memory.is_periodic);
         let [find, put] = ["find_near", "put_velocities"].map(|name| shader.kernel(name));
         let constants = card.uniform("surfaces", &SurfaceConstants::default());
         let put_constants = card.uniform("velocities", &SurfaceConstants::default());

@@ -13,14 +13,15 @@ use super::{
     state::CardState,
 };
 use crate::sph::{
-    backend::{Backend, DeviceError, NearWater, Surfaces, Watched},
-    device::not_on_cards,
-    grid::{Bins, Grid},
+    neighbours::grid::{Bins, Grid},
+    pairs::rate::Rate,
     parameters::Parameters,
     particles::{boundary::Boundary, water::Water},
-    power::Powers,
-    rates::Rate,
-    time_step::Limits,
+    solver::{
+        backend::{Backend, DeviceError, NearWater, Surfaces, Watched, not_on_cards},
+        power::Powers,
+        time_step::Limits,
+    },
 };
 
 /// Initial values of the extremes; see `step.wgsl`.

@@ -1,4 +1,4 @@
-//! Stable counting sort of particles into bins on a card; it gives the same order as [`crate::sph::grid`].
+//! Stable counting sort of particles into bins on a card; it gives the same order as [`crate::sph::neighbours::grid`].
 
 use bytemuck::{Pod, Zeroable};
 
@@ -6,7 +6,7 @@ use super::{
     card::{Card, groups},
     shaders::{Bound, GRID, Shader},
 };
-use crate::sph::backend::DeviceError;
+use crate::sph::solver::backend::DeviceError;
 
 /// Number of bins that a workgroup scans.
 const SCANNED: usize = 1024;
@@ -100,7 +100,7 @@ mod tests {
 
     use super::{super::constants::Constants, *};
     use crate::sph::{
-        grid::{Bins, Grid},
+        neighbours::grid::{Bins, Grid},
         parameters::Parameters,
     };
 

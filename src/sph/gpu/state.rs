@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::sph::{
-    grid::Grid,
+    neighbours::grid::Grid,
     particles::{boundary::Boundary, water::Water},
 };
 

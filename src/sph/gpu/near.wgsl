@@ -1,4 +1,4 @@
-// The few particles that are near a surface (impermeable.rs): gathered for the host, which knows all shapes, and given
+// The few particles that are near a surface (near.rs): gathered for the host, which knows all shapes, and given
 // the velocities that it leaves them.
 
 // Numbers of each kind of shape, which follow each other in `shapes`.

@@ -6,15 +6,14 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{
-    grid::{Bins, Grid},
-    parameters::Parameters,
-    power::Powers,
-    rates::Rate,
-    step::Solver,
-    time_step::Limits,
+use super::{power::Powers, step::Solver, time_step::Limits};
+use crate::sph::{
+    neighbours::grid::{Bins, Grid},
+    pairs::rate::Rate,
+    parameters::{BoundaryCondition, Parameters},
+    particles::{boundary::Boundary, water::Water},
+    terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity, wall_slip::WallSlip},
 };
-use crate::sph::particles::{boundary::Boundary, water::Water};
 
 /// Device name of the processor.
 pub const PROCESSOR: &str = "CPU";
@@ -186,6 +185,26 @@ pub trait Backend: Send {
     /// # Errors
     /// If the device is lost.
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
+}
+
+/// Returns the part of a scheme that graphics cards do not support, if any.
+pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
+    if parameters.boundary == BoundaryCondition::Dynamic {
+        return Some("the dynamic boundary condition (numerics.boundary = \"dbc\")");
+    }
+    if !matches!(parameters.viscosity, Viscosity::Artificial { .. }) {
+        return Some("laminar viscosity (numerics.viscosity)");
+    }
+    if parameters.diffusion.kind == DensityDiffusion::Antuono {
+        return Some("density diffusion with renormalised gradients (numerics.density_diffusion = \"antuono\")");
+    }
+    if parameters.slip != WallSlip::Original {
+        return Some("free slip or no slip at walls (numerics.wall_slip other than \"original\")");
+    }
+    if !parameters.gap_pressure {
+        return Some("units without gap pressure (numerics.gap_pressure = false)");
+    }
+    parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
 }
 
 impl Backend for Solver {

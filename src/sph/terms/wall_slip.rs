@@ -2,7 +2,14 @@
 
 use glam::DVec3;
 
-use super::ghost_velocity::GhostVelocity;
+/// Velocity of the water at a ghost node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GhostVelocity {
+    /// Velocity [m/s].
+    pub velocity: DVec3,
+    /// Trust in the linear fit, from 0 (too few layers of water) to 1.
+    pub trust: f64,
+}
 
 /// Wall slip condition: which velocity a boundary particle has in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

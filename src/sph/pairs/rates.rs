@@ -4,51 +4,25 @@
 use rayon::prelude::*;
 
 use super::{
-    density_diffusion::DensityDiffusion,
     gradients::Extra,
-    lanes::{Lanes, MOST_LANES, WithLanes},
-    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
+    pair_loop::PairLoop,
     pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent},
-    parameters::{BoundaryCondition, Parameters},
-    records::Record,
-    viscosity::Viscosity,
+    rate::Rate,
+};
+use crate::sph::{
+    lanes::{Lanes, MOST_LANES, WithLanes},
+    neighbours::{
+        lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of},
+        records::Record,
+    },
+    parameters::BoundaryCondition,
+    terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity},
 };
 
 /// Number of neighbours per partial sum; partial sums reduce rounding errors.
 const BLOCK: usize = 32;
 
-/// Rates of one target.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Rate {
-    /// Acceleration without gravity [m/s2].
-    pub acceleration: [f32; 3],
-    /// d rho / dt [kg/(m3 s)].
-    pub density: f32,
-    /// Largest |mu_ab| of equation 3 over the neighbours [m/s].
-    pub approach: f32,
-}
-
-/// Loop over pairs: its constants besides the records.
-#[derive(Debug, Clone, Copy)]
-pub struct PairLoop {
-    /// Constants of the scheme.
-    pub parameters: Parameters,
-    bin_x: f32,
-    width: f32,
-}
-
 impl PairLoop {
-    /// Creates a loop over pairs in bins of length `bin_x` [m].
-    pub fn new(parameters: Parameters, bin_x: f64) -> Self {
-        let width = parameters.periodic_width.unwrap_or(0.0) as f32;
-        Self { parameters, bin_x: bin_x as f32, width }
-    }
-
-    /// Returns the same loop with other parameters.
-    pub(super) fn with(self, parameters: Parameters) -> Self {
-        Self { parameters, ..self }
-    }
-
     /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `extra` has one entry
     /// per record, or is empty if the scheme needs no additional data.
     pub fn rates(
@@ -64,54 +38,6 @@ impl PairLoop {
             let targets = &records[begin..begin + rates.len()];
             lists.instructions().dispatch(ChunkRates { pairs: self, chunk, begin, targets, records, extra, rates });
         });
-    }
-
-    /// Counts the pairs of a target and a neighbour within the kernel support; the targets are the first `records`.
-    pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
-        let count_chunk = |(number, chunk): (usize, &Chunk)| {
-            let count_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
-                let first = number * CHUNK + cluster.first as usize;
-                let is_near =
-                    |a: &Record, j: &u32| self.distance(a, &records[*j as usize]).1 < self.parameters.kernel.support();
-                let count_target = |a| neighbours.iter().filter(|j| is_near(a, j)).count() as u64;
-                records[first..first + cluster.len as usize].iter().map(count_target).sum::<u64>()
-            };
-            chunk.clusters().map(count_cluster).sum::<u64>()
-        };
-        lists.chunks().par_iter().enumerate().map(count_chunk).sum()
-    }
-
-    /// Returns the split positions of the members of a cluster, see [`super::records::split_position`].
-    #[inline(always)]
-    pub(super) fn split_positions<L: Lanes>(&self, cluster: &Cluster, targets: &[Record]) -> [L; 4] {
-        let fields: [fn(&Record) -> f32; 4] = [|r| r.bin_x, |r| r.x, |r| r.y, |r| r.z];
-        fields.map(|f| lanes_of(cluster, targets, f))
-    }
-
-    /// Returns r_ab [m] of the members of a cluster and a neighbour, or of its nearest image if `PERIODIC`.
-    #[inline(always)]
-    pub(super) fn difference<L: Lanes, const PERIODIC: bool>(&self, a: [L; 4], b: &Record) -> [L; 3] {
-        let splat = L::splat;
-        let x = (a[0] - splat(b.bin_x)).mul_add(splat(self.bin_x), a[1] - splat(b.x));
-        let mut y = a[2] - splat(b.y);
-        if PERIODIC {
-            y = y - splat(self.width) * (y * splat(1.0 / self.width)).round();
-        }
-        [x, y, a[3] - splat(b.z)]
-    }
-
-    /// Returns the vector from b to a and its length [m]; in a periodic flume, from the nearest image.
-    pub(super) fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
-        let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
-        let mut r = [
-            difference(a.bin_x, b.bin_x) * f64::from(self.bin_x) + difference(a.x, b.x),
-            difference(a.y, b.y),
-            difference(a.z, b.z),
-        ];
-        if let Some(width) = self.parameters.periodic_width {
-            r[1] -= width * (r[1] / width).round();
-        }
-        (r, r.iter().map(|r| r * r).sum::<f64>().sqrt())
     }
 }
 
@@ -219,15 +145,4 @@ impl ChunkRates<'_> {
         }
         L::splat(1.0) - L::splat(1.0).where_positive(closest)
     }
-}
-
-/// Returns `f` of the members of a cluster, one per lane; surplus lanes repeat the last member.
-#[inline(always)]
-pub(super) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
-    let members = &targets[cluster.first as usize..][..cluster.len as usize];
-    let mut values = [0.0; MOST_LANES];
-    values.iter_mut().zip(members).for_each(|(value, member)| *value = f(member));
-    let last = values[members.len() - 1];
-    values[members.len()..].fill(last);
-    L::load(&values)
 }

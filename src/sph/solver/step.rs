@@ -1,4 +1,5 @@
-//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls them in the order:
+//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls them in
+//! the order:
 //!
 //! sort - list - boundary densities - rates - time step - predict - rates - correct
 //!
@@ -9,23 +10,20 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{
-    density_diffusion::Diffusion,
-    ghost_velocity::GhostVelocity,
-    gradients::Gradients,
-    grid::{Bins, Grid},
-    group::Group,
+use super::{group::Group, time_step::Limits};
+use crate::sph::{
+    boundary::{ghost_velocity::GhostVelocities, mdbc::GhostNodes},
     lanes::InstructionSet,
-    mdbc::GhostNodes,
-    neighbours::NeighbourLists,
+    neighbours::{
+        grid::{Bins, Grid},
+        lists::NeighbourLists,
+        records::{Record, record},
+    },
+    pairs::{gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::{BoundaryCondition, Parameters},
-    rates::{PairLoop, Rate},
-    records::{Record, record},
-    time_step::Limits,
-    viscosity::Viscosity,
-    wall_slip::WallSlip,
+    particles::{boundary::Boundary, water::Water},
+    terms::{density_diffusion::Diffusion, viscosity::Viscosity, wall_slip::WallSlip},
 };
-use crate::sph::particles::{boundary::Boundary, water::Water};
 
 /// Smallest chunk of an array that is worth a task of the thread pool.
 const MIN_CHUNK: usize = 4096;
@@ -45,8 +43,8 @@ pub struct Solver {
     gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
-    /// Velocity of the water at the ghost nodes; empty if the wall slip condition does not need it.
-    ghost_velocity: Vec<Option<GhostVelocity>>,
+    /// Velocities at the ghost nodes; not computed if the wall slip condition does not need them.
+    ghost_velocities: GhostVelocities,
     gradients: Gradients,
     half: Water,
     half_density: Vec<f64>,
@@ -91,7 +89,7 @@ impl Solver {
             gap_lists: lists(),
             records: Vec::new(),
             ghosts: GhostNodes::new(instructions),
-            ghost_velocity: Vec::new(),
+            ghost_velocities: GhostVelocities::default(),
             gradients: Gradients::default(),
             half: Water::default(),
             half_density: Vec::new(),
@@ -167,14 +165,14 @@ impl Solver {
 
     /// Fills the records of the boundary with densities at the start or at the half of a time step.
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
-        let (grid, parameters, ghost_velocity) = (&self.grid, &self.parameters, &self.ghost_velocity);
+        let (grid, parameters, ghost_velocities) = (&self.grid, &self.parameters, &self.ghost_velocities);
         let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
-                let ghost = ghost_velocity.get(i).copied().flatten();
+                let ghost = ghost_velocities.at_node_of(i);
                 let (wall, slides) = (boundary.velocity[i], boundary.slides[i]);
                 let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], slides);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
@@ -189,7 +187,8 @@ impl Solver {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
             if self.parameters.slip != WallSlip::Original {
-                self.ghosts.velocities(&self.grid, &self.parameters, &self.records, boundary, &mut self.ghost_velocity);
+                let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
+                ghost_velocities.compute(ghosts, grid, parameters, records, boundary);
             }
         }
         self.fill_boundary_records(boundary, &boundary.density);
@@ -354,6 +353,7 @@ impl Solver {
             + self.gap_lists.bytes()
             + records
             + self.ghosts.bytes()
+            + self.ghost_velocities.bytes()
             + self.gradients.bytes()
             + self.half.bytes()
             + self.sorted.bytes()

@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
-use super::{
-    grid::{Bins, Grid},
+use crate::sph::{
     lanes::InstructionSet,
-    neighbours::{NeighbourLists, SortedPositions, Sources},
-    rates::Rate,
+    neighbours::{
+        grid::{Bins, Grid},
+        lists::{NeighbourLists, SortedPositions, Sources},
+    },
+    pairs::rate::Rate,
 };
 
 /// One of the three groups of particles in the records: water, walls (with bed and piston) or units.

@@ -8,14 +8,15 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::{
-    density_diffusion::DensityDiffusion,
+use super::pair_loop::PairLoop;
+use crate::sph::{
     lanes::{Lanes, WithLanes},
-    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
+    neighbours::{
+        lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of},
+        records::Record,
+    },
     parameters::Parameters,
-    rates::{PairLoop, lanes_of},
-    records::Record,
-    viscosity::Viscosity,
+    terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity},
 };
 
 /// Smallest determinant of M for which M is inverted: that of a quarter of a neighbourhood.

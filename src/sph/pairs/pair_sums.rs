@@ -1,17 +1,20 @@
 //! Sums of equations 1 and 2 over the neighbours of a cluster, one member per lane.
 
-use super::{
-    continuity::add_compression,
-    density_diffusion::Diffusion,
-    gradients::Extra,
-    kernel::Wendland,
+use super::{gradients::Extra, rate::Rate};
+use crate::sph::{
     lanes::{Lanes, MOST_LANES},
-    momentum::pair_stress,
-    neighbours::Cluster,
+    neighbours::{
+        lists::{Cluster, lanes_of},
+        records::Record,
+    },
     parameters::Parameters,
-    rates::{Rate, lanes_of},
-    records::Record,
-    viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
+    terms::{
+        continuity::add_compression,
+        density_diffusion::Diffusion,
+        kernel::Wendland,
+        momentum::pair_stress,
+        viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
+    },
 };
 
 /// Viscosity model; the pair loop is compiled once per model.
