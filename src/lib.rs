@@ -33,6 +33,7 @@ pub mod case;
 pub mod cli;
 pub mod femdem;
 pub mod geometry;
+pub mod mechanics;
 pub mod output;
 mod random;
 pub mod report;

@@ -300,15 +300,16 @@ fn all_the_water_can_be_near_a_surface_and_gets_its_velocities_back() {
     let grid = start.solver().grid().clone();
     let high = grid.low + grid.size * DVec3::from_array(grid.count.map(|n| n as f64));
     let mut solver = device.solver(*start.solver().parameters(), [grid.low, high], [grid.low, high]).unwrap();
-    solver.load(&water, &boundary).unwrap();
+    solver.device_memory().unwrap().load(&water, &boundary).unwrap();
     solver.sort(&mut water, &boundary);
     // More than there is room for at first.
     let everywhere = Surfaces { balls: vec![(high, 100.0)], ..Surfaces::default() };
-    let mut near = solver.take_near(&everywhere).unwrap();
+    let memory = solver.device_memory().unwrap();
+    let mut near = memory.fetch_near_water(&everywhere).unwrap();
     assert!(near.places.iter().copied().eq(0..water.len() as u32));
     let given = |id: u32| DVec3::new(f64::from(id % 512), 1.0, -2.0);
     near.water.velocity = near.places.iter().map(|&place| given(place)).collect();
-    solver.put_near(&near);
-    solver.fetch(&mut water, &mut boundary).unwrap();
+    memory.write_near_velocities(&near);
+    memory.fetch(&mut water, &mut boundary).unwrap();
     assert!(water.velocity.iter().enumerate().all(|(i, velocity)| *velocity == given(i as u32)));
 }

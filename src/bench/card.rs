@@ -9,7 +9,7 @@ use crate::sph::{
         shaders::Shader,
         solver::GpuSolver,
     },
-    solver::backend::{Backend, DeviceError},
+    solver::backend::{Backend, DeviceError, DeviceMemory},
 };
 
 /// The shader of the peaks.

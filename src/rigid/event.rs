@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::contact::Feature;
-use super::motion::BodyState;
+use crate::mechanics::BodyState;
 
 /// A contact that has ended, or its record so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

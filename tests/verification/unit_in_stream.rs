@@ -102,7 +102,7 @@ impl Stream {
         let (mut impulse, mut span) = (DVec3::ZERO, 0.0);
         while self.time < to {
             let (centre, mut force) = (self.centre, DVec3::ZERO);
-            let dt = self.tank.step(|tank| force = tank.solver.unit_loads(&tank.boundary, &[centre])[0].0);
+            let dt = self.tank.step(|tank| force = tank.solver.unit_loads(&tank.boundary, &[centre])[0].force);
             if self.time >= from {
                 (impulse, span) = (impulse + force * dt, span + dt);
             }

@@ -19,7 +19,8 @@ impl Simulation {
     /// # Errors
     /// If a particle has left the domain, or its density is far off.
     pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
-        if let Some(watched) = self.solver.watch()? {
+        if let Some(memory) = self.solver.device_memory() {
+            let watched = memory.water_extremes()?;
             return self.judge(&watched);
         }
         if let Some(failure) = failure::find_escape(self) {

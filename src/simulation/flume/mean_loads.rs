@@ -4,7 +4,6 @@
 //! a sample of one step in forty shows neither as it was. A mean times its interval is the momentum that was
 //! exchanged.
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::rigid::Load;
@@ -12,8 +11,8 @@ use crate::rigid::Load;
 /// Impulses on each unit since the last [`take`](Self::take); part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeanLoads {
-    /// Of each unit, force [N s] and torque [N m s] of the water, then of contact.
-    impulses: Vec<[[f64; 3]; 4]>,
+    /// Force [N s] and torque [N m s] on each unit, of the water, then of contact.
+    impulses: Vec<[Load; 2]>,
     /// Time over which they were gathered [s].
     over: f64,
 }
@@ -21,16 +20,14 @@ pub struct MeanLoads {
 impl MeanLoads {
     /// Nothing yet on `units` units.
     pub fn new(units: usize) -> Self {
-        Self { impulses: vec![[[0.0; 3]; 4]; units], over: 0.0 }
+        Self { impulses: vec![[Load::default(); 2]; units], over: 0.0 }
     }
 
     /// Add the loads of a step of length `dt` [s].
     pub fn add(&mut self, dt: f64, fluid: &[Load], contact: &[Load]) {
         for (sums, (fluid, contact)) in self.impulses.iter_mut().zip(fluid.iter().zip(contact)) {
-            let parts = [fluid.force, fluid.torque, contact.force, contact.torque];
-            for (sum, part) in sums.iter_mut().zip(parts) {
-                *sum = (DVec3::from(*sum) + dt * part).to_array();
-            }
+            sums[0] += *fluid * dt;
+            sums[1] += *contact * dt;
         }
         self.over += dt;
     }
@@ -38,16 +35,15 @@ impl MeanLoads {
     /// Mean loads of water and contact on each unit since the last call; `None` if no step was made since.
     pub fn take(&mut self) -> Option<Vec<[Load; 2]>> {
         let gathered = std::mem::replace(self, Self::new(self.impulses.len()));
-        let mean = |sums: &[[f64; 3]; 4]| {
-            let [force, torque, contact_force, contact_torque] = sums.map(|sum| DVec3::from(sum) / gathered.over);
-            [Load { force, torque }, Load { force: contact_force, torque: contact_torque }]
-        };
+        let mean = |sums: &[Load; 2]| sums.map(|sum| sum / gathered.over);
         (gathered.over > 0.0).then(|| gathered.impulses.iter().map(mean).collect())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]

@@ -167,12 +167,13 @@ impl Simulation {
     /// # Errors
     /// If the device is lost.
     pub fn fetch(&mut self) -> Result<(), DeviceError> {
-        self.solver.fetch(&mut self.water, &mut self.boundary)
+        let Self { solver, water, boundary, .. } = self;
+        solver.device_memory().map_or(Ok(()), |memory| memory.fetch(water, boundary))
     }
 
     /// Whether the water lies with a device and not in the host's arrays.
-    pub fn is_on_card(&self) -> bool {
-        self.solver.keeps_water()
+    pub fn is_on_card(&mut self) -> bool {
+        self.solver.device_memory().is_some()
     }
 
     /// Give water and boundary of the host's arrays to the device.
@@ -180,7 +181,8 @@ impl Simulation {
     /// # Errors
     /// If it has not enough memory.
     pub fn load(&mut self) -> Result<(), DeviceError> {
-        self.solver.load(&self.water, &self.boundary)
+        let Self { solver, water, boundary, .. } = self;
+        solver.device_memory().map_or(Ok(()), |memory| memory.load(water, boundary))
     }
 }
 

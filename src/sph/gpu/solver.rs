@@ -12,13 +12,14 @@ use super::{
     near::NearSearch,
     state::CardState,
 };
+use crate::mechanics::Load;
 use crate::sph::{
     neighbours::grid::{Bins, Grid},
     pairs::rate::Rate,
     parameters::Parameters,
     particles::{boundary::Boundary, water::Water},
     solver::{
-        backend::{Backend, DeviceError, NearWater, Surfaces, Watched, not_on_cards},
+        backend::{Backend, DeviceError, DeviceMemory, NearWater, Surfaces, Watched, not_on_cards},
         power::Powers,
         time_step::Limits,
     },
@@ -159,59 +160,8 @@ impl Backend for GpuSolver {
         &self.bins
     }
 
-    fn keeps_water(&self) -> bool {
-        true
-    }
-
-    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError> {
-        let particles = [water.len(), boundary.len(), boundary.walls().end];
-        let constants = Constants::new(&self.parameters, &self.grid, self.bounds, particles);
-        let rho0 = self.parameters.tait.rho0;
-        let state = CardState::of_water(&self.grid, rho0, water);
-        let of_boundary = CardState::of_boundary(&self.grid, rho0, boundary, 0..boundary.len());
-        let excess: Vec<f32> = boundary.density.iter().map(|density| (density - rho0) as f32).collect();
-        let loaded = match self.loaded.take() {
-            Some(loaded) if loaded.memory.holds(particles) => loaded,
-            _ => {
-                let memory = Memory::new(&self.card, &constants, particles, self.grid.bins())?;
-                let watched = Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false };
-                let near = NearSearch::new(&self.card, &memory)?;
-                Loaded { near, memory, fastest: [0.0; 2], watched, is_sorted: false }
-            }
-        };
-        let loaded = self.loaded.insert(loaded);
-        loaded.memory.fill(&self.card, &state, &of_boundary, &excess);
-        loaded.fastest = [largest(&water.velocity), largest(&boundary.velocity)];
-        loaded.is_sorted = false;
-        self.encoder = None;
-        self.trouble = None;
-        self.card.check()
-    }
-
-    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError> {
-        let encoder = self.take_encoder();
-        let bins = self.grid.bins() + 1;
-        let Loaded { memory, .. } = self.loaded()?;
-        let count = memory.water;
-        let [offset, cell, motion, start] =
-            [&memory.offset, &memory.cell, &memory.motion, &memory.sort.start].map(Clone::clone);
-        let card = &self.card;
-        let offset = card.read(encoder, &offset, 0, count)?;
-        let cell = card.read(card.encoder(), &cell, 0, count)?;
-        let motion = card.read(card.encoder(), &motion, 0, count)?;
-        let rho0 = self.parameters.tait.rho0;
-        CardState { offset, cell, motion }.put_into(&self.grid, rho0, water);
-        self.bins.start = card.read(card.encoder(), &start, 0, bins)?;
-        self.fetch_boundary_densities(boundary)
-    }
-
-    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError> {
-        let encoder = self.take_encoder();
-        let density = self.loaded()?.memory.boundary_density.clone();
-        let excess: Vec<f32> = self.card.read(encoder, &density, 0, boundary.len())?;
-        let rho0 = self.parameters.tait.rho0;
-        boundary.density.iter_mut().zip(excess).for_each(|(density, excess)| *density = rho0 + f64::from(excess));
-        Ok(())
+    fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {
+        Some(self)
     }
 
     fn sort(&mut self, _: &mut Water, boundary: &Boundary) {
@@ -274,56 +224,17 @@ impl Backend for GpuSolver {
         });
     }
 
-    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError> {
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError> {
         let encoder = self.take_encoder();
         let first_unit = boundary.walls().end;
         let memory = &self.loaded()?.memory;
         let (rates, first) = (memory.rates.clone(), memory.water + first_unit);
         let rates: Vec<[f32; 4]> = self.card.read(encoder, &rates, first, boundary.len() - first_unit)?;
         let rho0 = self.parameters.tait.rho0;
-        let load = |(unit, centre): (&std::ops::Range<usize>, &DVec3)| {
-            unit.clone().fold((DVec3::ZERO, DVec3::ZERO), |(force, torque), i| {
-                let [x, y, z, _] = rates[i - first_unit].map(f64::from);
-                let f = rho0 * boundary.volume[i] * DVec3::new(x, y, z);
-                (force + f, torque + (boundary.position[i] - *centre).cross(f))
-            })
-        };
-        Ok(boundary.units().iter().zip(centres).map(load).collect())
-    }
-
-    fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError> {
-        let encoder = self.take_encoder();
-        self.loaded()?;
-        let rho0 = self.parameters.tait.rho0;
-        let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
-        let Some(Loaded { memory, near, fastest, watched, .. }) = &mut self.loaded else {
-            return Ok(NearWater::default());
-        };
-        let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
-        *watched = watched_from(extremes, rho0);
-        fastest[0] = watched.fastest;
-        let mut water = Water::default();
-        found.put_into(grid, rho0, &mut water);
-        Ok(NearWater { places: water.id.clone(), water })
-    }
-
-    fn put_near(&mut self, near: &NearWater) {
-        let Some(Loaded { near: search, .. }) = &mut self.loaded else { return };
-        let mut encoder = self.encoder.take().unwrap_or_else(|| self.card.encoder());
-        if let Err(trouble) = search.put(&self.card, near, &mut encoder) {
-            self.trouble = Some(trouble);
-        }
-        self.encoder = Some(encoder);
-    }
-
-    fn sort_ahead(&mut self) {
-        self.enqueue(|_, loaded, encoder| loaded.sort_water(encoder));
-        let encoder = self.take_encoder();
-        self.card.submit(encoder);
-    }
-
-    fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
-        Ok(Some(self.loaded()?.watched))
+        Ok(boundary.unit_loads(centres, |i| {
+            let [x, y, z, _] = rates[i - first_unit].map(f64::from);
+            rho0 * boundary.volume[i] * DVec3::new(x, y, z)
+        }))
     }
 
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {
@@ -342,6 +253,94 @@ impl Backend for GpuSolver {
         let (rates, count) = (memory.half_offset.clone(), memory.water);
         let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
         Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
+    }
+}
+
+impl DeviceMemory for GpuSolver {
+    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError> {
+        let particles = [water.len(), boundary.len(), boundary.walls().end];
+        let constants = Constants::new(&self.parameters, &self.grid, self.bounds, particles);
+        let rho0 = self.parameters.tait.rho0;
+        let state = CardState::of_water(&self.grid, rho0, water);
+        let of_boundary = CardState::of_boundary(&self.grid, rho0, boundary, 0..boundary.len());
+        let excess: Vec<f32> = boundary.density.iter().map(|density| (density - rho0) as f32).collect();
+        let loaded = match self.loaded.take() {
+            Some(loaded) if loaded.memory.holds(particles) => loaded,
+            _ => {
+                let memory = Memory::new(&self.card, &constants, particles, self.grid.bins())?;
+                let watched = Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false };
+                let near = NearSearch::new(&self.card, &memory)?;
+                Loaded { near, memory, fastest: [0.0; 2], watched, is_sorted: false }
+            }
+        };
+        let loaded = self.loaded.insert(loaded);
+        loaded.memory.fill(&self.card, &state, &of_boundary, &excess);
+        loaded.fastest = [largest(&water.velocity), largest(&boundary.velocity)];
+        loaded.is_sorted = false;
+        self.encoder = None;
+        self.trouble = None;
+        self.card.check()
+    }
+
+    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError> {
+        let encoder = self.take_encoder();
+        let bins = self.grid.bins() + 1;
+        let Loaded { memory, .. } = self.loaded()?;
+        let count = memory.water;
+        let [offset, cell, motion, start] =
+            [&memory.offset, &memory.cell, &memory.motion, &memory.sort.start].map(Clone::clone);
+        let card = &self.card;
+        let offset = card.read(encoder, &offset, 0, count)?;
+        let cell = card.read(card.encoder(), &cell, 0, count)?;
+        let motion = card.read(card.encoder(), &motion, 0, count)?;
+        let rho0 = self.parameters.tait.rho0;
+        CardState { offset, cell, motion }.put_into(&self.grid, rho0, water);
+        self.bins.start = card.read(card.encoder(), &start, 0, bins)?;
+        self.fetch_boundary_densities(boundary)
+    }
+
+    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError> {
+        let encoder = self.take_encoder();
+        let density = self.loaded()?.memory.boundary_density.clone();
+        let excess: Vec<f32> = self.card.read(encoder, &density, 0, boundary.len())?;
+        let rho0 = self.parameters.tait.rho0;
+        boundary.density.iter_mut().zip(excess).for_each(|(density, excess)| *density = rho0 + f64::from(excess));
+        Ok(())
+    }
+
+    fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError> {
+        let encoder = self.take_encoder();
+        self.loaded()?;
+        let rho0 = self.parameters.tait.rho0;
+        let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
+        let Some(Loaded { memory, near, fastest, watched, .. }) = &mut self.loaded else {
+            return Ok(NearWater::default());
+        };
+        let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
+        *watched = watched_from(extremes, rho0);
+        fastest[0] = watched.fastest;
+        let mut water = Water::default();
+        found.put_into(grid, rho0, &mut water);
+        Ok(NearWater { places: water.id.clone(), water })
+    }
+
+    fn write_near_velocities(&mut self, near: &NearWater) {
+        let Some(Loaded { near: search, .. }) = &mut self.loaded else { return };
+        let mut encoder = self.encoder.take().unwrap_or_else(|| self.card.encoder());
+        if let Err(trouble) = search.put(&self.card, near, &mut encoder) {
+            self.trouble = Some(trouble);
+        }
+        self.encoder = Some(encoder);
+    }
+
+    fn sort_ahead(&mut self) {
+        self.enqueue(|_, loaded, encoder| loaded.sort_water(encoder));
+        let encoder = self.take_encoder();
+        self.card.submit(encoder);
+    }
+
+    fn water_extremes(&mut self) -> Result<Watched, DeviceError> {
+        Ok(self.loaded()?.watched)
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::rigid::BodyState;
+use crate::mechanics::{BodyState, Load};
 
 /// Boundary particles in a fixed order: bed and walls, then the piston, then one unit after the other.
 #[derive(Debug, Clone, Default)]
@@ -112,6 +112,17 @@ impl Boundary {
     pub fn places_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
+    }
+
+    /// Returns the load on each unit about its centre [m], from the force on each boundary particle [N]. The order of
+    /// summation over particles is fixed.
+    pub fn unit_loads(&self, centres: &[DVec3], force_on: impl Fn(usize) -> DVec3) -> Vec<Load> {
+        let load = |(unit, centre): (&Range<usize>, &DVec3)| {
+            let mut load = Load::default();
+            unit.clone().for_each(|i| load += Load::of_force(force_on(i), self.position[i] - *centre));
+            load
+        };
+        self.units.iter().zip(centres).map(load).collect()
     }
 
     /// Moves the piston; `rows` gives the displacement [m] and velocity [m/s] of each row along x.

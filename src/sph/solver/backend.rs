@@ -1,12 +1,13 @@
 //! The operations of a time step, for the processor ([`Solver`]) and for a graphics card.
 //!
-//! The processor works on the host's water arrays. A card keeps its own arrays and copies them to the host on
-//! [`Backend::fetch`]; it executes queued commands when a result is read back.
+//! The processor works on the host's water arrays. A card keeps its own arrays ([`DeviceMemory`]); it executes queued
+//! commands when a result is read back.
 
 use glam::DVec3;
 use thiserror::Error;
 
 use super::{power::Powers, step::Solver, time_step::Limits};
+use crate::mechanics::Load;
 use crate::sph::{
     neighbours::grid::{Bins, Grid},
     pairs::rate::Rate,
@@ -98,26 +99,8 @@ pub trait Backend: Send {
     /// Returns where each bin of the water begins, as last sorted and fetched.
     fn water_bins(&self) -> &Bins;
 
-    /// Returns whether the device keeps the water in its own memory instead of the host's arrays.
-    fn keeps_water(&self) -> bool;
-
-    /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
-    ///
-    /// # Errors
-    /// If the device does not have enough memory.
-    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
-
-    /// Updates water, its bins and the boundary densities in the arrays of the host.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
-
-    /// Updates only the boundary densities in the arrays of the host.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
+    /// Returns the device's own memory; `None` if it works on the arrays of the host.
+    fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory>;
 
     /// Sorts the particles into bins and the water's arrays into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
@@ -149,31 +132,13 @@ pub trait Backend: Send {
     /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary);
 
-    /// Returns the force [N] of the water on each unit and its torque [N m] about the unit's centre [m].
+    /// Returns the load of the water on each unit about its centre [m].
     ///
     /// # Errors
     /// If the device is lost.
-    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError>;
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError>;
 
-    /// Returns the water near surfaces, which the host keeps out of them; empty if the host holds the water.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
-
-    /// Writes the velocities of the water near surfaces back to the device.
-    fn put_near(&mut self, near: &NearWater);
-
-    /// Starts sorting the water at its positions at the end of the time step, while the host moves the units.
-    fn sort_ahead(&mut self);
-
-    /// Returns the extremes of the water at the end of a time step; `None` if the host holds the water.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn watch(&mut self) -> Result<Option<Watched>, DeviceError>;
-
-    /// Returns the last computed rates of the water in its order, valid until [`Self::sort_ahead`]. Rates from cards
+    /// Returns the last computed rates of the water in its order, valid until [`DeviceMemory::sort_ahead`]. Rates from cards
     /// do not include the approach speed.
     ///
     /// # Errors
@@ -185,6 +150,45 @@ pub trait Backend: Send {
     /// # Errors
     /// If the device is lost.
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
+}
+
+/// A device that keeps the water in its own memory instead of the host's arrays.
+pub trait DeviceMemory {
+    /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
+    ///
+    /// # Errors
+    /// If the device does not have enough memory.
+    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
+
+    /// Updates water, its bins and the boundary densities in the arrays of the host.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
+
+    /// Updates only the boundary densities in the arrays of the host.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
+
+    /// Returns the water near surfaces, which the host keeps out of them.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
+
+    /// Writes the velocities of the water near surfaces back to the device.
+    fn write_near_velocities(&mut self, near: &NearWater);
+
+    /// Starts sorting the water at its positions at the end of the time step, while the host moves the units.
+    fn sort_ahead(&mut self);
+
+    /// Returns the extremes of the water at the end of a time step.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    fn water_extremes(&mut self) -> Result<Watched, DeviceError>;
 }
 
 /// Returns the part of a scheme that graphics cards do not support, if any.
@@ -224,20 +228,8 @@ impl Backend for Solver {
         Self::water_bins(self)
     }
 
-    fn keeps_water(&self) -> bool {
-        false
-    }
-
-    fn load(&mut self, _: &Water, _: &Boundary) -> Result<(), DeviceError> {
-        Ok(())
-    }
-
-    fn fetch(&mut self, _: &mut Water, _: &mut Boundary) -> Result<(), DeviceError> {
-        Ok(())
-    }
-
-    fn fetch_boundary_densities(&mut self, _: &mut Boundary) -> Result<(), DeviceError> {
-        Ok(())
+    fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {
+        None
     }
 
     fn sort(&mut self, water: &mut Water, boundary: &Boundary) {
@@ -274,20 +266,8 @@ impl Backend for Solver {
         Self::correct(self, dt, water, boundary);
     }
 
-    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError> {
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError> {
         Ok(Self::unit_loads(self, boundary, centres))
-    }
-
-    fn take_near(&mut self, _: &Surfaces) -> Result<NearWater, DeviceError> {
-        Ok(NearWater::default())
-    }
-
-    fn put_near(&mut self, _: &NearWater) {}
-
-    fn sort_ahead(&mut self) {}
-
-    fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
-        Ok(None)
     }
 
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {

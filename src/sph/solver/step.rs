@@ -11,6 +11,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{group::Group, time_step::Limits};
+use crate::mechanics::Load;
 use crate::sph::{
     boundary::{ghost_velocity::GhostVelocities, mdbc::GhostNodes},
     lanes::InstructionSet,
@@ -312,22 +313,15 @@ impl Solver {
         }
     }
 
-    /// Returns the force [N] of the water on each unit and its torque [N m] about the unit's centre [m]. The order of
-    /// summation over particles is fixed.
-    pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<(DVec3, DVec3)> {
+    /// Returns the load of the water on each unit about its centre [m].
+    pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<Load> {
         let first_unit = boundary.walls().end;
         self.unit_force.resize(boundary.len() - first_unit, DVec3::ZERO);
         for (&i, rate) in self.units.bins.order.iter().zip(&self.units.rates) {
             let mass = self.parameters.tait.rho0 * boundary.volume[first_unit + i as usize];
             self.unit_force[i as usize] = mass * acceleration(rate);
         }
-        let load = |(unit, centre): (&std::ops::Range<usize>, &DVec3)| {
-            unit.clone().fold((DVec3::ZERO, DVec3::ZERO), |(force, torque), i| {
-                let f = self.unit_force[i - first_unit];
-                (force + f, torque + (boundary.position[i] - *centre).cross(f))
-            })
-        };
-        boundary.units().iter().zip(centres).map(load).collect()
+        boundary.unit_loads(centres, |i| self.unit_force[i - first_unit])
     }
 
     /// Returns the mean number of pairs computed per water particle, including idle lanes.
