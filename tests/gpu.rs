@@ -303,12 +303,12 @@ fn all_the_water_can_be_near_a_surface_and_gets_its_velocities_back() {
     solver.device_memory().unwrap().load(&water, &boundary).unwrap();
     solver.sort(&mut water, &boundary);
     // More than there is room for at first.
-    let everywhere = Surfaces { balls: vec![(high, 100.0)], ..Surfaces::default() };
+    let everywhere = Surfaces { bounding_spheres: vec![(high, 100.0)], ..Surfaces::default() };
     let memory = solver.device_memory().unwrap();
     let mut near = memory.fetch_near_water(&everywhere).unwrap();
-    assert!(near.places.iter().copied().eq(0..water.len() as u32));
+    assert!(near.indices.iter().copied().eq(0..water.len() as u32));
     let given = |id: u32| DVec3::new(f64::from(id % 512), 1.0, -2.0);
-    near.water.velocity = near.places.iter().map(|&place| given(place)).collect();
+    near.water.velocity = near.indices.iter().map(|&place| given(place)).collect();
     memory.write_near_velocities(&near);
     memory.fetch(&mut water, &mut boundary).unwrap();
     assert!(water.velocity.iter().enumerate().all(|(i, velocity)| *velocity == given(i as u32)));

@@ -79,7 +79,7 @@ impl Block {
         };
         solver.sort(water, boundary);
         end_phase(0);
-        solver.list(water, boundary);
+        solver.build_neighbour_lists(water, boundary);
         end_phase(1);
         solver.boundary_densities(boundary);
         end_phase(2);

@@ -87,7 +87,7 @@ pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peak
         };
         solver.sort(water, boundary);
         end_phase(&mut solver, 0)?;
-        solver.list(water, boundary);
+        solver.build_neighbour_lists(water, boundary);
         end_phase(&mut solver, 1)?;
         solver.boundary_densities(boundary);
         end_phase(&mut solver, 2)?;

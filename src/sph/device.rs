@@ -127,7 +127,7 @@ impl Device {
     }
 
     /// Returns whether this number of particles fits into its memory.
-    pub fn holds(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
+    pub fn fits(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
         match self {
             Self::Cpu => true,
             #[cfg(feature = "gpu")]
@@ -171,11 +171,11 @@ mod tests {
     fn unsupported_schemes_are_named() {
         use crate::sph::{
             parameters::BoundaryCondition,
-            solver::backend::not_on_cards,
+            solver::backend::unsupported_on_gpu,
             terms::{density_diffusion::DensityDiffusion, wall_slip::WallSlip},
         };
         let published = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
-        assert_eq!(not_on_cards(&published), None);
+        assert_eq!(unsupported_on_gpu(&published), None);
         let free_slip = Parameters { slip: WallSlip::FreeSlip, ..published };
         let dynamic = Parameters { boundary: BoundaryCondition::Dynamic, ..published };
         let gaps = Parameters { gap_pressure: false, ..published };
@@ -187,11 +187,11 @@ mod tests {
             (gaps, "gap_pressure"),
             (antuono, "density_diffusion"),
         ] {
-            assert!(not_on_cards(&parameters).is_some_and(|what| what.contains(key)), "{key}");
+            assert!(unsupported_on_gpu(&parameters).is_some_and(|what| what.contains(key)), "{key}");
             // An explicit GPU is refused; `Auto` falls back to the processor and gives the reason.
-            let refused = Device::open(DeviceChoice::Gpu(0), not_on_cards(&parameters)).unwrap_err().to_string();
+            let refused = Device::open(DeviceChoice::Gpu(0), unsupported_on_gpu(&parameters)).unwrap_err().to_string();
             assert!(refused.contains(key) && refused.contains("--device cpu"), "{refused}");
-            let (device, reason) = Device::open(DeviceChoice::Auto, not_on_cards(&parameters)).unwrap();
+            let (device, reason) = Device::open(DeviceChoice::Auto, unsupported_on_gpu(&parameters)).unwrap();
             assert!(matches!(device, Device::Cpu) && reason.is_some_and(|reason| reason.contains(key)));
         }
     }

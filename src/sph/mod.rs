@@ -15,8 +15,8 @@
 //!
 //! Each time step sorts the particles into the bins of a cell list. A cluster holds as many particles as there are SIMD
 //! lanes and has one neighbour list; the pair sums add a neighbour to all members at once. Each particle gathers its
-//! own sums in a fixed order, so results are bit-identical for any number of threads. A shader (`.wgsl`) lies beside the
-//! Rust file of its stage.
+//! own sums in a fixed order, so results are bit-identical for any number of threads. A shader (`.wgsl`) lies beside
+//! the Rust file of its stage.
 
 pub mod boundary;
 pub mod device;

@@ -86,7 +86,7 @@ pub fn rates_beside(
 ) -> (Water, Vec<Rate>) {
     let mut solver = Solver::new(parameters, low, high);
     solver.sort(&mut water, &boundary);
-    solver.list(&water, &boundary);
+    solver.build_neighbour_lists(&water, &boundary);
     solver.boundary_densities(&mut boundary);
     solver.rates();
     let rates = solver.water_rates().to_vec();

@@ -109,7 +109,7 @@ fn renormalised_gradients_of_linear_fields_are_exact() {
         let water = block(jitter, |p| RHO0 + slope.dot(p), |p| DVec3::new(3.0 * p.z, 0.0, 0.0));
         let (gradients, order) = gradients_of_block(&water);
         let (mut worst, mut worst_inside, mut worst_stress) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for (extra, &particle) in gradients.extra().iter().zip(&order) {
+        for (extra, &particle) in gradients.neighbour_data().iter().zip(&order) {
             let found = DVec3::from_array(extra.density_gradient.map(f64::from));
             let error = (found - slope).length() / slope.length();
             // At edges and corners M is not inverted.

@@ -182,7 +182,7 @@ impl BareTank {
     /// One step; `look` sees the state between its halves. Returns its length [s].
     pub fn step(&mut self, look: impl FnOnce(&mut Self)) -> f64 {
         self.solver.sort(&mut self.water, &self.boundary);
-        self.solver.list(&self.water, &self.boundary);
+        self.solver.build_neighbour_lists(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let dt = self.solver.limits().time_step(&self.solver.parameters);

@@ -199,7 +199,7 @@ fn where_it_slides_water_drags_less() {
         let [holds, slides] = [false, true].map(|slides| {
             let mut stream = Stream::new(8.5, ModifiedDynamic, 0.0125, place);
             if slides {
-                stream.tank.boundary.slides.fill(true);
+                stream.tank.boundary.allows_free_slip.fill(true);
             }
             force_over_pressure(stream, &format!("8.5 particles in the height, {place:?}, slides: {slides}"))
         });

@@ -7,7 +7,7 @@ use super::{
     extremes::Extremes,
     failure::{self, Failure, LARGEST_COMPRESSION, Particle},
 };
-use crate::sph::solver::backend::Watched;
+use crate::sph::solver::backend::WaterExtremes;
 
 /// Mach number above which the water is no longer nearly incompressible: the density changes with its square, and one
 /// per cent is what weakly compressible SPH allows itself (Monaghan 1994).
@@ -20,8 +20,8 @@ impl Simulation {
     /// If a particle has left the domain, or its density is far off.
     pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
         if let Some(memory) = self.solver.device_memory() {
-            let watched = memory.water_extremes()?;
-            return self.judge(&watched);
+            let water = memory.water_extremes()?;
+            return self.judge(&water);
         }
         if let Some(failure) = failure::find_escape(self) {
             return Err(failure);
@@ -39,13 +39,14 @@ impl Simulation {
     }
 
     /// The same for water that a device has looked over; its particles are only brought here to be named.
-    fn judge(&mut self, watched: &Watched) -> Result<(), Failure> {
-        let mach = watched.fastest / self.case.fluid.sound_speed;
+    fn judge(&mut self, water: &WaterExtremes) -> Result<(), Failure> {
+        let mach = water.largest_speed / self.case.fluid.sound_speed;
         let rho0 = self.case.fluid.rho0;
-        let compressed =
-            [watched.lightest, watched.densest].iter().any(|rho| (rho / rho0 - 1.0).abs() > LARGEST_COMPRESSION);
+        let compressed = [water.lowest_density, water.highest_density]
+            .iter()
+            .any(|rho| (rho / rho0 - 1.0).abs() > LARGEST_COMPRESSION);
         let fast = mach > LARGEST_MACH && self.statistics.largest_mach <= LARGEST_MACH;
-        if watched.astray || compressed || fast {
+        if water.is_unstable || compressed || fast {
             self.fetch()?;
             if let Some(failure) = failure::find_escape(self) {
                 return Err(failure);
@@ -59,7 +60,7 @@ impl Simulation {
                 self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
             }
         }
-        self.statistics.count_water(mach, watched.lightest, watched.densest);
+        self.statistics.count_water(mach, water.lowest_density, water.highest_density);
         Ok(())
     }
 

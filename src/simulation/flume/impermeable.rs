@@ -88,21 +88,21 @@ fn surfaces(
     rows: &[[f64; 2]],
 ) -> Surfaces {
     let nearest = NEAREST * case.domain.dp;
-    let balls = units.into_iter().flat_map(|units| {
+    let bounding_spheres = units.into_iter().flat_map(|units| {
         let of_unit = move |state: &BodyState| {
-            let ball = |part: &ConvexPart| {
+            let bounding_sphere = |part: &ConvexPart| {
                 let (centre, radius) = part.bounding_sphere();
                 (state.position + state.rotation * centre, radius + nearest)
             };
-            units.shape.parts().iter().map(ball).collect::<Vec<_>>()
+            units.shape.parts().iter().map(bounding_sphere).collect::<Vec<_>>()
         };
         units.states().iter().flat_map(of_unit).collect::<Vec<_>>()
     });
     Surfaces {
-        nearest,
-        outline: outline.pieces().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
-        boxes: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
-        balls: balls.collect(),
+        min_distance: nearest,
+        outline: outline.segments().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
+        obstacles: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
+        bounding_spheres: bounding_spheres.collect(),
         wavemaker: wavemaker.map(|wavemaker| {
             (wavemaker.place_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
         }),

@@ -63,14 +63,14 @@ pub fn parameters(case: &Case) -> Parameters {
 }
 
 /// What of the case graphics cards do not compute, if there is such a thing.
-pub fn not_on_cards(case: &Case) -> Option<&'static str> {
+pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     if case.domain.damping_zone.is_some() || case.domain.relaxation_zone.is_some() {
         return Some("damping and relaxation zones (domain.damping_zone, domain.relaxation_zone)");
     }
     if case.wavemaker.absorption_gauge().is_some() {
         return Some("wavemakers that absorb (wavemaker.absorption)");
     }
-    backend::not_on_cards(&parameters(case))
+    backend::unsupported_on_gpu(&parameters(case))
 }
 
 /// Equation of state of the water.

@@ -247,7 +247,7 @@ fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> V
                         position: DVec3::new(case.domain.x[0] - behind, y, z),
                         to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
                         volume: dp * dp * across.spacing(),
-                        slides: true,
+                        allows_free_slip: true,
                     },
                 ));
             }
@@ -303,7 +303,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
         }
         _ => particles_of(shape, dp),
     };
-    particles.iter_mut().for_each(|particle| particle.slides = case.numerics.slip_on_units);
+    particles.iter_mut().for_each(|particle| particle.allows_free_slip = case.numerics.slip_on_units);
     particles
 }
 
@@ -350,7 +350,7 @@ mod tests {
             let case = Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
             let particles = unit_in_place(units.shape.unit(), &case);
-            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.slides == slides));
+            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.allows_free_slip == slides));
         }
     }
 }

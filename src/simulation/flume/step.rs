@@ -42,7 +42,7 @@ impl Simulation {
     /// If the state has become impossible.
     pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
         self.solver.sort(&mut self.water, &self.boundary);
-        self.solver.list(&self.water, &self.boundary);
+        self.solver.build_neighbour_lists(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let limits = self.solver.limits()?;

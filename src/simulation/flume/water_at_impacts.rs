@@ -34,5 +34,5 @@ impl WaterAtImpacts {
 /// Where the pressures are known.
 pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePlace> {
     let place = |(particle, to_surface)| PressurePlace { particle, to_surface };
-    boundary.places_in_unit().map(place).collect()
+    boundary.positions_in_unit().map(place).collect()
 }

@@ -8,8 +8,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{
-    mdbc::{DRY, GhostNodes, NodeSums, PIECE},
-    node_sums::{NodeTerms, Pair, sum_round_nodes},
+    mdbc::{DRY_LIMIT, GhostNodes, MIN_CHUNK, NodeSums},
+    node_sums::{NodeTerms, Pair, sum_around_nodes},
 };
 use crate::sph::{
     lanes::Lanes,
@@ -48,14 +48,14 @@ impl GhostVelocities {
         self.weights.resize(sums.len(), [0.0; 4]);
         (&mut self.weights, sums, &bins.order)
             .into_par_iter()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(weights, sums, &i)| *weights = velocity_weights_of(sums, parameters, to_surface[i as usize]));
         self.sums.resize(sums.len(), VelocitySum::default());
-        sum_round_nodes(parameters, bin_x, split, &self.weights, lists, records, &mut self.sums);
+        sum_around_nodes(parameters, bin_x, split, &self.weights, lists, records, &mut self.sums);
         self.of_particles.resize(sums.len(), None);
         for ((sums, velocity), &particle) in sums.iter().zip(&self.sums).zip(&bins.order) {
             let trust = sums.trust(to_surface[particle as usize]);
-            let is_wet = f64::from(sums.value[0]) >= DRY;
+            let is_wet = f64::from(sums.value[0]) >= DRY_LIMIT;
             let velocity = DVec3::from_array(velocity.0.map(f64::from));
             self.of_particles[particle as usize] = is_wet.then_some(GhostVelocity { velocity, trust });
         }
@@ -76,7 +76,7 @@ impl GhostVelocities {
 /// weighted mean with the four equations. `to_surface` [m] is half the vector from boundary particle to node.
 fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
     let occupied = f64::from(sums.value[0]);
-    if occupied < DRY {
+    if occupied < DRY_LIMIT {
         return [0.0; 4];
     }
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));

@@ -36,7 +36,7 @@ pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
 /// Computes the sums of all nodes. `nodes` are split positions (see
 /// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the given numbers of each node,
 /// `lists` its neighbours in the records. `bin_x` is the length of a bin [m].
-pub fn sum_round_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
+pub fn sum_around_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,
     nodes: &[[f32; 4]],

@@ -19,7 +19,7 @@ use crate::sph::{
     parameters::Parameters,
     particles::{boundary::Boundary, water::Water},
     solver::{
-        backend::{Backend, DeviceError, DeviceMemory, NearWater, Surfaces, Watched, not_on_cards},
+        backend::{Backend, DeviceError, DeviceMemory, NearWater, Surfaces, WaterExtremes, unsupported_on_gpu},
         power::Powers,
         time_step::Limits,
     },
@@ -52,9 +52,9 @@ struct Loaded {
     memory: Memory,
     near: NearSearch,
     /// Largest speed of water and of boundary at the start of the time step [m/s].
-    fastest: [f64; 2],
+    largest_speeds: [f64; 2],
     /// Extremes, as last read.
-    watched: Watched,
+    extremes: WaterExtremes,
     /// Whether the water is already sorted, while the host moved the units.
     is_sorted: bool,
 }
@@ -80,7 +80,7 @@ impl GpuSolver {
         [low, high]: [DVec3; 2],
         bounds: [DVec3; 2],
     ) -> Result<Self, DeviceError> {
-        if let Some(what) = not_on_cards(&parameters) {
+        if let Some(what) = unsupported_on_gpu(&parameters) {
             return Err(DeviceError::Scheme(what));
         }
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
@@ -139,7 +139,7 @@ impl GpuSolver {
         self.card.write(&memory.boundary_cell, first, &state.cell);
         self.card.write(&memory.boundary_motion, first, &state.motion);
         self.card.write(&memory.to_surface, first, &surfaces);
-        loaded.fastest[1] = largest(&boundary.velocity[first..]);
+        loaded.largest_speeds[1] = largest(&boundary.velocity[first..]);
     }
 }
 
@@ -177,7 +177,7 @@ impl Backend for GpuSolver {
     }
 
     /// Does nothing: each particle searches the bins for its neighbours.
-    fn list(&mut self, _: &Water, _: &Boundary) {}
+    fn build_neighbour_lists(&mut self, _: &Water, _: &Boundary) {}
 
     fn boundary_densities(&mut self, _: &mut Boundary) {
         self.enqueue(|_, Loaded { memory, .. }, encoder| {
@@ -204,9 +204,9 @@ impl Backend for GpuSolver {
         move_boundary(boundary);
         self.upload_moving(boundary);
         let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
-        self.enqueue(|card, Loaded { memory, fastest, .. }, encoder| {
+        self.enqueue(|card, Loaded { memory, largest_speeds, .. }, encoder| {
             // After its approach to a surface is removed, water can have its own speed plus that of the surface.
-            let speed = fastest[0] + fastest[1];
+            let speed = largest_speeds[0] + largest_speeds[1];
             let moved = (0.5 * dt * speed).min(h);
             let reach = (support + moved) * ROUNDING;
             card.write(&memory.step, 0, &[StepConstants { dt: dt as f32, reach: reach as f32 }]);
@@ -268,14 +268,19 @@ impl DeviceMemory for GpuSolver {
             Some(loaded) if loaded.memory.holds(particles) => loaded,
             _ => {
                 let memory = Memory::new(&self.card, &constants, particles, self.grid.bins())?;
-                let watched = Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false };
+                let extremes = WaterExtremes {
+                    largest_speed: 0.0,
+                    lowest_density: rho0,
+                    highest_density: rho0,
+                    is_unstable: false,
+                };
                 let near = NearSearch::new(&self.card, &memory)?;
-                Loaded { near, memory, fastest: [0.0; 2], watched, is_sorted: false }
+                Loaded { near, memory, largest_speeds: [0.0; 2], extremes, is_sorted: false }
             }
         };
         let loaded = self.loaded.insert(loaded);
         loaded.memory.fill(&self.card, &state, &of_boundary, &excess);
-        loaded.fastest = [largest(&water.velocity), largest(&boundary.velocity)];
+        loaded.largest_speeds = [largest(&water.velocity), largest(&boundary.velocity)];
         loaded.is_sorted = false;
         self.encoder = None;
         self.trouble = None;
@@ -313,15 +318,15 @@ impl DeviceMemory for GpuSolver {
         self.loaded()?;
         let rho0 = self.parameters.tait.rho0;
         let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
-        let Some(Loaded { memory, near, fastest, watched, .. }) = &mut self.loaded else {
+        let Some(Loaded { memory, near, largest_speeds, extremes, .. }) = &mut self.loaded else {
             return Ok(NearWater::default());
         };
-        let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
-        *watched = watched_from(extremes, rho0);
-        fastest[0] = watched.fastest;
+        let (encoded, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
+        *extremes = decode_extremes(encoded, rho0);
+        largest_speeds[0] = extremes.largest_speed;
         let mut water = Water::default();
         found.put_into(grid, rho0, &mut water);
-        Ok(NearWater { places: water.id.clone(), water })
+        Ok(NearWater { indices: water.id.clone(), water })
     }
 
     fn write_near_velocities(&mut self, near: &NearWater) {
@@ -339,8 +344,8 @@ impl DeviceMemory for GpuSolver {
         self.card.submit(encoder);
     }
 
-    fn water_extremes(&mut self) -> Result<Watched, DeviceError> {
-        Ok(self.loaded()?.watched)
+    fn water_extremes(&mut self) -> Result<WaterExtremes, DeviceError> {
+        Ok(self.loaded()?.extremes)
     }
 }
 
@@ -355,16 +360,16 @@ fn largest(vectors: &[DVec3]) -> f64 {
 }
 
 /// Converts the extremes that `step.wgsl` collects.
-fn watched_from([fastest, lightest, densest, astray, _]: [u32; 5], rho0: f64) -> Watched {
+fn decode_extremes([speed, lowest, highest, unstable, _]: [u32; 5], rho0: f64) -> WaterExtremes {
     let decode_density = |ordered: u32| {
         let bits = if ordered & 0x8000_0000 == 0 { !ordered } else { ordered & 0x7fff_ffff };
         rho0 + f64::from(f32::from_bits(bits))
     };
-    Watched {
-        fastest: f64::from(f32::from_bits(fastest)),
-        lightest: decode_density(lightest),
-        densest: decode_density(densest),
-        astray: astray != 0,
+    WaterExtremes {
+        largest_speed: f64::from(f32::from_bits(speed)),
+        lowest_density: decode_density(lowest),
+        highest_density: decode_density(highest),
+        is_unstable: unstable != 0,
     }
 }
 
@@ -380,7 +385,10 @@ mod tests {
             if bits & 0x8000_0000 == 0 { bits | 0x8000_0000 } else { !bits }
         };
         assert!(ordered(-2.0) < ordered(-1.0) && ordered(-1.0) < ordered(0.0) && ordered(0.0) < ordered(0.5));
-        let watched = watched_from([1.5_f32.to_bits(), ordered(-3.0), ordered(4.25), 0, 9], 1000.0);
-        assert_eq!(watched, Watched { fastest: 1.5, lightest: 997.0, densest: 1004.25, astray: false });
+        let extremes = decode_extremes([1.5_f32.to_bits(), ordered(-3.0), ordered(4.25), 0, 9], 1000.0);
+        assert_eq!(
+            extremes,
+            WaterExtremes { largest_speed: 1.5, lowest_density: 997.0, highest_density: 1004.25, is_unstable: false }
+        );
     }
 }

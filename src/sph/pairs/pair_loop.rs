@@ -28,7 +28,7 @@ impl PairLoop {
     }
 
     /// Returns the same loop with other parameters.
-    pub(in crate::sph) fn with(self, parameters: Parameters) -> Self {
+    pub(in crate::sph) fn with_parameters(self, parameters: Parameters) -> Self {
         Self { parameters, ..self }
     }
 
@@ -47,7 +47,8 @@ impl PairLoop {
         lists.chunks().par_iter().enumerate().map(count_chunk).sum()
     }
 
-    /// Returns the split positions of the members of a cluster, see [`split_position`](crate::sph::neighbours::records::split_position).
+    /// Returns the split positions of the members of a cluster, see
+    /// [`split_position`](crate::sph::neighbours::records::split_position).
     #[inline(always)]
     pub(super) fn split_positions<L: Lanes>(&self, cluster: &Cluster, targets: &[Record]) -> [L; 4] {
         let fields: [fn(&Record) -> f32; 4] = [|r| r.bin_x, |r| r.x, |r| r.y, |r| r.z];

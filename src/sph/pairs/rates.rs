@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::{
-    gradients::Extra,
+    gradients::NeighbourData,
     pair_loop::PairLoop,
     pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent},
     rate::Rate,
@@ -23,20 +23,20 @@ use crate::sph::{
 const BLOCK: usize = 32;
 
 impl PairLoop {
-    /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `extra` has one entry
-    /// per record, or is empty if the scheme needs no additional data.
+    /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `data` has one entry
+    /// per record, or is empty if the scheme needs none.
     pub fn rates(
         &self,
         lists: &NeighbourLists,
         records: &[Record],
-        extra: &[Extra],
+        data: &[NeighbourData],
         first_target: usize,
         rates: &mut [Rate],
     ) {
         rates.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (rates, chunk))| {
             let begin = first_target + number * CHUNK;
             let targets = &records[begin..begin + rates.len()];
-            lists.instructions().dispatch(ChunkRates { pairs: self, chunk, begin, targets, records, extra, rates });
+            lists.instructions().dispatch(ChunkRates { pairs: self, chunk, begin, targets, records, data, rates });
         });
     }
 }
@@ -49,7 +49,7 @@ struct ChunkRates<'a> {
     begin: usize,
     targets: &'a [Record],
     records: &'a [Record],
-    extra: &'a [Extra],
+    data: &'a [NeighbourData],
     rates: &'a mut [Rate],
 }
 
@@ -101,8 +101,8 @@ impl ChunkRates<'_> {
     ) -> [Rate; MOST_LANES] {
         let Self { pairs, targets, records, .. } = self;
         let place = pairs.split_positions(cluster, targets);
-        let extra = self.extra.get(self.begin..).unwrap_or_default();
-        let mut a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, extra);
+        let data = self.data.get(self.begin..).unwrap_or_default();
+        let mut a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, data);
         if pairs.parameters.boundary == BoundaryCondition::Dynamic {
             a.diffuses = self.out_of_reach_of_walls::<L, PERIODIC>(constants, cluster, neighbours);
         }
@@ -116,8 +116,9 @@ impl ChunkRates<'_> {
                 let after = *following.get(k).unwrap_or(&first);
                 next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[after as usize]));
                 let b = &records[number as usize];
-                let extra_b = if ANTUONO || R::TURBULENT { &self.extra[number as usize] } else { &Extra::OF_BOUNDARY };
-                block_sums.add::<R, ANTUONO>(constants, &a, &current, b, extra_b);
+                let data_b =
+                    if ANTUONO || R::TURBULENT { &self.data[number as usize] } else { &NeighbourData::OF_BOUNDARY };
+                block_sums.add::<R, ANTUONO>(constants, &a, &current, b, data_b);
             }
             sums.add_sums(&block_sums);
         }

@@ -48,28 +48,28 @@ pub enum DeviceError {
 
 /// Extremes of the water at the end of a time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Watched {
+pub struct WaterExtremes {
     /// Largest speed [m/s].
-    pub fastest: f64,
+    pub largest_speed: f64,
     /// Lowest density [kg/m3].
-    pub lightest: f64,
+    pub lowest_density: f64,
     /// Highest density [kg/m3].
-    pub densest: f64,
+    pub highest_density: f64,
     /// Whether a particle has left the domain or has a state that is not finite.
-    pub astray: bool,
+    pub is_unstable: bool,
 }
 
 /// Surfaces that water must not penetrate, at the end of a time step (see [`crate::simulation::flume`]). Lengths [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
     /// Smallest distance of a particle; nearer particles lose their approach velocity.
-    pub nearest: f64,
+    pub min_distance: f64,
     /// Segments of the outline of bed and walls, x and z of both ends.
     pub outline: Vec<[f64; 4]>,
     /// Obstacles: low and high corner.
-    pub boxes: Vec<[DVec3; 2]>,
+    pub obstacles: Vec<[DVec3; 2]>,
     /// Bounding spheres of the units' parts: centre and radius.
-    pub balls: Vec<(DVec3, f64)>,
+    pub bounding_spheres: Vec<(DVec3, f64)>,
     /// Position of the wavemaker at rest, height of its lowest row, and the displacement of each row.
     pub wavemaker: Option<(f64, f64, Vec<f64>)>,
     /// Width between the side walls; the first one stands at y = 0.
@@ -80,7 +80,7 @@ pub struct Surfaces {
 #[derive(Debug, Clone, Default)]
 pub struct NearWater {
     /// Index of each particle in the arrays of the device, ascending.
-    pub places: Vec<u32>,
+    pub indices: Vec<u32>,
     /// State of the particles.
     pub water: Water,
 }
@@ -106,7 +106,7 @@ pub trait Backend: Send {
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
 
     /// Builds the neighbour lists of this time step.
-    fn list(&mut self, water: &Water, boundary: &Boundary);
+    fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary);
 
     /// Computes the densities of the boundary particles from their ghost nodes.
     fn boundary_densities(&mut self, boundary: &mut Boundary);
@@ -188,11 +188,11 @@ pub trait DeviceMemory {
     ///
     /// # Errors
     /// If the device is lost.
-    fn water_extremes(&mut self) -> Result<Watched, DeviceError>;
+    fn water_extremes(&mut self) -> Result<WaterExtremes, DeviceError>;
 }
 
 /// Returns the part of a scheme that graphics cards do not support, if any.
-pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
+pub fn unsupported_on_gpu(parameters: &Parameters) -> Option<&'static str> {
     if parameters.boundary == BoundaryCondition::Dynamic {
         return Some("the dynamic boundary condition (numerics.boundary = \"dbc\")");
     }
@@ -236,8 +236,8 @@ impl Backend for Solver {
         Self::sort(self, water, boundary);
     }
 
-    fn list(&mut self, water: &Water, boundary: &Boundary) {
-        Self::list(self, water, boundary);
+    fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary) {
+        Self::build_neighbour_lists(self, water, boundary);
     }
 
     fn boundary_densities(&mut self, boundary: &mut Boundary) {

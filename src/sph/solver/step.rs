@@ -113,7 +113,7 @@ impl Solver {
     }
 
     /// Builds the neighbour lists of this time step.
-    pub fn list(&mut self, water: &Water, boundary: &Boundary) {
+    pub fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary) {
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
         let mut lists = std::mem::take(&mut w.lists);
@@ -174,8 +174,8 @@ impl Solver {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
                 let ghost = ghost_velocities.at_node_of(i);
-                let (wall, slides) = (boundary.velocity[i], boundary.slides[i]);
-                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], slides);
+                let (wall, free_slip) = (boundary.velocity[i], boundary.allows_free_slip[i]);
+                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], free_slip);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
             });
         };
@@ -201,11 +201,11 @@ impl Solver {
         if Gradients::are_needed(parameters) {
             gradients.compute(pairs, &water.lists, records, water.rates.len());
         }
-        let extra = gradients.extra();
-        pairs.rates(&water.lists, records, extra, 0, &mut water.rates);
-        pairs.rates(&units.lists, records, extra, units.first_record, &mut units.rates);
+        let neighbour_data = gradients.neighbour_data();
+        pairs.rates(&water.lists, records, neighbour_data, 0, &mut water.rates);
+        pairs.rates(&units.lists, records, neighbour_data, units.first_record, &mut units.rates);
         if parameters.boundary == BoundaryCondition::Dynamic {
-            pairs.rates(&walls.lists, records, extra, walls.first_record, &mut walls.rates);
+            pairs.rates(&walls.lists, records, neighbour_data, walls.first_record, &mut walls.rates);
         } else if parameters.gap_pressure {
             pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
         }
@@ -218,7 +218,7 @@ impl Solver {
 
     /// Computes the rates of the water with another viscosity and diffusion.
     pub(super) fn rates_with(&self, viscosity: Viscosity, diffusion: Diffusion) -> Vec<Rate> {
-        let pairs = self.pairs.with(Parameters { viscosity, diffusion, ..self.parameters });
+        let pairs = self.pairs.with_parameters(Parameters { viscosity, diffusion, ..self.parameters });
         let mut rates = vec![Rate::default(); self.water.rates.len()];
         pairs.rates(&self.water.lists, &self.records, &[], 0, &mut rates);
         rates
