@@ -1,6 +1,6 @@
 //! Motion of a rigid body and the load on it: what water, contact and outputs exchange.
 
-use std::ops::{AddAssign, Div, Mul};
+use std::ops::AddAssign;
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -73,28 +73,17 @@ impl Load {
     pub fn of_force(force: DVec3, arm: DVec3) -> Self {
         Self { force, torque: arm.cross(force) }
     }
+
+    /// Returns the load with `f` applied to force and torque.
+    pub fn map(self, f: impl Fn(DVec3) -> DVec3) -> Self {
+        Self { force: f(self.force), torque: f(self.torque) }
+    }
 }
 
 impl AddAssign for Load {
     fn add_assign(&mut self, other: Self) {
         self.force += other.force;
         self.torque += other.torque;
-    }
-}
-
-impl Mul<f64> for Load {
-    type Output = Self;
-
-    fn mul(self, factor: f64) -> Self {
-        Self { force: self.force * factor, torque: self.torque * factor }
-    }
-}
-
-impl Div<f64> for Load {
-    type Output = Self;
-
-    fn div(self, divisor: f64) -> Self {
-        Self { force: self.force / divisor, torque: self.torque / divisor }
     }
 }
 

@@ -6,13 +6,9 @@ use glam::DVec3;
 
 #[cfg(feature = "gpu")]
 use super::gpu::{card::Card, memory::most_particles, solver::GpuSolver};
-use super::{
-    parameters::Parameters,
-    solver::{
-        backend::{Backend, DeviceError, PROCESSOR},
-        step::Solver,
-    },
-};
+use super::parameters::Parameters;
+use super::solver::backend::{Backend, DeviceError, PROCESSOR};
+use super::solver::step::Solver;
 
 /// Device that the user requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -169,11 +165,10 @@ mod tests {
 
     #[test]
     fn unsupported_schemes_are_named() {
-        use crate::sph::{
-            parameters::BoundaryCondition,
-            solver::backend::unsupported_on_gpu,
-            terms::{density_diffusion::DensityDiffusion, wall_slip::WallSlip},
-        };
+        use crate::sph::parameters::BoundaryCondition;
+        use crate::sph::solver::backend::unsupported_on_gpu;
+        use crate::sph::terms::density_diffusion::DensityDiffusion;
+        use crate::sph::terms::wall_slip::WallSlip;
         let published = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         assert_eq!(unsupported_on_gpu(&published), None);
         let free_slip = Parameters { slip: WallSlip::FreeSlip, ..published };

@@ -63,7 +63,7 @@ impl Simulation {
             let impulses = keep_out_of_units(water, units, solver.grid(), bins, nearest);
             let slices = case.units.as_ref().map_or(1.0, |units| units.slices);
             for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
-                *load += impulse * slices / dt;
+                *load += impulse.map(|sum| slices * sum / dt);
             }
         };
         match near {

@@ -26,8 +26,8 @@ impl MeanLoads {
     /// Add the loads of a step of length `dt` [s].
     pub fn add(&mut self, dt: f64, fluid: &[Load], contact: &[Load]) {
         for (sums, (fluid, contact)) in self.impulses.iter_mut().zip(fluid.iter().zip(contact)) {
-            sums[0] += *fluid * dt;
-            sums[1] += *contact * dt;
+            sums[0] += fluid.map(|load| dt * load);
+            sums[1] += contact.map(|load| dt * load);
         }
         self.over += dt;
     }
@@ -35,7 +35,7 @@ impl MeanLoads {
     /// Mean loads of water and contact on each unit since the last call; `None` if no step was made since.
     pub fn take(&mut self) -> Option<Vec<[Load; 2]>> {
         let gathered = std::mem::replace(self, Self::new(self.impulses.len()));
-        let mean = |sums: &[Load; 2]| sums.map(|sum| sum / gathered.over);
+        let mean = |sums: &[Load; 2]| sums.map(|sum| sum.map(|impulse| impulse / gathered.over));
         (gathered.over > 0.0).then(|| gathered.impulses.iter().map(mean).collect())
     }
 }

@@ -88,7 +88,7 @@ impl Simulation {
         let loads = self.solver.unit_loads(&self.boundary, &centres)?;
         // In two dimensions the particles are a slice of each unit.
         let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
-        units.fluid_loads = loads.into_iter().map(|load| load * slices).collect();
+        units.fluid_loads = loads.into_iter().map(|load| load.map(|sum| slices * sum)).collect();
         Ok(())
     }
 

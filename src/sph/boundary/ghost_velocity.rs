@@ -7,17 +7,14 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{
-    mdbc::{DRY_LIMIT, GhostNodes, MIN_CHUNK, NodeSums},
-    node_sums::{NodeTerms, Pair, sum_around_nodes},
-};
-use crate::sph::{
-    lanes::Lanes,
-    neighbours::{grid::Grid, records::Record},
-    parameters::Parameters,
-    particles::boundary::Boundary,
-    terms::wall_slip::GhostVelocity,
-};
+use super::mdbc::{DRY_LIMIT, GhostNodes, MIN_CHUNK, NodeSums};
+use super::node_sums::{NodeTerms, Pair, sum_around_nodes};
+use crate::sph::lanes::Lanes;
+use crate::sph::neighbours::grid::Grid;
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
+use crate::sph::particles::boundary::Boundary;
+use crate::sph::terms::wall_slip::GhostVelocity;
 
 /// Velocities of the water at the ghost nodes.
 #[derive(Debug, Default)]

@@ -19,20 +19,14 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{
-    linear_equations::solve,
-    node_sums::{NodeTerms, Pair, sum_around_nodes},
-};
-use crate::sph::{
-    lanes::{InstructionSet, Lanes},
-    neighbours::{
-        grid::{Bins, Grid},
-        lists::{NeighbourLists, Sources},
-        records::{Record, split_position},
-    },
-    parameters::Parameters,
-    particles::boundary::Boundary,
-};
+use super::linear_equations::solve;
+use super::node_sums::{NodeTerms, Pair, sum_around_nodes};
+use crate::sph::lanes::{InstructionSet, Lanes};
+use crate::sph::neighbours::grid::{Bins, Grid};
+use crate::sph::neighbours::lists::{NeighbourLists, Sources};
+use crate::sph::neighbours::records::{Record, split_position};
+use crate::sph::parameters::Parameters;
+use crate::sph::particles::boundary::Boundary;
 
 /// Smallest determinant of the scaled matrix for which the gradient is fitted, relative to a full neighbourhood with
 /// the same sum of W V. Half a neighbourhood has 0.1; a single layer or a corner with few particles is below the limit.

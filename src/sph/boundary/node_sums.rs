@@ -2,14 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::sph::{
-    lanes::{Lanes, WithLanes},
-    neighbours::{
-        lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of},
-        records::Record,
-    },
-    parameters::Parameters,
-};
+use crate::sph::lanes::{Lanes, WithLanes};
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
 
 /// A ghost node and a water particle near it.
 pub struct Pair<L> {

@@ -3,16 +3,12 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
-use super::{
-    card::{Card, groups},
-    memory::Memory,
-    shaders::{Bound, Kernel, NEAR, Shader},
-    state::CardState,
-};
-use crate::sph::{
-    neighbours::grid::Grid,
-    solver::backend::{DeviceError, NearWater, Surfaces},
-};
+use super::card::{Card, groups};
+use super::memory::Memory;
+use super::shaders::{Bound, Kernel, NEAR, Shader};
+use super::state::CardState;
+use crate::sph::neighbours::grid::Grid;
+use crate::sph::solver::backend::{DeviceError, NearWater, Surfaces};
 
 /// Initial capacity for particles near surfaces.
 const INITIAL_ROOM: usize = 4096;

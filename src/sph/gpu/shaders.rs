@@ -148,11 +148,9 @@ mod tests {
 
     #[test]
     fn constants_have_the_size_of_the_shader_structs() {
-        use super::super::{
-            constants::{Constants, StepConstants},
-            near::{NearParticle, SurfaceConstants},
-            sort::SortConstants,
-        };
+        use super::super::constants::{Constants, StepConstants};
+        use super::super::near::{NearParticle, SurfaceConstants};
+        use super::super::sort::SortConstants;
         let size_of_struct = |source: &str, name: &str| {
             let module = wgsl::parse_str(source).unwrap();
             let named = module.types.iter().find(|(_, of_type)| of_type.name.as_deref() == Some(name));

@@ -5,25 +5,22 @@
 
 use glam::DVec3;
 
-use super::{
-    card::{Card, groups},
-    constants::{Constants, StepConstants},
-    memory::Memory,
-    near::NearSearch,
-    state::CardState,
-};
+use super::card::{Card, groups};
+use super::constants::{Constants, StepConstants};
+use super::memory::Memory;
+use super::near::NearSearch;
+use super::state::CardState;
 use crate::mechanics::Load;
-use crate::sph::{
-    neighbours::grid::{Bins, Grid},
-    pairs::rate::Rate,
-    parameters::Parameters,
-    particles::{boundary::Boundary, water::Water},
-    solver::{
-        backend::{Backend, DeviceError, DeviceMemory, NearWater, Surfaces, WaterExtremes, unsupported_on_gpu},
-        power::Powers,
-        time_step::Limits,
-    },
+use crate::sph::neighbours::grid::{Bins, Grid};
+use crate::sph::pairs::rate::Rate;
+use crate::sph::parameters::Parameters;
+use crate::sph::particles::boundary::Boundary;
+use crate::sph::particles::water::Water;
+use crate::sph::solver::backend::{
+    Backend, DeviceError, DeviceMemory, NearWater, Surfaces, WaterExtremes, unsupported_on_gpu,
 };
+use crate::sph::solver::power::Powers;
+use crate::sph::solver::time_step::Limits;
 
 /// Initial values of the extremes; see `step.wgsl`.
 const INITIAL_EXTREMES: [u32; 5] = [0, u32::MAX, 0, 0, 0];

@@ -2,10 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{
-    card::{Card, groups},
-    shaders::{Bound, GRID, Shader},
-};
+use super::card::{Card, groups};
+use super::shaders::{Bound, GRID, Shader};
 use crate::sph::solver::backend::DeviceError;
 
 /// Number of bins that a workgroup scans.
@@ -99,10 +97,8 @@ mod tests {
     use glam::DVec3;
 
     use super::{super::constants::Constants, *};
-    use crate::sph::{
-        neighbours::grid::{Bins, Grid},
-        parameters::Parameters,
-    };
+    use crate::sph::neighbours::grid::{Bins, Grid};
+    use crate::sph::parameters::Parameters;
 
     #[test]
     fn card_and_processor_sort_into_the_same_order() {

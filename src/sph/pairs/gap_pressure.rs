@@ -9,13 +9,9 @@
 use rayon::prelude::*;
 
 use super::{pair_loop::PairLoop, rate::Rate};
-use crate::sph::{
-    neighbours::{
-        lists::{CHUNK, NeighbourLists},
-        records::Record,
-    },
-    terms::momentum::pair_stress,
-};
+use crate::sph::neighbours::lists::{CHUNK, NeighbourLists};
+use crate::sph::neighbours::records::Record;
+use crate::sph::terms::momentum::pair_stress;
 
 impl PairLoop {
     /// Adds the pressure of bed, walls and other units across gaps to the units' accelerations; arguments as in

@@ -9,15 +9,12 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::pair_loop::PairLoop;
-use crate::sph::{
-    lanes::{Lanes, WithLanes},
-    neighbours::{
-        lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of},
-        records::Record,
-    },
-    parameters::Parameters,
-    terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity},
-};
+use crate::sph::lanes::{Lanes, WithLanes};
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
+use crate::sph::terms::density_diffusion::DensityDiffusion;
+use crate::sph::terms::viscosity::Viscosity;
 
 /// Smallest determinant of M for which M is inverted: that of a quarter of a neighbourhood.
 const LEAST_DETERMINANT: f64 = 0.05;

@@ -2,14 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::sph::{
-    lanes::Lanes,
-    neighbours::{
-        lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of},
-        records::Record,
-    },
-    parameters::Parameters,
-};
+use crate::sph::lanes::Lanes;
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
 
 /// Loop over pairs: its constants besides the records.
 #[derive(Debug, Clone, Copy)]

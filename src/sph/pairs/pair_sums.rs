@@ -1,21 +1,15 @@
 //! Sums of equations 1 and 2 over the neighbours of a cluster, one member per lane.
 
 use super::{gradients::NeighbourData, rate::Rate};
-use crate::sph::{
-    lanes::{Lanes, MOST_LANES},
-    neighbours::{
-        lists::{Cluster, lanes_of},
-        records::Record,
-    },
-    parameters::Parameters,
-    terms::{
-        continuity::add_compression,
-        density_diffusion::Diffusion,
-        kernel::Wendland,
-        momentum::pair_stress,
-        viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
-    },
-};
+use crate::sph::lanes::{Lanes, MOST_LANES};
+use crate::sph::neighbours::lists::{Cluster, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
+use crate::sph::terms::continuity::add_compression;
+use crate::sph::terms::density_diffusion::Diffusion;
+use crate::sph::terms::kernel::Wendland;
+use crate::sph::terms::momentum::pair_stress;
+use crate::sph::terms::viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress};
 
 /// Viscosity model; the pair loop is compiled once per model.
 pub(super) trait Resistance {

@@ -3,21 +3,16 @@
 
 use rayon::prelude::*;
 
-use super::{
-    gradients::NeighbourData,
-    pair_loop::PairLoop,
-    pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent},
-    rate::Rate,
-};
-use crate::sph::{
-    lanes::{Lanes, MOST_LANES, WithLanes},
-    neighbours::{
-        lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of},
-        records::Record,
-    },
-    parameters::BoundaryCondition,
-    terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity},
-};
+use super::gradients::NeighbourData;
+use super::pair_loop::PairLoop;
+use super::pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent};
+use super::rate::Rate;
+use crate::sph::lanes::{Lanes, MOST_LANES, WithLanes};
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::BoundaryCondition;
+use crate::sph::terms::density_diffusion::DensityDiffusion;
+use crate::sph::terms::viscosity::Viscosity;
 
 /// Number of neighbours per partial sum; partial sums reduce rounding errors.
 const BLOCK: usize = 32;

@@ -85,7 +85,7 @@ pub struct NearWater {
     pub water: Water,
 }
 
-/// The operations of a time step.
+/// The operations of a time step. They fail only if the device is lost.
 pub trait Backend: Send {
     /// Returns the name of the device.
     fn name(&self) -> &str;
@@ -115,9 +115,6 @@ pub trait Backend: Send {
     fn rates(&mut self);
 
     /// Returns the largest acceleration and signal speed of the water.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn limits(&mut self) -> Result<Limits, DeviceError>;
 
     /// Predictor, equations 8.1, 8.2 and 9.1; `move_boundary` moves the boundary to the half step.
@@ -133,49 +130,29 @@ pub trait Backend: Send {
     fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary);
 
     /// Returns the load of the water on each unit about its centre [m].
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError>;
 
-    /// Returns the last computed rates of the water in its order, valid until [`DeviceMemory::sort_ahead`]. Rates from cards
-    /// do not include the approach speed.
-    ///
-    /// # Errors
-    /// If the device is lost.
+    /// Returns the last computed rates of the water in its order, valid until [`DeviceMemory::sort_ahead`]. Rates from
+    /// cards do not include the approach speed.
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
 
     /// Returns the powers that act on the water, at the fetched state whose rates were computed last.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
 }
 
-/// A device that keeps the water in its own memory instead of the host's arrays.
+/// A device that keeps the water in its own memory instead of the host's arrays. The operations fail if the device is
+/// lost, and [`Self::load`] if its memory is too small.
 pub trait DeviceMemory {
     /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
-    ///
-    /// # Errors
-    /// If the device does not have enough memory.
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
 
     /// Updates water, its bins and the boundary densities in the arrays of the host.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
     /// Updates only the boundary densities in the arrays of the host.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
     /// Returns the water near surfaces, which the host keeps out of them.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
 
     /// Writes the velocities of the water near surfaces back to the device.
@@ -185,9 +162,6 @@ pub trait DeviceMemory {
     fn sort_ahead(&mut self);
 
     /// Returns the extremes of the water at the end of a time step.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn water_extremes(&mut self) -> Result<WaterExtremes, DeviceError>;
 }
 

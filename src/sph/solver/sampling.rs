@@ -2,12 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::sph::{
-    boundary::linear_equations::solve,
-    neighbours::grid::{Bins, Grid},
-    particles::water::Water,
-    terms::{equation_of_state::Tait, kernel::Wendland},
-};
+use crate::sph::boundary::linear_equations::solve;
+use crate::sph::neighbours::grid::{Bins, Grid};
+use crate::sph::particles::water::Water;
+use crate::sph::terms::equation_of_state::Tait;
+use crate::sph::terms::kernel::Wendland;
 
 /// Sum of W V at the free surface: half a neighbourhood.
 const SURFACE: f64 = 0.5;
