@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::contact::Feature;
-use crate::mechanics::BodyState;
+use super::motion::BodyState;
 
 /// A contact that has ended, or its record so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::contact::{ContactKey, Feature, Placements, Touch};
 use super::contact_law::ContactLaw;
 use super::hertz_mindlin::Material;
+use super::motion::{BodyState, Load};
 use super::record::{Beginning, ContactBook, Push};
 use super::setup::RigidSetup;
-use crate::mechanics::{BodyState, Load};
 
 /// Energy balance of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
 /// load_work is constant, except for time-stepping errors and the coupling of tangential stiffness and overlap.

@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 
 use super::broad_phase;
 use super::contact::Placements;
+use super::motion::{BodyState, Load};
 use super::world::{RigidWorld, UNSEEN};
-use crate::mechanics::{BodyState, Load};
 
 impl RigidWorld {
     /// Largest overlap [m] that a new body at this position would have with bodies, ground and walls. 0 if the position

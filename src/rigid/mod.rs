@@ -45,7 +45,6 @@ mod snapshot;
 mod terrain_contact;
 mod world;
 
-pub use crate::mechanics::{BodyState, Load};
 pub use contact::Feature;
 pub use error::RigidError;
 pub use event::ContactEvent;
@@ -53,6 +52,7 @@ pub use forces::Energy;
 pub use hertz_mindlin::{Material, effective_young_modulus, impact_overlap};
 pub use history::{ForceHistory, ForceSample};
 pub use impact_log::RecordedContact;
+pub use motion::{BodyState, Load};
 pub use setup::{BodyShape, ContactModel, Friction, Ground, Resistance, RigidSetup, Sides};
 pub use snapshot::RigidSnapshot;
 pub use world::RigidWorld;

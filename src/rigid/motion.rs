@@ -9,6 +9,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+pub use crate::mechanics::{BodyState, Load};
+
 /// Angular momentum L = R I R^T omega [kg m2/s].
 pub fn angular_momentum(rotation: DQuat, inertia: &DMat3, angular_velocity: DVec3) -> DVec3 {
     rotation * (*inertia * (rotation.inverse() * angular_velocity))

@@ -7,7 +7,7 @@ use super::event::{ContactEvent, EventLog};
 use super::forces::Step;
 use super::history::ForceHistory;
 use super::impact_log::{ImpactLog, RecordedContact};
-use crate::mechanics::BodyState;
+use super::motion::BodyState;
 
 /// Records of all contacts of a world.
 #[derive(Debug, Clone, Default)]

@@ -6,12 +6,12 @@ use glam::{DMat3, DVec3};
 
 use super::error::RigidError;
 use super::hertz_mindlin::Material;
+use super::motion::BodyState;
 use super::polyhedron_contact::MOST_FEATURES;
 use crate::geometry::armour_unit::ArmourUnit;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
 use crate::geometry::terrain::Terrain;
-use crate::mechanics::BodyState;
 
 /// Largest number of convex parts of a body: part, corner and edge numbers share 16 bits.
 pub const MOST_PARTS: usize = 63;

@@ -8,9 +8,9 @@ use super::error::RigidError;
 use super::event::EventLog;
 use super::forces::{Contact, Energy};
 use super::impact_log::{ImpactLog, RecordedContact};
+use super::motion::Load;
 use super::record::ContactBook;
 use super::world::{RigidWorld, UNSEEN};
-use crate::mechanics::Load;
 
 /// State of all bodies and contacts. Angular momentum and current contact forces are stored, because recomputing them
 /// would change their last bits.

@@ -12,10 +12,9 @@ use super::error::RigidError;
 use super::event::ContactEvent;
 use super::forces::{Contact, Energy, Laws, Step, Velocities};
 use super::impact_log::RecordedContact;
-use super::motion;
+use super::motion::{self, BodyState, Load};
 use super::record::ContactBook;
 use super::setup::{RigidSetup, Sides};
-use crate::mechanics::{BodyState, Load};
 
 /// Substeps per shortest oscillation period of a body on its contacts. With 80 the restitution of an impact is accurate
 /// to 1e-3 (see the tests); an impact lasts about two thirds of this period.
