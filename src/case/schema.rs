@@ -4,23 +4,23 @@ use schemars::JsonSchema;
 
 use super::file::{CaseFile, DryFile, FractureFile};
 
-/// JSON schema of [`CaseFile`], indented.
+/// Returns the JSON schema of [`CaseFile`], indented.
 pub fn schema_text() -> String {
-    text_of::<CaseFile>()
+    indented_schema::<CaseFile>()
 }
 
-/// JSON schema of [`DryFile`], indented.
+/// Returns the JSON schema of [`DryFile`], indented.
 pub fn dry_schema_text() -> String {
-    text_of::<DryFile>()
+    indented_schema::<DryFile>()
 }
 
-/// JSON schema of [`FractureFile`], indented.
+/// Returns the JSON schema of [`FractureFile`], indented.
 pub fn fracture_schema_text() -> String {
-    text_of::<FractureFile>()
+    indented_schema::<FractureFile>()
 }
 
-fn text_of<T: JsonSchema>() -> String {
+fn indented_schema<T: JsonSchema>() -> String {
     let schema = schemars::schema_for!(T);
-    // A schema is plain JSON: alternate formatting indents it and cannot fail.
+    // A schema is plain JSON; the alternate format indents it and cannot fail.
     format!("{:#}", schema.as_value())
 }

@@ -1,4 +1,4 @@
-//! `breakwater book`: the validation book.
+//! `breakwater book`: the validation pages.
 
 use std::path::PathBuf;
 
@@ -7,15 +7,15 @@ use clap::Args;
 use super::Trouble;
 use crate::{book, report::compare::Fudo};
 
-/// Take finished runs into the validation book and write its pages: tables and figures beside the published experiment.
+/// Add finished runs to the validation pages: tables and figures that compare them with a published experiment.
 ///
-/// The book keeps a run's case, its summary and a short table of its series, some 100 kB, and writes its pages from what it
-/// keeps. Without folders it writes the pages anew.
+/// The folder of the pages keeps the case, the summary and a short table of the series of each run, some 100 kB. The
+/// pages are written from these files. Without run folders, all pages are written again.
 #[derive(Args)]
 pub struct BookArguments {
-    /// Folders of finished runs under a wave of the Fudo experiment: 2.6, 4.5 or 6.4 cm.
+    /// Folders of finished runs with a wave of the Fudo experiment: 2.6, 4.5 or 6.4 cm; default: none.
     runs: Vec<PathBuf>,
-    /// Folder of the book.
+    /// Folder of the validation pages.
     #[arg(long, default_value = "docs/validation")]
     out: PathBuf,
 }

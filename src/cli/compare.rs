@@ -1,4 +1,4 @@
-//! `breakwater compare`: runs beside published measurements.
+//! `breakwater compare`: compares runs with published measurements.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::Trouble;
 use crate::report::compare::{Fudo, compare};
 
-/// Set finished runs beside published measurements: displacement of each unit, mean, damage ratio.
+/// Compare finished runs with published measurements: displacement of each unit, mean, damage ratio.
 #[derive(Args)]
 pub struct CompareArguments {
     /// Folders of the runs.
@@ -16,14 +16,14 @@ pub struct CompareArguments {
     /// The measurements.
     #[arg(long, value_enum, default_value = "fudo")]
     reference: Reference,
-    /// Folder for compare.html and compare.csv; without it, that of the first run.
+    /// Folder for compare.html and compare.csv; default: the folder of the first run.
     #[arg(long)]
     out: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Reference {
-    /// Mitsui et al. 2023: one row of Tetrapods under solitary waves of 2.6, 4.5 and 6.4 cm.
+    /// Mitsui et al. 2023: one row of Tetrapods in solitary waves of 2.6, 4.5 and 6.4 cm.
     Fudo,
 }
 

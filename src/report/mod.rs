@@ -1,4 +1,4 @@
-//! Everything that a person reads: pages, charts, pictures, and comparison with measurements.
+//! Output for human readers: pages, charts, pictures, and comparison with measurements.
 
 pub mod compare;
 pub mod fracture;
@@ -6,4 +6,5 @@ pub mod page;
 pub mod plot;
 pub mod raster;
 pub mod run;
+pub mod sweep;
 pub mod wave_page;
