@@ -1,9 +1,12 @@
-//! Benchmarks of FEMDEM time steps on one thread: without joints, with joints everywhere, and with tied joints.
-//! `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
+//! Benchmarks of FEMDEM time steps on one thread: without joints, with joints everywhere, and with tied joints; and of
+//! the contact detection. `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
 
 use breakwater::femdem::{
-    cohesive_law::{Cohesion, Range},
-    material::{Elastic, Strength},
+    contact::detection::{Bounds, intersecting_pairs},
+    material::{
+        Elastic, Strength,
+        cohesive_law::{Cohesion, Range},
+    },
     mesh::{
         block::{Pattern, block},
         prepare,
@@ -52,4 +55,20 @@ fn joints_everywhere(bencher: Bencher, cells: usize) {
 #[divan::bench(args = CELLS)]
 fn tied_joints(bencher: Bencher, cells: usize) {
     measure_steps(bencher, cells, Some(cohesion(true)));
+}
+
+/// Boxes as dense as the bounding boxes of a mesh of tetrahedra with edges of 1 m: the time is linear in their number.
+#[divan::bench(args = [10_000, 100_000, 1_000_000])]
+fn contact_detection(bencher: Bencher, count: usize) {
+    // Volume of a regular tetrahedron: 0.118 m3.
+    let row = (count as f64).cbrt().ceil();
+    let spacing = (0.118 * count as f64).cbrt() / row;
+    let boxes: Vec<Bounds> = (0..count)
+        .map(|number| {
+            let number = number as f64;
+            let cell = DVec3::new(number % row, (number / row).floor() % row, (number / row / row).floor());
+            Bounds { low: spacing * cell - 0.4, high: spacing * cell + 0.4 }
+        })
+        .collect();
+    bencher.counter(ItemsCount::new(count)).bench_local(|| intersecting_pairs(&boxes, |_, _| true));
 }

@@ -5,9 +5,9 @@ use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use breakwater::case::FractureCase;
-use breakwater::femdem::snapshot::Snapshot;
-use breakwater::femdem::watch::StepError;
 use breakwater::femdem::world::World;
+use breakwater::femdem::world::limits::StepError;
+use breakwater::femdem::world::snapshot::Snapshot;
 use breakwater::simulation::fracture::failure::Failure;
 use breakwater::simulation::fracture::run::world;
 use glam::DVec3;
@@ -215,15 +215,15 @@ fn a_world_restored_at_any_moment_ends_with_the_same_bits() {
         while whole.time < case.duration {
             whole.step().unwrap();
             keep_first("first time step", true, &whole);
-            keep_first("contact", whole.contacts.touching > 0, &whole);
+            keep_first("contact", whole.contacts.scalars.touching > 0, &whole);
             keep_first("split nodes", whole.nodes.count() > nodes_at_start, &whole);
             keep_first("first failure", !whole.failures.is_empty(), &whole);
-            keep_first("friction on cracks", whole.failures.len() > 5 && whole.contacts.friction > 0.0, &whole);
+            keep_first("friction on cracks", whole.failures.len() > 5 && whole.contacts.scalars.friction > 0.0, &whole);
             keep_first("half way", whole.time > 0.5 * case.duration, &whole);
         }
         let names: Vec<&str> = moments.iter().map(|(name, _)| *name).collect();
         assert_eq!(moments.len(), if joints == "tied" { 6 } else { 5 }, "{names:?}");
-        let (end, energies) = (whole.snapshot(), whole.step_with_ledger().unwrap());
+        let (end, energies) = (whole.snapshot(), whole.step_with_energies().unwrap());
         for (number, (name, moment)) in moments.into_iter().enumerate() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(1 + number % 2).build().unwrap();
             pool.install(|| {
@@ -234,7 +234,7 @@ fn a_world_restored_at_any_moment_ends_with_the_same_bits() {
                     resumed.step().unwrap();
                 }
                 assert!(resumed.snapshot() == end, "{joints}, {name}: the final state differs");
-                assert_eq!(resumed.step_with_ledger().unwrap(), energies, "{joints}, {name}");
+                assert_eq!(resumed.step_with_energies().unwrap(), energies, "{joints}, {name}");
             });
         }
     }
@@ -252,7 +252,7 @@ fn a_state_that_does_not_fit_the_mesh_is_refused() {
     }
     let valid = reference.snapshot();
     let corrupt: [Corruption; 9] = [
-        ("nodes", |s| s.place.truncate(3)),
+        ("nodes", |s| s.position.truncate(3)),
         ("nodes", |s| s.vertices[7][2] = u32::MAX),
         ("nodes", |s| s.vertices.truncate(5)),
         ("apart in the mesh", |s| s.vertices[7][2] = s.vertices[7][1]),
@@ -260,7 +260,7 @@ fn a_state_that_does_not_fit_the_mesh_is_refused() {
         ("nothing known", |s| s.bonds[0] = 9),
         ("joints", |s| s.failed[0] = u32::MAX),
         ("pairs", |s| s.contacts.tets[0] = [u32::MAX; 2]),
-        ("friction", |s| s.contacts.sprung.push(u32::MAX)),
+        ("friction", |s| s.contacts.pairs_with_spring.push(u32::MAX)),
     ];
     for (expected, corrupt) in corrupt {
         let mut corrupted = valid.clone();
@@ -363,7 +363,7 @@ fn run_corrupted(case: &Value, corrupt: impl Fn(&mut World), steps: usize) -> (S
     (0..3).for_each(|_| world.step().unwrap());
     corrupt(&mut world);
     for step in 3..3 + steps {
-        if let Err(error) = world.step().and_then(|()| world.watch()) {
+        if let Err(error) = world.step().and_then(|()| world.check_limits()) {
             return (error, Failure::of(&case, &world, step as u64, error).to_string());
         }
     }
@@ -375,7 +375,7 @@ fn an_unstable_world_names_the_node_or_element() {
     let mut thrown = thrown();
     // With joints, the springs would move the neighbours of the node in the same time step.
     thrown["fracture"]["joints"] = json!("tied");
-    let move_node_to = |to: DVec3| move |world: &mut World| world.nodes.place[5] = to;
+    let move_node_to = |to: DVec3| move |world: &mut World| world.nodes.position[5] = to;
     let (error, message) = run_corrupted(&thrown, |world| world.nodes.velocity[5].y = f64::NAN, 2);
     // Viscosity passes the value on to neighbouring nodes, so any of them may be named.
     assert!(matches!(error, StepError::NotFinite { .. }), "{message}");
@@ -394,7 +394,7 @@ fn an_unstable_world_names_the_node_or_element() {
     assert!(message.contains("more than the limit of 7.0") && message.contains("node "), "{message}");
 
     // All nodes move, so no element is distorted; the limit is 50 diagonals of 0.3 m, 15 m.
-    let move_all = |world: &mut World| world.nodes.place.iter_mut().for_each(|place| place.x += 30.0);
+    let move_all = |world: &mut World| world.nodes.position.iter_mut().for_each(|place| place.x += 30.0);
     let (error, message) = run_corrupted(&thrown, move_all, 2);
     assert!(matches!(error, StepError::Escaped { .. }), "{message}");
     assert!(message.contains("m from the middle of the mesh") && message.contains("stop.duration_s"), "{message}");

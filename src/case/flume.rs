@@ -3,7 +3,7 @@
 use super::check::{Checker, above, from, show};
 use super::file::{FlumeFile, MoundFile, RightEndFile};
 use crate::geometry::profile::Profile;
-use crate::waves::layered::{Friction, RightEnd};
+use crate::waves::flume_model::layered::{Friction, RightEnd};
 
 /// Largest coordinate [m]; larger values are typing errors.
 const LARGEST_COORDINATE: f64 = 1e5;

@@ -170,7 +170,7 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
     check_inside(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
     check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
     check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the walls' height", check);
-    if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.holds(point.at_m.into())) {
+    if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.contains(point.at_m.into())) {
         check.refuse(
             &format!("{path}.at_m"),
             format!("[{}, {}, {}]", show(x), show(y), show(z)),

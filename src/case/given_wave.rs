@@ -14,7 +14,7 @@ use crate::waves::external::{
     table::{Layers, Place, VelocityTable},
     velx,
 };
-use crate::waves::velx::Velx;
+use crate::waves::generation::velx::Velx;
 
 /// Name of the file with the velocities of the wavemaker's rows in a run folder.
 pub const ROWS_FILE: &str = "wave_velx.csv";

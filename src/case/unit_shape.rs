@@ -42,7 +42,7 @@ impl UnitKind {
             Self::Dolos { height, waist } => ArmourUnit::dolos(*height, *waist, rounding_share),
             Self::CoreLoc { size } => ArmourUnit::core_loc(*size, rounding_share),
             Self::GroovedCube { height } => ArmourUnit::grooved_cube(*height, rounding_share),
-            Self::Stl(unit) => ArmourUnit::of_parts(unit.solid(), unit.parts(), rounding_share),
+            Self::Stl(unit) => ArmourUnit::from_parts(unit.solid(), unit.parts(), rounding_share),
         }
     }
 

@@ -8,11 +8,11 @@ use super::file::{
 use super::flume::Flume;
 use super::given_wave::{self, GivenWave};
 use super::wavemaker::{self, Wavemaker};
-use crate::waves::irregular::{IrregularWave, JonswapSea};
-use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
-use crate::waves::regular::{MeanFlow, RegularWave, WaveError};
-use crate::waves::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
-use crate::waves::stream_function::StreamFunctionWave;
+use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
+use crate::waves::theory::irregular::{IrregularWave, JonswapSea};
+use crate::waves::theory::regular::{MeanFlow, RegularWave, WaveError};
+use crate::waves::theory::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
+use crate::waves::theory::stream_function::StreamFunctionWave;
 
 /// Shortest wavelength of regular waves over the depth [-].
 const SHORTEST_LENGTH: f64 = 0.1;
@@ -190,7 +190,7 @@ fn validate_regular(file: &RegularFile, around: &Surroundings, check: &mut Check
     }
     let (height_m, period_s, gravity) = (file.height_m, file.period_s, around.gravity);
     let wave = RegularWave { height_m, period_s, depth_m: depth, gravity };
-    let length = wave.length_m();
+    let length = wave.wavelength_m();
     if length < SHORTEST_LENGTH * depth {
         check.refuse(
             "wave.period_s",

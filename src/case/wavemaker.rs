@@ -5,7 +5,7 @@ use super::domain::Domain;
 use super::file::{WaveFile, WavemakerFile};
 use super::flume::Flume;
 use super::wave::Wave;
-use crate::waves::regular::RegularWave;
+use crate::waves::theory::regular::RegularWave;
 
 /// Largest stroke of a paddle over the length of the domain [-].
 const LARGEST_SWEEP: f64 = 0.5;
@@ -147,8 +147,8 @@ pub(super) fn validate_place(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, d
         }
         Wave::Regular { wave, ramp_periods } => {
             let bed_z = flume.profile.z(domain.x[0]);
-            let top_share = wavemaker.shape(bed_z).share(domain.top_z - bed_z, depth).max(1.0);
-            let stroke = 2.0 * top_share * wavemaker.motion(wave, *ramp_periods, bed_z).reach_m();
+            let top_share = wavemaker.shape(bed_z).relative_displacement(domain.top_z - bed_z, depth).max(1.0);
+            let stroke = 2.0 * top_share * wavemaker.motion(wave, *ramp_periods, bed_z).max_displacement_m();
             validate_sweep(stroke, wave.height_m, domain, check);
             warn_of_slope(flume, domain, depth, check);
             warn_of_order(wave, wavemaker, check);

@@ -112,7 +112,7 @@ fn print(case: &Case) {
                 "  wave        regular, H = {} m, T = {} s, wavelength {:.3} m in {} m of water",
                 wave.height_m,
                 wave.period_s,
-                wave.length_m(),
+                wave.wavelength_m(),
                 wave.depth_m
             );
             if case.wavemaker.is_ml_piston() {

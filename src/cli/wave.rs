@@ -91,10 +91,10 @@ impl WaveArguments {
                     "  {:22} OpenFOAM {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",
                     other.crest_m,
-                    100.0 * other.height,
+                    100.0 * other.relative_height_difference,
                     other.crest_s,
                     other.delay_s,
-                    100.0 * other.rms
+                    100.0 * other.relative_rms
                 ),
                 None => println!("  {:22} OpenFOAM: no common time range, or no wave", ""),
             }

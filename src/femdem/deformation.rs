@@ -3,10 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::assembly::{Nodes, Tets};
+use super::assembly::{nodes::Nodes, tets::Tets};
 use super::element::{self, Deformed, LaneModuli, LaneShape, Moduli};
-use super::lanes::{self, LANES, Lanes, Vectors, WithLanes};
-use super::world::PIECE;
+use super::parallel::chunks::CHUNK;
+use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 
 /// Share of the least strength above which the faces of a tetrahedron are checked for failure [-]. The cheap check uses
 /// the first Piola-Kirchhoff stress. It differs from the Cauchy stress by strains, which are far below this margin.
@@ -45,11 +45,11 @@ pub struct Bodies<'a> {
 
 impl Deformation {
     /// Creates the workspace for `count` tetrahedra, with or without tied faces.
-    pub fn new(count: usize, ties: bool) -> Self {
+    pub fn new(count: usize, tied: bool) -> Self {
         Self {
             forces: vec![[DVec3::ZERO; 4]; count],
-            strained: vec![false; if ties { count } else { 0 }],
-            sums: vec![ChunkSum::default(); count.div_ceil(PIECE)],
+            strained: vec![false; if tied { count } else { 0 }],
+            sums: vec![ChunkSum::default(); count.div_ceil(CHUNK)],
         }
     }
 
@@ -60,13 +60,13 @@ impl Deformation {
     pub fn compute(&mut self, bodies: Bodies) -> Result<f64, usize> {
         let Self { forces, strained, sums } = self;
         let compute = |chunk: usize, forces: &mut [[DVec3; 4]], strained: Option<&mut [bool]>, sum: &mut ChunkSum| {
-            *sum = lanes::dispatch(Chunk { first: chunk * PIECE, forces, strained, bodies });
+            *sum = lanes::dispatch(Chunk { first: chunk * CHUNK, forces, strained, bodies });
         };
-        let chunks = forces.par_chunks_mut(PIECE).zip(sums.par_iter_mut()).enumerate();
+        let chunks = forces.par_chunks_mut(CHUNK).zip(sums.par_iter_mut()).enumerate();
         if strained.is_empty() {
             chunks.for_each(|(chunk, (forces, sum))| compute(chunk, forces, None, sum));
         } else {
-            let chunks = chunks.zip(strained.par_chunks_mut(PIECE));
+            let chunks = chunks.zip(strained.par_chunks_mut(CHUNK));
             chunks.for_each(|((chunk, (forces, sum)), strained)| compute(chunk, forces, Some(strained), sum));
         }
         match self.sums.iter().find_map(|sum| sum.inverted) {
@@ -122,7 +122,7 @@ impl Chunk<'_> {
         let shape = LaneShape::from_fn(|lane| &tets.shape[t[lane]]);
         let moduli = LaneModuli::from_fn(|lane| &moduli[usize::from(tets.body[t[lane]])]);
         let vertices = [tets.nodes[t[0]], tets.nodes[t[1]], tets.nodes[t[2]], tets.nodes[t[3]]];
-        element::forces(&shape, &moduli, &gather(&nodes.place, &vertices), &gather(&nodes.velocity, &vertices))
+        element::forces(&shape, &moduli, &gather(&nodes.position, &vertices), &gather(&nodes.velocity, &vertices))
     }
 
     /// Marks the tetrahedra whose stress is near the strength.

@@ -6,8 +6,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::lanes::{LANES, Lanes, Vectors};
 use super::material::Elastic;
+use super::parallel::lanes::{LANES, Lanes, Vectors};
 
 /// Moduli of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -239,8 +239,8 @@ fn norm_squared(m: DMat3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::lanes::Portable;
     use super::*;
+    use crate::femdem::parallel::lanes::Portable;
     use glam::DQuat;
 
     /// Forces of one element.

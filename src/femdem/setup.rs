@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::cohesive_law::Cohesion;
-use super::history::History;
 use super::loads::Load;
+use super::loads::history::History;
 use super::material::Elastic;
+use super::material::cohesive_law::Cohesion;
 use super::mesh::PreparedMesh;
 use super::mesh::faces::Interface;
 
@@ -33,7 +33,7 @@ pub struct Body {
 }
 
 /// Default contact penalty over Young's modulus [-]. A contact is then eight times as stiff as the tetrahedron behind
-/// it (see [`super::time_step::contact_stiffness`]).
+/// it (see [`super::world::time_step::contact_stiffness`]).
 const CONTACT_PENALTY: f64 = 1.0;
 
 /// Prescribed velocities of nodes.
@@ -46,11 +46,6 @@ pub struct Constraint {
 }
 
 impl Constraint {
-    /// Creates a constraint with a constant velocity along each axis [m/s].
-    pub fn constant(nodes: Vec<u32>, velocity: [Option<f64>; 3]) -> Self {
-        Self { nodes, velocity: velocity.map(|given| given.map(History::from)) }
-    }
-
     /// Upper limit of the prescribed speed over all times [m/s].
     pub fn fastest(&self) -> f64 {
         let most = |given: &Option<History<1>>| given.as_ref().map_or(0.0, |history| history.largest()[0]);

@@ -26,13 +26,13 @@ impl AxisBox {
     /// Slice of `thickness` [m] from the middle of the box in y, with closed cut faces.
     pub fn slice(&self, thickness: f64) -> Self {
         let middle = 0.5 * (self.low.y + self.high.y);
-        let mut slice = self.closed_across();
+        let mut slice = self.with_closed_sides();
         (slice.low.y, slice.high.y) = (middle - 0.5 * thickness, middle + 0.5 * thickness);
         slice
     }
 
     /// The box with its two faces normal to y closed.
-    pub fn closed_across(&self) -> Self {
+    pub fn with_closed_sides(&self) -> Self {
         let mut closed = *self;
         closed.open[1] = [false; 2];
         closed
@@ -74,7 +74,7 @@ impl AxisBox {
 
     /// Vector from an inner point to the nearest open face [m]. If two or three faces are equally near, it leads to
     /// their common edge or corner, so that no face is preferred.
-    pub fn way_out(&self, point: DVec3) -> DVec3 {
+    pub fn vector_to_surface(&self, point: DVec3) -> DVec3 {
         let most = self.depth(point) + SAME * self.edges().max_element();
         self.ways_out(point).filter(|(depth, _)| *depth <= most).map(|(_, way)| way).sum()
     }
@@ -86,12 +86,12 @@ impl AxisBox {
         if distance > 0.0 {
             return (nearest, distance);
         }
-        let way = self.way_out(point);
+        let way = self.vector_to_surface(point);
         (point + way, -way.length())
     }
 
     /// Whether a point lies strictly behind all open faces, and not beyond the closed ones.
-    pub fn holds(&self, point: DVec3) -> bool {
+    pub fn contains(&self, point: DVec3) -> bool {
         let slack = SAME * self.edges().max_element();
         (0..3).all(|axis| {
             let margin = |side: usize| if self.open[axis][side] { slack } else { -slack };
@@ -110,16 +110,19 @@ mod tests {
     }
 
     #[test]
-    fn way_out_leads_to_an_open_face() {
-        assert_eq!(on_the_bed().way_out(DVec3::new(0.4, 1.0, 0.1)), DVec3::X * -0.4);
-        assert_eq!(AxisBox::free(DVec3::ZERO, DVec3::ONE).way_out(DVec3::new(0.4, 0.5, 0.1)), DVec3::Z * -0.1);
+    fn vector_to_surface_leads_to_an_open_face() {
+        assert_eq!(on_the_bed().vector_to_surface(DVec3::new(0.4, 1.0, 0.1)), DVec3::X * -0.4);
+        assert_eq!(
+            AxisBox::free(DVec3::ZERO, DVec3::ONE).vector_to_surface(DVec3::new(0.4, 0.5, 0.1)),
+            DVec3::Z * -0.1
+        );
     }
 
     #[test]
-    fn way_out_leads_to_the_edge_or_corner_between_equally_near_faces() {
-        let way = on_the_bed().way_out(DVec3::new(0.1, 1.9, 1.0));
+    fn vector_to_surface_leads_to_the_edge_or_corner_between_equally_near_faces() {
+        let way = on_the_bed().vector_to_surface(DVec3::new(0.1, 1.9, 1.0));
         assert!((way - DVec3::new(-0.1, 0.1, 0.0)).length() < 1e-12);
-        let way = on_the_bed().way_out(DVec3::new(0.1, 1.9, 2.9));
+        let way = on_the_bed().vector_to_surface(DVec3::new(0.1, 1.9, 2.9));
         assert!((way - DVec3::new(-0.1, 0.1, 0.1)).length() < 1e-12);
     }
 
@@ -131,8 +134,8 @@ mod tests {
 
     #[test]
     fn box_holds_points_on_closed_faces_but_not_on_open_ones() {
-        assert!(on_the_bed().holds(DVec3::new(0.5, 1.0, 0.0)));
-        assert!(!on_the_bed().holds(DVec3::new(0.0, 1.0, 1.0)));
-        assert!(!on_the_bed().holds(DVec3::new(0.5, 1.0, -0.1)));
+        assert!(on_the_bed().contains(DVec3::new(0.5, 1.0, 0.0)));
+        assert!(!on_the_bed().contains(DVec3::new(0.0, 1.0, 1.0)));
+        assert!(!on_the_bed().contains(DVec3::new(0.5, 1.0, -0.1)));
     }
 }

@@ -15,9 +15,6 @@ const WIDTH: [f64; 2] = [0.362, 0.181];
 /// Chamfer leg over the local width [-].
 const CHAMFER: f64 = 0.1146;
 
-/// Volume over C^3 [-].
-pub const VOLUME_RATIO: f64 = 0.2206;
-
 /// Members of a Core-Loc of size C [m]: the central one along x, then the two upright ones on both sides in y.
 fn members(size_m: f64) -> [Member; 3] {
     let width = WIDTH.map(|w| w * size_m);
@@ -49,6 +46,6 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
 pub fn sections(size_m: f64) -> Vec<Section> {
     let width = WIDTH[0] * size_m;
     // About half a diagonal, because the sections of the upright members lie in the same planes.
-    let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.reaching(0.75 * width));
+    let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.with_reach(0.75 * width));
     members(size_m).iter().flat_map(sections).collect()
 }

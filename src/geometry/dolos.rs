@@ -20,11 +20,6 @@ const CHAMFER: f64 = 0.056;
 /// Range of waist ratios with published dimensions [-].
 pub const WAIST_RATIOS: [f64; 2] = [0.30, 0.40];
 
-/// Volume over H^3 for the waist ratio r: 0.675 r^1.285 (Burcharth et al. 1992) [-].
-pub fn volume_ratio(waist: f64) -> f64 {
-    0.675 * waist.powf(1.285)
-}
-
 /// Members of a Dolos of height H [m]: the stem along x, the upright fluke at -x, the fluke along y at +x.
 fn members(height_m: f64, waist: f64) -> [Member; 3] {
     let [half, width] = [0.5 * height_m, waist * height_m];

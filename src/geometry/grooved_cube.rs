@@ -32,7 +32,7 @@ pub fn blocks(height_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
             let ([x0, y0], [x1, y1]) = (low[k], high[k]);
             [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(|[x, y]| DVec3::new(x, y, z))
         };
-        Polyhedron::between(&level(0), &level(1))
+        Polyhedron::hull_of_polygons(&level(0), &level(1))
     };
     let inner = half.map(|h| h - depth);
     let mut blocks = vec![prism(inner.map(|h| [-h; 2]), inner.map(|h| [h; 2]))?];

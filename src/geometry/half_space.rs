@@ -12,12 +12,6 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Half-space whose plane passes through a point [m]; the outward normal may have any length.
-    pub fn through(point: DVec3, normal: DVec3) -> Self {
-        let normal = normal.normalize();
-        Self { normal, offset: normal.dot(point) }
-    }
-
     /// Signed distance of a point [m], positive outside.
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
@@ -100,11 +94,11 @@ mod tests {
     #[test]
     fn polygon_is_split_and_coplanar_polygon_counts_as_behind() {
         let square = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
-        let plane = HalfSpace::through(DVec3::X * 0.25, DVec3::X * 7.0);
+        let plane = HalfSpace { normal: DVec3::X, offset: 0.25 };
         let [behind, in_front] = split(&square, &plane, 1e-9);
         assert_eq!((behind.len(), in_front.len()), (4, 4));
         assert!(behind.iter().all(|p| p.x <= 0.25) && in_front.iter().all(|p| p.x >= 0.25));
-        let [behind, in_front] = split(&square, &HalfSpace::through(DVec3::ZERO, DVec3::Z), 1e-9);
+        let [behind, in_front] = split(&square, &HalfSpace { normal: DVec3::Z, offset: 0.0 }, 1e-9);
         assert_eq!((behind.len(), in_front.len()), (4, 0));
     }
 }

@@ -32,11 +32,11 @@ impl Member {
         let ring = |section: &[DVec2; 8], s: f64| section.map(|p| self.point(p, s)).to_vec();
         let l = self.half_length;
         if self.width[0] == self.width[1] && self.chamfer[0] == self.chamfer[1] {
-            return Ok(vec![Polyhedron::between(&ring(&end, -l), &ring(&end, l))?]);
+            return Ok(vec![Polyhedron::hull_of_polygons(&ring(&end, -l), &ring(&end, l))?]);
         }
         Ok(vec![
-            Polyhedron::between(&ring(&middle, 0.0), &ring(&end, l))?,
-            Polyhedron::between(&ring(&end, -l), &ring(&middle, 0.0))?,
+            Polyhedron::hull_of_polygons(&ring(&middle, 0.0), &ring(&end, l))?,
+            Polyhedron::hull_of_polygons(&ring(&end, -l), &ring(&middle, 0.0))?,
         ])
     }
 

@@ -16,12 +16,12 @@ pub enum PolyhedronError {
     #[error("{0} points do not span a convex body: they are fewer than 4, lie in one plane or are not finite")]
     Flat(usize),
     /// The body has too many faces.
-    #[error("the convex hull has more than {MOST_FACES} faces: use a coarser surface")]
+    #[error("the convex hull has more than {MAX_FACES} faces: use a coarser surface")]
     TooRound,
 }
 
 /// Largest number of faces of a hull: contact allows about as many corners plus edges, and the search is quadratic.
-const MOST_FACES: usize = 1000;
+const MAX_FACES: usize = 1000;
 
 /// Distance below which two corners are merged, relative to the size of the polyhedron [-].
 const SAME: f64 = 1e-9;
@@ -92,7 +92,7 @@ impl Polyhedron {
                 if !planes.iter().any(|p| same_plane(p, &plane)) {
                     planes.push(plane);
                 }
-                if planes.len() > MOST_FACES {
+                if planes.len() > MAX_FACES {
                     return Err(PolyhedronError::TooRound);
                 }
             }
@@ -113,7 +113,7 @@ impl Polyhedron {
     ///
     /// # Errors
     /// If the polygons do not span a body.
-    pub fn between(lower: &[DVec3], upper: &[DVec3]) -> Result<Self, PolyhedronError> {
+    pub fn hull_of_polygons(lower: &[DVec3], upper: &[DVec3]) -> Result<Self, PolyhedronError> {
         let points: Vec<DVec3> = lower.iter().chain(upper).copied().collect();
         Self::hull(&points)
     }
@@ -330,7 +330,7 @@ mod tests {
         let square = |half: f64, z: f64| {
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(half * x, half * y, z))
         };
-        let frustum = Polyhedron::between(&square(2.0, 1.0), &square(1.0, 4.0)).unwrap();
+        let frustum = Polyhedron::hull_of_polygons(&square(2.0, 1.0), &square(1.0, 4.0)).unwrap();
         // h/3 (A + B + sqrt(A B))
         assert!((frustum.volume() - (16.0 + 4.0 + 8.0)).abs() < 1e-9, "{}", frustum.volume());
         let smaller = frustum.shrunk(0.1).unwrap();

@@ -39,7 +39,7 @@ impl Section {
     }
 
     /// Returns the section with the given reach [m].
-    pub fn reaching(self, reach: f64) -> Self {
+    pub fn with_reach(self, reach: f64) -> Self {
         Self { reach, ..self }
     }
 
@@ -72,7 +72,7 @@ mod tests {
         assert!((pulled / (f / (b * b)) - 1.0).abs() < 1e-12);
         assert_eq!(root.stress(DVec3::NEG_X, DVec3::Z), None);
         // A point of the adjacent bar.
-        assert_eq!(root.reaching(b).stress(DVec3::new(l, 2.0 * b, 0.0), DVec3::Z), None);
+        assert_eq!(root.with_reach(b).stress(DVec3::new(l, 2.0 * b, 0.0), DVec3::Z), None);
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub struct Corner {
 
 /// An element of the surface that can be nearest to a body.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Place {
+pub enum SurfaceElement {
     /// The interior of a triangle.
     Face(Face),
     /// The interior of an edge.
@@ -78,7 +78,7 @@ pub enum Place {
     Corner(Corner),
 }
 
-impl Place {
+impl SurfaceElement {
     fn bounds(&self) -> Aabb {
         match self {
             Self::Face(face) => Aabb::from_points(face.corners.iter().copied()),
@@ -100,7 +100,7 @@ const LINE: f64 = 1e-14;
 pub struct Terrain {
     vertices: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
-    places: Vec<Place>,
+    elements: Vec<SurfaceElement>,
     tree: Bvh,
 }
 
@@ -143,15 +143,15 @@ impl Terrain {
         let edges = edges(&vertices, &triangles)?;
         let ridges = ridges(&vertices, &triangles, &faces, &edges);
         let corners = corners(&vertices, &edges, &ridges);
-        let places: Vec<Place> = faces
+        let elements: Vec<SurfaceElement> = faces
             .into_iter()
-            .map(Place::Face)
-            .chain(ridges.into_iter().map(|(_, ridge)| Place::Ridge(ridge)))
-            .chain(corners.into_iter().map(Place::Corner))
+            .map(SurfaceElement::Face)
+            .chain(ridges.into_iter().map(|(_, ridge)| SurfaceElement::Ridge(ridge)))
+            .chain(corners.into_iter().map(SurfaceElement::Corner))
             .collect();
-        let boxes: Vec<Aabb> = places.iter().map(Place::bounds).collect();
+        let boxes: Vec<Aabb> = elements.iter().map(SurfaceElement::bounds).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        Ok(Self { vertices, triangles, places, tree })
+        Ok(Self { vertices, triangles, elements, tree })
     }
 
     /// Vertices [m].
@@ -171,19 +171,19 @@ impl Terrain {
     }
 
     /// Elements whose bounding boxes are nearer than `radius` [m] to `centre`, with their numbers, unordered.
-    pub fn near(&self, centre: DVec3, radius: f64) -> impl Iterator<Item = (u32, &Place)> {
+    pub fn near(&self, centre: DVec3, radius: f64) -> impl Iterator<Item = (u32, &SurfaceElement)> {
         let about = Aabb::new(centre - DVec3::splat(radius), centre + DVec3::splat(radius));
         // Collected, because the tree's iterator borrows the local box.
         let found: Vec<u32> = self.tree.intersect_aabb(&about).collect();
-        found.into_iter().map(|number| (number, &self.places[number as usize]))
+        found.into_iter().map(|number| (number, &self.elements[number as usize]))
     }
 
     /// Level of the highest triangle at (x, y) [m]; `None` outside the surface.
     pub fn level(&self, x: f64, y: f64) -> Option<f64> {
         let [low, high] = self.bounds();
         let column = Aabb::new(DVec3::new(x, y, low.z), DVec3::new(x, y, high.z));
-        let height = |number: u32| match &self.places[number as usize] {
-            Place::Face(Face { corners: [a, b, c], normal }) if normal.z.abs() > STRAIGHT => {
+        let height = |number: u32| match &self.elements[number as usize] {
+            SurfaceElement::Face(Face { corners: [a, b, c], normal }) if normal.z.abs() > STRAIGHT => {
                 let z = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
                 let side = |p: &DVec3, q: &DVec3| (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
                 let sides = [side(a, b), side(b, c), side(c, a)].map(|s| s * normal.z.signum());
@@ -269,11 +269,11 @@ pub(crate) mod tests {
     }
 
     fn count(terrain: &Terrain) -> [usize; 3] {
-        let kinds = |kind: fn(&Place) -> bool| terrain.places.iter().filter(|p| kind(p)).count();
+        let kinds = |kind: fn(&SurfaceElement) -> bool| terrain.elements.iter().filter(|p| kind(p)).count();
         [
-            kinds(|p| matches!(p, Place::Face(_))),
-            kinds(|p| matches!(p, Place::Ridge(_))),
-            kinds(|p| matches!(p, Place::Corner(_))),
+            kinds(|p| matches!(p, SurfaceElement::Face(_))),
+            kinds(|p| matches!(p, SurfaceElement::Ridge(_))),
+            kinds(|p| matches!(p, SurfaceElement::Corner(_))),
         ]
     }
 

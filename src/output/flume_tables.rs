@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{CsvSeries, OutputError, columns};
 use crate::{
     case::{Case, Quantity},
-    waves::{record::FlumeRecord, solitary::SolitaryWave},
+    waves::{flume_model::record::FlumeRecord, theory::solitary::SolitaryWave},
 };
 
 /// Maximum time between rows of the piston motion [s].

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::plot::{Line, LineChart, escape, short};
 use crate::{
     case::{Case, Quantity},
-    waves::{external::surface::SurfaceSeries, ml_piston::MlPiston, record::FlumeRecord},
+    waves::{external::surface::SurfaceSeries, flume_model::record::FlumeRecord, generation::ml_piston::MlPiston},
 };
 use crate::{
     output::{OutputError, write_atomically},
@@ -28,7 +28,7 @@ pub fn write_wave_page(
     let lead = format!(
         "Flume model with {} layers; particle wavemaker at x = {} m, starting at flume time {} s",
         record.layers,
-        short(piston.place_m(), 3),
+        short(piston.rest_x_m(), 3),
         short(piston.start_s(), 2)
     );
     let charts = [gauge_chart(case, record, beside), profile_chart(record), piston_chart(piston)];

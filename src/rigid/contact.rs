@@ -1,29 +1,12 @@
-//! Contact points of bodies with each other, with periodic images, with the ground and with walls.
-//!
-//! Bounding spheres give the pairs of bodies, distances of cores the pairs of parts. The list of near parts is reused
-//! until bodies have moved by its margin. Contact points are sorted by key, so sums over them always have the same
-//! order.
+//! The data of a contact: its identity, its point and its history.
 
-use std::sync::Arc;
-
-use glam::{DQuat, DVec3};
-use rayon::prelude::*;
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::broad_phase::{self, BodyPair};
-use super::error::RigidError;
-use super::forces::Contact;
-use super::gap::{self, Nearest};
-use super::ground::{Approach, GroundSurface, PlaneWall};
-use super::polyhedron_contact::{self, Near, WHOLE};
-use super::setup::{RigidSetup, Sides};
-use super::terrain_contact;
-use crate::geometry::convex_part::ConvexPart;
-use crate::geometry::terrain::Terrain;
-
-/// Number of bodies, and of pairs of parts, per task of the thread pool: some tens of microseconds of work.
-const BODIES: usize = 64;
-const PAIRS: usize = 24;
+/// Largest number of corners plus edges of a polyhedron: they are numbered from 0, below [`WHOLE`].
+pub const MAX_FEATURES: usize = WHOLE as usize - 1;
+/// Feature number of the whole polyhedron; corners are numbered from 0, followed by the edges.
+pub const WHOLE: u16 = 1023;
 
 /// The contact partner of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -53,11 +36,11 @@ pub struct ContactKey {
 
 /// A contact point: two surfaces overlap or are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
+pub struct ContactPoint {
     /// Identity of the contact.
     pub key: ContactKey,
     /// Middle of the overlap [m], at the first body.
-    pub point: DVec3,
+    pub position: DVec3,
     /// Normal from the partner into the first body.
     pub normal: DVec3,
     /// Overlap d [m]; negative for a gap.
@@ -68,309 +51,75 @@ pub struct Touch {
     pub core: DVec3,
 }
 
-/// Two parts of different bodies that are near each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PartPair {
-    bodies: BodyPair,
-    parts: [usize; 2],
-    /// Gap when the list was made [m], negative for an overlap.
-    gap: f64,
-}
-
-impl PartPair {
-    /// Identity of the contact between two features of the parts.
-    fn key(&self, features: [u16; 2]) -> ContactKey {
-        let [part, partner] = [0, 1].map(|k| self.parts[k] as u16 * (WHOLE + 1) + features[k]);
-        let BodyPair { first, second, image } = self.bodies;
-        ContactKey { body: first as u32, part, feature: Feature::Unit { body: second as u32, image, part: partner } }
-    }
-
-    /// Whether the parts can be near each other after each body's surface has travelled at most the given distance [m].
-    pub fn can_be_near(&self, travelled: &[f64]) -> bool {
-        self.gap <= travelled[self.bodies.first] + travelled[self.bodies.second]
-    }
-}
-
-/// Rotation and position of every body.
+/// Substep over which an evaluation advances the contact history.
 #[derive(Debug, Clone, Copy)]
-pub struct Placements<'a> {
-    /// Unit quaternions.
-    pub rotation: &'a [DQuat],
-    /// Centres of mass [m].
-    pub position: &'a [DVec3],
+pub struct Substep {
+    /// Length of the substep [s]; 0 for the first evaluation.
+    pub dt: f64,
+    /// Time at the end of the substep [s].
+    pub time: f64,
+    /// Time for which the resulting substep length may be used [s]; contacts that may start within it count.
+    pub horizon: f64,
 }
 
-/// All surfaces that can be in contact.
-#[derive(Debug, Clone)]
-pub struct Surfaces {
-    parts: Vec<ConvexPart>,
-    reach: f64,
-    period: Option<f64>,
-    ground: Option<GroundSurface>,
-    terrain: Option<Arc<Terrain>>,
-    walls: Vec<PlaneWall>,
+/// An active contact with its history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Identity of the contact.
+    pub key: ContactKey,
+    /// Contact normal at the last evaluation.
+    pub normal: DVec3,
+    /// Tangential spring d_t [m].
+    pub spring: DVec3,
+    /// Rolling spring [rad].
+    pub rolling_spring: DVec3,
+    /// Overlap [m].
+    pub overlap: f64,
+    /// Overlap at which the contact force starts [m]: the initial overlap on a triangle surface is subtracted.
+    pub initial_overlap: f64,
+    /// Nearest point of the partner's core, in the partner's axes [m]: start of the next search.
+    pub core: DVec3,
+    /// Force on the first body [N].
+    pub force: DVec3,
+    /// Dashpot part of the normal force [N].
+    pub dashpot: f64,
+    /// Energy stored in the normal, tangential and rolling springs [J].
+    pub elastic: [f64; 3],
 }
 
-impl Surfaces {
-    /// Creates the surfaces of a world.
-    pub fn new(setup: &RigidSetup) -> Self {
-        let wall = |index, origin, normal| PlaneWall { index, origin, normal };
-        let mut walls = Vec::new();
-        if let Sides::Walls { width } = setup.sides {
-            walls.extend([wall(0, DVec3::ZERO, DVec3::Y), wall(1, DVec3::Y * width, DVec3::NEG_Y)]);
-        }
-        if let Some([seaward, shoreward]) = setup.end_walls {
-            walls.extend([wall(2, DVec3::X * seaward, DVec3::X), wall(3, DVec3::X * shoreward, DVec3::NEG_X)]);
-        }
+impl Contact {
+    /// Returns the same contact with unloaded springs, for an overlap that does not exceed the initial one.
+    pub fn idle(self, point: &ContactPoint, substep: Substep) -> Self {
+        let Self { key, initial_overlap, .. } = self;
+        Self { key, initial_overlap, ..Self::started(point, substep) }
+    }
+
+    /// Returns the contact at its new position; the effective overlap stays the same on another element of a surface.
+    pub fn continued_as(self, point: &ContactPoint) -> Self {
+        let stays = self.key == point.key || !matches!(point.key.feature, Feature::Terrain { .. });
+        let initial_overlap =
+            if stays { self.initial_overlap } else { (point.overlap - (self.overlap - self.initial_overlap)).max(0.0) };
+        Self { key: point.key, initial_overlap, ..self }
+    }
+
+    /// Creates a contact that has just started.
+    ///
+    /// On a triangle surface, a part in contact with neighbouring elements can reach another ridge with an overlap.
+    /// This overlap is subtracted, because it would create energy. An overlap at the start of the world counts.
+    pub fn started(point: &ContactPoint, substep: Substep) -> Self {
+        let on_terrain = matches!(point.key.feature, Feature::Terrain { .. });
+        let initial_overlap = if on_terrain && substep.dt > 0.0 { point.overlap } else { 0.0 };
         Self {
-            parts: setup.shape.parts.clone(),
-            reach: setup.shape.reach(),
-            period: if let Sides::Periodic { width } = setup.sides { Some(width) } else { None },
-            ground: setup.ground.as_ref().map(|g| GroundSurface::new(&g.profile)),
-            terrain: setup.ground.as_ref().and_then(|g| g.terrain.clone()),
-            walls,
+            initial_overlap,
+            key: point.key,
+            normal: point.normal,
+            spring: DVec3::ZERO,
+            rolling_spring: DVec3::ZERO,
+            overlap: point.overlap,
+            core: point.core,
+            force: DVec3::ZERO,
+            dashpot: 0.0,
+            elastic: [0.0; 3],
         }
     }
-
-    /// Width of a periodic flume [m].
-    pub fn period(&self) -> Option<f64> {
-        self.period
-    }
-
-    /// Contact points of one body with the ground, the walls and the bodies of the given pairs.
-    pub fn touches_of(
-        &self,
-        body: usize,
-        pairs: &[BodyPair],
-        placements: Placements<'_>,
-        time: f64,
-    ) -> Result<Vec<Touch>, RigidError> {
-        let mut touches = Vec::new();
-        self.fixed_touches(body, placements, 0.0, time, &mut touches)?;
-        let mut near = Vec::new();
-        pairs.iter().for_each(|pair| self.near_parts_of(pair, placements, 0.0, &mut near));
-        for pair in &near {
-            self.part_touches(pair, placements, &[], 0.0, time, &mut touches)?;
-        }
-        Ok(touches)
-    }
-
-    /// Radius of the sphere about the centre of mass that encloses a body [m].
-    pub fn reach(&self) -> f64 {
-        self.reach
-    }
-
-    /// Pairs of parts of different bodies that are nearer than `margin` [m], ordered by their numbers.
-    pub fn near_parts(&self, placements: Placements<'_>, margin: f64) -> Vec<PartPair> {
-        let bodies = broad_phase::pairs(placements.position, 2.0 * self.reach + margin, self.period);
-        let near = map_chunks(&bodies, PAIRS, |pair, out| {
-            self.near_parts_of(pair, placements, margin, out);
-            Ok(())
-        });
-        // The search cannot fail.
-        near.unwrap_or_default()
-    }
-
-    /// Appends the pairs of parts of two bodies that are nearer than `margin` [m].
-    fn near_parts_of(&self, pair: &BodyPair, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
-        let [(q_a, x_a), (q_b, x_b)] = self.poses(pair, placements);
-        for (i, part_a) in self.parts.iter().enumerate() {
-            let (centre_a, reach_a) = part_a.bounding_sphere();
-            let centre_a = q_a * centre_a + x_a;
-            for (j, part_b) in self.parts.iter().enumerate() {
-                let (centre_b, reach_b) = part_b.bounding_sphere();
-                let near = reach_a + reach_b + margin;
-                if (q_b * centre_b + x_b - centre_a).length_squared() > near * near {
-                    continue;
-                }
-                let roundings = part_a.rounding() + part_b.rounding();
-                let gap = match gap::nearest(part_a, (q_a, x_a), part_b, (q_b, x_b), roundings + margin) {
-                    Nearest::Apart => continue,
-                    Nearest::Overlap => -roundings,
-                    Nearest::Points(p_a, p_b) => p_a.distance(p_b) - roundings,
-                };
-                out.push(PartPair { bodies: *pair, parts: [i, j], gap });
-            }
-        }
-    }
-
-    /// Rotation and position of both bodies of a pair; the second at the image near the first.
-    fn poses(&self, pair: &BodyPair, placements: Placements<'_>) -> [(DQuat, DVec3); 2] {
-        let Placements { rotation, position } = placements;
-        let shift = self.shift(pair);
-        [(rotation[pair.first], position[pair.first]), (rotation[pair.second], position[pair.second] + shift)]
-    }
-
-    /// Shift of the second body to its image near the first [m].
-    fn shift(&self, pair: &BodyPair) -> DVec3 {
-        DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0))
-    }
-
-    /// Contact points of the given pairs, the ground and the walls within the bodies' margins [m], sorted by key.
-    pub fn touches(
-        &self,
-        pairs: &[PartPair],
-        placements: Placements<'_>,
-        before: &[Contact],
-        margins: &[f64],
-        time: f64,
-    ) -> Result<Vec<Touch>, RigidError> {
-        let bodies: Vec<usize> = (0..placements.position.len()).collect();
-        let fixed =
-            map_chunks(&bodies, BODIES, |body, out| self.fixed_touches(*body, placements, margins[*body], time, out));
-        let mutual = map_chunks(pairs, PAIRS, |pair, out| {
-            let margin = margins[pair.bodies.first] + margins[pair.bodies.second];
-            self.part_touches(pair, placements, before, margin, time, out)
-        });
-        let mut touches = fixed?;
-        touches.extend(mutual?);
-        touches.sort_unstable_by_key(|t| t.key);
-        Ok(touches)
-    }
-
-    /// Appends the contact points of a body with the ground and the walls.
-    fn fixed_touches(
-        &self,
-        body: usize,
-        placements: Placements<'_>,
-        margin: f64,
-        time: f64,
-        touches: &mut Vec<Touch>,
-    ) -> Result<(), RigidError> {
-        let (q, x) = (placements.rotation[body], placements.position[body]);
-        let mut approaches = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            approaches.clear();
-            let near = part.rounding() + margin;
-            if let Some(ground) = &self.ground {
-                ground.approaches(part, q, x, near, &mut approaches);
-            }
-            if let Some(terrain) = &self.terrain {
-                terrain_contact::approaches(terrain, part, q, x, near, &mut approaches);
-            }
-            for wall in &self.walls {
-                wall.approaches(part, q, x, near, &mut approaches);
-            }
-            for approach in &approaches {
-                touches.push(fixed_touch(body, index, part, approach, time)?);
-            }
-        }
-        Ok(())
-    }
-
-    /// Appends the contact points of two parts.
-    fn part_touches(
-        &self,
-        pair: &PartPair,
-        placements: Placements<'_>,
-        before: &[Contact],
-        margin: f64,
-        time: f64,
-        touches: &mut Vec<Touch>,
-    ) -> Result<(), RigidError> {
-        let PartPair { bodies, parts, .. } = pair;
-        let [pose_a, pose_b] = self.poses(bodies, placements);
-        let [part_a, part_b] = parts.map(|part| &self.parts[part]);
-        let roundings = [part_a.rounding(), part_b.rounding()];
-        let reach = roundings[0] + roundings[1] + margin;
-        let shift = self.shift(bodies);
-        let mut add = |near: Near| {
-            let touch = unit_touch(pair, near, roundings, shift, time)?;
-            let core = pose_b.0.inverse() * (near.points[1] - pose_b.1);
-            touches.push(Touch { core, ..touch });
-            Ok(())
-        };
-        if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
-            let rounding = 0.5 * (roundings[0] + roundings[1]);
-            let places = polyhedron_contact::near_places((core_a, pose_a), (core_b, pose_b), rounding, reach);
-            return places.into_iter().try_for_each(add);
-        }
-        let key = pair.key([WHOLE; 2]);
-        let last_core = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
-        let near_last = last_core.and_then(|core| gap::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
-        match near_last.unwrap_or_else(|| gap::nearest(part_a, pose_a, part_b, pose_b, reach)) {
-            Nearest::Apart => Ok(()),
-            // Equal points: the distance is zero.
-            Nearest::Overlap => add(Near { features: [WHOLE; 2], points: [pose_a.1; 2], bent: 0.0 }),
-            Nearest::Points(p_a, p_b) => add(Near { features: [WHOLE; 2], points: [p_a, p_b], bent: 0.0 }),
-        }
-    }
-}
-
-/// Collects the output of `find` in the order of the items. Each chunk of `length` items is a task of the thread pool.
-fn map_chunks<T: Sync, U: Send>(
-    items: &[T],
-    length: usize,
-    find: impl Fn(&T, &mut Vec<U>) -> Result<(), RigidError> + Sync,
-) -> Result<Vec<U>, RigidError> {
-    let find_in_chunk = |items: &[T]| {
-        let mut found = Vec::new();
-        items.iter().try_for_each(|item| find(item, &mut found)).map(|()| found)
-    };
-    if items.len() <= length {
-        return find_in_chunk(items);
-    }
-    let chunks: Vec<_> = items.par_chunks(length).map(find_in_chunk).collect();
-    let mut all = Vec::new();
-    for chunk in chunks {
-        all.extend(chunk?);
-    }
-    Ok(all)
-}
-
-/// Creates the contact point of parts of two units with the given rounding radii [m].
-fn unit_touch(pair: &PartPair, near: Near, roundings: [f64; 2], shift: DVec3, time: f64) -> Result<Touch, RigidError> {
-    let Near { features, points: [p_a, p_b], bent } = near;
-    let distance = (p_a - p_b).length();
-    let sum = roundings[0] + roundings[1];
-    let overlap = sum - distance;
-    // The cores meet at the full sum; below it, gap and normal are defined.
-    let allowed = 0.75 * sum;
-    if overlap > allowed {
-        let BodyPair { first, second, .. } = pair.bodies;
-        let partner = format!("unit {}", second + 1);
-        return Err(RigidError::TooDeep { time, body: first, partner, depth: overlap, allowed });
-    }
-    let normal = (p_a - p_b) / distance;
-    Ok(Touch {
-        key: pair.key(features),
-        point: p_a - normal * (roundings[0] - 0.5 * overlap),
-        normal,
-        overlap: overlap - bent,
-        shift,
-        core: DVec3::ZERO,
-    })
-}
-
-/// Creates the contact point of a part with the ground or a wall.
-fn fixed_touch(
-    body: usize,
-    index: usize,
-    part: &ConvexPart,
-    approach: &Approach,
-    time: f64,
-) -> Result<Touch, RigidError> {
-    let overlap = part.rounding() - approach.distance;
-    if overlap > part.rounding() || overlap.is_nan() {
-        let partner = match approach.feature {
-            Feature::Wall { .. } => "a wall",
-            Feature::Terrain { .. } => "the triangle surface",
-            Feature::Ground { .. } | Feature::Unit { .. } => "the ground",
-        };
-        return Err(RigidError::TooDeep {
-            time,
-            body,
-            partner: partner.into(),
-            depth: overlap,
-            allowed: part.rounding(),
-        });
-    }
-    Ok(Touch {
-        key: ContactKey { body: body as u32, part: index as u16, feature: approach.feature },
-        point: approach.core - approach.normal * (part.rounding() - 0.5 * overlap),
-        normal: approach.normal,
-        overlap,
-        shift: DVec3::ZERO,
-        core: approach.core - approach.normal * approach.distance,
-    })
 }

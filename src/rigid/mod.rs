@@ -3,56 +3,39 @@
 //! Rounded convex parts touch each other, the ground (bed profile and triangle surface) and walls. The contact law
 //! includes Coulomb friction; the default is Hertz-Mindlin (Sunday et al. 2020).
 //!
-//! | file | contents |
+//! | part | contents |
 //! | --- | --- |
-//! | `contact_law` | the contact law of a pair of surfaces, a pure function |
-//! | `hertz_mindlin`, `linear` | stiffness and damping of the contact laws |
-//! | `broad_phase` | pairs of bodies near each other |
-//! | `gap` | distance between two rounded parts |
-//! | `polyhedron_contact` | contact points of two rounded polyhedra |
-//! | `ground` | distance to the bed profile and to walls |
-//! | `terrain_contact` | distance to a triangle surface |
-//! | `contact` | contact points of all bodies |
-//! | `forces` | contact forces, contact history and energy balance |
-//! | `event` | start, peak and end of each contact |
-//! | `history` | contact force against time |
-//! | `record` | records of active contacts |
-//! | `impact_log` | the hardest impacts of each unit |
-//! | `motion` | motion of a rigid body |
 //! | `setup` | input of a rigid world |
 //! | `world` | time stepping by substeps; the entry point of this module |
-//! | `growth` | adding bodies during a run |
+//! | `motion` | motion of a rigid body |
+//! | `search` | contact points of all bodies |
+//! | `contact` | the data of a contact |
+//! | `law` | contact laws |
+//! | `forces` | contact forces and energy balance |
+//! | `kinematics` | relative motion of the two sides of a contact |
+//! | `record` | records of contacts and the hardest impacts |
+//! | `add_body` | adding bodies during a run |
 //! | `snapshot` | state for checkpoints |
 
-mod broad_phase;
-pub mod contact;
-pub mod contact_law;
+mod add_body;
+mod contact;
 mod error;
-pub mod event;
-pub mod forces;
-mod gap;
-mod ground;
-mod growth;
-pub mod hertz_mindlin;
-pub mod history;
-mod impact_log;
-pub mod linear;
-pub mod motion;
-mod polyhedron_contact;
+mod forces;
+mod kinematics;
+mod law;
+mod motion;
 mod record;
+mod search;
 mod setup;
 mod snapshot;
-mod terrain_contact;
 mod world;
 
 pub use contact::Feature;
 pub use error::RigidError;
-pub use event::ContactEvent;
 pub use forces::Energy;
-pub use hertz_mindlin::{Material, effective_young_modulus, impact_overlap};
-pub use history::{ForceHistory, ForceSample};
-pub use impact_log::RecordedContact;
+pub use law::{ContactModel, Material, Resistance, effective_young_modulus, impact_overlap};
 pub use motion::{BodyState, Load};
-pub use setup::{BodyShape, ContactModel, Friction, Ground, Resistance, RigidSetup, Sides};
+pub use record::{ContactEvent, ForceHistory, ForceSample, RecordedContact};
+pub use setup::{BodyShape, Friction, Ground, RigidSetup, Sides};
 pub use snapshot::RigidSnapshot;
 pub use world::RigidWorld;

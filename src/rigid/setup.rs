@@ -4,17 +4,17 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use super::contact::MAX_FEATURES;
 use super::error::RigidError;
-use super::hertz_mindlin::Material;
+use super::law::{ContactModel, Material, Resistance};
 use super::motion::BodyState;
-use super::polyhedron_contact::MOST_FEATURES;
 use crate::geometry::armour_unit::ArmourUnit;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
 use crate::geometry::terrain::Terrain;
 
 /// Largest number of convex parts of a body: part, corner and edge numbers share 16 bits.
-pub const MOST_PARTS: usize = 63;
+pub const MAX_PARTS: usize = 63;
 
 /// Shape and mass of a body, equal for all bodies of a world. Body axes have their origin at the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +29,7 @@ pub struct BodyShape {
 
 impl BodyShape {
     /// Armour unit of the given mass [kg] with uniform density.
-    pub fn of_unit(unit: &ArmourUnit, mass_kg: f64) -> Self {
+    pub fn from_unit(unit: &ArmourUnit, mass_kg: f64) -> Self {
         Self { parts: unit.parts().to_vec(), mass: mass_kg, inertia: unit.inertia(mass_kg) }
     }
 
@@ -70,41 +70,7 @@ pub enum Sides {
     /// Walls at y = 0 and y = width [m].
     Walls { width: f64 },
     /// Two-dimensional, without side boundaries: bodies translate along x and z and rotate about y only.
-    Layer,
-}
-
-/// Contact law of all pairs; see [`super::contact_law`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ContactModel {
-    /// Hertz-Mindlin with tangential history.
-    #[default]
-    HertzMindlin,
-    /// Linear springs; every [`Resistance`] needs a stiffness.
-    Linear,
-    /// The law of Chrono 4.0 between meshes.
-    Chrono4,
-}
-
-/// Friction, rolling resistance and optional restitution and stiffness of a pair of surfaces.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resistance {
-    /// Coefficient of static friction [-].
-    pub static_friction: f64,
-    /// Coefficient of kinetic friction [-].
-    pub kinetic_friction: f64,
-    /// Coefficient of rolling resistance [-].
-    pub rolling: f64,
-    /// Coefficient of restitution [-]; default: the smaller one of the two materials.
-    pub restitution: Option<f64>,
-    /// Stiffness of the linear law [N/m].
-    pub stiffness: Option<f64>,
-}
-
-impl From<f64> for Resistance {
-    /// The same static and kinetic friction coefficient; no rolling resistance.
-    fn from(friction: f64) -> Self {
-        Self { static_friction: friction, kinetic_friction: friction, rolling: 0.0, restitution: None, stiffness: None }
-    }
+    TwoDimensional,
 }
 
 /// Resistance of the pairs of surfaces.
@@ -157,11 +123,11 @@ impl RigidSetup {
         if self.shape.parts.is_empty() {
             return reject("the number of convex parts", 0.0, "at least 1");
         }
-        if self.shape.parts.len() > MOST_PARTS {
+        if self.shape.parts.len() > MAX_PARTS {
             return reject("the number of convex parts", self.shape.parts.len() as f64, "at most 63");
         }
         let features = |part: &ConvexPart| part.as_polyhedron().map_or(0, |p| p.corners().len() + p.edges().len());
-        if let Some(part) = self.shape.parts.iter().find(|p| features(p) > MOST_FEATURES) {
+        if let Some(part) = self.shape.parts.iter().find(|p| features(p) > MAX_FEATURES) {
             return reject("the number of corners and edges of a convex part", features(part) as f64, "at most 1022");
         }
         if let Some(part) = self.shape.parts.iter().find(|p| p.rounding().is_nan() || p.rounding() <= 0.0) {

@@ -3,14 +3,12 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::contact::ContactKey;
+use super::contact::{Contact, ContactKey};
 use super::error::RigidError;
-use super::event::EventLog;
-use super::forces::{Contact, Energy};
-use super::impact_log::{ImpactLog, RecordedContact};
+use super::forces::Energy;
 use super::motion::Load;
-use super::record::ContactBook;
-use super::world::{RigidWorld, UNSEEN};
+use super::record::{ContactRecords, EventLog, ImpactLog, RecordedContact};
+use super::world::{NO_PAIR_LIST, RigidWorld};
 
 /// State of all bodies and contacts. Angular momentum and current contact forces are stored, because recomputing them
 /// would change their last bits.
@@ -44,9 +42,11 @@ struct ContactSnapshot {
     key: ContactKey,
     normal: [f64; 3],
     spring: [f64; 3],
-    roll: [f64; 3],
+    #[serde(rename = "roll")]
+    rolling_spring: [f64; 3],
     overlap: f64,
-    sunk: f64,
+    #[serde(rename = "sunk")]
+    initial_overlap: f64,
     core: [f64; 3],
     force: [f64; 3],
     dashpot: f64,
@@ -69,12 +69,12 @@ impl RigidWorld {
             key: c.key,
             normal: c.normal.to_array(),
             spring: c.spring.to_array(),
-            roll: c.roll.to_array(),
+            rolling_spring: c.rolling_spring.to_array(),
             core: c.core.to_array(),
             force: c.force.to_array(),
             dashpot: c.dashpot,
             overlap: c.overlap,
-            sunk: c.sunk,
+            initial_overlap: c.initial_overlap,
             elastic: c.elastic,
             record: record.clone(),
         };
@@ -83,11 +83,11 @@ impl RigidWorld {
             substeps: self.substeps,
             frequency_squared: self.frequency_squared,
             bodies: (0..self.position.len()).map(body).collect(),
-            contacts: self.contacts.iter().zip(self.book.running.iter().map(Box::as_ref)).map(contact).collect(),
+            contacts: self.contacts.iter().zip(self.records.running.iter().map(Box::as_ref)).map(contact).collect(),
             energy: self.energy,
-            ended: self.book.ended.clone(),
-            impacts: self.book.impacts.clone(),
-            begun: self.book.begun,
+            ended: self.records.ended.clone(),
+            impacts: self.records.impacts.clone(),
+            begun: self.records.begun,
         }
     }
 
@@ -108,12 +108,12 @@ impl RigidWorld {
             key: c.key,
             normal: DVec3::from_array(c.normal),
             spring: DVec3::from_array(c.spring),
-            roll: DVec3::from_array(c.roll),
+            rolling_spring: DVec3::from_array(c.rolling_spring),
             core: DVec3::from_array(c.core),
             force: DVec3::from_array(c.force),
             dashpot: c.dashpot,
             overlap: c.overlap,
-            sunk: c.sunk,
+            initial_overlap: c.initial_overlap,
             elastic: c.elastic,
         };
         self.contacts = snapshot.contacts.iter().map(contact).collect();
@@ -121,13 +121,13 @@ impl RigidWorld {
         self.substeps = snapshot.substeps;
         self.frequency_squared = snapshot.frequency_squared;
         self.energy = snapshot.energy;
-        self.book = ContactBook {
+        self.records = ContactRecords {
             running: snapshot.contacts.iter().map(|contact| Box::new(contact.record.clone())).collect(),
             ended: snapshot.ended.clone(),
             impacts: snapshot.impacts.clone(),
             begun: snapshot.begun,
         };
-        self.seen = UNSEEN;
+        self.search_distance = NO_PAIR_LIST;
         self.publish();
         Ok(())
     }

@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::contact::{PartPair, Placements, Surfaces};
+use super::contact::{Contact, Substep};
 use super::error::RigidError;
-use super::event::ContactEvent;
-use super::forces::{Contact, Energy, Laws, Step, Velocities};
-use super::impact_log::RecordedContact;
+use super::forces::{Energy, Laws};
+use super::kinematics::{Motion, Velocities};
 use super::motion::{self, BodyState, Load};
-use super::record::ContactBook;
+use super::record::{ContactEvent, ContactRecords, RecordedContact};
+use super::search::{PartPair, Placements, Surfaces};
 use super::setup::{RigidSetup, Sides};
 
 /// Substeps per shortest oscillation period of a body on its contacts. With 80 the restitution of an impact is accurate
@@ -27,8 +27,8 @@ const LONGEST_SUBSTEP: f64 = 1e-3;
 /// Safety factor on the travelled distance [-], because a body may rotate slightly faster at one end of a substep.
 const PATH_SAFETY: f64 = 1.01;
 
-/// Value of `seen` that forces a new search for pairs of parts.
-pub(super) const UNSEEN: f64 = f64::NEG_INFINITY;
+/// Value of `search_distance` that forces a new search for pairs of parts.
+pub(super) const NO_PAIR_LIST: f64 = f64::NEG_INFINITY;
 
 /// Rigid bodies with their contacts.
 #[derive(Debug, Clone)]
@@ -41,7 +41,7 @@ pub struct RigidWorld {
     pub(super) rounding: f64,
     pub(super) gravity: DVec3,
     /// Two-dimensional motion: bodies translate along x and z and rotate about y only.
-    in_layer: bool,
+    two_dimensional: bool,
     // State.
     pub(super) time: f64,
     pub(super) rotation: Vec<DQuat>,
@@ -52,7 +52,7 @@ pub struct RigidWorld {
     pub(super) contacts: Vec<Contact>,
     pub(super) frequency_squared: f64,
     pub(super) energy: Energy,
-    pub(super) book: ContactBook,
+    pub(super) records: ContactRecords,
     // Results for callers.
     pub(super) states: Vec<BodyState>,
     pub(super) contact_mean: Vec<Load>,
@@ -63,7 +63,7 @@ pub struct RigidWorld {
     /// Pairs that may be near each other now.
     near: Vec<PartPair>,
     /// Search distance with which the pair list was built [m].
-    pub(super) seen: f64,
+    pub(super) search_distance: f64,
     /// Upper bound of the distance that each body's surface has travelled since then [m].
     pub(super) path: Vec<f64>,
     /// Distance that each body's surface can travel within the horizon at twice its speed [m].
@@ -85,7 +85,7 @@ impl RigidWorld {
             inverse_inertia: inertia.inverse(),
             rounding: setup.shape.parts.iter().map(|p| p.rounding()).fold(f64::MAX, f64::min),
             gravity: setup.gravity,
-            in_layer: setup.sides == Sides::Layer,
+            two_dimensional: setup.sides == Sides::TwoDimensional,
             time: 0.0,
             angular_momentum: setup.bodies.iter().zip(&rotation).map(momentum).collect(),
             rotation,
@@ -95,14 +95,14 @@ impl RigidWorld {
             contacts: Vec::new(),
             frequency_squared: 0.0,
             energy: Energy::default(),
-            book: ContactBook::default(),
+            records: ContactRecords::default(),
             states: setup.bodies.clone(),
             contact_mean: vec![Load::default(); count],
             substeps: 0,
             angular_velocity: vec![DVec3::ZERO; count],
             pairs: Vec::new(),
             near: Vec::new(),
-            seen: UNSEEN,
+            search_distance: NO_PAIR_LIST,
             path: vec![0.0; count],
             margin: vec![0.0; count],
         };
@@ -148,34 +148,34 @@ impl RigidWorld {
 
     /// Returns and clears the contacts that have ended since the last call, ordered by end time.
     pub fn take_events(&mut self) -> Vec<ContactEvent> {
-        std::mem::take(&mut self.book.ended.ended)
+        std::mem::take(&mut self.records.ended.ended)
     }
 
     /// Active contacts, as recorded so far.
     pub fn running_events(&self) -> impl Iterator<Item = &ContactEvent> {
-        self.book.running.iter().map(|contact| &contact.event)
-    }
-
-    /// Number of ended contacts dropped because [`take_events`](Self::take_events) was not called in time.
-    pub fn dropped_events(&self) -> u64 {
-        self.book.ended.dropped
+        self.records.running.iter().map(|contact| &contact.event)
     }
 
     /// The hardest impacts of each unit since the start, including active contacts; hardest first.
     pub fn impacts(&self) -> Vec<RecordedContact> {
-        self.book.impacts_so_far().into_hardest_first()
+        self.records.impacts_so_far().into_hardest_first()
     }
 
     /// Contacts of [`Self::impacts`] whose peak force so far occurred after `time` [s].
     pub fn impacts_with_peak_after(&self, time: f64) -> impl Iterator<Item = &ContactEvent> {
-        let impacts = &self.book.impacts;
+        let impacts = &self.records.impacts;
         let running = self.running_events().filter(|event| impacts.would_keep(event));
         impacts.impacts().map(|impact| &impact.event).chain(running).filter(move |event| event.peak_time > time)
     }
 
     /// [Numbers](ContactEvent::number) of the contacts that are active or among the hardest impacts, unordered.
     pub fn remembered_contacts(&self) -> impl Iterator<Item = u64> {
-        self.book.impacts.impacts().map(|impact| &impact.event).chain(self.running_events()).map(|event| event.number)
+        self.records
+            .impacts
+            .impacts()
+            .map(|impact| &impact.event)
+            .chain(self.running_events())
+            .map(|event| event.number)
     }
 
     /// Sets the gravity vector [m/s2]; a tilt test rotates gravity instead of the ground.
@@ -254,7 +254,7 @@ impl RigidWorld {
         let accelerate = |(external, contact): (&Load, &Load)| {
             let acceleration = self.gravity + (external.force + contact.force) / self.mass;
             let torque = external.torque + contact.torque;
-            if self.in_layer { (acceleration.with_y(0.0), DVec3::Y * torque.y) } else { (acceleration, torque) }
+            if self.two_dimensional { (acceleration.with_y(0.0), DVec3::Y * torque.y) } else { (acceleration, torque) }
         };
         loads.iter().zip(&self.contact_now).map(accelerate).collect()
     }
@@ -291,17 +291,16 @@ impl RigidWorld {
         self.angular_velocity = self.angular_velocities();
         self.update_near_pairs(h, horizon, linear, angular);
         let placements = Placements { rotation: &self.rotation, position: &self.position };
-        let touches = self.surfaces.touches(&self.near, placements, &self.contacts, &self.margin, self.time)?;
-        let evaluation = self.laws.evaluate(
-            &touches,
-            &self.contacts,
+        let contact_points =
+            self.surfaces.contact_points(&self.near, placements, &self.contacts, &self.margin, self.time)?;
+        let motion = Motion {
             placements,
-            Velocities { linear: &self.velocity, angular: &self.angular_velocity },
-            Velocities { linear, angular },
-            Step { dt: h, time: self.time, horizon },
-            &mut self.energy,
-            &mut self.book,
-        );
+            now: Velocities { linear: &self.velocity, angular: &self.angular_velocity },
+            mean: Velocities { linear, angular },
+            substep: Substep { dt: h, time: self.time, horizon },
+        };
+        let evaluation =
+            self.laws.evaluate(&contact_points, &self.contacts, &motion, &mut self.energy, &mut self.records);
         self.contact_now = evaluation.loads;
         self.contacts = evaluation.contacts;
         self.frequency_squared = evaluation.frequency_squared;
@@ -319,11 +318,11 @@ impl RigidWorld {
         }
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let margin = 2.0 * largest(&self.margin);
-        if self.seen < 2.0 * largest(&self.path) + margin {
-            self.seen = margin + self.rounding;
+        if self.search_distance < 2.0 * largest(&self.path) + margin {
+            self.search_distance = margin + self.rounding;
             self.path.fill(0.0);
             let placements = Placements { rotation: &self.rotation, position: &self.position };
-            self.pairs = self.surfaces.near_parts(placements, self.seen);
+            self.pairs = self.surfaces.near_parts(placements, self.search_distance);
         }
         let within: Vec<f64> = self.path.iter().zip(&self.margin).map(|(path, margin)| path + margin).collect();
         self.near.clear();

@@ -21,7 +21,7 @@ pub fn rigid_setup(
     };
     let ground = material(units.ground_material);
     RigidSetup {
-        shape: BodyShape::of_unit(units.shape.unit(), units.mass),
+        shape: BodyShape::from_unit(units.shape.unit(), units.mass),
         bodies: units.placements.iter().map(|p| BodyState::at_rest(p.centre, p.rotation)).collect(),
         material: material(units.material),
         ground: Some(Ground {
@@ -32,7 +32,7 @@ pub fn rigid_setup(
         sides: match site.sides {
             Sides::Periodic => rigid::Sides::Periodic { width: site.width },
             Sides::Walls => rigid::Sides::Walls { width: site.width },
-            Sides::TwoDimensional => rigid::Sides::Layer,
+            Sides::TwoDimensional => rigid::Sides::TwoDimensional,
         },
         end_walls: Some(site.x),
         wall_material: ground,

@@ -7,12 +7,12 @@
 use std::f64::consts::TAU;
 
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
-use breakwater::waves::incoming::IncomingWave;
-use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
-use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::regular::{MeanFlow, RegularWave};
-use breakwater::waves::stream_function::StreamFunctionWave;
+use breakwater::waves::flume_model::incoming::IncomingWave;
+use breakwater::waves::flume_model::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::flume_model::record::FlumeRecord;
+use breakwater::waves::flume_model::{FlumeSetup, WaveSource, run};
+use breakwater::waves::theory::regular::{MeanFlow, RegularWave};
+use breakwater::waves::theory::stream_function::StreamFunctionWave;
 
 use super::data;
 

@@ -6,11 +6,11 @@
 
 use breakwater::geometry::profile::Profile;
 use breakwater::report::plot::{Line, LineChart, standalone};
-use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
-use breakwater::waves::incoming::IncomingWave;
-use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
-use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::solitary::ThirdOrderSolitary;
+use breakwater::waves::flume_model::incoming::IncomingWave;
+use breakwater::waves::flume_model::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::flume_model::record::FlumeRecord;
+use breakwater::waves::flume_model::{FlumeSetup, WaveSource, run};
+use breakwater::waves::theory::solitary::ThirdOrderSolitary;
 
 use super::data;
 

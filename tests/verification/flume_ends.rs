@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::flume::{FlumeSetup, WaveSource, run};
-use breakwater::waves::incoming::IncomingWave;
-use breakwater::waves::irregular::{IrregularWave, JonswapSea};
-use breakwater::waves::layered::{Breaking, Friction, Pressure, RightEnd};
-use breakwater::waves::record::FlumeRecord;
-use breakwater::waves::regular::{MeanFlow, RegularWave};
-use breakwater::waves::solitary::ThirdOrderSolitary;
-use breakwater::waves::stream_function::StreamFunctionWave;
+use breakwater::waves::flume_model::incoming::IncomingWave;
+use breakwater::waves::flume_model::layered::{Breaking, Friction, Pressure, RightEnd};
+use breakwater::waves::flume_model::record::FlumeRecord;
+use breakwater::waves::flume_model::{FlumeSetup, WaveSource, run};
+use breakwater::waves::theory::irregular::{IrregularWave, JonswapSea};
+use breakwater::waves::theory::regular::{MeanFlow, RegularWave};
+use breakwater::waves::theory::solitary::ThirdOrderSolitary;
+use breakwater::waves::theory::stream_function::StreamFunctionWave;
 
 const GRAVITY: f64 = 9.81;
 const DEPTH: f64 = 0.5;

@@ -1,8 +1,10 @@
 //! Order of convergence of the flume model in space and time, with cells and time steps halved together.
 
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
-use breakwater::waves::solitary::ThirdOrderSolitary;
+use breakwater::waves::flume_model::layered::{
+    Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd,
+};
+use breakwater::waves::theory::solitary::ThirdOrderSolitary;
 
 const GRAVITY: f64 = 9.81;
 

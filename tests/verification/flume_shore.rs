@@ -1,7 +1,9 @@
 //! Shorelines of the flume model on random beds with random waves.
 
 use breakwater::geometry::profile::Profile;
-use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
+use breakwater::waves::flume_model::layered::{
+    Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd,
+};
 use proptest::prelude::*;
 
 const GRAVITY: f64 = 9.81;
@@ -70,7 +72,7 @@ proptest! {
             for point in flume.surface_profile() {
                 prop_assert!(point.depth_m >= 0.0, "depth {} at step {step}, x = {}", point.depth_m, point.x_m);
             }
-            prop_assert!(flume.astray_at().is_none(), "unstable at time step {step}, x = {:?}", flume.astray_at());
+            prop_assert!(flume.first_unstable_x_m().is_none(), "unstable at time step {step}, x = {:?}", flume.first_unstable_x_m());
         }
         // 1e-12: rounding; a flux leaves one cell and enters the next.
         prop_assert!((flume.volume_m2() - volume).abs() <= 1e-12 * volume.max(1e-3), "{} {volume}", flume.volume_m2());

@@ -9,7 +9,7 @@ use breakwater::simulation::flume::{Simulation, incoming::run_flume};
 use breakwater::waves::external::openfoam::{Frame, Up, probes};
 use breakwater::waves::external::swash::{self, Heading};
 use breakwater::waves::external::table::{Layers, Place, VelocityTable};
-use breakwater::waves::wavemaker::Wavemaker;
+use breakwater::waves::generation::wavemaker::Wavemaker;
 use serde_json::{Value, json};
 
 const DEPTH: f64 = 0.4;
@@ -52,7 +52,7 @@ fn write(table: &VelocityTable, folder: &Path) -> [Value; 3] {
     swash::write_level(table, &PLACE, Heading::None, create(folder, "level.tbl")).unwrap();
     swash::write_velocities(table, &PLACE, &[0.5, 0.3, 0.2], Heading::Names, create(folder, "velocity.tbl")).unwrap();
     let frame = Frame { up: Up::Y, origin_z_m: 0.1 };
-    probes::write(table, &levels, 4.0, frame, create(folder, "probes/0/U")).unwrap();
+    probes::write_velocities(table, &levels, 4.0, frame, create(folder, "probes/0/U")).unwrap();
     probes::write_water(table, &levels, 4.0, frame, create(folder, "probes/0/alpha.water")).unwrap();
     [
         json!({ "format": "dualsphysics", "path": "piston_velx.csv" }),

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use breakwater::simulation::flume::{Simulation, balance::Balance};
-use breakwater::waves::regular::RegularWave;
-use breakwater::waves::solitary::SolitaryWave;
+use breakwater::waves::theory::regular::RegularWave;
+use breakwater::waves::theory::solitary::SolitaryWave;
 use glam::DVec2;
 use serde_json::{Value, json};
 
@@ -105,7 +105,7 @@ fn run(tank: &Tank) -> Results {
         let series: Vec<[f64; 2]> = samples.iter().map(|(t, levels)| [*t, levels[gauge]]).collect();
         first_harmonic(&series, omega)
     });
-    let [incident, reflected] = separate(tank.wave.number_per_m(), tank.gauges, amplitudes);
+    let [incident, reflected] = separate(tank.wave.wavenumber_per_m(), tank.gauges, amplitudes);
     let [start, last] = [energies[0], energies[energies.len() - 1]];
     let explained = balance.boundary + balance.viscosity + balance.diffusion + last[1];
     Results {
@@ -239,7 +239,7 @@ fn rows(simulation: &mut Simulation, time: f64) -> Vec<[f64; 3]> {
 fn piston_and_flap_move_by_second_order_theory() {
     let regular = json!({ "kind": "regular", "height_m": 0.1, "period_s": 1.2, "ramp_periods": 0.5 });
     let theory = RegularWave { height_m: 0.1, period_s: 1.2, depth_m: 0.4, gravity: GRAVITY };
-    let (k, kd) = (theory.number_per_m(), theory.number_per_m() * 0.4);
+    let (k, kd) = (theory.wavenumber_per_m(), theory.wavenumber_per_m() * 0.4);
     // At a quarter of a period, the first-order displacement is half the stroke; the second-order displacement is zero
     // with the velocity -2 omega X2.
     let time = 1.2 * 2.25;
@@ -254,7 +254,7 @@ fn piston_and_flap_move_by_second_order_theory() {
     for [x, v, z] in rows(&mut flap, time) {
         assert!((x - 0.05 / transfer * (z - 0.1) / 0.4).abs() < 1e-12 && v.abs() < 1e-12);
     }
-    assert!((k * theory.length_m() - 2.0 * PI).abs() < 1e-12);
+    assert!((k * theory.wavelength_m() - 2.0 * PI).abs() < 1e-12);
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn a_piston_in_the_particles_follows_the_solitary_wave() {
         height_m: 0.08,
         depth_m: 0.4,
         gravity: GRAVITY,
-        theory: breakwater::waves::solitary::PistonTheory::Rayleigh,
+        theory: breakwater::waves::theory::solitary::PistonTheory::Rayleigh,
     };
     for [x, v, _] in rows(&mut simulation, 1.3) {
         assert!((x - wave.piston_displacement_m(1.3)).abs() < 1e-12 && v == wave.piston_velocity_m_s(1.3));

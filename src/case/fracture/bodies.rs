@@ -8,7 +8,7 @@ use super::super::check::{Checker, above, from};
 use super::super::file::{
     FractureBodyFile, FractureFile, FractureMaterialFile, HandoverMaterialFile, Joints, Softening, StrengthFile,
 };
-use crate::femdem::cohesive_law::{Cohesion, Range};
+use crate::femdem::material::cohesive_law::{Cohesion, Range};
 use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Body;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::super::check::{Checker, from};
 use super::super::file::{BodyFrictionFile, FractureFile, VelocityFile};
 use super::loads::factor;
-use crate::femdem::history::History;
+use crate::femdem::loads::history::History;
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::FaceSet;
 use crate::femdem::setup::Constraint;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::check::{Checker, from, show};
 use super::super::file::{FractureFile, LoadAxes, LoadFile, LoadedFaces};
-use crate::femdem::history::History;
+use crate::femdem::loads::history::History;
 use crate::femdem::loads::patch::{Axes, Patch, faces_near};
 use crate::femdem::loads::{Load, Surface};
 use crate::femdem::mesh::PreparedMesh;

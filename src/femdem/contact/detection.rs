@@ -37,51 +37,35 @@ impl Bounds {
     }
 }
 
-/// Boxes per task of the thread pool.
+/// Least number of boxes per task of the thread pool.
 const CHUNK: usize = 1024;
 /// Number of levels; the cell size doubles from level to level.
 const LEVELS: usize = 32;
 /// Cell size of the finest level over the median box size [-]; the fastest value for meshes.
 const FINEST: f64 = 1.25;
 
-/// Reusable workspace of the contact detection.
-#[derive(Debug, Default)]
-pub struct Detection {
-    grids: Grids,
-    table: Table,
-    /// Pairs found by each chunk of boxes.
-    found: Vec<Vec<[u32; 2]>>,
-    pairs: Vec<[u32; 2]>,
-}
-
-impl Detection {
-    /// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending
-    /// order for any number of threads. The boxes must be finite.
-    pub fn pairs(&mut self, boxes: &[Bounds], keep: impl Fn(u32, u32) -> bool + Sync) -> &[[u32; 2]] {
-        self.grids.fit(boxes);
-        self.table.fill(&self.grids, boxes);
-        let (grids, table) = (&self.grids, &self.table);
-        self.found.resize_with(boxes.len().div_ceil(CHUNK), Vec::new);
-        self.found.par_iter_mut().enumerate().for_each(|(chunk, found)| {
-            found.clear();
-            let first = chunk * CHUNK;
-            for number in first..boxes.len().min(first + CHUNK) {
-                grids.visit_pairs(table, boxes, number as u32, |i, j| {
-                    if keep(i, j) {
-                        found.push([i, j]);
-                    }
-                });
-            }
-        });
-        self.pairs.clear();
-        self.pairs.extend(self.found.iter().flatten());
-        self.pairs.par_sort_unstable();
-        &self.pairs
-    }
+/// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending order for
+/// any number of threads. The boxes must be finite.
+pub fn intersecting_pairs(boxes: &[Bounds], keep: impl Fn(u32, u32) -> bool + Sync) -> Vec<[u32; 2]> {
+    let grids = Grids::new(boxes);
+    let table = Table::new(&grids, boxes);
+    let numbers = (0..boxes.len() as u32).into_par_iter().with_min_len(CHUNK);
+    let mut pairs: Vec<[u32; 2]> = numbers
+        .fold(Vec::new, |mut found, number| {
+            grids.visit_pairs(&table, boxes, number, |i, j| {
+                if keep(i, j) {
+                    found.push([i, j]);
+                }
+            });
+            found
+        })
+        .flatten_iter()
+        .collect();
+    pairs.par_sort_unstable();
+    pairs
 }
 
 /// Hash table from cells to the boxes stored in them.
-#[derive(Debug, Default)]
 struct Table {
     /// Ordered by bucket.
     entries: Vec<Entry>,
@@ -90,7 +74,7 @@ struct Table {
 }
 
 /// A box stored in a cell.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Clone, Copy, Default)]
 struct Entry {
     /// Key of the cell.
     key: u64,
@@ -100,28 +84,28 @@ struct Entry {
 
 impl Table {
     /// Sorts the boxes by the buckets of their cells (counting sort).
-    fn fill(&mut self, grids: &Grids, boxes: &[Bounds]) {
+    fn new(grids: &Grids, boxes: &[Bounds]) -> Self {
         let count: usize = boxes.iter().map(|own| grids.home_cells(own).count()).sum();
-        self.starts.clear();
-        self.starts.resize(count.next_power_of_two() + 1, 0);
+        let starts = vec![0; count.next_power_of_two() + 1];
+        let mut table = Self { entries: vec![Entry::default(); count], starts };
         for key in boxes.iter().flat_map(|own| grids.home_cells(own)) {
-            let bucket = self.bucket(key);
-            self.starts[bucket] += 1;
+            let bucket = table.bucket(key);
+            table.starts[bucket] += 1;
         }
         let mut end = 0;
-        for start in &mut self.starts {
+        for start in &mut table.starts {
             end += *start;
             *start = end;
         }
         // Filling each bucket backwards turns the ends into starts.
-        self.entries.resize(count, Entry::default());
-        for (number, own) in boxes.iter().enumerate() {
+        for (number, own) in (0..).zip(boxes) {
             for key in grids.home_cells(own) {
-                let bucket = self.bucket(key);
-                self.starts[bucket] -= 1;
-                self.entries[self.starts[bucket] as usize] = Entry { key, number: number as u32 };
+                let bucket = table.bucket(key);
+                table.starts[bucket] -= 1;
+                table.entries[table.starts[bucket] as usize] = Entry { key, number };
             }
         }
+        table
     }
 
     /// Bucket of a cell: multiplicative hash (Knuth 1973, "The Art of Computer Programming" 3, section 6.4).
@@ -139,35 +123,32 @@ impl Table {
 }
 
 /// The grids of all levels.
-#[derive(Debug, Default)]
 struct Grids {
     /// Edge of the cells of the finest level [m].
     finest: f64,
     /// Whether any box is stored on a level.
     occupied: [bool; LEVELS],
-    /// Workspace for the median of the box sizes [m].
-    sizes: Vec<f64>,
 }
 
 impl Grids {
     /// Chooses the cell sizes for the boxes.
-    fn fit(&mut self, boxes: &[Bounds]) {
-        self.occupied = [false; LEVELS];
-        self.sizes.clear();
-        self.sizes.extend(boxes.iter().map(Bounds::size));
+    fn new(boxes: &[Bounds]) -> Self {
+        let mut grids = Self { finest: 1.0, occupied: [false; LEVELS] };
+        let mut sizes: Vec<f64> = boxes.iter().map(Bounds::size).collect();
         if boxes.is_empty() {
-            return;
+            return grids;
         }
-        let (_, median, _) = self.sizes.select_nth_unstable_by(boxes.len() / 2, f64::total_cmp);
+        let (_, median, _) = sizes.select_nth_unstable_by(boxes.len() / 2, f64::total_cmp);
         let median = *median;
-        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
         assert!(largest.is_finite(), "contact detection: a bounding box is not finite");
         // The largest box must fit the coarsest level. Boxes of zero size fit any cell size.
         let finest = (FINEST * median).max(largest / f64::from(1u32 << (LEVELS - 1)));
-        self.finest = if finest > 0.0 { finest } else { 1.0 };
+        grids.finest = if finest > 0.0 { finest } else { 1.0 };
         for own in boxes {
-            self.occupied[self.level(own)] = true;
+            grids.occupied[grids.level(own)] = true;
         }
+        grids
     }
 
     /// Returns the level of a box: the finest whose cells are no smaller than the box.
@@ -244,8 +225,6 @@ mod tests {
 
     #[test]
     fn pairs_equal_those_of_a_brute_force_search() {
-        // The workspace is shared: no cloud may leave anything behind for the next one.
-        let mut detection = Detection::default();
         let scattered = |boxes: Vec<Bounds>| -> Vec<Bounds> {
             let shift = |n: usize| if n.is_multiple_of(50) { 1e7 } else { -3.0 };
             boxes.iter().enumerate().map(|(n, b)| Bounds { low: b.low + shift(n), high: b.high + shift(n) }).collect()
@@ -262,9 +241,9 @@ mod tests {
         ];
         for boxes in clouds {
             let expected = brute_force(&boxes);
-            assert_eq!(detection.pairs(&boxes, |_, _| true), expected);
+            assert_eq!(intersecting_pairs(&boxes, |_, _| true), expected);
             let even: Vec<_> = expected.into_iter().filter(|[i, j]| (i + j).is_multiple_of(2)).collect();
-            assert_eq!(detection.pairs(&boxes, |i, j| (i + j).is_multiple_of(2)), even);
+            assert_eq!(intersecting_pairs(&boxes, |i, j| (i + j).is_multiple_of(2)), even);
         }
     }
 
@@ -273,47 +252,10 @@ mod tests {
         let boxes = cloud(6, 20_000, |number| if number.is_multiple_of(100) { 1.0 } else { 0.1 });
         let pairs_with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| Detection::default().pairs(&boxes, |_, _| true).to_vec())
+            pool.install(|| intersecting_pairs(&boxes, |_, _| true))
         };
         let serial = pairs_with(1);
         assert!(serial.len() > 20_000);
         assert!(pairs_with(2) == serial && pairs_with(5) == serial);
-    }
-
-    /// cargo test --release detection -- --ignored --nocapture
-    #[test]
-    #[ignore = "timing: a minute"]
-    fn time_is_linear_in_the_number_of_boxes() {
-        for (name, large) in [("boxes of similar size", 0.0), ("1 % of the boxes ten times larger", 0.01)] {
-            for count in [10_000, 100_000, 1_000_000] {
-                let boxes = as_in_a_mesh(count, large);
-                let mut detection = Detection::default();
-                let mut best = std::time::Duration::MAX;
-                for _ in 0..3 {
-                    let start = std::time::Instant::now();
-                    detection.pairs(&boxes, |_, _| true);
-                    best = best.min(start.elapsed());
-                }
-                let nanoseconds = best.as_nanos() as f64 / count as f64;
-                println!("{name}: {count} boxes, {} pairs, {nanoseconds:.0} ns per box", detection.pairs.len());
-            }
-        }
-    }
-
-    /// Boxes as dense as the bounding boxes of a mesh of tetrahedra with edges of 1 m, numbered along rows.
-    fn as_in_a_mesh(count: usize, large: f64) -> Vec<Bounds> {
-        let mut random = SplitMix64::new(7);
-        // Volume of a regular tetrahedron: 0.118 m3.
-        let row = (count as f64).cbrt().ceil();
-        let spacing = (0.118 * count as f64).cbrt() / row;
-        let place = |number: f64| DVec3::new(number % row, (number / row).floor() % row, (number / row / row).floor());
-        (0..count)
-            .map(|number| {
-                let about = spacing * (place(number as f64) + 0.5 * random_point(&mut random));
-                let half = 0.32 + 0.16 * random.next_share();
-                let half = if random.next_share() < large { 10.0 * half } else { half };
-                Bounds { low: about - half, high: about + half }
-            })
-            .collect()
     }
 }

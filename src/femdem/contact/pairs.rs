@@ -16,18 +16,19 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 mod depth;
 pub mod snapshot;
 #[cfg(test)]
 mod tests;
 
-use super::super::assembly::{Copy4, Tets};
-use super::super::setup::Setup;
-use super::detection::{Bounds, Detection};
+use super::detection::{Bounds, intersecting_pairs};
 use super::friction::{FrictionLaw, TangentialSpring};
 use super::overlap::{Overlap, overlap};
 use super::tetrahedron::Tetrahedron;
+use crate::femdem::assembly::{nodes::NodeCopy, tets::Tets};
+use crate::femdem::setup::Setup;
 
 /// Pairs per task of the thread pool.
 const CHUNK: usize = 64;
@@ -46,9 +47,9 @@ struct Pair {
     penalty: f64,
     law: FrictionLaw,
     /// Initial overlap I_b (energy over penalty) that does not count [m3]; `None` before the first evaluation.
-    born: Option<f64>,
+    initial_overlap: Option<f64>,
     /// Elastic energy that a broken joint leaves to the pair [J]; the part that the pair cannot take is dissipated.
-    left: f64,
+    inherited_energy: f64,
     spring: Option<TangentialSpring>,
     forces: Option<[[DVec3; 4]; 2]>,
     /// Elastic energy of the contact [J].
@@ -63,10 +64,17 @@ pub struct Contacts {
     /// Tetrahedra with a free face, in ascending order.
     outer: Vec<u32>,
     /// For every node copy, the first of the copies of its mesh node that unbroken faces connect with it.
-    group: Vec<Copy4>,
+    group: Vec<NodeCopy>,
     pairs: Vec<Pair>,
     /// Tetrahedra whose joint has broken since the last search, and the energy that the joint leaves to them [J].
     opened: Vec<([u32; 2], f64)>,
+    /// Scalars of the state.
+    pub scalars: ContactScalars,
+}
+
+/// Scalars of the contacts of a world.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct ContactScalars {
     /// Upper limit of the distance that any node has moved since the last search [m].
     travelled: f64,
     skin: f64,
@@ -83,7 +91,7 @@ pub struct Contacts {
 
 impl Contacts {
     /// Creates the contacts between the surfaces of all bodies; `groups` are the connected copies around each node.
-    pub fn new<'a>(setup: &Setup, groups: impl Iterator<Item = &'a [Copy4]>) -> Self {
+    pub fn new<'a>(setup: &Setup, groups: impl Iterator<Item = &'a [NodeCopy]>) -> Self {
         let group = vec![0; 4 * setup.tets.len()];
         let mut contacts = Self { outer: setup.outer.clone(), group, ..Self::default() };
         groups.for_each(|group| contacts.regroup(group));
@@ -91,43 +99,43 @@ impl Contacts {
     }
 
     /// Sets the copies around a node that are connected now.
-    pub fn regroup(&mut self, group: &[Copy4]) {
+    pub fn regroup(&mut self, group: &[NodeCopy]) {
         group.iter().for_each(|copy| self.group[*copy as usize] = group[0]);
-        self.outdated = true;
+        self.scalars.outdated = true;
     }
 
     /// Allows the tetrahedra at a broken face to touch; the joint leaves them its elastic energy [J].
-    pub fn open(&mut self, mut tets: [u32; 2], left: f64) {
+    pub fn allow_contact(&mut self, mut tets: [u32; 2], inherited_energy: f64) {
         for tet in tets {
             if let Err(index) = self.outer.binary_search(&tet) {
                 self.outer.insert(index, tet);
             }
         }
         tets.sort_unstable();
-        self.opened.push((tets, left));
-        self.outdated = true;
+        self.opened.push((tets, inherited_energy));
+        self.scalars.outdated = true;
     }
 
     /// Adds the longest distance that any node has moved since the last call [m].
-    pub fn travel(&mut self, distance: f64) {
-        self.travelled += distance;
+    pub fn add_travel(&mut self, distance: f64) {
+        self.scalars.travelled += distance;
     }
 
-    /// Adds all contact forces to the forces of the tetrahedra [N]. Nodes are at `place` [m], after moving with
+    /// Adds all contact forces to the forces of the tetrahedra [N]. Nodes are at `position` [m], after moving with
     /// `velocity` [m/s] for `dt` [s].
-    pub fn press(
+    pub fn add_forces(
         &mut self,
         setup: &Setup,
         tets: &Tets,
-        [place, velocity]: [&[DVec3]; 2],
+        [position, velocity]: [&[DVec3]; 2],
         dt: f64,
         is_broken: impl Fn(usize) -> bool + Sync,
         forces: &mut [[DVec3; 4]],
     ) {
-        if self.outdated || self.travelled > self.skin {
-            self.search(setup, tets, place, is_broken);
+        if self.scalars.outdated || self.scalars.travelled > self.scalars.skin {
+            self.search(setup, tets, position, is_broken);
         }
-        let corners = |tet: u32| tets.nodes[tet as usize].map(|node| place[node as usize]);
+        let corners = |tet: u32| tets.nodes[tet as usize].map(|node| position[node as usize]);
         let moves = |tet: u32| tets.nodes[tet as usize].map(|node| velocity[node as usize] * dt);
         self.pairs.par_chunks_mut(CHUNK).for_each(|pairs| {
             for pair in pairs {
@@ -135,13 +143,13 @@ impl Contacts {
                 pair.evaluate(tets.map(corners), || tets.map(moves));
             }
         });
-        (self.stored, self.touching) = (0.0, 0);
+        (self.scalars.stored, self.scalars.touching) = (0.0, 0);
         for pair in &mut self.pairs {
-            self.friction += std::mem::take(&mut pair.dissipated);
-            self.taken_over += std::mem::take(&mut pair.left);
+            self.scalars.friction += std::mem::take(&mut pair.dissipated);
+            self.scalars.taken_over += std::mem::take(&mut pair.inherited_energy);
             let Some(pair_forces) = pair.forces else { continue };
-            self.stored += pair.stored;
-            self.touching += 1;
+            self.scalars.stored += pair.stored;
+            self.scalars.touching += 1;
             for (tet, tet_forces) in pair.tets.into_iter().zip(pair_forces) {
                 forces[tet as usize].iter_mut().zip(tet_forces).for_each(|(total, force)| *total += force);
             }
@@ -149,37 +157,36 @@ impl Contacts {
     }
 
     /// Whether tetrahedra of two different bodies are in contact.
-    pub fn between_bodies(&self, tets: &Tets) -> bool {
+    pub fn touches_other_body(&self, tets: &Tets) -> bool {
         let body = |tet: u32| tets.body[tet as usize];
-        self.touching > 0
+        self.scalars.touching > 0
             && self.pairs.iter().any(|pair| pair.forces.is_some() && body(pair.tets[0]) != body(pair.tets[1]))
     }
 
     /// Finds the pairs closer than two skins; pairs that existed before keep their history.
-    fn search(&mut self, setup: &Setup, tets: &Tets, place: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
+    fn search(&mut self, setup: &Setup, tets: &Tets, position: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
         let size: f64 = self.outer.iter().map(|tet| tets.shape[*tet as usize].volume.cbrt()).sum();
-        self.skin = SKIN * size / self.outer.len().max(1) as f64;
-        let corners = |tet: &u32| tets.nodes[*tet as usize].map(|node| place[node as usize]);
-        let boxes: Vec<Bounds> = self.outer.par_iter().map(|tet| Bounds::about(&corners(tet), self.skin)).collect();
+        let skin = SKIN * size / self.outer.len().max(1) as f64;
+        let corners = |tet: &u32| tets.nodes[*tet as usize].map(|node| position[node as usize]);
+        let boxes: Vec<Bounds> = self.outer.par_iter().map(|tet| Bounds::about(&corners(tet), skin)).collect();
         let tets_of = |pair: [u32; 2]| pair.map(|index| self.outer[index as usize]);
         let keep = |i: u32, j: u32| {
             let [a, b] = tets_of([i, j]);
-            self.can_touch([a, b], setup, tets, &is_broken) && !are_apart(&corners(&a), &corners(&b), 2.0 * self.skin)
+            self.can_touch([a, b], setup, tets, &is_broken) && !are_apart(&corners(&a), &corners(&b), 2.0 * skin)
         };
-        let mut detection = Detection::default();
         let recall = |key: [u32; 2]| match self.pairs.binary_search_by_key(&key, |pair| pair.tets) {
             Ok(index) => self.pairs[index],
             Err(_) => Pair::new(key, setup, tets),
         };
-        let mut pairs: Vec<Pair> = detection.pairs(&boxes, keep).iter().map(|pair| recall(tets_of(*pair))).collect();
-        for (key, left) in self.opened.drain(..) {
+        let mut pairs: Vec<Pair> = intersecting_pairs(&boxes, keep).iter().map(|pair| recall(tets_of(*pair))).collect();
+        for (key, energy) in self.opened.drain(..) {
             if let Ok(index) = pairs.binary_search_by_key(&key, |pair| pair.tets) {
                 // A pair that was evaluated before already counts its overlap.
-                pairs[index].left = if pairs[index].born.is_none() { left } else { 0.0 };
+                pairs[index].inherited_energy = if pairs[index].initial_overlap.is_none() { energy } else { 0.0 };
             }
         }
         self.pairs = pairs;
-        (self.travelled, self.outdated) = (0.0, false);
+        self.scalars = ContactScalars { travelled: 0.0, skin, outdated: false, ..self.scalars };
     }
 
     /// Whether two tetrahedra are not connected around a shared node, or the face between them has broken.
@@ -216,27 +223,27 @@ impl Pair {
         let penalty = bodies.map(|body| setup.bodies[body].contact_penalty).into_iter().fold(f64::MAX, f64::min);
         let size = tets.map(|tet| (6.0 * all.shape[tet as usize].volume).cbrt()).into_iter().fold(f64::MAX, f64::min);
         let law = FrictionLaw { stiffness: TANGENTIAL * penalty * size, coefficient: setup.friction(bodies) };
-        let (born, left, stored, dissipated) = (None, 0.0, 0.0, 0.0);
-        Self { tets, penalty, law, born, left, spring: None, forces: None, stored, dissipated }
+        let (initial_overlap, inherited_energy, stored, dissipated) = (None, 0.0, 0.0, 0.0);
+        Self { tets, penalty, law, initial_overlap, inherited_energy, spring: None, forces: None, stored, dissipated }
     }
 
     fn evaluate(&mut self, corners: [[DVec3; 4]; 2], moves: impl Fn() -> [[DVec3; 4]; 2]) {
         let found = overlap(&corners[0], &corners[1]);
         let energy = found.as_ref().map_or(0.0, |found| found.energy);
-        let born = match self.born {
-            Some(born) => born.min(energy),
-            None => self.initial_overlap(found.as_ref(), &moves()),
+        let initial = match self.initial_overlap {
+            Some(initial) => initial.min(energy),
+            None => self.find_initial_overlap(found.as_ref(), &moves()),
         };
-        self.born = Some(born);
-        let Some(found) = found.filter(|_| energy > born) else {
+        self.initial_overlap = Some(initial);
+        let Some(found) = found.filter(|_| energy > initial) else {
             let spring_energy = self.spring.take().map_or(0.0, |spring| spring.stored(&self.law));
             (self.forces, self.stored) = (None, 0.0);
             self.dissipated += spring_energy;
             return;
         };
-        let penalty = self.penalty * (1.0 - (born / energy).sqrt());
+        let penalty = self.penalty * (1.0 - (initial / energy).sqrt());
         let mut forces = found.forces.map(|tet_forces| tet_forces.map(|force| force * penalty));
-        self.stored = self.penalty * (energy.sqrt() - born.sqrt()).powi(2);
+        self.stored = self.penalty * (energy.sqrt() - initial.sqrt()).powi(2);
         if self.law.coefficient > 0.0 {
             let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant()));
             let moves = moves();
@@ -252,15 +259,15 @@ impl Pair {
     /// Returns I_b, the initial overlap that does not count [m3]. It is chosen so that half a time step ago, when the
     /// joint broke, the pair had the energy that the joint leaves. With s = sqrt I - sqrt I_b this is p s^2 now, minus
     /// half the work of this time step against the forces (the share s / sqrt I of the forces of the overlap).
-    fn initial_overlap(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
-        let left = std::mem::take(&mut self.left);
+    fn find_initial_overlap(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
+        let inherited = std::mem::take(&mut self.inherited_energy);
         let Some(found) = found.filter(|found| found.energy > 0.0) else { return 0.0 };
         let root = found.energy.sqrt();
         let works = found.forces.iter().flatten().zip(moves.iter().flatten()).map(|(force, u)| force.dot(*u));
         // For the forces of the whole overlap, divided by p sqrt I.
         let work = -0.5 * works.sum::<f64>() / root;
-        let counts = (0.5 * (work + (work * work + 4.0 * left / self.penalty).sqrt())).clamp(0.0, root);
-        self.left = (self.penalty * counts * (counts - work)).max(0.0);
+        let counts = (0.5 * (work + (work * work + 4.0 * inherited / self.penalty).sqrt())).clamp(0.0, root);
+        self.inherited_energy = (self.penalty * counts * (counts - work)).max(0.0);
         (root - counts).powi(2)
     }
 }

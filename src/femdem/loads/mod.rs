@@ -2,20 +2,19 @@
 //!
 //! | file | contents |
 //! | --- | --- |
+//! | `history` | values that change with time |
 //! | `patch` | a force and a moment at a point, spread over the faces near the point |
 //!
 //! Forces act on node copies (vertices of tetrahedra), so node splitting does not affect the loads.
 
 use glam::DVec3;
 
-use super::assembly::{Nodes, Tets};
-use super::history::History;
 use super::mesh::faces::Exterior;
-use super::setup::Setup;
-use super::world::World;
 
+pub mod history;
 pub mod patch;
 
+use history::History;
 use patch::Patch;
 
 /// A load.
@@ -65,35 +64,32 @@ pub struct CornerForce {
     pub force: DVec3,
 }
 
-/// Nodes and tetrahedra on which loads act.
+/// Positions of nodes [m], and the nodes of each tetrahedron.
+pub type Vertices<'a> = (&'a [DVec3], &'a [[u32; 4]]);
+
+/// Vertices of the tetrahedra on which loads act.
 #[derive(Debug, Clone, Copy)]
-pub struct Places<'a> {
-    pub(super) setup: &'a Setup,
-    pub(super) nodes: &'a Nodes,
-    pub(super) tets: &'a Tets,
+pub struct Configuration<'a> {
+    /// Initial vertices.
+    pub initial: Vertices<'a>,
+    /// Current vertices.
+    pub current: Vertices<'a>,
 }
 
-impl Places<'_> {
-    /// Undeformed position of a vertex [m].
-    fn initial(&self, tet: u32, corner: u8) -> DVec3 {
-        self.setup.nodes[self.setup.tets[tet as usize][usize::from(corner)] as usize]
-    }
-
-    /// Current position of a vertex [m].
-    pub(super) fn now(&self, tet: u32, corner: u8) -> DVec3 {
-        self.nodes.place[self.tets.nodes[tet as usize][usize::from(corner)] as usize]
-    }
+/// Returns the position of a vertex of a tetrahedron [m].
+fn vertex((positions, tets): Vertices, tet: u32, corner: u8) -> DVec3 {
+    positions[tets[tet as usize][usize::from(corner)] as usize]
 }
 
 /// Area of a face times its outward normal [m2].
-fn area_vector(face: &Exterior, position: impl Fn(u32, u8) -> DVec3) -> DVec3 {
-    let [a, b, c] = face.nodes.map(|corner| position(face.tet, corner));
+fn area_vector(face: &Exterior, vertices: Vertices) -> DVec3 {
+    let [a, b, c] = face.nodes.map(|corner| vertex(vertices, face.tet, corner));
     (b - a).cross(c - a) * 0.5
 }
 
 impl Load {
     /// Appends the forces at a time [s] to a list. Each corner of a face gets a third of its force.
-    pub fn forces(&self, places: &Places, time: f64, out: &mut Vec<CornerForce>) {
+    pub fn forces(&self, configuration: &Configuration, time: f64, out: &mut Vec<CornerForce>) {
         let mut spread = |face: &Exterior, force: DVec3| {
             out.extend(face.nodes.map(|corner| CornerForce { tet: face.tet, corner, force: force / 3.0 }));
         };
@@ -101,47 +97,20 @@ impl Load {
             Self::Traction { faces, stress, factor } => {
                 let stress = *stress * factor.at(time)[0];
                 for face in faces {
-                    spread(face, stress * area_vector(face, |tet, corner| places.initial(tet, corner)).length());
+                    spread(face, stress * area_vector(face, configuration.initial).length());
                 }
             }
             Self::Pressure { faces, pressure, on, factor } => {
                 let pressure = pressure * factor.at(time)[0];
                 for face in faces {
                     let area = match on {
-                        Surface::Deformed => area_vector(face, |tet, corner| places.now(tet, corner)),
-                        Surface::Undeformed => area_vector(face, |tet, corner| places.initial(tet, corner)),
+                        Surface::Deformed => area_vector(face, configuration.current),
+                        Surface::Undeformed => area_vector(face, configuration.initial),
                     };
                     spread(face, area * -pressure);
                 }
             }
-            Self::Patch(patch) => patch.forces(places, time, out),
+            Self::Patch(patch) => patch.forces(configuration, time, out),
         }
-    }
-}
-
-impl World {
-    /// Returns the nodes and tetrahedra on which loads act.
-    pub fn places(&self) -> Places<'_> {
-        Places { setup: &self.setup, nodes: &self.nodes, tets: &self.tets }
-    }
-
-    /// Adds the loads to the forces of the tetrahedra, and stores them to compute their work.
-    pub(super) fn apply_loads(&mut self) {
-        let Self { setup, nodes, tets, loaded, deformation, time, .. } = self;
-        loaded.clear();
-        let places = Places { setup, nodes, tets };
-        setup.loads.iter().for_each(|load| load.forces(&places, *time, loaded));
-        for CornerForce { tet, corner, force } in loaded {
-            deformation.forces[*tet as usize][usize::from(*corner)] += *force;
-        }
-    }
-
-    /// Power of the loads at the current velocities [W].
-    pub(super) fn power_of_loads(&self) -> f64 {
-        let power = |load: &CornerForce| {
-            let node = self.tets.nodes[load.tet as usize][usize::from(load.corner)];
-            load.force.dot(self.nodes.velocity[node as usize])
-        };
-        self.loaded.iter().map(power).sum()
     }
 }

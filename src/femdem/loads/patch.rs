@@ -14,10 +14,10 @@ use glam::{DMat3, DVec3};
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::Triangle;
 
-use super::super::history::History;
-use super::super::mesh::PreparedMesh;
-use super::super::mesh::faces::Exterior;
-use super::{CornerForce, Places};
+use super::history::History;
+use super::{Configuration, CornerForce, vertex};
+use crate::femdem::mesh::PreparedMesh;
+use crate::femdem::mesh::faces::Exterior;
 
 /// Iterations of the polar decomposition, which converges quadratically from strains of a few per cent.
 const ROUNDS: usize = 12;
@@ -57,7 +57,7 @@ pub struct Patch {
 
 /// Faces near a point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Near {
+pub struct NearFaces {
     /// The faces.
     pub faces: Vec<Exterior>,
     /// Distance of the point from the nearest face [m].
@@ -67,13 +67,13 @@ pub struct Near {
 }
 
 /// Finds the faces of a body whose centre is within a radius [m] of a point [m]; if there is none, the nearest face.
-pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -> Near {
+pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -> NearFaces {
     let tets = &mesh.mesh.bodies[body].tets;
     let own = mesh.faces.exteriors.iter().filter(|face| tets.contains(&(face.tet as usize)));
     let corners = |face: &Exterior| {
         face.nodes.map(|corner| mesh.mesh.nodes[mesh.mesh.tets[face.tet as usize][usize::from(corner)] as usize])
     };
-    let mut near = Near { faces: Vec::new(), distance: f64::INFINITY, edge: 0.0 };
+    let mut near = NearFaces { faces: Vec::new(), distance: f64::INFINITY, edge: 0.0 };
     let mut nearest = None;
     for face in own {
         let [a, b, c] = corners(face);
@@ -91,6 +91,13 @@ pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -
         near.faces.extend(nearest);
     }
     near
+}
+
+impl Corner {
+    /// Current position [m].
+    fn current(&self, configuration: &Configuration) -> DVec3 {
+        vertex(configuration.current, self.tet, self.corner)
+    }
 }
 
 fn outer(a: DVec3, b: DVec3) -> DMat3 {
@@ -153,33 +160,32 @@ impl Patch {
     }
 
     /// Current position of the point of action [m].
-    pub fn place(&self, places: &Places) -> DVec3 {
-        self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.share).sum()
+    pub fn position(&self, configuration: &Configuration) -> DVec3 {
+        self.corners.iter().map(|corner| corner.current(configuration) * corner.share).sum()
     }
 
     /// Prescribed force [N] and moment about the point [N m] at a time [s], in axes fixed in space.
-    pub fn asked_for(&self, places: &Places, time: f64) -> [DVec3; 2] {
+    pub fn prescribed(&self, configuration: &Configuration, time: f64) -> [DVec3; 2] {
         let values = self.history.at(time);
         let given = [0, 3].map(|k| DVec3::from_slice(&values[k..k + 3]));
         match self.axes {
             Axes::Space => given,
             Axes::Body => {
-                let rotation = self.rotation(places);
+                let rotation = self.rotation(configuration);
                 given.map(|v| rotation * v)
             }
         }
     }
 
     /// Centroid of the current positions [m].
-    fn centroid(&self, places: &Places) -> DVec3 {
-        self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.weight).sum()
+    fn centroid(&self, configuration: &Configuration) -> DVec3 {
+        self.corners.iter().map(|corner| corner.current(configuration) * corner.weight).sum()
     }
 
     /// Rotation of the tetrahedra since the start: polar part of the best affine map, by Higham's iteration (1986).
-    fn rotation(&self, places: &Places) -> DMat3 {
-        let centroid = self.centroid(places);
-        let moved =
-            |corner: &Corner| outer(places.now(corner.tet, corner.corner) - centroid, corner.arm) * corner.weight;
+    fn rotation(&self, configuration: &Configuration) -> DMat3 {
+        let centroid = self.centroid(configuration);
+        let moved = |corner: &Corner| outer(corner.current(configuration) - centroid, corner.arm) * corner.weight;
         let mut rotation =
             self.corners.iter().fold(DMat3::ZERO, |sum, corner| sum + moved(corner)) * self.inverse_spread;
         for _ in 0..ROUNDS {
@@ -189,10 +195,10 @@ impl Patch {
     }
 
     /// Appends the forces at a time [s] to a list.
-    pub(super) fn forces(&self, places: &Places, time: f64, out: &mut Vec<CornerForce>) {
-        let [force, moment] = self.asked_for(places, time);
-        let centroid = self.centroid(places);
-        let arm = |corner: &Corner| places.now(corner.tet, corner.corner) - centroid;
+    pub(super) fn forces(&self, configuration: &Configuration, time: f64, out: &mut Vec<CornerForce>) {
+        let [force, moment] = self.prescribed(configuration, time);
+        let centroid = self.centroid(configuration);
+        let arm = |corner: &Corner| corner.current(configuration) - centroid;
         let theta = if moment == DVec3::ZERO {
             DVec3::ZERO
         } else {

@@ -13,6 +13,9 @@ use crate::femdem::mesh::unit_mesh::UnitMesh;
 use crate::femdem::mesh::{Mesh, msh};
 use crate::output::{OutputError, write_atomically};
 
+/// Name of the other unit.
+pub const PARTNER: &str = "partner";
+
 /// Number of times at which a run writes its surfaces.
 const PICTURES: f64 = 20.0;
 
@@ -165,5 +168,5 @@ pub fn write(blow: &Blow, scene: &Scene, title: String, dir: &Path, name: &str) 
 
 /// Returns whether a body of a case is a unit.
 pub fn is_unit(name: &str) -> bool {
-    name == UnitMesh::NAME || name == super::reenact::PARTNER
+    name == UnitMesh::NAME || name == PARTNER
 }

@@ -8,7 +8,8 @@
 //! | --- | --- |
 //! | [`froude`] | scale factors of lengths, velocities and forces; scaling of an impact |
 //! | [`selection`] | which impacts are re-run |
-//! | [`model`] | the units of the run and their nominal stresses |
+//! | [`model`] | the units of the run |
+//! | `nominal_stress` | nominal stresses of the units by beam theory |
 //! | [`base`] | a block of the bed |
 //! | [`blow`] | an impact at prototype scale: velocities, duration, mass, momentum and energy |
 //! | [`reenact`], [`load_history`] | the two ways: meshes, bodies and loads of a fracture case |
@@ -22,6 +23,7 @@ pub mod fracture_case;
 pub mod froude;
 pub mod load_history;
 pub mod model;
+mod nominal_stress;
 pub mod reenact;
 pub mod results;
 pub mod run;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::base::{self, ABOUT, GAP, ROUNDED_OFF, Seat};
 use super::blow::{Blow, Mover};
-use super::fracture_case::{Part, Scene};
+use super::fracture_case::{PARTNER, Part, Scene};
 use crate::femdem::mesh::Mesh;
 use crate::femdem::mesh::unit_mesh::{UnitMesh, together};
 
@@ -13,9 +13,6 @@ const BASE_CELL: f64 = 2.0;
 
 /// Largest time before first contact over the time that is simulated after it [-].
 const LONGEST_WAIT: f64 = 3.0;
-
-/// Name of the other unit.
-pub const PARTNER: &str = "partner";
 
 /// Returns the scene of the collision; the origin is the contact point.
 pub fn scene(blow: &Blow) -> Scene {

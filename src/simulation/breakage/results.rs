@@ -5,9 +5,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::blow::{Balance, Blow};
-use super::fracture_case::is_unit;
+use super::fracture_case::{PARTNER, is_unit};
 use super::model::{Model, Role};
-use super::reenact::PARTNER;
 use crate::case::{Handover, HandoverWay};
 use crate::output::{BreakageSummary, CsvSeries, Impacts, OutputError, columns, write_atomically};
 use crate::simulation::fracture::summary::FractureSummary;

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::Simulation;
 use crate::{
     sph::particles::boundary::Boundary,
-    waves::{absorption::AbsorptionState, wavemaker::Wavemaker},
+    waves::{generation::absorption::AbsorptionState, generation::wavemaker::Wavemaker},
 };
 
 impl Simulation {
@@ -20,7 +20,7 @@ impl Simulation {
     /// Returns the elevation minus that of the generated wave [m] at a distance from the piston [m]; 0 where it is dry.
     fn excess(&self, wavemaker: &Wavemaker, distance: f64, t: f64) -> f64 {
         let (domain, flume) = (&self.case.domain, &self.case.flume);
-        let x = wavemaker.surface_m(t) + self.absorbed.displacement_m + distance;
+        let x = wavemaker.x_at_surface_m(t) + self.absorbed.displacement_m + distance;
         let surface = self.sampler().surface(DVec2::new(x, 0.5 * domain.width), flume.profile.z(x), domain.top_z);
         let made = match (wavemaker, &self.flume) {
             (Wavemaker::Paddle(paddle), _) => paddle.elevation_m(distance, t),

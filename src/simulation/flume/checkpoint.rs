@@ -20,7 +20,7 @@ use crate::{
     },
     rigid::{Load, RigidSnapshot},
     sph::particles::water::Water,
-    waves::absorption::AbsorptionState,
+    waves::generation::absorption::AbsorptionState,
 };
 
 /// Version of the file layout; raised when the layout changes.

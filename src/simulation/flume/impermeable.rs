@@ -19,7 +19,7 @@ use crate::{
         particles::{bed::Outline, water::Water},
         solver::backend::{DeviceError, Surfaces},
     },
-    waves::wavemaker::Wavemaker,
+    waves::generation::wavemaker::Wavemaker,
 };
 
 /// Distance from a surface, in particle spacings, at which the approach of a particle ends: half the distance in calm
@@ -103,7 +103,7 @@ fn surfaces(
         obstacles: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
         bounding_spheres: bounding_spheres.collect(),
         wavemaker: wavemaker.map(|wavemaker| {
-            (wavemaker.place_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
+            (wavemaker.rest_x_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
         }),
         sides: (case.domain.sides == Sides::Walls).then_some(case.domain.width),
     }
@@ -149,7 +149,7 @@ fn keep_out_of_sides(water: &mut Water, width: f64, nearest: f64) {
 }
 
 fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64; 2]], dp: f64, nearest: f64) {
-    let place = wavemaker.place_m();
+    let place = wavemaker.rest_x_m();
     let furthest = rows.iter().map(|row| row[0]).fold(f64::MIN, f64::max) + place + nearest;
     let lowest = wavemaker.row_heights_m()[0];
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {

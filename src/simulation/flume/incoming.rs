@@ -3,17 +3,17 @@
 use crate::{
     case::{self, Case, Quantity, Start, Wave},
     waves::{
-        absorption::Absorption,
-        flume::{self, FlumeError, FlumeSetup, WaveSource},
-        incoming::IncomingWave,
-        irregular::IrregularWave,
-        layered::{Breaking, Pressure},
-        ml_piston::{MlPiston, start_of_rows, start_time},
-        paddle::{Paddle, PaddleMotion},
-        record::FlumeRecord,
-        regular::{MeanFlow, RegularWave, WaveError},
-        stream_function::StreamFunctionWave,
-        wavemaker::Wavemaker,
+        flume_model::incoming::IncomingWave,
+        flume_model::layered::{Breaking, Pressure},
+        flume_model::record::FlumeRecord,
+        flume_model::{self, FlumeError, FlumeSetup, WaveSource},
+        generation::absorption::Absorption,
+        generation::ml_piston::{MlPiston, motion_start_time, velx_start_time},
+        generation::paddle::{Paddle, PaddleMotion},
+        generation::wavemaker::Wavemaker,
+        theory::irregular::IrregularWave,
+        theory::regular::{MeanFlow, RegularWave, WaveError},
+        theory::stream_function::StreamFunctionWave,
     },
 };
 
@@ -48,7 +48,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
         Start::AtShare(_) => latest_arrival(case, x0),
     };
     let gauges = case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
-    let record = flume::run(&FlumeSetup {
+    let record = flume_model::run(&FlumeSetup {
         profile: case.flume.profile.clone(),
         still_level_m: case.flume.still_level,
         gravity_m_s2: case.fluid.gravity,
@@ -116,8 +116,8 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
     let (place, level) = (case.domain.x[0], case.flume.still_level);
     match (case.domain.start, record, &case.wave) {
         (Start::At(start), ..) => start,
-        (Start::AtShare(share), Some(record), _) => start_time(record, place, share),
-        (Start::AtShare(share), None, Wave::Given(wave)) => start_of_rows(&wave.rows, level, share),
+        (Start::AtShare(share), Some(record), _) => motion_start_time(record, place, share),
+        (Start::AtShare(share), None, Wave::Given(wave)) => velx_start_time(&wave.rows, level, share),
         (Start::AtShare(_), None, _) => 0.0,
     }
 }
@@ -148,8 +148,14 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
         return Some(Wavemaker::MlPiston(match case.wavemaker.absorption_gauge() {
             Some(gauge) => {
                 let (depth, period) = (case.flume.still_depth(case.domain.x[0]), case.wave.period());
-                let reach = piston.shoreward_reach_m().max(piston.seaward_reach_m());
-                piston.absorbing(Absorption::of_piston(gauge, depth, period, case.fluid.gravity, reach))
+                let reach = piston.max_shoreward_displacement_m().max(piston.max_seaward_displacement_m());
+                piston.with_absorption(Absorption::for_full_depth_piston(
+                    gauge,
+                    depth,
+                    period,
+                    case.fluid.gravity,
+                    reach,
+                ))
             }
             None => piston,
         }));
@@ -159,7 +165,7 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
     let (motion, depth) = match case.wave {
         Wave::Given(ref wave) => {
             let end = (start + case.stop.duration).max(start + LONGEST_INTERVAL);
-            return Some(Wavemaker::MlPiston(MlPiston::from_rows(
+            return Some(Wavemaker::MlPiston(MlPiston::from_velx(
                 &wave.rows,
                 [start, end],
                 LONGEST_INTERVAL,
@@ -176,7 +182,7 @@ pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) ->
     let rows = case.domain.wavemaker_rows(&case.flume);
     let paddle = Paddle::new(place, rows, [bed, depth], shape, motion);
     Some(Wavemaker::Paddle(match case.wavemaker {
-        case::Wavemaker::Piston { absorption_gauge: Some(gauge) } => paddle.absorbing(gauge),
+        case::Wavemaker::Piston { absorption_gauge: Some(gauge) } => paddle.with_absorption(gauge),
         _ => paddle,
     }))
 }

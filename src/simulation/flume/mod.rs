@@ -60,7 +60,9 @@ use crate::{
         particles::{bed::Outline, boundary::Boundary, water::Water},
         solver::backend::{Backend, DeviceError},
     },
-    waves::{absorption::AbsorptionState, record::FlumeRecord, wavemaker::Wavemaker},
+    waves::{
+        flume_model::record::FlumeRecord, generation::absorption::AbsorptionState, generation::wavemaker::Wavemaker,
+    },
 };
 use absorb::move_wavemaker;
 use mean_loads::MeanLoads;
@@ -133,7 +135,8 @@ impl Simulation {
 
     /// Returns the position of the foremost row of the wavemaker [m], if there is one.
     pub fn wavemaker_front(&self) -> Option<f64> {
-        let front = |wavemaker: &Wavemaker| wavemaker.front_m(self.flume_time()) + self.absorbed.displacement_m;
+        let front =
+            |wavemaker: &Wavemaker| wavemaker.foremost_row_x_m(self.flume_time()) + self.absorbed.displacement_m;
         self.wavemaker.as_ref().map(front)
     }
 

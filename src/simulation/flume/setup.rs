@@ -30,7 +30,10 @@ use crate::{
         },
         solver::backend::DeviceError,
     },
-    waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
+    waves::{
+        flume_model::FlumeError, flume_model::record::FlumeRecord, generation::absorption::AbsorptionState,
+        generation::wavemaker::Wavemaker,
+    },
 };
 
 /// Narrowest gap between a unit and its periodic image that lets water through, in particle spacings. In a narrower
@@ -98,7 +101,7 @@ impl Simulation {
         if let Some(wavemaker) = &wavemaker {
             check_travel(&case, wavemaker)?;
         }
-        let seaward_reach = wavemaker.as_ref().map(Wavemaker::seaward_reach_m);
+        let seaward_reach = wavemaker.as_ref().map(Wavemaker::max_seaward_displacement_m);
         let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, seaward_reach));
@@ -165,7 +168,7 @@ fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
     };
     let toes = case.flume.mound.iter().map(toe_of).chain(case.domain.obstacles.iter().map(|obstacle| obstacle.low.x));
     let toe = toes.fold(f64::INFINITY, f64::min);
-    let travel = wavemaker.shoreward_reach_m();
+    let travel = wavemaker.max_shoreward_displacement_m();
     if place + travel < toe { Ok(()) } else { Err(SetupError::WavemakerReachesMound { place, travel, toe }) }
 }
 
@@ -299,7 +302,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let mut particles = match (shape.as_box(), sides) {
         (Some(bounds), case::Sides::TwoDimensional) => box_particles(&bounds.slice(width), dp, f64::INFINITY),
         (Some(bounds), case::Sides::Periodic) if width - bounds.edges().y < NARROWEST_GAP * dp => {
-            box_particles(&bounds.closed_across(), dp, f64::INFINITY)
+            box_particles(&bounds.with_closed_sides(), dp, f64::INFINITY)
         }
         _ => particles_of(shape, dp),
     };

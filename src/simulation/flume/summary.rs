@@ -9,7 +9,7 @@ use crate::{
         ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, Stopped, Summary, Table,
         TimeStepSummary, UnitSummary, WaveSummary, columns,
     },
-    waves::solitary::PistonTheory,
+    waves::theory::solitary::PistonTheory,
 };
 
 /// Summarises a run with the series in `dir`.

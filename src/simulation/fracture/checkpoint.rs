@@ -7,14 +7,15 @@ use std::path::Path;
 use hdf5_metno::File;
 use serde::{Deserialize, Serialize};
 
-use super::{detail::DetailLengths, summary::Watched};
+use super::run_state::RunState;
 use crate::{
     case::FractureCase,
     femdem::{
         contact::pairs::snapshot::ContactSnapshot,
-        energy::Ledger,
-        snapshot::{Scalars, Snapshot},
-        world::World,
+        world::{
+            World,
+            snapshot::{Scalars, Snapshot},
+        },
     },
     output::{
         OutputError,
@@ -33,39 +34,6 @@ pub const FAILED_FILE: &str = "failed.h5";
 /// Version of the file layout; incremented when the layout changes.
 const VERSION: u32 = 3;
 
-/// State of a run in addition to its world.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct RunState {
-    /// Quantities that the loop tracks.
-    pub watched: Watched,
-    /// Total of the energy balance at the start [J].
-    pub total_at_start: Option<f64>,
-    /// Number of rows of the energy balance.
-    pub rows: u64,
-    /// Number of time steps in each of the ParaView files.
-    pub frames: u64,
-    /// Number of checkpoints.
-    pub checkpoints: u64,
-    /// Lengths of the tables of the energy balance and of the bodies [bytes].
-    pub bytes: [u64; 2],
-    /// Lengths of the other files.
-    pub detail: DetailLengths,
-}
-
-impl RunState {
-    /// Records a row of the energy balance; returns its residual relative to the start [J].
-    pub fn note(&mut self, book: &Ledger) -> f64 {
-        let residual = book.total() - *self.total_at_start.get_or_insert(book.total());
-        let watched = &mut self.watched;
-        if watched.steps == 0 {
-            watched.kinetic[0] = book.kinetic;
-        }
-        watched.kinetic[1] = watched.kinetic[1].max(book.kinetic);
-        watched.residual = watched.residual.max(residual.abs());
-        residual
-    }
-}
-
 /// Everything but the arrays.
 #[derive(Serialize, Deserialize)]
 struct Header {
@@ -81,7 +49,7 @@ struct Header {
 /// If the file cannot be written; an existing file is then unchanged.
 pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) -> Result<(), OutputError> {
     let state = world.snapshot();
-    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars() };
+    let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars };
     let text = serde_json::to_string(&header).map_err(OutputError::json(path))?;
     write_state(path, &text, |file| write_arrays(file, &state))
 }
@@ -101,7 +69,7 @@ pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunSt
     if case_hash != case.hash {
         return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh next to it"));
     }
-    state.set_scalars(scalars);
+    state.scalars = scalars;
     let damaged = |what| OutputError::content(path, format!("is damaged: {what}; rerun the case"));
     world.restore(state).map_err(damaged)?;
     Ok(run)
@@ -109,13 +77,13 @@ pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunSt
 
 fn write_arrays(file: &File, state: &Snapshot) -> Hdf5Result<()> {
     let group = file.create_group("nodes")?;
-    write_vectors(&group, "place_m", &state.place)?;
+    write_vectors(&group, "place_m", &state.position)?;
     write_vectors(&group, "velocity_m_s", &state.velocity)?;
     write_rows(&file.create_group("tets")?, "nodes", &state.vertices)?;
     let group = file.create_group("joints")?;
     write_column(&group, "bond", &state.bonds)?;
-    write_column(&group, "worn", &state.worn)?;
-    write_rows(&group, "memory", &state.memories)?;
+    write_column(&group, "worn", &state.damaged)?;
+    write_rows(&group, "memory", &state.joint_states)?;
     let group = file.create_group("failures")?;
     write_column(&group, "joint", &state.failed)?;
     write_column(&group, "time_s", &state.failed_at)?;
@@ -124,23 +92,23 @@ fn write_arrays(file: &File, state: &Snapshot) -> Hdf5Result<()> {
     write_rows(&file.create_group("rigid_bodies")?, "motion", &state.rigid)?;
     let (group, contacts) = (file.create_group("contacts")?, &state.contacts);
     write_rows(&group, "tets", &contacts.tets)?;
-    write_column(&group, "born_m3", &contacts.born)?;
-    write_column(&group, "sprung", &contacts.sprung)?;
+    write_column(&group, "born_m3", &contacts.initial_overlap)?;
+    write_column(&group, "sprung", &contacts.pairs_with_spring)?;
     write_rows(&group, "spring", &contacts.springs)?;
     write_rows(&group, "opened_tets", &contacts.opened)?;
-    write_column(&group, "opened_left_j", &contacts.left)
+    write_column(&group, "opened_left_j", &contacts.inherited_energy)
 }
 
 fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
     let [nodes, tets, joints] = [file.group("nodes")?, file.group("tets")?, file.group("joints")?];
     let [failures, contacts] = [file.group("failures")?, file.group("contacts")?];
     Ok(Snapshot {
-        place: read_vectors(&nodes, "place_m")?,
+        position: read_vectors(&nodes, "place_m")?,
         velocity: read_vectors(&nodes, "velocity_m_s")?,
         vertices: read_rows(&tets, "nodes")?,
         bonds: joints.dataset("bond")?.read_raw()?,
-        worn: joints.dataset("worn")?.read_raw()?,
-        memories: read_rows(&joints, "memory")?,
+        damaged: joints.dataset("worn")?.read_raw()?,
+        joint_states: read_rows(&joints, "memory")?,
         failed: failures.dataset("joint")?.read_raw()?,
         failed_at: failures.dataset("time_s")?.read_raw()?,
         failed_by_sliding: failures.dataset("by_sliding")?.read_raw()?,
@@ -148,12 +116,11 @@ fn read_arrays(file: &File) -> Hdf5Result<Snapshot> {
         rigid: read_rows(&file.group("rigid_bodies")?, "motion")?,
         contacts: ContactSnapshot {
             tets: read_rows(&contacts, "tets")?,
-            born: contacts.dataset("born_m3")?.read_raw()?,
-            sprung: contacts.dataset("sprung")?.read_raw()?,
+            initial_overlap: contacts.dataset("born_m3")?.read_raw()?,
+            pairs_with_spring: contacts.dataset("sprung")?.read_raw()?,
             springs: read_rows(&contacts, "spring")?,
             opened: read_rows(&contacts, "opened_tets")?,
-            left: contacts.dataset("opened_left_j")?.read_raw()?,
-            ..ContactSnapshot::default()
+            inherited_energy: contacts.dataset("opened_left_j")?.read_raw()?,
         },
         ..Snapshot::default()
     })

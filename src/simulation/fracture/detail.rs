@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use super::fragments::pieces;
-use super::recorder::principal;
+use super::run_state::DetailLengths;
 use super::section::{SECTION_FIELDS, Section};
 use crate::case::FractureCase;
 use crate::femdem::element::{self, Moduli};
+use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::world::World;
 use crate::output::{
     Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, TetMoment, TetSeries, columns,
@@ -31,19 +31,6 @@ const TET_FIELDS: [(&str, FieldKind); 5] = [
 const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
 /// Bytes of connectivity per tetrahedron.
 const CONNECTIVITY_BYTES: f64 = 32.0;
-
-/// Lengths of the files at a checkpoint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct DetailLengths {
-    /// Length of `cracks.csv` [bytes].
-    pub cracks_bytes: u64,
-    /// Number of rows of `cracks.csv`.
-    pub cracks: usize,
-    /// Number of time steps in `section.vtkhdf`; 0 without this file.
-    pub section_steps: usize,
-    /// Number of time steps in `tets.vtkhdf`; 0 without this file.
-    pub tets_steps: usize,
-}
 
 /// Open output files.
 pub struct DetailRecorder {
@@ -105,7 +92,7 @@ impl DetailRecorder {
     /// If the file cannot be written.
     pub fn record_cracks(&mut self, world: &World) -> Result<(), OutputError> {
         let row = |failure: &crate::femdem::world::Failure| {
-            let [x, y, z] = failure.place.to_array();
+            let [x, y, z] = failure.centroid.to_array();
             let tet = world.setup().interfaces[failure.interface as usize].tets[0] as usize;
             let mode = if failure.by_sliding { 2.0 } else { 1.0 };
             [failure.time, x, y, z, failure.area, mode, f64::from(world.tets.body[tet])]
@@ -150,7 +137,7 @@ fn cut(case: &FractureCase) -> Section {
 
 fn record_tets(world: &World, series: &mut TetSeries) -> Result<(), OutputError> {
     let single = |v: &DVec3| v.as_vec3().to_array();
-    let points: Vec<[f32; 3]> = world.nodes.place.iter().map(single).collect();
+    let points: Vec<[f32; 3]> = world.nodes.position.iter().map(single).collect();
     let velocity: Vec<[f32; 3]> = world.nodes.velocity.iter().map(single).collect();
     let fragment: Vec<i32> = pieces(world).of_tet.into_iter().map(|number| number as i32).collect();
     let count = world.tets.nodes.len();
@@ -159,9 +146,9 @@ fn record_tets(world: &World, series: &mut TetSeries) -> Result<(), OutputError>
     for (tet, nodes) in world.tets.nodes.iter().enumerate() {
         let number = world.tets.body[tet];
         let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
-        let places = nodes.map(|node| world.nodes.place[node as usize]);
+        let places = nodes.map(|node| world.nodes.position[node as usize]);
         let t = element::stress(&world.tets.shape[tet], &moduli, &places);
-        let [sigma_1, _, sigma_3] = principal(t);
+        let [sigma_1, _, sigma_3] = principal_stresses(t);
         let components = [t.x_axis.x, t.y_axis.y, t.z_axis.z, t.x_axis.y, t.y_axis.z, t.x_axis.z];
         stress.push(components.map(|component| component as f32));
         first.push(sigma_1 as f32);

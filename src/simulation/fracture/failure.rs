@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::{
     case::FractureCase,
-    femdem::{watch::StepError, world::World},
+    femdem::world::{World, limits::StepError},
 };
 
 /// Speed over wave speed [-] that no impact of units reaches: the strains would be 10 %.
@@ -36,10 +36,10 @@ impl Part {
     }
 
     fn node(case: &FractureCase, world: &World, node: usize) -> Self {
-        let copy = world.nodes.ties.of(node)[0] as usize;
+        let copy = world.nodes.copies_of(node)[0] as usize;
         let mesh = &case.mesh.mesh;
         let tag = mesh.node_tags[mesh.tets[copy / 4][copy % 4] as usize];
-        Self { kind: "node", tag, body: mesh.body_of(copy / 4).name.clone(), position: world.place_at_start(node) }
+        Self { kind: "node", tag, body: mesh.body_of(copy / 4).name.clone(), position: world.initial_position(node) }
     }
 }
 
@@ -119,7 +119,7 @@ fn cause_of_inversion(world: &World, tet: usize, speed: f64) -> &'static str {
     if speed > FAST * body.elastic.celerity() {
         "that is more than a tenth of the wave speed; the velocities of the case are too high for units, or the time \
          step is too long (lower fracture.step_share)"
-    } else if world.contacts.presses(tet as u32) {
+    } else if world.contacts.is_in_contact(tet as u32) {
         "another tetrahedron presses on it; the impact crushes elements of that size: refine the mesh there, or lower \
          fracture.contact_penalty"
     } else {

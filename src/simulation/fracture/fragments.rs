@@ -56,7 +56,7 @@ pub fn pieces(world: &World) -> Pieces {
             let nodes = world.tets.nodes[tet].map(|node| node as usize);
             fragment.tets += 1;
             fragment.mass += mass;
-            fragment.centre += nodes.map(|n| world.nodes.place[n]).iter().sum::<DVec3>() * (0.25 * mass);
+            fragment.centre += nodes.map(|n| world.nodes.position[n]).iter().sum::<DVec3>() * (0.25 * mass);
             fragment.velocity += nodes.map(|n| world.nodes.velocity[n]).iter().sum::<DVec3>() * (0.25 * mass);
         }
     }

@@ -27,18 +27,18 @@ pub fn initiations(world: &World) -> Vec<Initiation> {
         // Edge length of an equilateral triangle of the same area.
         let reach = APART * (failure.area * 4.0 / 3f64.sqrt()).sqrt();
         let distance = |(_, places): &(Initiation, Vec<DVec3>)| {
-            places.iter().map(|place| place.distance(failure.place)).fold(f64::MAX, f64::min)
+            places.iter().map(|place| place.distance(failure.centroid)).fold(f64::MAX, f64::min)
         };
         let nearest = found.iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
         match nearest.filter(|(_, distance)| *distance < reach) {
             Some((index, _)) => {
                 found[index].0.area += failure.area;
-                found[index].1.push(failure.place);
+                found[index].1.push(failure.centroid);
             }
             None => {
                 let tet = setup.interfaces[failure.interface as usize].tets[0] as usize;
                 let body = setup.bodies.partition_point(|body| body.tets.end <= tet);
-                found.push((Initiation { first: *failure, body, area: failure.area }, vec![failure.place]));
+                found.push((Initiation { first: *failure, body, area: failure.area }, vec![failure.centroid]));
             }
         }
     }

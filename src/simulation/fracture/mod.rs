@@ -4,12 +4,14 @@
 //! | --- | --- |
 //! | [`run`] | a run from its case or checkpoint to its summary |
 //! | [`recorder`] | tables, surfaces and cracks |
-//! | [`checkpoint`] | state of a run, for resuming it |
+//! | [`run_state`] | state of a run in addition to its world |
+//! | [`checkpoint`] | writes and reads the state of a run, for resuming it |
 //! | [`failure`] | messages for runs that fail |
 //! | [`detail`] | table of failed faces, cut plane, tetrahedra |
 //! | [`section`] | intersection of the cut plane with the tetrahedra |
 //! | [`fragments`] | pieces into which the bodies broke |
 //! | [`initiation`] | positions at which cracks began |
+//! | [`peak_stress`] | largest tension in each body |
 //! | [`summary`] | summary of a run |
 
 pub mod checkpoint;
@@ -20,5 +22,6 @@ pub mod initiation;
 pub mod peak_stress;
 pub mod recorder;
 pub mod run;
+pub mod run_state;
 pub mod section;
 pub mod summary;

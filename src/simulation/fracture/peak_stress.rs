@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::recorder::principal;
 use crate::femdem::element::{self, Moduli};
+use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::world::World;
 
 /// Largest first principal stress of a body over all rows of the energy balance.
@@ -23,8 +23,8 @@ pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
     let largest = |body: &crate::femdem::setup::Body| {
         let moduli = Moduli::from(&body.elastic);
         let sigma_1 = |tet: usize| {
-            let places = world.tets.nodes[tet].map(|node| world.nodes.place[node as usize]);
-            (principal(element::stress(&world.tets.shape[tet], &moduli, &places))[0], tet)
+            let places = world.tets.nodes[tet].map(|node| world.nodes.position[node as usize]);
+            (principal_stresses(element::stress(&world.tets.shape[tet], &moduli, &places))[0], tet)
         };
         // Of equal stresses the first tetrahedron, so that the result does not depend on the threads.
         let larger = |a: (f64, usize), b: (f64, usize)| {

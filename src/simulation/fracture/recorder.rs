@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use super::checkpoint::RunState;
 use super::detail::DetailRecorder;
+use super::run_state::RunState;
 use crate::case::FractureCase;
-use crate::femdem::book::BodyEnergy;
 use crate::femdem::element::{self, Moduli};
-use crate::femdem::energy::Ledger;
+use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::world::World;
+use crate::femdem::world::body_energy::BodyEnergy;
+use crate::femdem::world::energy_balance::EnergyBalance;
 use crate::output::{Cells, CsvSeries, FieldKind, FieldValues, OutputError, PolyDataSeries, columns, write_atomically};
 
 const ENERGY_FILE: &str = "energy.csv";
@@ -103,7 +104,13 @@ impl FractureRecorder {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_energy(&mut self, world: &World, time: f64, book: &Ledger, residual: f64) -> Result<(), OutputError> {
+    pub fn record_energy(
+        &mut self,
+        world: &World,
+        time: f64,
+        book: &EnergyBalance,
+        residual: f64,
+    ) -> Result<(), OutputError> {
         self.detail.record_cracks(world)?;
         let area = world.crack_area();
         self.energy.append(&[
@@ -117,10 +124,10 @@ impl FractureRecorder {
             book.fracture,
             book.friction,
             book.work,
-            book.freed,
+            book.released,
             residual,
             area,
-            world.contacts.touching as f64,
+            world.contacts.scalars.touching as f64,
         ])
     }
 
@@ -138,9 +145,9 @@ impl FractureRecorder {
         for face in &case.mesh.faces.exteriors {
             let tet = face.tet as usize;
             let number = usize::from(world.tets.body[tet]);
-            let places = world.tets.nodes[tet].map(|node| world.nodes.place[node as usize]);
+            let places = world.tets.nodes[tet].map(|node| world.nodes.position[node as usize]);
             let moduli = Moduli::from(&setup.bodies[number].elastic);
-            let [sigma_1, _, sigma_3] = principal(element::stress(&world.tets.shape[tet], &moduli, &places));
+            let [sigma_1, _, sigma_3] = principal_stresses(element::stress(&world.tets.shape[tet], &moduli, &places));
             for corner in face.nodes.map(usize::from) {
                 points.push(single(places[corner]));
                 velocity.push(single(world.nodes.velocity[world.tets.nodes[tet][corner] as usize]));
@@ -165,7 +172,7 @@ impl FractureRecorder {
             for side in 0..2 {
                 let tet = interface.tets[side] as usize;
                 for corner in interface.nodes[side].map(usize::from) {
-                    points.push(single(world.nodes.place[world.tets.nodes[tet][corner] as usize]));
+                    points.push(single(world.nodes.position[world.tets.nodes[tet][corner] as usize]));
                     time.push(at as f32);
                     mode.push(how);
                     body.push(i32::from(world.tets.body[tet]));
@@ -180,38 +187,4 @@ impl FractureRecorder {
 /// Returns triangles of three successive points each.
 fn corners_in_threes(points: usize) -> Vec<[u32; 3]> {
     (0..points as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()
-}
-
-/// Computes the principal values of a symmetric tensor, the largest first (Smith 1961).
-pub fn principal(t: DMat3) -> [f64; 3] {
-    let mean = (t.x_axis.x + t.y_axis.y + t.z_axis.z) / 3.0;
-    let deviator = t - DMat3::IDENTITY * mean;
-    let squares =
-        deviator.x_axis.length_squared() + deviator.y_axis.length_squared() + deviator.z_axis.length_squared();
-    let p = (squares / 6.0).sqrt();
-    if p == 0.0 {
-        return [mean; 3];
-    }
-    let cosine = (0.5 * (deviator * p.recip()).determinant()).clamp(-1.0, 1.0);
-    let angle = cosine.acos() / 3.0;
-    let third = std::f64::consts::TAU / 3.0;
-    let [largest, least] = [angle, angle + third].map(|angle| mean + 2.0 * p * angle.cos());
-    [largest, 3.0 * mean - largest - least, least]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::DQuat;
-
-    #[test]
-    fn principal_stresses_do_not_depend_on_the_axes() {
-        let turn = DMat3::from_quat(DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -1.1, 2.2));
-        for given in [[5.0, 2.0, -7.0], [3.0, 3.0, -1.0], [4.0, 4.0, 4.0], [0.0, 0.0, 0.0]] {
-            let tensor = turn * DMat3::from_diagonal(DVec3::from_array(given)) * turn.transpose();
-            let found = principal(tensor);
-            // Tolerance: the angle of a double root is accurate to the square root of the rounding error.
-            assert!(found.iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?} {given:?}");
-        }
-    }
 }

@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::{
-    checkpoint::{self, RunState},
+    checkpoint,
     failure::Failure,
     fragments::{pieces, write_fragments},
     peak_stress::{carry_on, largest_stresses},
     recorder::FractureRecorder,
+    run_state::RunState,
     summary::FractureSummary,
 };
 use crate::{
     case::FractureCase,
-    femdem::{energy::Ledger, watch::StepError, world::World},
+    femdem::world::{World, energy_balance::EnergyBalance, limits::StepError},
     output::{
         OutputError,
         driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
@@ -99,9 +100,9 @@ impl<'a> FractureRun<'a> {
     }
 
     /// Makes a time step with energies, and writes their rows.
-    fn step_with_row(&mut self) -> Result<Ledger, StepFailure> {
+    fn step_with_row(&mut self) -> Result<EnergyBalance, StepFailure> {
         let time = self.world.time;
-        let (energies, bodies) = self.world.step_with_books().map_err(|error| self.failure(error))?;
+        let (energies, bodies) = self.world.step_with_body_energies().map_err(|error| self.failure(error))?;
         let residual = self.state.note(&energies);
         self.recorder.record_energy(&self.world, time, &energies, residual)?;
         let stresses = largest_stresses(&self.world);
@@ -130,13 +131,13 @@ impl<'a> FractureRun<'a> {
             self.world.step().map_err(|error| self.failure(error))?;
         }
         self.state.watched.steps += 1;
-        if self.state.watched.impact.is_none() && self.world.contacts.between_bodies(&self.world.tets) {
+        if self.state.watched.impact.is_none() && self.world.contacts.touches_other_body(&self.world.tets) {
             self.state.watched.impact = Some(self.world.time - self.world.dt);
         }
         // The first checkpoint is due after the first interval: the case itself holds the start.
         let checkpoint_due = is_due(self.state.checkpoints + 1, self.case.checkpoint_interval, self.world.time);
         if checkpoint_due || self.state.watched.steps.is_multiple_of(STEPS_BETWEEN_CHECKS) {
-            self.world.watch().map_err(|error| self.failure(error))?;
+            self.world.check_limits().map_err(|error| self.failure(error))?;
         }
         if checkpoint_due {
             self.state.checkpoints += 1;
@@ -192,6 +193,6 @@ impl Run for FractureRun<'_> {
     }
 
     fn details(&self) -> String {
-        format!("{} faces failed, {} pairs touch", self.world.failures.len(), self.world.contacts.touching)
+        format!("{} faces failed, {} pairs touch", self.world.failures.len(), self.world.contacts.scalars.touching)
     }
 }

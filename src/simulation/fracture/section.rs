@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::recorder::principal;
 use crate::case::Plane;
 use crate::femdem::element::{self, Moduli};
+use crate::femdem::principal_stresses::principal_stresses;
 use crate::femdem::setup::Setup;
 use crate::femdem::world::World;
 use crate::output::{FieldKind, FieldValues, OutputError, PolyDataSeries};
@@ -75,11 +75,11 @@ impl Section {
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (tet, triangle) in &self.triangles {
             let nodes = world.tets.nodes[*tet as usize].map(|node| node as usize);
-            let (places, velocities) = (nodes.map(|n| world.nodes.place[n]), nodes.map(|n| world.nodes.velocity[n]));
+            let (places, velocities) = (nodes.map(|n| world.nodes.position[n]), nodes.map(|n| world.nodes.velocity[n]));
             let number = world.tets.body[*tet as usize];
             let moduli = Moduli::from(&world.setup().bodies[usize::from(number)].elastic);
             let stress = element::stress(&world.tets.shape[*tet as usize], &moduli, &places);
-            let [sigma_1, _, sigma_3] = principal(stress);
+            let [sigma_1, _, sigma_3] = principal_stresses(stress);
             for point in triangle {
                 points.push(single(point.value(places)));
                 velocity.push(single(point.value(velocities)));

@@ -5,9 +5,9 @@ use std::path::Path;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress};
+use super::{fragments::Fragment, initiation::initiations, peak_stress::PeakStress, run_state::Watched};
 use crate::case::FractureCase;
-use crate::femdem::energy::Ledger;
+use crate::femdem::world::energy_balance::EnergyBalance;
 use crate::femdem::world::{Failure, World};
 use crate::output::{Execution, OutputError, write_atomically};
 
@@ -80,7 +80,8 @@ pub struct EnergyAtEnd {
     /// Work of constraints and loads.
     pub work: f64,
     /// Energy of the springs of tied joints on release.
-    pub freed: f64,
+    #[serde(rename = "freed")]
+    pub released: f64,
 }
 
 /// Summary of a body.
@@ -134,28 +135,17 @@ pub struct InitiationSummary {
     pub area_m2: f64,
 }
 
-/// Quantities that the loop tracks.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Watched {
-    /// Number of time steps.
-    pub steps: u64,
-    /// Largest residual of the energy balance [J].
-    pub residual: f64,
-    /// Kinetic energy at the start, and the largest one [J].
-    pub kinetic: [f64; 2],
-    /// Time at which two bodies first touched [s].
-    pub impact: Option<f64>,
-    /// Largest tension in each body.
-    pub peaks: Vec<PeakStress>,
-    /// Wall-clock time, including the time before interruptions [s].
-    pub wall: f64,
-}
-
 impl FractureSummary {
     /// Summarizes a run that ended with these fragments.
-    pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: &Watched, fragments: &[Fragment]) -> Self {
+    pub fn of(
+        case: &FractureCase,
+        world: &World,
+        book: &EnergyBalance,
+        watched: &Watched,
+        fragments: &[Fragment],
+    ) -> Self {
         let area = world.crack_area();
-        let taken: f64 = world.failures.iter().map(|failure| failure.dissipated - failure.freed).sum();
+        let taken: f64 = world.failures.iter().map(|failure| failure.dissipated - failure.released).sum();
         let energies = case.setup.bodies.iter().filter_map(|body| body.cohesion).map(|c| c.strength.opening_energy);
         let g_f = energies.fold(f64::MAX, f64::min);
         let name = |body: usize| case.names[body].clone();
@@ -167,13 +157,13 @@ impl FractureSummary {
             velocity_m_s: f.velocity.to_array(),
         };
         let initiation = |i: super::initiation::Initiation| {
-            let distances = case.landmarks.iter().map(|landmark| (landmark, landmark.distance(i.first.place)));
+            let distances = case.landmarks.iter().map(|landmark| (landmark, landmark.distance(i.first.centroid)));
             let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
             InitiationSummary {
                 t_s: i.first.time,
                 since_impact_s: watched.impact.map(|impact| i.first.time - impact),
                 body: name(i.body),
-                place: i.first.place.to_array(),
+                place: i.first.centroid.to_array(),
                 near: nearest.map(|(landmark, _)| landmark.name.clone()),
                 distance_m: nearest.map(|(_, distance)| distance),
                 mode: if i.first.by_sliding { "sliding" } else { "opening" }.to_owned(),
@@ -218,7 +208,7 @@ impl FractureSummary {
                 fracture: book.fracture,
                 friction: book.friction,
                 work: book.work,
-                freed: book.freed,
+                released: book.released,
             },
             bodies: watched.peaks.iter().enumerate().map(body).collect(),
             fragments: fragments.iter().map(fragment).collect(),

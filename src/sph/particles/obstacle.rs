@@ -21,7 +21,7 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
                 let lattice = DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5;
                 let position = bounds.low + lattice * spacing;
                 if bounds.depth(position) < thickness {
-                    let to_surface = bounds.way_out(position);
+                    let to_surface = bounds.vector_to_surface(position);
                     particles.push(BoundaryParticle { position, to_surface, volume, allows_free_slip: false });
                 }
             }
@@ -34,8 +34,8 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
 pub fn cover(particles: &mut [BoundaryParticle], obstacle: &AxisBox) {
     for particle in particles {
         let surface = particle.position + particle.to_surface;
-        if obstacle.holds(surface) {
-            particle.to_surface += obstacle.way_out(surface);
+        if obstacle.contains(surface) {
+            particle.to_surface += obstacle.vector_to_surface(surface);
         }
     }
 }

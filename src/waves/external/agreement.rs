@@ -51,7 +51,7 @@ fn through_swash(folder: &Path) -> VelocityTable {
 fn through_probes(folder: &Path) -> VelocityTable {
     let frame = Frame { up: Up::Z, origin_z_m: PLACE.bed_z_m };
     fs::create_dir(folder.join("0")).unwrap();
-    probes::write(&table(), &levels(), 3.0, frame, File::create(folder.join("0/U")).unwrap()).unwrap();
+    probes::write_velocities(&table(), &levels(), 3.0, frame, File::create(folder.join("0/U")).unwrap()).unwrap();
     probes::write_water(&table(), &levels(), 3.0, frame, File::create(folder.join("0/alpha.water")).unwrap()).unwrap();
     let probes = Vertical { folder, velocity: "U", water: Some("alpha.water"), frame, surface: None };
     probes::read(&probes, &PLACE).unwrap()

@@ -1,7 +1,7 @@
 //! Comparison of the flume model with another program at one gauge.
 
 use super::{surface::SurfaceSeries, table::linear};
-use crate::waves::record::FlumeRecord;
+use crate::waves::flume_model::record::FlumeRecord;
 
 /// Difference between the surface of another program and of the flume model at a gauge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,12 +11,12 @@ pub struct Comparison {
     /// Time of that crest [s].
     pub crest_s: f64,
     /// Relative difference of the crest elevation from that of the flume model [-].
-    pub height: f64,
+    pub relative_height_difference: f64,
     /// Delay of the crest relative to the flume model [s].
     pub delay_s: f64,
     /// RMS of the elevation difference over the crest elevation of the flume model [-], at those times of the other
     /// program that the flume run covers.
-    pub rms: f64,
+    pub relative_rms: f64,
 }
 
 impl Comparison {
@@ -30,8 +30,14 @@ impl Comparison {
         let common = other.points().filter(|[t, _]| (0.0..=record.end_s()).contains(t));
         let differences = common.map(|[t, z]| z - still_level_m - linear(record.times_s(), series, t));
         let (count, sum) = differences.fold((0, 0.0), |(count, sum), d| (count + 1, sum + d * d));
-        let rms = (sum / f64::from(count)).sqrt() / flume_m;
-        let compared = Self { crest_m, crest_s, height: crest_m / flume_m - 1.0, delay_s: crest_s - flume_s, rms };
+        let relative_rms = (sum / f64::from(count)).sqrt() / flume_m;
+        let compared = Self {
+            crest_m,
+            crest_s,
+            relative_height_difference: crest_m / flume_m - 1.0,
+            delay_s: crest_s - flume_s,
+            relative_rms,
+        };
         (count > 0 && flume_m > 0.0).then_some(compared)
     }
 }

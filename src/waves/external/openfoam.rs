@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | [`probes`] | `postProcessing/<name>/<t0>/U` and `alpha.water`: one file per field, one row per time |
 //! | [`lines`] | `postProcessing/<name>/<t>/<line>_U.xy`: one folder per time, one row per point |
-//! | [`interface_height`] | `postProcessing/<name>/<t0>/position.dat` and `height.dat` |
+//! | [`interface_height`] | `postProcessing/<name>/<t0>/position.dat` |
 //!
 //! Probes and `interfaceHeight` write one folder per start of the run. The readers join these folders; where they
 //! overlap, the later start applies. Points outside the mesh have values of about 1e300 and are left out. Velocities

@@ -41,7 +41,7 @@ impl TextFile {
         } else {
             "correct or delete the line"
         };
-        word.parse().map_err(|_| self.wrong(line, format!("`{word}` is not a number"), advice))
+        word.parse().map_err(|_| self.line_error(line, format!("`{word}` is not a number"), advice))
     }
 
     /// Parses the numbers of a line; round brackets count as separators.
@@ -51,7 +51,12 @@ impl TextFile {
     }
 
     /// Creates an error about a line.
-    pub(super) fn wrong(&self, line: usize, problem: impl Into<String>, advice: impl Into<String>) -> ExternalError {
+    pub(super) fn line_error(
+        &self,
+        line: usize,
+        problem: impl Into<String>,
+        advice: impl Into<String>,
+    ) -> ExternalError {
         ExternalError::Line { file: self.path.clone(), line, problem: problem.into(), advice: advice.into() }
     }
 }

@@ -1,4 +1,4 @@
-//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::velx`]); their heights are levels z.
+//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::generation::velx`]); their heights are levels z.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::error::ExternalError;
 use super::table::{Place, VelocityTable};
-use crate::waves::velx::{Velx, VelxError};
+use crate::waves::generation::velx::{Velx, VelxError};
 
 /// Reads a `_velx` file.
 ///
@@ -42,10 +42,10 @@ impl VelocityTable {
     }
 
     /// Velocities of piston rows at the levels z [m], for a piston at x and y [m].
-    pub fn velx(&self, place_m: [f64; 2], row_heights_m: &[f64]) -> Velx {
+    pub fn velx(&self, position_m: [f64; 2], row_heights_m: &[f64]) -> Velx {
         let rows = |&t: &f64| row_heights_m.iter().map(|&z| self.velocity_m_s(z, t)).collect();
         Velx {
-            place_m,
+            position_m,
             times_s: self.times_s.clone(),
             heights_m: vec![row_heights_m.to_vec(); self.times_s.len()],
             velocities_m_s: self.times_s.iter().map(rows).collect(),

@@ -2,7 +2,6 @@
 
 use super::*;
 use breakwater::femdem::mesh::{Body as MeshBody, Mesh};
-use breakwater::femdem::setup::Constraint;
 
 /// Runs the impact of a tetrahedron on a larger one, which is held or free. Returns the relative energy residual, the
 /// number of time steps in contact, and the relative energy lost by friction.
@@ -39,23 +38,23 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     let mut setup = Setup::of_mesh(&mesh, bodies);
     setup.friction = vec![vec![friction; 2]; 2];
     if held {
-        setup.constraints = vec![Constraint::constant(mesh.mesh.tets[1].to_vec(), [Some(0.0); 3])];
+        setup.constraints = vec![constant_velocity(mesh.mesh.tets[1].to_vec(), [Some(0.0); 3])];
     }
     // The time integration conserves the energy of an oscillation to (omega dt)^2 / 8.
     let mut world = World::new(setup, 1e-2);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let (mut touched, mut separated) = (0, 0.0);
-    let wave_time = size / CONCRETE.bar_celerity();
+    let wave_time = size / bar_celerity();
     while separated == 0.0 || world.time < separated + wave_time {
         assert!(world.time < 300.0 * wave_time, "the tetrahedra do not separate");
         world.step().unwrap();
-        if world.contacts.touching > 0 {
+        if world.contacts.scalars.touching > 0 {
             (touched, separated) = (touched + 1, 0.0);
         } else if touched > 0 && separated == 0.0 {
             separated = world.time;
         }
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let residual = (last.total() - first.total()) / first.kinetic;
     println!(
         "p = {penalty} E, base {}: dt {:.2e} s, {touched} time steps in contact, residual {residual:.1e}, remaining strain energy {:.1e}",

@@ -1,8 +1,8 @@
 //! A unit without contacts in a fracture run of several units, compared with its elastic twin.
 
 use breakwater::case::FractureCase;
-use breakwater::femdem::book::BodyEnergy;
 use breakwater::femdem::world::World;
+use breakwater::femdem::world::body_energy::BodyEnergy;
 use breakwater::simulation::fracture::run::world;
 
 fn five_core_locs(joints: &str) -> (World, usize) {
@@ -19,7 +19,7 @@ fn assert_equal_energies(until: f64) {
     let ((mut cracks, unit), (mut twin, _)) = (five_core_locs("tied"), five_core_locs("unbreakable"));
     // Without joints, a longer time step would be stable; equal time steps are needed.
     twin.dt = cracks.dt;
-    let energy = |world: &mut World| -> BodyEnergy { world.step_with_books().unwrap().1[unit] };
+    let energy = |world: &mut World| -> BodyEnergy { world.step_with_body_energies().unwrap().1[unit] };
     let (mut difference, mut largest) = (0.0f64, 0.0f64);
     let mut rows = 0;
     while cracks.time < until {

@@ -1,8 +1,6 @@
 //! Energy balance of bodies that crack, break into fragments and collide.
 
 use super::*;
-use breakwater::femdem::history::History;
-use breakwater::femdem::setup::Constraint;
 use std::path::Path;
 
 /// Results of a run.
@@ -17,15 +15,15 @@ struct Run {
 
 /// Advances a world until a time [s].
 fn run_until(mut world: World, until: f64) -> Run {
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let mut largest_residual = 0.0f64;
     while world.time < until {
         for _ in 0..9 {
             world.step().unwrap();
         }
-        largest_residual = largest_residual.max((world.step_with_ledger().unwrap().total() - first.total()).abs());
+        largest_residual = largest_residual.max((world.step_with_energies().unwrap().total() - first.total()).abs());
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let input = first.kinetic.max(last.work);
     Run {
         residual: largest_residual / input,
@@ -57,7 +55,7 @@ fn run_thrown_block(penalty: f64, tied: bool, share: f64) -> Run {
         .map(|face| &mesh.faces.exteriors[*face as usize])
         .flat_map(|face| face.nodes.map(|k| mesh.mesh.tets[face.tet as usize][usize::from(k)]))
         .collect();
-    setup.constraints = vec![Constraint::constant(nodes.into_iter().collect(), [Some(0.0); 3])];
+    setup.constraints = vec![constant_velocity(nodes.into_iter().collect(), [Some(0.0); 3])];
     run_until(World::new(setup, share), 3e-4)
 }
 
@@ -91,7 +89,7 @@ fn run_crushed_prism(penalty: f64, tied: bool) -> Run {
     };
     let velocity = History::new([(0.0, [0.0]), (2e-4, [-0.5])]).unwrap();
     setup.constraints = vec![
-        Constraint::constant(nodes_at(0.0), [None, None, Some(0.0)]),
+        constant_velocity(nodes_at(0.0), [None, None, Some(0.0)]),
         Constraint { nodes: nodes_at(0.1), velocity: [None, None, Some(velocity)] },
     ];
     run_until(World::new(setup, 0.8), 9e-4)

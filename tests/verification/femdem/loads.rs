@@ -1,11 +1,9 @@
 //! Loads: traction, pressure, force and moment about a point; their work.
 
 use super::*;
-use breakwater::femdem::history::History;
 use breakwater::femdem::loads::patch::{Axes, Patch, faces_near};
 use breakwater::femdem::loads::{CornerForce, Load, Surface};
 use breakwater::femdem::mesh::faces::Exterior;
-use breakwater::femdem::setup::Constraint;
 use glam::{DMat3, DQuat, EulerRot};
 
 fn side(mesh: &PreparedMesh, name: &str) -> Vec<Exterior> {
@@ -22,7 +20,7 @@ fn resultant(world: &World, forces: &[CornerForce], about: DVec3) -> [DVec3; 2] 
     let mut sum = [DVec3::ZERO; 2];
     for CornerForce { tet, corner, force } in forces {
         let node = world.tets.nodes[*tet as usize][usize::from(*corner)] as usize;
-        sum = [sum[0] + *force, sum[1] + (world.nodes.place[node] - about).cross(*force)];
+        sum = [sum[0] + *force, sum[1] + (world.nodes.position[node] - about).cross(*force)];
     }
     sum
 }
@@ -37,17 +35,17 @@ fn a_bar_under_traction_stretches_by_hooke_and_its_energy_balance_closes() {
     let end: Vec<usize> = (0..mesh.mesh.nodes.len()).filter(|n| mesh.mesh.nodes[*n].x == length).collect();
     let mut setup = setup(&mesh, None);
     setup.bodies[0].elastic.viscosity = 1e5;
-    setup.constraints = vec![Constraint::constant(nodes_at(0), [Some(0.0), None, None])];
+    setup.constraints = vec![constant_velocity(nodes_at(0), [Some(0.0), None, None])];
     // The load rises over ten periods of a wave along the bar and back.
-    let time = 20.0 * length / CONCRETE.bar_celerity();
+    let time = 20.0 * length / bar_celerity();
     setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
     let mut world = World::new(setup, 0.5);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     while world.time < 1.5 * time {
         world.step().unwrap();
     }
-    let last = world.step_with_ledger().unwrap();
-    let stretch = end.iter().map(|n| world.nodes.place[*n].x - length).sum::<f64>() / end.len() as f64
+    let last = world.step_with_energies().unwrap();
+    let stretch = end.iter().map(|n| world.nodes.position[*n].x - length).sum::<f64>() / end.len() as f64
         * CONCRETE.young_modulus
         / (stress * length);
     // A slow load stores half of force times displacement.
@@ -78,14 +76,14 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
     }];
     setup.bodies[0].angular_velocity = DVec3::new(30.0, 50.0, -20.0);
     let mut world = World::new(setup, 0.5);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     while world.time < 1.2 * time {
         world.step().unwrap();
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let volume: f64 = (0..mesh.mesh.tets.len())
         .map(|t| {
-            let [a, b, c, d] = world.tets.nodes[t].map(|n| world.nodes.place[n as usize]);
+            let [a, b, c, d] = world.tets.nodes[t].map(|n| world.nodes.position[n as usize]);
             (b - a).cross(c - a).dot(d - a) / 6.0
         })
         .sum();
@@ -101,7 +99,7 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
     assert!((last.total() - first.total()).abs() < 1e-4 * last.work);
     // 1e-12: rounding; a pressure on a closed surface has no resultant in any deformation.
     let mut forces = Vec::new();
-    world.setup().loads[0].forces(&world.places(), world.time, &mut forces);
+    world.setup().loads[0].forces(&world.configuration(), world.time, &mut forces);
     let [force, moment] = resultant(&world, &forces, DVec3::ZERO);
     let scale = pressure * 0.01;
     assert!(force.length() < 1e-12 * scale && moment.length() < 1e-12 * scale);
@@ -139,21 +137,21 @@ fn a_load_about_a_point_has_the_given_force_and_moment() {
                 displace(&mut world, |x| map(x) - x);
                 let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
                 // The point moves with the body. 1e-13: rounding of some hundred terms.
-                assert!((patch.place(&world.places()) - map(place)).length() < 1e-13);
+                assert!((patch.position(&world.configuration()) - map(place)).length() < 1e-13);
                 let mut forces = Vec::new();
-                world.setup().loads[0].forces(&world.places(), 0.0, &mut forces);
+                world.setup().loads[0].forces(&world.configuration(), 0.0, &mut forces);
                 let [force, about] = resultant(&world, &forces, map(place));
                 let expected = [0, 3].map(|k| DVec3::from_slice(&given[k..k + 3]) * if k == 3 { moment } else { 1.0 });
                 let expected = match axes {
                     Axes::Space => expected,
                     // The polar decomposition gives a rotation that the strain changes slightly.
-                    Axes::Body => patch.asked_for(&world.places(), 0.0),
+                    Axes::Body => patch.prescribed(&world.configuration(), 0.0),
                 };
                 // 1e-12: rounding.
                 assert!((force - expected[0]).length() < 1e-12 * expected[0].length(), "{place} {radius}");
                 assert!((about - expected[1]).length() < 1e-12 * expected[0].length(), "{place} {radius}");
                 if axes == Axes::Body {
-                    let [along, _] = patch.asked_for(&world.places(), 0.0);
+                    let [along, _] = patch.prescribed(&world.configuration(), 0.0);
                     assert!((along - rotation * DVec3::new(x, y, z)).length() < 2e-3 * along.length());
                 }
             }
@@ -177,7 +175,7 @@ fn a_recorded_load_gives_its_momentum_and_its_work() {
         if rigid {
             world.dt = 1e-6;
         }
-        let first = world.step_with_ledger().unwrap();
+        let first = world.step_with_energies().unwrap();
         let momentum = |world: &World| -> [DVec3; 2] {
             if let Some(body) = world.rigid_bodies.first() {
                 let p = body.motion.velocity * (2340.0 * 0.006);
@@ -185,7 +183,7 @@ fn a_recorded_load_gives_its_momentum_and_its_work() {
             }
             let mut sum = [DVec3::ZERO; 2];
             for n in 0..world.nodes.count() {
-                let (x, p) = (world.nodes.place[n], world.nodes.velocity[n] * world.nodes.mass[n]);
+                let (x, p) = (world.nodes.position[n], world.nodes.velocity[n] * world.nodes.mass[n]);
                 sum = [sum[0] + p, sum[1] + x.cross(p)];
             }
             sum
@@ -194,12 +192,12 @@ fn a_recorded_load_gives_its_momentum_and_its_work() {
         impulse = impulse.map(|f| f * world.dt);
         while world.time < 7e-4 {
             let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
-            let [force, moment] = patch.asked_for(&world.places(), world.time);
-            expected_angular += (patch.place(&world.places()).cross(force) + moment) * world.dt;
+            let [force, moment] = patch.prescribed(&world.configuration(), world.time);
+            expected_angular += (patch.position(&world.configuration()).cross(force) + moment) * world.dt;
             impulse.iter_mut().zip(history().at(world.time)).for_each(|(sum, f)| *sum += f * world.dt);
             world.step().unwrap();
         }
-        let last = world.step_with_ledger().unwrap();
+        let last = world.step_with_energies().unwrap();
         let [linear, angular] = momentum(&world);
         println!(
             "rigid {rigid}: momentum {linear}, angular {angular} ({expected_angular} expected); work {:.6} J, residual {:.1e}",

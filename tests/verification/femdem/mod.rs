@@ -12,11 +12,12 @@ mod rigid;
 mod stability;
 mod strength;
 
-use breakwater::femdem::cohesive_law::{Cohesion, Range};
+use breakwater::femdem::loads::history::History;
+use breakwater::femdem::material::cohesive_law::{Cohesion, Range};
 use breakwater::femdem::material::{Elastic, Strength};
 use breakwater::femdem::mesh::block::{Pattern, block};
 use breakwater::femdem::mesh::{PreparedMesh, prepare};
-use breakwater::femdem::setup::{Body, Setup};
+use breakwater::femdem::setup::{Body, Constraint, Setup};
 use breakwater::femdem::world::World;
 use glam::DVec3;
 
@@ -40,6 +41,16 @@ fn mesh(lengths: DVec3, cells: [usize; 3]) -> PreparedMesh {
     prepare(block(lengths, cells, Pattern::Centred)).unwrap()
 }
 
+/// Celerity of longitudinal waves in a thin bar of concrete, sqrt(E / rho) [m/s].
+fn bar_celerity() -> f64 {
+    (CONCRETE.young_modulus / CONCRETE.density).sqrt()
+}
+
+/// A constraint with a constant velocity along each axis [m/s].
+fn constant_velocity(nodes: Vec<u32>, velocity: [Option<f64>; 3]) -> Constraint {
+    Constraint { nodes, velocity: velocity.map(|speed| speed.map(History::from)) }
+}
+
 fn setup(mesh: &PreparedMesh, cohesion: Option<Cohesion>) -> Setup {
     let body = Body { cohesion, ..Body::at_rest(0..mesh.mesh.tets.len(), CONCRETE) };
     Setup::of_mesh(mesh, vec![body])
@@ -47,7 +58,7 @@ fn setup(mesh: &PreparedMesh, cohesion: Option<Cohesion>) -> Setup {
 
 /// Displaces all nodes of an undeformed world at rest.
 fn displace(world: &mut World, by: impl Fn(DVec3) -> DVec3) {
-    world.nodes.place.iter_mut().for_each(|x| *x += by(*x));
+    world.nodes.position.iter_mut().for_each(|x| *x += by(*x));
 }
 
 /// Returns the interpolated times at which a signal crosses zero.

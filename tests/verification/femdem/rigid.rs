@@ -2,8 +2,6 @@
 
 use super::contact::{both, two};
 use super::*;
-use breakwater::femdem::history::History;
-use breakwater::femdem::setup::Constraint;
 use std::f64::consts::TAU;
 
 fn rigid_block(lengths: DVec3, cells: [usize; 3]) -> (PreparedMesh, Setup) {
@@ -22,7 +20,7 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     setup.gravity = DVec3::NEG_Z * 9.8;
     let mut world = World::new(setup, 1.0);
     world.dt = 1e-4;
-    let (first, body_energies) = world.step_with_books().unwrap();
+    let (first, body_energies) = world.step_with_body_energies().unwrap();
     let start = world.rigid_bodies[0].motion;
     // Mass and moments of inertia of a cuboid.
     let mass = 2340.0 * 0.006;
@@ -31,11 +29,11 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     assert!((start.angular_momentum - l).length() < 1e-12 * l.length());
     assert!((body_energies[0].kinetic / first.kinetic - 1.0).abs() < 1e-14);
     let (mut residual, mut longest) = (0.0f64, 0.0f64);
-    let edge = world.place_at_start(0).distance(world.place_at_start(1));
+    let edge = world.initial_position(0).distance(world.initial_position(1));
     for _ in 0..20_000 {
-        let energies = world.step_with_ledger().unwrap();
+        let energies = world.step_with_energies().unwrap();
         residual = residual.max((energies.total() - first.total()).abs() / first.kinetic);
-        longest = longest.max((world.nodes.place[0].distance(world.nodes.place[1]) / edge - 1.0).abs());
+        longest = longest.max((world.nodes.position[0].distance(world.nodes.position[1]) / edge - 1.0).abs());
     }
     let now = world.rigid_bodies[0].motion;
     println!("residual {residual:.1e}, relative change of edge lengths {longest:.1e}");
@@ -54,7 +52,7 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     let edge: Vec<u32> = (0..mesh.mesh.nodes.len() as u32)
         .filter(|n| mesh.mesh.nodes[*n as usize].z == length && mesh.mesh.nodes[*n as usize].x == 0.0)
         .collect();
-    setup.constraints = vec![Constraint::constant(edge, [Some(0.0); 3])];
+    setup.constraints = vec![constant_velocity(edge, [Some(0.0); 3])];
     // The body starts below the edge with an angular velocity.
     let tilt = (side / length).atan();
     setup.gravity = DVec3::new(-tilt.sin(), 0.0, -tilt.cos()).normalize() * 9.8;
@@ -65,11 +63,11 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     setup.bodies[0].angular_velocity = DVec3::Y * 0.1;
     let mut world = World::new(setup, 1.0);
     world.dt = 1e-4;
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let centre = world.rigid_bodies[0].motion.centre;
     let (mut signal, mut residual) = (Vec::new(), 0.0f64);
     while world.time < 2.5 {
-        let energies = world.step_with_ledger().unwrap();
+        let energies = world.step_with_energies().unwrap();
         residual = residual.max((energies.total() - first.total()).abs() / first.kinetic);
         signal.push((world.time, (world.rigid_bodies[0].motion.centre - centre).dot(DVec3::X)));
     }
@@ -102,19 +100,19 @@ fn a_rigid_block_bounces_off_a_deformable_one() {
         let motion = world.rigid_bodies[0].motion;
         let p = motion.velocity * (2340.0 * 0.06f64.powi(3));
         let mut sum = [p, motion.centre.cross(p) + motion.angular_momentum];
-        for n in (0..world.nodes.count()).filter(|n| world.nodes.ties.of(*n)[0] as usize / 4 >= 24 * 8) {
-            let (x, p) = (world.nodes.place[n], world.nodes.velocity[n] * world.nodes.mass[n]);
+        for n in (0..world.nodes.count()).filter(|n| world.nodes.copies_of(*n)[0] as usize / 4 >= 24 * 8) {
+            let (x, p) = (world.nodes.position[n], world.nodes.velocity[n] * world.nodes.mass[n]);
             sum = [sum[0] + p, sum[1] + x.cross(p)];
         }
         sum
     };
-    let (first, start) = (world.step_with_ledger().unwrap(), momentum(&world));
+    let (first, start) = (world.step_with_energies().unwrap(), momentum(&world));
     let mut touched = 0;
     while world.time < 5e-4 {
         world.step().unwrap();
-        touched += usize::from(world.contacts.touching > 0);
+        touched += usize::from(world.contacts.scalars.touching > 0);
     }
-    let (last, end) = (world.step_with_ledger().unwrap(), momentum(&world));
+    let (last, end) = (world.step_with_energies().unwrap(), momentum(&world));
     println!(
         "{touched} time steps in contact, residual {:.1e}, velocity {}, friction {:.1e} J, change of momenta {:.1e}, {:.1e}",
         (last.total() - first.total()) / first.kinetic,
@@ -152,17 +150,17 @@ fn a_moving_rigid_platen_compresses_a_block_and_its_work_is_balanced() {
     let top = nodes_at(0, 0.13);
     setup.constraints = vec![
         Constraint { nodes: top, velocity: [Some(0.0.into()), Some(0.0.into()), Some(velocity)] },
-        Constraint::constant(nodes_at(1, 0.0), [None, None, Some(0.0)]),
+        constant_velocity(nodes_at(1, 0.0), [None, None, Some(0.0)]),
     ];
     let mut world = World::new(setup, 0.5);
-    let first = world.step_with_ledger().unwrap();
+    let first = world.step_with_energies().unwrap();
     let start = world.rigid_bodies[0].motion;
     let mut residual = 0.0f64;
     while world.time < 1e-3 {
-        let energies = world.step_with_ledger().unwrap();
+        let energies = world.step_with_energies().unwrap();
         residual = residual.max((energies.total() - first.total()).abs());
     }
-    let last = world.step_with_ledger().unwrap();
+    let last = world.step_with_energies().unwrap();
     let motion = world.rigid_bodies[0].motion;
     let displacement = start.centre.z - motion.centre.z;
     // The stiffness between smooth platens is E A / L; the contact is a spring in series at one end.

@@ -5,7 +5,7 @@ use super::*;
 /// Returns the square of the largest angular frequency of a world at rest [1/s2] by power iteration on the forces.
 fn largest_frequency_squared(setup: &Setup) -> f64 {
     let mut world = World::new(setup.clone(), 1e-6);
-    let start = world.nodes.place.clone();
+    let start = world.nodes.position.clone();
     let scale = 1e-9;
     let mut u: Vec<DVec3> = (0..start.len())
         .map(|n| DVec3::new((n as f64).sin(), (1.7 * n as f64).cos(), (2.9 * n as f64).sin()))
@@ -14,7 +14,7 @@ fn largest_frequency_squared(setup: &Setup) -> f64 {
     for _ in 0..400 {
         let length = u.iter().map(|v| v.length_squared()).sum::<f64>().sqrt();
         for (n, u) in u.iter().enumerate() {
-            world.nodes.place[n] = start[n] + *u * (scale / length);
+            world.nodes.position[n] = start[n] + *u * (scale / length);
             world.nodes.velocity[n] = DVec3::ZERO;
         }
         world.step().unwrap();

@@ -1,9 +1,7 @@
 //! Strength of slowly loaded bodies: compression, bending, splitting.
 
 use super::*;
-use breakwater::femdem::history::History;
 use breakwater::femdem::mesh;
-use breakwater::femdem::setup::Constraint;
 use std::path::Path;
 
 /// Load curve of a downward displacement.
@@ -47,7 +45,7 @@ fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl F
     let mut rows: Vec<[f64; 3]> = Vec::new();
     let (mut displacement, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
     let (mut residual, mut largest, mut swing) = (0.0f64, 0.0f64, 0.0);
-    let first = world.step_with_ledger().unwrap().total();
+    let first = world.step_with_energies().unwrap().total();
     // While the velocity still rises, waves lower the force repeatedly.
     let rises = |world: &World| velocity.at(world.time)[0] > velocity.at(f64::MAX)[0];
     while rises(&world) || rows.last().is_none_or(|row| row[1] > 0.6 * peak || row[1] < 1e-3 * peak) {
@@ -57,7 +55,7 @@ fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl F
             world.step().unwrap();
         }
         displacement -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
-        let energies = world.step_with_ledger().unwrap();
+        let energies = world.step_with_energies().unwrap();
         let force = (energies.work - before[1]) / (displacement - before[0]);
         before = [displacement, energies.work];
         rows.push([displacement, force, watch(&world)]);
@@ -88,7 +86,7 @@ fn crush_prism(file: &Path, penalty: f64, tied: bool) -> f64 {
     // The load is slow: a wave passes through the prism sixty times before it breaks.
     let velocity = downwards(0.15, 5e-4);
     setup.constraints = vec![
-        Constraint::constant(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
+        constant_velocity(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
         Constraint { nodes: nodes_where(&mesh, |x| x.z > 0.1 - 1e-9), velocity: [None, None, Some(velocity.clone())] },
     ];
     let curve = load(setup, 0.8, &velocity, 2e-5, |world| world.time);
@@ -187,7 +185,7 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         constrain(&is_load, [Some(0.0.into()), None, Some(velocity.clone())]),
     ]
     .concat();
-    setup.constraints.push(Constraint::constant(plane, [None, Some(0.0), None]));
+    setup.constraints.push(constant_velocity(plane, [None, Some(0.0), None]));
     // The deflection is that of nodes at half the height, which excludes local dents at load and supports.
     let axis: Vec<usize> = [0.0, -0.157, 0.157]
         .map(|x| {
@@ -198,7 +196,7 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         .map(|(t, node)| 4 * t + mesh.mesh.tets[t].iter().position(|n| *n == node).unwrap())
         .to_vec();
     let deflection = |world: &World| {
-        let z = |copy: usize| world.nodes.place[world.tets.nodes[copy / 4][copy % 4] as usize].z;
+        let z = |copy: usize| world.nodes.position[world.tets.nodes[copy / 4][copy % 4] as usize].z;
         0.5 * (z(axis[1]) + z(axis[2])) - z(axis[0])
     };
     let curve = load(setup, 0.8, &velocity, 2e-6 / speed, deflection);
@@ -270,7 +268,7 @@ fn split_disc(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
         nodes.into_iter().collect()
     };
     setup.constraints = vec![
-        Constraint::constant(set("bottom"), [None, None, Some(0.0)]),
+        constant_velocity(set("bottom"), [None, None, Some(0.0)]),
         Constraint { nodes: set("top"), velocity: [None, None, Some(velocity.clone())] },
     ];
     let curve = load(setup, 0.8, &velocity, 5e-6, |world| world.time);

@@ -9,7 +9,7 @@ use super::{MORTAR, heap, run};
 /// Asserts that ten units of about the size of the Tetrapod come to rest in a shaft.
 fn assert_settles(name: &str, unit: &ArmourUnit) {
     let mass = 2300.0 * unit.solid().volume_properties().volume;
-    let setup = RigidSetup { shape: BodyShape::of_unit(unit, mass), material: MORTAR, ..heap(unit) };
+    let setup = RigidSetup { shape: BodyShape::from_unit(unit, mass), material: MORTAR, ..heap(unit) };
     let mut world = RigidWorld::new(setup).unwrap();
     let e = world.energy();
     let start = e.kinetic + e.potential + e.elastic;

@@ -9,7 +9,7 @@ use super::{G, MASS, MORTAR, run, setup, standing, tetrapod};
 fn creep_of(model: ContactModel, duration: f64) -> [f64; 2] {
     let unit = tetrapod();
     let body = standing(&unit, 0.0, 0.0, 0.0);
-    let setup = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.32);
+    let setup = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
     let mut world = RigidWorld::new(breakwater::rigid::RigidSetup { model, ..setup }).unwrap();
     run(&mut world, 0.3, 1e-4);
     let angle = 0.9 * 0.32f64.atan();

@@ -19,7 +19,7 @@ fn stack(count: u32, turn: f64) -> RigidSetup {
         let centre = DVec3::Z * (f64::from(level) + 0.5) * EDGE;
         BodyState::at_rest(centre, DQuat::from_rotation_z(f64::from(level) * turn))
     };
-    setup(BodyShape::of_unit(&cube(), MASS), (0..count).map(body).collect(), MORTAR, 0.45)
+    setup(BodyShape::from_unit(&cube(), MASS), (0..count).map(body).collect(), MORTAR, 0.45)
 }
 
 /// Creates a world and tilts its ground to a slope [rad] within a second, slowly enough not to rock the cube.
@@ -80,7 +80,7 @@ fn a_stack_of_cubes_stands_for_any_rotation() {
 #[test]
 fn a_heap_of_cubes_gains_no_energy() {
     let unit = ArmourUnit::cuboid(DVec3::splat(0.06), 0.05).unwrap();
-    let mut world = RigidWorld::new(RigidSetup { shape: BodyShape::of_unit(&unit, 0.5), ..heap(&unit) }).unwrap();
+    let mut world = RigidWorld::new(RigidSetup { shape: BodyShape::from_unit(&unit, 0.5), ..heap(&unit) }).unwrap();
     let start = total_energy(&world);
     let (mut mechanical, mut highest) = (start, f64::MIN);
     for _ in 0..150 {

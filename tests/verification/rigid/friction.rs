@@ -11,7 +11,7 @@ fn a_sliding_tetrapod_stops_after_the_coulomb_distance() {
     for (mu, azimuth) in [(0.32, 0.0), (0.32, PI), (0.65, 0.0)] {
         let unit = tetrapod();
         let mut world = RigidWorld::new(setup(
-            BodyShape::of_unit(&unit, MASS),
+            BodyShape::from_unit(&unit, MASS),
             vec![standing(&unit, 0.0, 0.0, azimuth)],
             MORTAR,
             mu,
@@ -22,7 +22,7 @@ fn a_sliding_tetrapod_stops_after_the_coulomb_distance() {
         let start = bodies[0].position.x;
         let speed = 0.5;
         bodies[0].velocity = DVec3::X * speed;
-        let mut world = RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), bodies, MORTAR, mu)).unwrap();
+        let mut world = RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), bodies, MORTAR, mu)).unwrap();
         let before = total_energy(&world);
         run(&mut world, 1.0, 1e-4);
         let (distance, expected) = (world.states()[0].position.x - start, speed * speed / (2.0 * mu * G));
@@ -40,7 +40,7 @@ fn a_standing_tetrapod_does_not_drift_below_the_friction_angle() {
     for (slope, azimuth) in [(0.0, 0.0), (0.9, 0.0), (0.9, PI)] {
         let angle = slope * 0.32f64.atan();
         let mut world = RigidWorld::new(setup(
-            BodyShape::of_unit(&unit, MASS),
+            BodyShape::from_unit(&unit, MASS),
             vec![standing(&unit, 0.0, 0.0, azimuth)],
             MORTAR,
             0.32,
@@ -70,7 +70,7 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
         for azimuth in [0.0, PI] {
             let unit = tetrapod();
             let body = standing(&unit, 0.0, 0.0, azimuth);
-            let mut world = RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, mu)).unwrap();
+            let mut world = RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, mu)).unwrap();
             run(&mut world, 0.3, 1e-4);
             let rate = PI / 180.0;
             let mut angle = 0.9 * f64::atan(mu);
@@ -99,7 +99,7 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
 fn a_fluctuating_load_below_the_friction_limit_moves_nothing() {
     let unit = tetrapod();
     let mut world =
-        RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), vec![standing(&unit, 0.0, 0.0, 0.0)], MORTAR, 0.32))
+        RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), vec![standing(&unit, 0.0, 0.0, 0.0)], MORTAR, 0.32))
             .unwrap();
     let weight = MASS * G;
     let mut seed = 1u64;

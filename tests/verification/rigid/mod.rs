@@ -83,6 +83,6 @@ fn heap(unit: &ArmourUnit) -> RigidSetup {
     RigidSetup {
         sides: Sides::Walls { width: 0.2 },
         end_walls: Some([-0.1, 0.1]),
-        ..setup(BodyShape::of_unit(unit, MASS), (0..10).map(body).collect(), MORTAR, 0.32)
+        ..setup(BodyShape::from_unit(unit, MASS), (0..10).map(body).collect(), MORTAR, 0.32)
     }
 }

@@ -28,7 +28,7 @@ fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
         ground: Some(Ground { profile, terrain: None, material: MORTAR }),
         sides: Sides::Walls { width },
         end_walls: Some([0.0, length]),
-        ..setup(BodyShape::of_unit(&tetrapod(), MASS), bodies, MORTAR, 0.65)
+        ..setup(BodyShape::from_unit(&tetrapod(), MASS), bodies, MORTAR, 0.65)
     }
 }
 

@@ -144,7 +144,7 @@ fn a_restored_world_records_the_same_impacts() {
 #[test]
 fn a_unit_at_rest_does_not_fill_its_histories() {
     let unit = tetrapod();
-    let shape = BodyShape::of_unit(&unit, MASS);
+    let shape = BodyShape::from_unit(&unit, MASS);
     let at_rest = setup(shape, vec![standing(&unit, 0.0, 0.0, 0.3)], MORTAR, 0.65);
     let mut world = RigidWorld::new(at_rest).unwrap();
     run(&mut world, 2.0, 1e-3);

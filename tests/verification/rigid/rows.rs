@@ -13,8 +13,10 @@ use super::{MASS, MORTAR, run, setup, standing, tetrapod, total_energy};
 fn least_pitch(unit: &ArmourUnit, second_azimuth: f64) -> f64 {
     let touches = |pitch: f64| {
         let bodies = vec![standing(unit, 0.0, 0.0, 0.0), standing(unit, 0.0, pitch, second_azimuth)];
-        let world =
-            RigidWorld::new(RigidSetup { ground: None, ..setup(BodyShape::of_unit(unit, MASS), bodies, MORTAR, 0.3) });
+        let world = RigidWorld::new(RigidSetup {
+            ground: None,
+            ..setup(BodyShape::from_unit(unit, MASS), bodies, MORTAR, 0.3)
+        });
         world.map_or(true, |w| w.contact_count() > 0)
     };
     let (mut low, mut high) = (0.03, 0.2);
@@ -56,7 +58,7 @@ fn images_across_periodic_sides_touch_like_neighbours() {
         bodies[1].velocity = DVec3::Y * 0.3;
         bodies[0].velocity = DVec3::NEG_Y * 0.3;
         let mut world =
-            RigidWorld::new(RigidSetup { sides, ..setup(BodyShape::of_unit(&unit, MASS), bodies, MORTAR, 0.32) })
+            RigidWorld::new(RigidSetup { sides, ..setup(BodyShape::from_unit(&unit, MASS), bodies, MORTAR, 0.32) })
                 .unwrap();
         run(&mut world, 0.3, 1e-4);
         world.states().to_vec()
@@ -75,7 +77,7 @@ fn a_substep_of_a_row_takes_less_than_half_a_millisecond() {
     for count in [2, 15] {
         let row =
             (0..count).map(|i| standing(&unit, 0.0, 0.0495 + 0.0787 * f64::from(i), PI * f64::from(i % 2))).collect();
-        let mut world = RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), row, MORTAR, 0.32)).unwrap();
+        let mut world = RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), row, MORTAR, 0.32)).unwrap();
         let push = vec![Load { force: DVec3::X * 2.0, torque: DVec3::ZERO }; count as usize];
         let clock = Instant::now();
         for _ in 0..2000 {
@@ -95,7 +97,7 @@ fn a_unit_slides_over_the_lee_edge_and_comes_to_rest_below() {
     let mut body = standing(&unit, 0.0, 0.0, 0.0);
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
-    let mut s = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.32);
+    let mut s = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
     s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
     let mut world = RigidWorld::new(s).unwrap();
     let before = total_energy(&world);
@@ -124,7 +126,7 @@ fn a_row_slides_over_the_mound_and_its_energy_balance_closes() {
             body
         })
         .collect();
-    let mut s = setup(BodyShape::of_unit(&unit, MASS), row, MORTAR, 0.32);
+    let mut s = setup(BodyShape::from_unit(&unit, MASS), row, MORTAR, 0.32);
     s.ground = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
     s.sides = Sides::Walls { width: 1.2 };
     let mut world = RigidWorld::new(s).unwrap();

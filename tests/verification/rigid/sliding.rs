@@ -10,7 +10,7 @@ use super::{G, MASS, MORTAR, run, setup, standing, tetrapod};
 fn tilted_world(azimuth: f64, resistance: Resistance, angle: f64) -> RigidWorld {
     let unit = tetrapod();
     let body = standing(&unit, 0.0, 0.0, azimuth);
-    let mut setup = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.0);
+    let mut setup = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.0);
     setup.friction.unit_ground = resistance;
     let mut world = RigidWorld::new(setup).unwrap();
     run(&mut world, 0.3, 1e-4);
@@ -70,7 +70,7 @@ fn an_oblique_impact_gains_no_energy_at_any_instant() {
     let mut body = standing(&tetrapod(), 0.0, 0.0, 0.3);
     body.position.z += 0.01;
     body.velocity = DVec3::new(1.1, 0.2, -1.2);
-    let mut world = RigidWorld::new(setup(BodyShape::of_unit(&tetrapod(), MASS), vec![body], MORTAR, 0.65)).unwrap();
+    let mut world = RigidWorld::new(setup(BodyShape::from_unit(&tetrapod(), MASS), vec![body], MORTAR, 0.65)).unwrap();
     let mechanical = |world: &RigidWorld| {
         let e = world.energy();
         e.kinetic + e.potential + e.elastic

@@ -49,7 +49,7 @@ fn flip_time(i: DVec3, w: DVec3) -> f64 {
 
 #[test]
 fn a_free_core_loc_keeps_its_angular_momentum_and_flips_with_the_period_of_theory() {
-    let shape = BodyShape::of_unit(&ArmourUnit::core_loc(0.1, 0.03).unwrap(), 0.4);
+    let shape = BodyShape::from_unit(&ArmourUnit::core_loc(0.1, 0.03).unwrap(), 0.4);
     let (moments, axes) = principal(shape.inertia);
     let inertia = shape.inertia;
     let spin = DVec3::new(0.02, 12.0, 0.01);

@@ -41,7 +41,7 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
     let mut body = standing(&unit, 0.0, 0.0, 0.0);
     body.position.z += 0.12;
     body.velocity = DVec3::X * 1.2;
-    let base = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.32);
+    let base = setup(BodyShape::from_unit(&unit, MASS), vec![body], MORTAR, 0.32);
     let planes = Some(Ground { profile: profile.clone(), terrain: None, material: MORTAR });
     let x: Vec<f64> = corners.iter().map(|corner| corner[0]).collect();
     let surface = height_field(&x, &nodes(-0.5, 0.5, 4), |x, _| profile.z(x));
@@ -114,7 +114,7 @@ fn ten_tetrapods_come_to_rest_on_rough_rock() {
         let z = 0.25 * x + 0.1 + 0.11 * (k / 10) as f64;
         BodyState::at_rest(DVec3::new(x, y, z), DQuat::from_euler(glam::EulerRot::XYZ, t, 2.3 * t, 0.7 * t))
     };
-    let base = setup(BodyShape::of_unit(&unit, MASS), (0..10).map(body).collect(), MORTAR, 0.6);
+    let base = setup(BodyShape::from_unit(&unit, MASS), (0..10).map(body).collect(), MORTAR, 0.6);
     let base = RigidSetup { sides: Sides::Walls { width: 0.3 }, end_walls: Some([0.0, 0.6]), ..base };
     let mut world = RigidWorld::new(on_terrain(base, surface)).unwrap();
     let start = world.energy();

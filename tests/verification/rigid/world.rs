@@ -57,7 +57,7 @@ fn a_restored_world_continues_with_the_same_bits() {
 fn a_too_deep_overlap_is_an_error_that_names_the_units() {
     let unit = tetrapod();
     let bodies = vec![standing(&unit, 0.0, 0.0, 0.0), standing(&unit, 0.0, 0.04, 0.0)];
-    let error = RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), bodies, MORTAR, 0.3)).unwrap_err();
+    let error = RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), bodies, MORTAR, 0.3)).unwrap_err();
     assert!(matches!(error, RigidError::TooDeep { .. }));
     assert!(error.to_string().contains("unit 1") && error.to_string().contains("unit 2"), "{error}");
 }
@@ -66,11 +66,11 @@ fn a_too_deep_overlap_is_an_error_that_names_the_units() {
 fn invalid_loads_and_materials_are_errors() {
     let unit = tetrapod();
     let mut world =
-        RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), vec![standing(&unit, 0.0, 0.0, 0.0)], MORTAR, 0.3))
+        RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), vec![standing(&unit, 0.0, 0.0, 0.0)], MORTAR, 0.3))
             .unwrap();
     assert!(matches!(world.advance(1e-4, &[]), Err(RigidError::Loads { loads: 0, bodies: 1 })));
     let broken = Load { force: DVec3::NAN, torque: DVec3::ZERO };
     assert!(matches!(world.advance(1e-4, &[broken]), Err(RigidError::NotFinite { body: 0, .. })));
     let bad = Material { young_modulus: -1.0, ..MORTAR };
-    assert!(RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), vec![], bad, 0.3)).is_err());
+    assert!(RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), vec![], bad, 0.3)).is_err());
 }

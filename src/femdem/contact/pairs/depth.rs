@@ -1,19 +1,19 @@
 //! Overlap depth of tetrahedra in contact.
 
-use super::super::super::assembly::Tets;
 use super::Contacts;
+use crate::femdem::assembly::tets::Tets;
 
 impl Contacts {
     /// Returns the pair with the deepest overlap in the last time step, and this overlap without its initial part:
     /// overlap energy over penalty over the volume of the smaller tetrahedron [-]. It is 1/2 for identical tetrahedra,
     /// up to 5/4 for one inside the other, and about 1e-3 for a contact at the strength of concrete.
-    pub fn deepest(&self, tets: &Tets) -> Option<([u32; 2], f64)> {
+    pub fn deepest_overlap(&self, tets: &Tets) -> Option<([u32; 2], f64)> {
         let volume = |tet: u32| tets.shape[tet as usize].volume;
         let share = |pair: &super::Pair| {
             let spring = pair.spring.as_ref().map_or(0.0, |spring| spring.stored(&pair.law));
             // I - I_b = (sqrt I - sqrt I_b) (sqrt I + sqrt I_b).
             let difference = ((pair.stored - spring).max(0.0) / pair.penalty).sqrt();
-            let sum = difference + 2.0 * pair.born.unwrap_or(0.0).sqrt();
+            let sum = difference + 2.0 * pair.initial_overlap.unwrap_or(0.0).sqrt();
             difference * sum / pair.tets.map(volume).into_iter().fold(f64::MAX, f64::min)
         };
         let touching = self.pairs.iter().filter(|pair| pair.forces.is_some());
@@ -21,7 +21,7 @@ impl Contacts {
     }
 
     /// Whether a tetrahedron was in contact in the last time step.
-    pub fn presses(&self, tet: u32) -> bool {
+    pub fn is_in_contact(&self, tet: u32) -> bool {
         self.pairs.iter().any(|pair| pair.forces.is_some() && pair.tets.contains(&tet))
     }
 }

@@ -6,10 +6,10 @@ use super::*;
 const PENALTY: f64 = 26e9;
 const STILL: [[DVec3; 4]; 2] = [[DVec3::ZERO; 4]; 2];
 
-fn pair(left: f64) -> Pair {
+fn pair(inherited_energy: f64) -> Pair {
     let law = FrictionLaw { stiffness: 1e8, coefficient: 0.0 };
-    let (tets, born, spring, forces) = ([0, 1], None, None, None);
-    Pair { tets, penalty: PENALTY, law, born, left, spring, forces, stored: 0.0, dissipated: 0.0 }
+    let (tets, penalty, initial_overlap, stored, dissipated) = ([0, 1], PENALTY, None, 0.0, 0.0);
+    Pair { tets, penalty, law, initial_overlap, inherited_energy, spring: None, forces: None, stored, dissipated }
 }
 
 /// Two tetrahedra of about 1 cm, one deep inside the other and moved `further` into it [m].
@@ -26,17 +26,18 @@ fn force_x(pair: &Pair) -> f64 {
 
 #[test]
 fn a_new_pair_has_the_energy_that_its_joint_leaves() {
-    for left in [0.0, 1e-4, 1e-2] {
-        let mut pair = pair(left);
+    for energy in [0.0, 1e-4, 1e-2] {
+        let mut pair = pair(energy);
         pair.evaluate(corners(0.0), || STILL);
         // Rounding, relative to the overlap energy of a few joules.
-        assert!((pair.stored - left).abs() < 1e-12 && (pair.left - left).abs() < 1e-12, "{left}: {}", pair.stored);
-        assert_eq!(pair.forces.is_some(), left > 0.0);
+        assert!((pair.stored - energy).abs() < 1e-12 && (pair.inherited_energy - energy).abs() < 1e-12, "{pair:?}");
+        assert_eq!(pair.forces.is_some(), energy > 0.0);
     }
     // More than the overlap can store: the rest is dissipated.
     let mut excess = pair(1e3);
     excess.evaluate(corners(0.0), || STILL);
-    assert!(excess.stored < 1e3 && (excess.left - excess.stored).abs() < 1e-12 && excess.born == Some(0.0));
+    assert!(excess.stored < 1e3 && (excess.inherited_energy - excess.stored).abs() < 1e-12);
+    assert_eq!(excess.initial_overlap, Some(0.0));
 }
 
 #[test]
@@ -47,19 +48,19 @@ fn the_pair_has_the_energy_of_the_joint_half_a_time_step_earlier() {
     pair.evaluate(corners(0.0), || moves);
     // The current force acts for half of the time step. Rounding, relative to the energy of the whole overlap.
     let work = force_x(&pair) * 0.5 * way;
-    assert!((pair.stored - work - 1e-2).abs() < 1e-9 && (pair.left - 1e-2).abs() < 1e-9, "{} {work}", pair.stored);
+    assert!((pair.stored - work - 1e-2).abs() < 1e-9 && (pair.inherited_energy - 1e-2).abs() < 1e-9, "{pair:?}");
 }
 
 #[test]
 fn the_force_rises_from_zero_and_is_the_gradient_of_the_energy() {
-    let (mut born, mut full) = (pair(0.0), pair(0.0));
-    born.evaluate(corners(0.0), || STILL);
-    assert!(born.forces.is_none());
-    full.born = Some(0.0);
+    let (mut fresh, mut full) = (pair(0.0), pair(0.0));
+    fresh.evaluate(corners(0.0), || STILL);
+    assert!(fresh.forces.is_none());
+    full.initial_overlap = Some(0.0);
     let mut evaluate_at = |further: f64| {
-        born.evaluate(corners(further), || STILL);
+        fresh.evaluate(corners(further), || STILL);
         full.evaluate(corners(further), || STILL);
-        (born.stored, force_x(&born), force_x(&full))
+        (fresh.stored, force_x(&fresh), force_x(&full))
     };
     let (_, small, whole) = evaluate_at(1e-9);
     // A displacement of 1e-9 m against 1e-3 m: a millionth of the force of the whole overlap.
@@ -77,7 +78,7 @@ fn the_force_rises_from_zero_and_is_the_gradient_of_the_energy() {
 fn fragments_that_separate_and_meet_again_are_a_normal_contact() {
     let (mut pair, mut fresh) = (pair(0.0), pair(0.0));
     pair.evaluate(corners(0.0), || STILL);
-    assert!(pair.born.unwrap() > 0.0);
+    assert!(pair.initial_overlap.unwrap() > 0.0);
     pair.evaluate(corners(-0.1), || STILL);
     fresh.evaluate(corners(-0.1), || STILL);
     for pair in [&mut pair, &mut fresh] {

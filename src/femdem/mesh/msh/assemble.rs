@@ -50,8 +50,8 @@ pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
                 Some(set) if count(&set) == 0 => {
                     mesh.node_sets.push(NodeSet { name, nodes: set.into_iter().collect() });
                 }
-                Some(set) => return Err(MshError::LooseNodes { kind, name, count: count(&set) }),
-                None => return Err(MshError::LooseNodes { kind, name, count: 1 }),
+                Some(set) => return Err(MshError::NodesOutsideBodies { kind, name, count: count(&set) }),
+                None => return Err(MshError::NodesOutsideBodies { kind, name, count: 1 }),
             }
         }
     }
@@ -71,11 +71,11 @@ fn volume_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     for block in file.blocks.iter().filter(|block| block.dimension == 3) {
         match file.groups.get(&(3, block.entity)).map_or(&[][..], Vec::as_slice) {
             [group] => groups.entry(*group).or_default().push(block),
-            [] => return Err(MshError::LooseVolume { entity: block.entity, count: block.tags.len() }),
+            [] => return Err(MshError::UngroupedVolume { entity: block.entity, count: block.tags.len() }),
             several => {
                 let name = |group: &i32| file.names.get(&(3, *group)).cloned().unwrap_or_else(|| group.to_string());
                 let names = several.iter().map(name).collect::<Vec<_>>().join(", ");
-                return Err(MshError::TwoVolumes { entity: block.entity, count: several.len(), names });
+                return Err(MshError::AmbiguousVolume { entity: block.entity, count: several.len(), names });
             }
         }
     }

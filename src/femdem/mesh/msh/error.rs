@@ -6,14 +6,14 @@ use thiserror::Error;
 
 /// Position in a file, counted from one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Place {
+pub enum FilePosition {
     /// Line of a text file.
     Line(usize),
     /// Byte of a binary file.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
@@ -40,11 +40,11 @@ pub enum MshError {
     )]
     Header(String),
     /// The file is truncated.
-    #[error("the file ends at {place} inside section ${section}; it is incomplete: write or copy it again")]
-    Truncated { place: Place, section: String },
+    #[error("the file ends at {position} inside section ${section}; it is incomplete: write or copy it again")]
+    Truncated { position: FilePosition, section: String },
     /// An unexpected word.
-    #[error("{place}, section ${section}: found {found:?}, expected {expected}")]
-    Unexpected { place: Place, section: String, expected: &'static str, found: String },
+    #[error("{position}, section ${section}: found {found:?}, expected {expected}")]
+    Unexpected { position: FilePosition, section: String, expected: &'static str, found: String },
     /// No nodes or no elements: nothing was meshed or saved.
     #[error("no section ${0}: the file contains no mesh; mesh in three dimensions (`gmsh -3 -format msh41`)")]
     NoSection(&'static str),
@@ -58,11 +58,11 @@ pub enum MshError {
     Partitioned,
     /// Elements other than points, lines, triangles, quadrangles and linear tetrahedra.
     #[error(
-        "{place}: {count} elements of type {kind} ({name}) in entity {entity} of dimension {dimension}; bodies are made \
+        "{position}: {count} elements of type {kind} ({name}) in entity {entity} of dimension {dimension}; bodies are made \
          of linear tetrahedra (type 4): {remedy}"
     )]
     ElementType {
-        place: Place,
+        position: FilePosition,
         count: u64,
         kind: i32,
         name: &'static str,
@@ -81,10 +81,10 @@ pub enum MshError {
         "volume {entity} has {count} tetrahedra but is in no physical volume; add it to one, or set Mesh.SaveAll = 0 to \
          leave it out of the file"
     )]
-    LooseVolume { entity: i32, count: usize },
+    UngroupedVolume { entity: i32, count: usize },
     /// A volume in two bodies.
     #[error("volume {entity} is in {count} physical volumes ({names}); it must be in exactly one")]
-    TwoVolumes { entity: i32, count: usize, names: String },
+    AmbiguousVolume { entity: i32, count: usize, names: String },
     /// A group without a name.
     #[error("physical {kind} {tag} has no name; give it one: Physical {kind}(\"name\", {tag}) = ...")]
     Unnamed { kind: &'static str, tag: i32 },
@@ -105,7 +105,7 @@ pub enum MshError {
         "physical {kind} {name:?}: {count} of its nodes belong to no tetrahedron; make it part of the volume before \
          meshing (Curve{{...}} In Surface or Volume, BooleanFragments)"
     )]
-    LooseNodes { kind: &'static str, name: String, count: usize },
+    NodesOutsideBodies { kind: &'static str, name: String, count: usize },
     /// Two nodes with the same number.
     #[error("node {0} occurs twice; write the mesh again with `gmsh -3 -format msh41`")]
     DuplicateNode(u64),

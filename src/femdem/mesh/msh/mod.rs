@@ -11,7 +11,7 @@ mod source;
 mod tests;
 mod write;
 
-pub use error::{MshError, Place};
+pub use error::{FilePosition, MshError};
 pub use write::write;
 
 use super::Mesh;

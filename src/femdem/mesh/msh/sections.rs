@@ -170,8 +170,8 @@ impl Sections {
                 } else {
                     "set Mesh.ElementOrder = 1"
                 };
-                let place = source.place(start);
-                return Err(MshError::ElementType { place, count, kind, name, entity, dimension, remedy });
+                let position = source.file_position(start);
+                return Err(MshError::ElementType { position, count, kind, name, entity, dimension, remedy });
             };
             if shape_dimension != dimension {
                 let expected = "elements of its own dimension; write the mesh again";

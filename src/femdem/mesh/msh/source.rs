@@ -1,6 +1,6 @@
 //! Reads the numbers of an MSH file one by one, from text or binary.
 
-use super::error::{MshError, Place};
+use super::error::{FilePosition, MshError};
 
 /// Longest quote from a file in a message [characters].
 const LONGEST_QUOTE: usize = 40;
@@ -112,26 +112,26 @@ impl<'a> Source<'a> {
     }
 
     /// Returns a position as line or byte for messages.
-    pub(super) fn place(&self, position: usize) -> Place {
+    pub(super) fn file_position(&self, position: usize) -> FilePosition {
         if self.binary {
-            Place::Byte(position + 1)
+            FilePosition::Byte(position + 1)
         } else {
             let read = &self.bytes[..position];
             let line = 1 + read.iter().filter(|byte| **byte == b'\n').count();
             // White space between two numbers belongs to the line of the second.
             let space = self.bytes[position..].iter().take_while(|byte| byte.is_ascii_whitespace());
-            Place::Line(line + space.filter(|byte| **byte == b'\n').count())
+            FilePosition::Line(line + space.filter(|byte| **byte == b'\n').count())
         }
     }
 
     /// Creates the error for unexpected content at `position`.
     pub(super) fn unexpected(&self, position: usize, expected: &'static str, found: &[u8]) -> MshError {
         let section = quote(self.section.as_bytes());
-        MshError::Unexpected { place: self.place(position), section, expected, found: quote(found) }
+        MshError::Unexpected { position: self.file_position(position), section, expected, found: quote(found) }
     }
 
     fn truncated(&self) -> MshError {
-        MshError::Truncated { place: self.place(self.bytes.len()), section: quote(self.section.as_bytes()) }
+        MshError::Truncated { position: self.file_position(self.bytes.len()), section: quote(self.section.as_bytes()) }
     }
 
     fn skip_space(&mut self) {

@@ -70,7 +70,11 @@ fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, E
         let coordinates = numbers.len().checked_sub(values).filter(|c| [1, 3].contains(c));
         let Some(coordinates) = coordinates else {
             let problem = format!("{} numbers, expected {} or {}", numbers.len(), values + 1, values + 3);
-            return Err(text.wrong(line, problem, "write one or three coordinates, then the fields in the file name"));
+            return Err(text.line_error(
+                line,
+                problem,
+                "write one or three coordinates, then the fields in the file name",
+            ));
         };
         let values = numbers.split_off(coordinates);
         let point = <[f64; 3]>::try_from(numbers.as_slice()).unwrap_or([numbers[0]; 3]);

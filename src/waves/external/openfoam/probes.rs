@@ -126,7 +126,13 @@ fn read_water(folder: &Path, field: &str, velocity: &Joined, points: &Points) ->
 ///
 /// # Errors
 /// If writing fails.
-pub fn write(table: &VelocityTable, levels_m: &[f64], x_m: f64, frame: Frame, out: impl Write) -> io::Result<()> {
+pub fn write_velocities(
+    table: &VelocityTable,
+    levels_m: &[f64],
+    x_m: f64,
+    frame: Frame,
+    out: impl Write,
+) -> io::Result<()> {
     let value = |z: f64, t: f64| format!("({} 0 0)", table.velocity_m_s(z, t));
     write_field(&table.times_s, levels_m, x_m, frame, value, out)
 }
@@ -190,7 +196,7 @@ mod tests {
     fn write_start(folder: &Path, start: &str, table: &VelocityTable) {
         let folder = folder.join(start);
         fs::create_dir(&folder).unwrap();
-        write(table, &LEVELS, 2.0, FRAME, fs::File::create(folder.join("U")).unwrap()).unwrap();
+        write_velocities(table, &LEVELS, 2.0, FRAME, fs::File::create(folder.join("U")).unwrap()).unwrap();
         write_water(table, &LEVELS, 2.0, FRAME, fs::File::create(folder.join("alpha.water")).unwrap()).unwrap();
     }
 

@@ -54,12 +54,12 @@ impl Joined {
             let mut numbers = text.numbers(line, words)?;
             let values = numbers.split_off(1.min(numbers.len()));
             let Some(&time) = numbers.first() else {
-                return Err(text.wrong(line, "no numbers", "correct or delete the line"));
+                return Err(text.line_error(line, "no numbers", "correct or delete the line"));
             };
             let expected = start.rows.first().map_or(values.len(), Vec::len);
             if values.len() != expected {
                 let problem = format!("{} numbers after the time, expected {expected}", values.len());
-                return Err(text.wrong(
+                return Err(text.line_error(
                     line,
                     problem,
                     "correct or delete the line; a killed run may leave an incomplete line",
@@ -67,7 +67,7 @@ impl Joined {
             }
             if let Some(last) = start.times_s.last().filter(|&&last| time <= last) {
                 let problem = format!("t = {time} s follows t = {last} s");
-                return Err(text.wrong(line, problem, "times must increase; delete rows of another run"));
+                return Err(text.line_error(line, problem, "times must increase; delete rows of another run"));
             }
             start.times_s.push(time);
             start.rows.push(values);

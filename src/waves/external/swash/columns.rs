@@ -48,10 +48,10 @@ impl Table {
                 columns = parse_header(comment).unwrap_or(columns);
             } else if words.starts_with("SWASH") {
                 let problem = "the format of TABLE ... SWASH is not supported";
-                return Err(text.wrong(line, problem, "write the table with HEADER or NOHEADER"));
+                return Err(text.line_error(line, problem, "write the table with HEADER or NOHEADER"));
             } else if columns.is_empty() {
                 let advice = "list the columns in file order, or write with HEADER";
-                return Err(text.wrong(line, "no header names the columns", advice));
+                return Err(text.line_error(line, "no header names the columns", advice));
             } else {
                 rows.push(parse_row(&text, line, words, &columns)?);
             }
@@ -114,7 +114,7 @@ fn parse_header(comment: &str) -> Option<Vec<Column>> {
 fn parse_row(text: &TextFile, line: usize, words: &str, columns: &[Column]) -> Result<Vec<f64>, ExternalError> {
     let words: Vec<&str> = words.split_whitespace().collect();
     if words.len() != columns.len() {
-        return Err(text.wrong(
+        return Err(text.line_error(
             line,
             format!("{} values, expected {}, one per column", words.len(), columns.len()),
             "correct the line, or list the columns in file order (VELK: x of every layer, then y of every layer)",

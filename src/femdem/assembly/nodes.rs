@@ -1,0 +1,54 @@
+//! The nodes: each is a list of node copies that move together.
+
+use glam::DVec3;
+
+/// Marks the nodes of rigid bodies in [`Nodes::constraint`]; the body handles their constraints.
+pub const RIGID: u16 = u16::MAX;
+
+/// Number of a node copy: 4 x tetrahedron + vertex.
+pub type NodeCopy = u32;
+
+/// Positions, velocities and masses of the nodes.
+#[derive(Debug, Clone, Default)]
+pub struct Nodes {
+    /// Positions x [m].
+    pub position: Vec<DVec3>,
+    /// Velocities v [m/s], half a time step before the positions.
+    pub velocity: Vec<DVec3>,
+    /// Lumped masses [kg].
+    pub mass: Vec<f64>,
+    /// Constraint number of each node, from 1; 0 is a free node, [`RIGID`] a node of a rigid body.
+    pub constraint: Vec<u16>,
+    /// Copies of each node.
+    pub copies: NodeCopies,
+}
+
+impl Nodes {
+    /// Number of nodes.
+    pub fn count(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Returns the copies of a node.
+    #[inline]
+    pub fn copies_of(&self, node: usize) -> &[NodeCopy] {
+        self.copies.of(node)
+    }
+}
+
+/// The copies of every node.
+#[derive(Debug, Clone, Default)]
+pub struct NodeCopies {
+    /// Start and number of the copies of each node in `list`.
+    pub(super) span: Vec<[u32; 2]>,
+    pub(super) list: Vec<NodeCopy>,
+}
+
+impl NodeCopies {
+    /// Returns the copies of a node.
+    #[inline]
+    pub fn of(&self, node: usize) -> &[NodeCopy] {
+        let [first, count] = self.span[node];
+        &self.list[first as usize..(first + count) as usize]
+    }
+}

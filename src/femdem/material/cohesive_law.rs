@@ -1,0 +1,306 @@
+//! The cohesive (traction-separation) law at an integration point of a joint, eqs. 1 to 4 of Guo, Latham and Xiang.
+//!
+//! The paper leaves some points open; this module makes these choices:
+//!
+//! | point | choice |
+//! | --- | --- |
+//! | penalty stiffness | 2 f / delta_p = p_0 / h in tension, sliding and compression; h is the mean edge of the joint, p_0 a stress |
+//! | softening range | exact: the area under the curve is G_f; published: max(2 delta_p, 3 G_f / f), which dissipates 1.16 G_f |
+//! | unloading and reloading | along the secant to the origin; damage never decreases |
+//! | sliding | return mapping to the yield stress f_s z(D): elastic slip with the stiffness p_0 / h, the rest is plastic and causes damage. The parabola of eq. 2 is used for tension only: with f_s changing under load it would create energy |
+//! | mixed mode | D of eq. 4 weakens tension and shear |
+//! | snap-back | softening in sliding is never steeper than the elastic line; a joint then dissipates more than G_fII |
+//!
+//! The dissipation is never negative on any path.
+
+use super::Strength;
+use super::softening::{AREA, STEEPEST, z};
+
+/// Choice of the softening range of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Range {
+    /// The area under the curve is the fracture energy.
+    #[default]
+    Exact,
+    /// max(2 delta_p, 3 G_f / f), as in the published programs.
+    Published,
+}
+
+/// Cohesive parameters of the joints of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cohesion {
+    /// Strength of the material.
+    pub strength: Strength,
+    /// Joint penalty p_0 [Pa]; the stiffness before the peak is p_0 / h.
+    pub penalty: f64,
+    /// Softening range.
+    pub range: Range,
+    /// Whether faces are tied until their strength is reached. All of G_f is then dissipated after the peak.
+    pub tied: bool,
+}
+
+/// Cohesive law of a joint with a given edge length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CohesiveLaw {
+    strength: Strength,
+    /// p_0 / h [Pa/m].
+    stiffness: f64,
+    /// Opening at peak stress, delta_np [m].
+    peak_opening: f64,
+    /// delta_nc - delta_np [m].
+    opening_range: f64,
+    range: Range,
+}
+
+/// Count of numbers of an integration point, see [`PointState::to_array`].
+pub const POINT_NUMBERS: usize = 10;
+
+/// State of an integration point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointState {
+    /// Largest damage D so far [-].
+    pub damage: f64,
+    /// Secant stiffness in opening [Pa/m]; infinite while undamaged.
+    secant: f64,
+    /// Opening at the last call [m].
+    opening: f64,
+    /// Slip at the last call in the axes of the joint [m].
+    slip: [f64; 2],
+    /// Plastic slip in the axes of the joint [m].
+    plastic: [f64; 2],
+    /// Accumulated plastic slip (path length) [m].
+    accumulated_slip: f64,
+    /// Energy dissipated by opening and by sliding so far [J/m2].
+    pub dissipated: [f64; 2],
+}
+
+impl PointState {
+    /// Returns the state as numbers, for a checkpoint.
+    pub fn to_array(self) -> [f64; POINT_NUMBERS] {
+        let Self { damage, secant, opening, slip: [a, b], plastic: [c, d], accumulated_slip, dissipated: [e, f] } =
+            self;
+        [damage, secant, opening, a, b, c, d, accumulated_slip, e, f]
+    }
+
+    /// Restores the state from the numbers of [`Self::to_array`].
+    pub fn from_array([damage, secant, opening, a, b, c, d, accumulated_slip, e, f]: [f64; POINT_NUMBERS]) -> Self {
+        Self { damage, secant, opening, slip: [a, b], plastic: [c, d], accumulated_slip, dissipated: [e, f] }
+    }
+
+    /// Whether the point has neither damage nor plastic slip.
+    #[inline]
+    pub fn is_intact(&self) -> bool {
+        self.damage == 0.0 && self.plastic == [0.0; 2]
+    }
+
+    /// Elastic part of the slip [m].
+    #[inline]
+    fn elastic_slip(&self) -> [f64; 2] {
+        [self.slip[0] - self.plastic[0], self.slip[1] - self.plastic[1]]
+    }
+}
+
+impl Default for PointState {
+    fn default() -> Self {
+        let (secant, zero) = (f64::INFINITY, [0.0; 2]);
+        Self { damage: 0.0, secant, opening: 0.0, slip: zero, plastic: zero, accumulated_slip: 0.0, dissipated: zero }
+    }
+}
+
+/// Traction at an integration point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Traction {
+    /// Normal stress sigma [Pa], tension positive.
+    pub normal: f64,
+    /// Shear stress tau in the axes of the joint [Pa].
+    pub shear: [f64; 2],
+    /// Energy dissipated since the last call [J/m2].
+    pub dissipated: f64,
+}
+
+impl Cohesion {
+    /// Returns the law of a joint with mean edge length h [m].
+    #[inline]
+    pub fn law(&self, h: f64) -> CohesiveLaw {
+        let Strength { tensile, opening_energy, .. } = self.strength;
+        let peak_opening = 2.0 * h * tensile / self.penalty;
+        // The area under the parabola is 2/3 f delta_p.
+        let before = if self.tied { 0.0 } else { 2.0 / 3.0 * peak_opening };
+        let opening_range = match self.range {
+            Range::Exact => (opening_energy / tensile - before) / AREA,
+            Range::Published => (2.0 * peak_opening).max(3.0 * opening_energy / tensile),
+        };
+        let (strength, range) = (self.strength, self.range);
+        CohesiveLaw { strength, stiffness: self.penalty / h, peak_opening, opening_range, range }
+    }
+
+    /// Longest usable edge length [m]: from there on, the work before the peak alone exceeds G_f.
+    pub fn longest_edge(&self) -> f64 {
+        if self.tied || self.range == Range::Published {
+            return f64::INFINITY;
+        }
+        0.75 * self.strength.opening_energy * self.penalty / (self.strength.tensile * self.strength.tensile)
+    }
+}
+
+impl CohesiveLaw {
+    /// Initial stiffness p_0 / h [Pa/m].
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// State of a point that carries the given stress [Pa] at zero slip, for the release of a tied face. Also returns
+    /// the opening [m] at which it carries the stress. A tensile stress beyond the strength counts as the strength.
+    pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (PointState, f64) {
+        let f_t = self.strength.tensile;
+        let opening = if normal > 0.0 {
+            self.peak_opening * (1.0 - (1.0 - (normal / f_t).min(1.0)).sqrt())
+        } else {
+            normal / self.stiffness
+        };
+        let plastic = shear.map(|tau| -tau / self.stiffness);
+        (PointState { opening, plastic, ..PointState::default() }, opening)
+    }
+
+    /// Computes the traction at an opening delta_n and a slip delta_s [m], and updates the state of the point.
+    pub fn respond(&self, point: &mut PointState, opening: f64, slip: [f64; 2]) -> Traction {
+        let old = *point;
+        let opened = ((opening - self.peak_opening) / self.opening_range).max(0.0);
+        if opened > point.damage {
+            point.damage = opened.min(1.0);
+        }
+        let mut normal = self.normal(point, opening);
+        // The shear strength depends on the normal stress; plastic slip may then increase the damage.
+        let shear = self.slide(point, normal, opened, slip);
+        if point.damage > old.damage {
+            normal = self.normal(point, opening);
+        }
+        (point.opening, point.slip) = (opening, slip);
+        let dissipated = [self.dissipated_normal(&old, point), self.dissipated_shear(&old, point)];
+        point.dissipated = [point.dissipated[0] + dissipated[0], point.dissipated[1] + dissipated[1]];
+        Traction { normal, shear, dissipated: dissipated[0] + dissipated[1] }
+    }
+
+    /// Elastic energy of a point at the opening and slip of its last call [J/m2].
+    pub fn stored(&self, point: &PointState) -> f64 {
+        let [a, b] = point.elastic_slip();
+        self.stored_normal(point) + 0.5 * self.stiffness * (a * a + b * b)
+    }
+
+    /// Normal stress [Pa], eq. 2; on the secant if the point is not at its largest opening.
+    fn normal(&self, point: &mut PointState, opening: f64) -> f64 {
+        let left = z(point.damage);
+        if opening <= 0.0 {
+            if point.damage > 0.0 {
+                point.secant = point.secant.min(left * self.stiffness);
+            }
+            return self.stiffness * opening;
+        }
+        let r = opening / self.peak_opening;
+        let envelope = left * self.strength.tensile * if r < 1.0 { (2.0 - r) * r } else { 1.0 };
+        if point.damage == 0.0 {
+            return envelope;
+        }
+        point.secant = point.secant.min(envelope / opening);
+        point.secant * opening
+    }
+
+    /// Shear stress [Pa] by return mapping to the yield stress f_s z(D).
+    fn slide(&self, point: &mut PointState, normal: f64, opened: f64, slip: [f64; 2]) -> [f64; 2] {
+        let elastic = [slip[0] - point.plastic[0], slip[1] - point.plastic[1]];
+        let trial = self.stiffness * (elastic[0] * elastic[0] + elastic[1] * elastic[1]).sqrt();
+        let strength = self.strength.shear(normal);
+        if trial <= strength * z(point.damage) {
+            return elastic.map(|e| self.stiffness * e);
+        }
+        let range = self.sliding_range(strength);
+        let damage = |slid: f64| opened.hypot((point.accumulated_slip + slid) / range).clamp(point.damage, 1.0);
+        // Decreases monotonically through zero: the yield stress is less steep than the elastic line.
+        let excess = |slid: f64| trial - self.stiffness * slid - strength * z(damage(slid));
+        let slid = root(excess, trial / self.stiffness);
+        let yielded = (trial - self.stiffness * slid).max(0.0);
+        point.damage = damage(slid);
+        point.accumulated_slip += slid;
+        let direction = elastic.map(|e| e * self.stiffness / trial);
+        point.plastic = [point.plastic[0] + direction[0] * slid, point.plastic[1] + direction[1] * slid];
+        direction.map(|d| d * yielded)
+    }
+
+    /// Plastic slip [m] at which a joint with shear strength f_s [Pa] fails.
+    fn sliding_range(&self, strength: f64) -> f64 {
+        let range = match self.range {
+            Range::Exact => self.strength.sliding_energy / (AREA * strength),
+            Range::Published => (4.0 * strength / self.stiffness).max(3.0 * self.strength.sliding_energy / strength),
+        };
+        range.max(STEEPEST * strength / self.stiffness)
+    }
+
+    fn stored_normal(&self, point: &PointState) -> f64 {
+        let opening = point.opening;
+        if opening <= 0.0 {
+            0.5 * self.stiffness * opening * opening
+        } else if point.damage == 0.0 {
+            let r = opening / self.peak_opening;
+            self.strength.tensile * self.peak_opening * r * r * (1.0 - r / 3.0)
+        } else {
+            0.5 * point.secant * opening * opening
+        }
+    }
+
+    /// Work of the normal stress between two calls that is not stored [J/m2].
+    fn dissipated_normal(&self, old: &PointState, new: &PointState) -> f64 {
+        if new.damage == old.damage && new.secant == old.secant {
+            return 0.0;
+        }
+        let [from, to] = [old.opening, new.opening].map(|opening| opening.max(0.0));
+        if old.damage > 0.0 {
+            return 0.5 * from * to * (old.secant - new.secant);
+        }
+        let stress = |point: &PointState, opening: f64| {
+            let r = opening / self.peak_opening;
+            if point.damage > 0.0 { point.secant * opening } else { self.strength.tensile * (2.0 - r) * r }
+        };
+        // All work before the peak is stored.
+        let from = from.max(to.min(self.peak_opening));
+        let work = 0.5 * (stress(old, from) + stress(new, to)) * (to - from);
+        let stored = |point: &PointState, opening: f64| self.stored_normal(&PointState { opening, ..*point });
+        (work + stored(old, from) - stored(new, to)).max(0.0)
+    }
+
+    /// Work of the shear stress between two calls that is not stored [J/m2]: mean stress times plastic slip. It could
+    /// be negative if the stress changes sign between the calls. It is then set to zero, and the gain shows as an error
+    /// in the energy balance.
+    fn dissipated_shear(&self, old: &PointState, new: &PointState) -> f64 {
+        let (before, now) = (old.elastic_slip(), new.elastic_slip());
+        let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);
+        (self.stiffness * (along(0) + along(1))).max(0.0)
+    }
+}
+
+/// Root in 0..end of a decreasing function by the Illinois variant of false position.
+fn root(f: impl Fn(f64) -> f64, end: f64) -> f64 {
+    let (mut a, mut b) = (0.0, end);
+    let (mut f_a, mut f_b) = (f(a), f(b));
+    if f_b >= 0.0 {
+        return b;
+    }
+    // Converges in about eight iterations; the bound guards against rounding.
+    for _ in 0..60 {
+        let x = (a * f_b - b * f_a) / (f_b - f_a);
+        let f_x = f(x);
+        if f_x.abs() <= 1e-12 * f_a.abs().max(f_b.abs()) || b - a <= 1e-15 * end {
+            return x;
+        }
+        if f_x > 0.0 {
+            (a, f_a) = (x, f_x);
+            f_b *= 0.5;
+        } else {
+            (b, f_b) = (x, f_x);
+            f_a *= 0.5;
+        }
+    }
+    0.5 * (a + b)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,15 @@
+//! Chunks of work for the thread pool, and sums over chunks.
+
+use rayon::prelude::*;
+
+/// Items per task of the thread pool. Sums are taken per task first, so their order does not depend on the threads.
+pub const CHUNK: usize = 512;
+
+/// Sums `value` over 0..count in an order that does not depend on the number of threads.
+pub fn ordered_sum(count: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let chunks: Vec<f64> = (0..count.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| (chunk * CHUNK..((chunk + 1) * CHUNK).min(count)).map(&value).sum())
+        .collect();
+    chunks.iter().fold(0.0, |sum, chunk| sum + chunk)
+}

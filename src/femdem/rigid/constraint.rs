@@ -1,0 +1,165 @@
+//! Rigid bodies with given velocities at some of their points.
+//!
+//! Each given velocity component of a point is one equation c . u = given, with u the velocity and angular velocity of
+//! the body. Equations that depend linearly on earlier ones are dropped, so at most six remain. The constraint impulse
+//! changes u so that all hold (Gauss's principle of least constraint).
+
+use glam::{DMat3, DVec3};
+
+/// Least independent part of a row, over its length [-]: far above rounding, far below any effective constraint.
+const INDEPENDENT: f64 = 1e-6;
+/// Degrees of freedom of a body.
+const FREEDOMS: usize = 6;
+
+/// Velocity of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidVelocity {
+    /// Velocity of the centre [m/s].
+    pub velocity: DVec3,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: DVec3,
+}
+
+/// Impulse on a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Impulse {
+    /// Impulse of the force [N s].
+    pub force: DVec3,
+    /// Impulse of the torque about the centre [N m s].
+    pub torque: DVec3,
+}
+
+/// A given component of the velocity of a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Direction.
+    pub axis: DVec3,
+    /// Position of the point relative to the centre [m].
+    pub arm: DVec3,
+    /// Velocity along the axis [m/s].
+    pub velocity: f64,
+}
+
+type Vector = [f64; FREEDOMS];
+
+fn dot(a: &Vector, b: &Vector) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn join(a: DVec3, b: DVec3) -> Vector {
+    [a.x, a.y, a.z, b.x, b.y, b.z]
+}
+
+fn parts(v: &Vector) -> [DVec3; 2] {
+    [DVec3::from_slice(&v[..3]), DVec3::from_slice(&v[3..])]
+}
+
+/// Computes the impulse that gives a body the velocities of the rows. The body has a mass [kg] and an inverse inertia
+/// [1/(kg m2)], and would move with `free` without the constraints.
+pub fn constraint_impulse(
+    mass: f64,
+    inverse_inertia: DMat3,
+    free: RigidVelocity,
+    rows: impl Iterator<Item = Row>,
+) -> Impulse {
+    // Angular velocities are multiplied by a radius of gyration, so that all components have the same unit.
+    let trace = inverse_inertia.x_axis.x + inverse_inertia.y_axis.y + inverse_inertia.z_axis.z;
+    let radius = (3.0 / (mass * trace)).sqrt();
+    let free = join(free.velocity, free.angular_velocity * radius);
+    let velocity_change = |impulse: &Vector| {
+        let [force, torque] = parts(impulse);
+        join(force / mass, inverse_inertia * torque * (radius * radius))
+    };
+    let mut directions: Vec<Vector> = Vec::with_capacity(FREEDOMS);
+    let mut kept: Vec<(Vector, f64)> = Vec::with_capacity(FREEDOMS);
+    for row in rows {
+        let own = join(row.axis, row.arm.cross(row.axis) / radius);
+        let mut rest = own;
+        for direction in &directions {
+            let along = dot(&rest, direction);
+            rest.iter_mut().zip(direction).for_each(|(r, d)| *r -= along * d);
+        }
+        let length = dot(&rest, &rest).sqrt();
+        if length > INDEPENDENT * dot(&own, &own).sqrt() {
+            directions.push(rest.map(|r| r / length));
+            kept.push((own, row.velocity));
+            if kept.len() == FREEDOMS {
+                break;
+            }
+        }
+    }
+    let count = kept.len();
+    let mut system = [[0.0; FREEDOMS + 1]; FREEDOMS];
+    for (i, (row, given)) in kept.iter().enumerate() {
+        for (j, (other, _)) in kept.iter().enumerate() {
+            system[i][j] = dot(row, &velocity_change(other));
+        }
+        system[i][FREEDOMS] = given - dot(row, &free);
+    }
+    let solution = solve(system, count);
+    let mut impulse = [0.0; FREEDOMS];
+    for ((row, _), share) in kept.iter().zip(solution) {
+        impulse.iter_mut().zip(row).for_each(|(sum, r)| *sum += share * r);
+    }
+    let [force, torque] = parts(&impulse);
+    Impulse { force, torque: torque * radius }
+}
+
+/// Solves the first `count` equations of a positive definite system by Gaussian elimination.
+fn solve(mut system: [[f64; FREEDOMS + 1]; FREEDOMS], count: usize) -> Vector {
+    for pivot in 0..count {
+        for row in pivot + 1..count {
+            let share = system[row][pivot] / system[pivot][pivot];
+            let above = system[pivot];
+            system[row].iter_mut().zip(above).for_each(|(own, above)| *own -= share * above);
+        }
+    }
+    let mut solution = [0.0; FREEDOMS];
+    for row in (0..count).rev() {
+        let known: f64 = (row + 1..count).map(|column| system[row][column] * solution[column]).sum();
+        solution[row] = (system[row][FREEDOMS] - known) / system[row][row];
+    }
+    solution
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn after(rows: &[Row], free: RigidVelocity) -> RigidVelocity {
+        let (mass, inverse_inertia) = (2.0, DMat3::from_diagonal(DVec3::new(1.0, 4.0, 9.0)));
+        let impulse = constraint_impulse(mass, inverse_inertia, free, rows.iter().copied());
+        RigidVelocity {
+            velocity: free.velocity + impulse.force / mass,
+            angular_velocity: free.angular_velocity + inverse_inertia * impulse.torque,
+        }
+    }
+
+    const FREE: RigidVelocity =
+        RigidVelocity { velocity: DVec3::new(1.0, 2.0, 3.0), angular_velocity: DVec3::new(4.0, 5.0, 6.0) };
+
+    #[test]
+    fn constrained_points_get_their_velocity_and_other_motion_stays_free() {
+        let row = |axis, arm, velocity| Row { axis, arm, velocity };
+        let corners =
+            [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)].map(|x| x - DVec3::new(0.5, 0.5, 1.0));
+        // Points in a plane moved along z: no rotation about x and y, all other motion unchanged.
+        let rows: Vec<Row> = corners.iter().map(|arm| row(DVec3::Z, *arm, -7.0)).collect();
+        let moved = after(&rows, FREE);
+        let expected =
+            RigidVelocity { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
+        // Rounding.
+        assert!((moved.velocity - expected.velocity).length() < 1e-13);
+        assert!((moved.angular_velocity - expected.angular_velocity).length() < 1e-13);
+        // All components of all points are zero: the body is at rest.
+        let rows: Vec<Row> = corners.iter().flat_map(|arm| DVec3::AXES.map(|axis| row(axis, *arm, 0.0))).collect();
+        let held = after(&rows, FREE);
+        assert!(held.velocity.length() < 1e-13 && held.angular_velocity.length() < 1e-13);
+        // One fixed point: the body rotates about it.
+        let arm = corners[1];
+        let hinged = after(&DVec3::AXES.map(|axis| row(axis, arm, 0.0)), FREE);
+        assert!((hinged.velocity + hinged.angular_velocity.cross(arm)).length() < 1e-13);
+        assert!(hinged.angular_velocity.length() > 1.0);
+        assert_eq!(after(&[], FREE), FREE);
+    }
+}

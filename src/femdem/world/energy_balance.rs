@@ -1,0 +1,64 @@
+//! The energy balance of a world.
+
+use serde::{Deserialize, Serialize};
+
+use super::World;
+use crate::femdem::element;
+use crate::femdem::parallel::chunks::ordered_sum;
+
+/// Energies [J]: stored now, and dissipated or supplied since the start.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct EnergyBalance {
+    /// Kinetic energy: sum of m v- v+ / 2, with the velocities half a time step before and after.
+    pub kinetic: f64,
+    /// Strain energy of the tetrahedra.
+    pub strain: f64,
+    /// Elastic energy of the joints.
+    pub joint: f64,
+    /// Elastic energy of the contacts.
+    pub contact: f64,
+    /// Gravitational potential energy, zero at the start.
+    pub gravity: f64,
+    /// Energy dissipated by viscosity.
+    pub viscous: f64,
+    /// Energy dissipated in joints by fracture.
+    pub fracture: f64,
+    /// Energy dissipated by friction.
+    pub friction: f64,
+    /// Work of constraints and loads.
+    pub work: f64,
+    /// Elastic energy that tied faces get when they are released as joints; tied faces store none.
+    #[serde(rename = "freed")]
+    pub released: f64,
+}
+
+impl EnergyBalance {
+    /// Returns the conserved total: stored plus dissipated minus supplied energy.
+    pub fn total(&self) -> f64 {
+        let stored = self.kinetic + self.strain + self.joint + self.contact + self.gravity;
+        stored + self.viscous + self.fracture + self.friction - self.work - self.released
+    }
+}
+
+impl World {
+    /// Computes all energies at the current positions, except kinetic energy.
+    pub(super) fn energies(&self, viscous_power: f64) -> EnergyBalance {
+        let tets = &self.tets;
+        let strain = |t: usize| {
+            let x = tets.nodes[t].map(|n| self.nodes.position[n as usize]);
+            element::energy(&tets.shape[t], &self.moduli[usize::from(tets.body[t])], &x)
+        };
+        let gravity = |n: usize| -self.nodes.mass[n] * self.setup.gravity.dot(self.nodes.position[n]);
+        EnergyBalance {
+            strain: ordered_sum(tets.nodes.len(), strain),
+            joint: self.joints.stored(&self.setup, tets, &self.nodes),
+            contact: self.contacts.scalars.stored,
+            friction: self.contacts.scalars.friction,
+            fracture: self.dissipated.fracture + self.joints.dissipated() - self.contacts.scalars.taken_over,
+            gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
+            // The power is that of the velocity half a time step ago and lasts until half a time step after.
+            viscous: self.dissipated.viscous + 0.5 * self.dt * viscous_power,
+            ..self.dissipated
+        }
+    }
+}

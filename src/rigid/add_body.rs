@@ -1,0 +1,88 @@
+//! Adding bodies to a running world: the overlap at a position, and the new body.
+
+use glam::{DQuat, DVec3};
+
+use super::motion::{BodyState, Load};
+use super::search::Placements;
+use super::world::{NO_PAIR_LIST, RigidWorld};
+
+impl RigidWorld {
+    /// Largest overlap [m] that a new body at this position would have with bodies, ground and walls. 0 if the position
+    /// is free; infinite if the overlap exceeds the range of the contact law.
+    pub fn overlap_at(&self, position: DVec3, rotation: DQuat) -> f64 {
+        let number = self.position.len();
+        let mut positions = self.position.clone();
+        let mut rotations = self.rotation.clone();
+        positions.push(position);
+        rotations.push(rotation);
+        let placements = Placements { rotation: &rotations, position: &positions };
+        match self.surfaces.contact_points_of(number, placements, self.time) {
+            Ok(points) => points.iter().map(|point| point.overlap).fold(0.0, f64::max),
+            Err(_) => f64::INFINITY,
+        }
+    }
+
+    /// Adds a body; it moves from the next [`advance`](Self::advance) on.
+    pub fn add(&mut self, body: BodyState) {
+        let rotation = body.rotation.normalize();
+        let inertia = self.inverse_inertia.inverse();
+        self.angular_momentum.push(super::motion::angular_momentum(rotation, &inertia, body.angular_velocity));
+        self.rotation.push(rotation);
+        self.position.push(body.position);
+        self.velocity.push(body.velocity);
+        self.contact_now.push(Load::default());
+        self.contact_mean.push(Load::default());
+        self.states.push(body);
+        self.path.push(0.0);
+        self.margin.push(0.0);
+        self.search_distance = NO_PAIR_LIST;
+        self.publish();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::profile::Profile;
+    use crate::rigid::{BodyShape, ContactModel, Friction, Ground, Material, RigidSetup, Sides};
+
+    fn world(sides: Sides) -> RigidWorld {
+        let material = Material { young_modulus: 1e8, poisson_ratio: 0.2, restitution: 0.5 };
+        RigidWorld::new(RigidSetup {
+            shape: BodyShape::ball(0.1, 1.0),
+            bodies: vec![BodyState::at_rest(DVec3::new(0.0, 0.5, 0.1), DQuat::IDENTITY)],
+            material,
+            ground: Some(Ground { profile: Profile::new(vec![[-5.0, 0.0], [5.0, 0.0]]), terrain: None, material }),
+            sides,
+            end_walls: None,
+            wall_material: material,
+            friction: Friction { unit_unit: 0.5.into(), unit_ground: 0.5.into(), unit_wall: 0.5.into() },
+            model: ContactModel::HertzMindlin,
+            gravity: DVec3::NEG_Z * 9.81,
+        })
+        .unwrap()
+    }
+
+    #[test]
+    fn overlap_of_a_new_body_is_exact() {
+        for (sides, beside) in [(Sides::Open, 0.5), (Sides::Periodic { width: 0.6 }, 0.5 - 3.0 * 0.6)] {
+            let world = world(sides);
+            let at = |x: f64, y: f64, z: f64| world.overlap_at(DVec3::new(x, y, z), DQuat::IDENTITY);
+            assert_eq!(at(0.21, beside, 0.1), 0.0);
+            assert!((at(0.19, beside, 0.1) - 0.01).abs() < 1e-12);
+            assert!((at(1.0, beside, 0.09) - 0.01).abs() < 1e-12);
+            assert_eq!(at(0.0, beside, 0.1), f64::INFINITY);
+        }
+    }
+
+    #[test]
+    fn added_body_comes_to_rest_on_another() {
+        let mut world = world(Sides::Open);
+        world.add(BodyState::at_rest(DVec3::new(0.0, 0.5, 0.32), DQuat::IDENTITY));
+        for _ in 0..2000 {
+            world.advance(1e-3, &[Load::default(); 2]).unwrap();
+        }
+        let z = world.states()[1].position.z;
+        assert!((z - 0.3).abs() < 1e-3 && world.energy().kinetic < 1e-9, "{z}");
+    }
+}

@@ -1,0 +1,124 @@
+//! Motion of all bodies over a substep, and of the two sides of a contact point.
+
+use glam::DVec3;
+
+use super::contact::{ContactPoint, Feature, Substep};
+use super::motion::{BodyState, Load};
+use super::record::ContactStart;
+use super::search::Placements;
+
+/// Velocities of all bodies at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Velocities<'a> {
+    /// Velocities of the centres of mass [m/s].
+    pub linear: &'a [DVec3],
+    /// Angular velocities, world axes [rad/s].
+    pub angular: &'a [DVec3],
+}
+
+impl Velocities<'_> {
+    /// Velocity [m/s] of the material point of `body` at the lever arm r [m] from its centre of mass.
+    fn at(&self, body: usize, arm: DVec3) -> DVec3 {
+        self.linear[body] + self.angular[body].cross(arm)
+    }
+}
+
+/// Motion of all bodies over a substep.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion<'a> {
+    /// Positions and rotations at the end of the substep.
+    pub placements: Placements<'a>,
+    /// Velocities at the end of the substep.
+    pub now: Velocities<'a>,
+    /// Mean velocities of the substep: they stretch the springs and do the work.
+    pub mean: Velocities<'a>,
+    /// The substep.
+    pub substep: Substep,
+}
+
+/// A contact point with the motion of its two sides, relative to each other.
+pub struct ContactMotion<'a> {
+    /// The contact point.
+    pub point: &'a ContactPoint,
+    /// First body.
+    pub body: usize,
+    /// Second body; none for ground and walls.
+    pub partner: Option<usize>,
+    /// Lever arms of both sides [m].
+    pub arms: [DVec3; 2],
+    /// Normal velocity at the end of the substep [m/s], negative when approaching.
+    pub v_n: f64,
+    /// Tangential velocity at the end of the substep [m/s].
+    pub v_t: DVec3,
+    /// Mean velocity of the substep [m/s].
+    pub mean: DVec3,
+    /// Normal part of the mean velocity [m/s].
+    pub mean_n: f64,
+    /// Tangential part of the mean velocity [m/s].
+    pub mean_t: DVec3,
+    motion: &'a Motion<'a>,
+}
+
+impl<'a> ContactMotion<'a> {
+    /// Relative motion at a contact point.
+    pub fn new(point: &'a ContactPoint, motion: &'a Motion<'a>) -> Self {
+        let position = motion.placements.position;
+        let body = point.key.body as usize;
+        let partner = if let Feature::Unit { body, .. } = point.key.feature { Some(body as usize) } else { None };
+        let arms = [
+            point.position - position[body],
+            partner.map_or(DVec3::ZERO, |b| point.position - point.shift - position[b]),
+        ];
+        let relative = |v: Velocities<'_>| v.at(body, arms[0]) - partner.map_or(DVec3::ZERO, |b| v.at(b, arms[1]));
+        let (v, mean) = (relative(motion.now), relative(motion.mean));
+        let (v_n, mean_n) = (v.dot(point.normal), mean.dot(point.normal));
+        let (v_t, mean_t) = (v - point.normal * v_n, mean - point.normal * mean_n);
+        Self { point, body, partner, arms, v_n, v_t, mean, mean_n, mean_t, motion }
+    }
+
+    /// Angular velocity of both sides relative to each other, without its part along the normal, at the end of the
+    /// substep and in its mean [rad/s].
+    pub fn rolling_velocities(&self) -> [DVec3; 2] {
+        [self.motion.now, self.motion.mean].map(|v| {
+            let omega = v.angular[self.body] - self.partner.map_or(DVec3::ZERO, |b| v.angular[b]);
+            omega - self.point.normal * omega.dot(self.point.normal)
+        })
+    }
+
+    /// State of the bodies when the contact starts; `mass` is that of a body [kg].
+    pub fn start(&self, mass: f64) -> ContactStart {
+        let Motion { placements, now, substep, .. } = self.motion;
+        let state = |body: usize, shift: DVec3| BodyState {
+            position: placements.position[body] + shift,
+            rotation: placements.rotation[body],
+            velocity: now.linear[body],
+            angular_velocity: now.angular[body],
+        };
+        ContactStart {
+            time: substep.time,
+            body: state(self.body, DVec3::ZERO),
+            partner: self.partner.map(|b| state(b, self.point.shift)),
+            v_n: self.v_n,
+            v_t: self.v_t,
+            mass: if self.partner.is_some() { 0.5 } else { 1.0 } * mass,
+        }
+    }
+
+    /// Adds a force [N] on the first body, and its reaction, to the loads.
+    pub fn add_force(&self, force: DVec3, loads: &mut [Load]) {
+        loads[self.body].force += force;
+        loads[self.body].torque += self.arms[0].cross(force);
+        if let Some(b) = self.partner {
+            loads[b].force -= force;
+            loads[b].torque -= self.arms[1].cross(force);
+        }
+    }
+
+    /// Adds a torque [N m] on the first body, and its reaction, to the loads.
+    pub fn add_torque(&self, torque: DVec3, loads: &mut [Load]) {
+        loads[self.body].torque += torque;
+        if let Some(b) = self.partner {
+            loads[b].torque -= torque;
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! Distance from rounded parts to the ground (a profile z(x), uniform in y) and to plane walls.
+//!
+//! The ground is a chain of strips. A part touches a strip if the foot point of its lowest point lies between the
+//! strip's ends. It touches a convex corner if the direction from the corner line to the part lies between the two
+//! normals. The two cases join continuously and exclude each other, so no seam counts twice. In a concave corner both
+//! strips count.
+
+use glam::{DQuat, DVec3};
+
+use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::profile::Profile;
+use crate::rigid::contact::Feature;
+
+/// A plane strip of the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Strip {
+    /// Range along x [m].
+    x: [f64; 2],
+    /// A point of the plane [m].
+    origin: DVec3,
+    /// Upward normal.
+    normal: DVec3,
+}
+
+/// The ground as strips and convex corners.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroundSurface {
+    profile: Profile,
+    strips: Vec<Strip>,
+}
+
+/// A point where a part is near a fixed surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Approach {
+    /// Element of the fixed surface.
+    pub feature: Feature,
+    /// Nearest point of the core [m].
+    pub core: DVec3,
+    /// Normal from the surface into the body.
+    pub normal: DVec3,
+    /// Distance of the core from the surface [m].
+    pub distance: f64,
+}
+
+impl GroundSurface {
+    /// Creates the strips of a profile, level beyond its ends.
+    pub fn new(profile: &Profile) -> Self {
+        let points = profile.points();
+        let last = points[points.len() - 1];
+        let at = |p: [f64; 2]| DVec3::new(p[0], 0.0, p[1]);
+        let mut strips = vec![Strip { x: [f64::NEG_INFINITY, points[0][0]], origin: at(points[0]), normal: DVec3::Z }];
+        strips.extend(points.windows(2).map(|w| {
+            let along = at(w[1]) - at(w[0]);
+            Strip { x: [w[0][0], w[1][0]], origin: at(w[0]), normal: DVec3::new(-along.z, 0.0, along.x).normalize() }
+        }));
+        strips.push(Strip { x: [last[0], f64::INFINITY], origin: at(last), normal: DVec3::Z });
+        Self { profile: profile.clone(), strips }
+    }
+
+    /// Appends the points where a part of a body at (rotation, position) is nearer than `reach` [m] to the ground.
+    pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
+        let (centre, radius) = part.bounding_sphere();
+        let centre = rotation * centre + position;
+        let span = [centre.x - radius - reach, centre.x + radius + reach];
+        let first = self.strips.partition_point(|s| s.x[1] < span[0]);
+        let from = out.len();
+        for (k, strip) in self.strips.iter().enumerate().skip(first) {
+            if strip.x[0] > span[1] {
+                break;
+            }
+            if (centre - strip.origin).dot(strip.normal) < radius + reach {
+                for approach in self.strip_approaches(k, part, rotation, position, reach) {
+                    keep(out, from, approach);
+                }
+            }
+            if let Some(next) = self.strips.get(k + 1)
+                && strip.normal.cross(next.normal).y > STRAIGHT
+                && let Some(corner) = corner_approach(k, strip, next, part, rotation, position, reach)
+            {
+                keep(out, from, corner);
+            }
+        }
+    }
+
+    /// Approaches of the ends of a part to strip k.
+    fn strip_approaches<'a>(
+        &'a self,
+        k: usize,
+        part: &'a ConvexPart,
+        rotation: DQuat,
+        position: DVec3,
+        reach: f64,
+    ) -> impl Iterator<Item = Approach> + 'a {
+        let strip = &self.strips[k];
+        part.ends(rotation.inverse() * -strip.normal).enumerate().filter_map(move |(end, point)| {
+            let core = rotation * point + position;
+            let distance = (core - strip.origin).dot(strip.normal);
+            let foot = core.x - distance * strip.normal.x;
+            let above = distance > 0.0 || core.z < self.profile.z(core.x);
+            // Widened by the rounding error, so that no foot point falls between two strips; `keep` drops duplicates.
+            let inside = (strip.x[0] - SAME_POINT..strip.x[1] + SAME_POINT).contains(&foot);
+            let feature = Feature::Ground { place: 2 * k as u32, end: end as u16 };
+            (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
+        })
+    }
+}
+
+/// Distance below which two foot points are the same [m].
+const SAME_POINT: f64 = 1e-12;
+/// Sine of the angle below which two strips count as one plane [-].
+const STRAIGHT: f64 = 1e-6;
+
+/// Appends an approach unless an earlier one of this part (index `from` on) has the same foot point and normal. On the
+/// seam of two strips, the nearer one counts.
+pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
+    let foot = |a: &Approach| a.core - a.normal * a.distance;
+    let same = |old: &&mut Approach| {
+        // 1e-6 m: within it, two planes at an angle below STRAIGHT differ by less than a picometre.
+        foot(old).distance_squared(foot(&new)) < 1e-12 && old.normal.cross(new.normal).length() < STRAIGHT
+    };
+    match out[from..].iter_mut().find(same) {
+        Some(old) if new.distance < old.distance => *old = new,
+        Some(_) => {}
+        None => out.push(new),
+    }
+}
+
+/// Approach of a part to the convex corner between two strips, if the corner is the nearest element.
+fn corner_approach(
+    k: usize,
+    left: &Strip,
+    right: &Strip,
+    part: &ConvexPart,
+    rotation: DQuat,
+    position: DVec3,
+    reach: f64,
+) -> Option<Approach> {
+    let corner = right.x[0];
+    let line = if right.x[0] == right.origin.x { right.origin } else { left.origin };
+    let (centre, radius) = part.bounding_sphere();
+    let centre = rotation * centre + position;
+    let to_centre = DVec3::new(centre.x - corner, 0.0, centre.z - line.z);
+    if to_centre.length() > radius + reach {
+        return None;
+    }
+    let ends = [centre.y - radius, centre.y + radius].map(|y| DVec3::new(corner, y, line.z));
+    let (_, core) = nearest_to_segment(part, rotation, position, ends, reach)?;
+    let across = DVec3::new(core.x - corner, 0.0, core.z - line.z);
+    let distance = across.length();
+    // Tangents of the strips towards +x.
+    let [t_left, t_right] = [left.normal, right.normal].map(|n| DVec3::new(n.z, 0.0, -n.x));
+    let within = across.dot(t_left) >= 0.0 && across.dot(t_right) < 0.0;
+    (within && distance < reach).then(|| Approach {
+        feature: Feature::Ground { place: 2 * k as u32 + 1, end: 0 },
+        core,
+        normal: across / distance,
+        distance,
+    })
+}
+
+/// Finds where a part of a body at (rotation, position) is nearest to the segment from a to b. Returns the fraction of
+/// the segment [-] and the point of the core [m]; `None` beyond `reach` [m].
+pub(super) fn nearest_to_segment(
+    part: &ConvexPart,
+    rotation: DQuat,
+    position: DVec3,
+    [a, b]: [DVec3; 2],
+    reach: f64,
+) -> Option<(f64, DVec3)> {
+    let back = rotation.inverse();
+    let length = a.distance(b);
+    let [mut low, mut high] = [0.0, 1.0];
+    // 50 bisections of less than a metre: 1e-15 m.
+    for _ in 0..50 {
+        let middle: f64 = 0.5 * (low + high);
+        let on_segment = a.lerp(b, middle);
+        let core = rotation * part.nearest(back * (on_segment - position)) + position;
+        // The distance to the part decreases by at most the distance along the segment.
+        if on_segment.distance(core) - 0.5 * (high - low) * length > reach {
+            return None;
+        }
+        // The distance is convex along the segment; the sign of its slope tells on which side the nearest point lies.
+        if (core - on_segment).dot(b - a) > 0.0 { low = middle } else { high = middle }
+    }
+    let fraction = 0.5 * (low + high);
+    Some((fraction, rotation * part.nearest(back * (a.lerp(b, fraction) - position)) + position))
+}
+
+/// A plane wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneWall {
+    /// Number of the wall.
+    pub index: u8,
+    /// A point of the plane [m].
+    pub origin: DVec3,
+    /// Normal into the domain.
+    pub normal: DVec3,
+}
+
+impl PlaneWall {
+    /// Appends the points where a part is nearer than `reach` [m] to the wall.
+    pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
+        for (end, point) in part.ends(rotation.inverse() * -self.normal).enumerate() {
+            let core = rotation * point + position;
+            let distance = (core - self.origin).dot(self.normal);
+            if distance < reach {
+                let feature = Feature::Wall { wall: self.index, end: end as u16 };
+                out.push(Approach { feature, core, normal: self.normal, distance });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const REACH: f64 = 0.3;
+
+    fn near(surface: &GroundSurface, at: DVec3) -> Vec<Approach> {
+        let mut out = Vec::new();
+        surface.approaches(&ConvexPart::ball(DVec3::ZERO, 0.1), DQuat::IDENTITY, at, REACH, &mut out);
+        out
+    }
+
+    fn trapezoid() -> GroundSurface {
+        GroundSurface::new(&Profile::new(vec![[-3.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [3.0, 0.0]]))
+    }
+
+    #[test]
+    fn distance_is_unique_and_continuous_at_a_convex_corner() {
+        let surface = trapezoid();
+        let (mut before, mut turned) = (0.1, 0.0);
+        for i in 0..=4000 {
+            // A level path 0.1 above the crest and past the lee edge.
+            let at = DVec3::new(0.8 + 1e-4 * f64::from(i), 0.3, 1.1);
+            let found = near(&surface, at);
+            if found.is_empty() {
+                assert!(at.x > 1.1);
+                break;
+            }
+            assert_eq!(found.len(), 1, "{at}");
+            // Per step, the distance changes by less than the path, 1e-4, and the normal by 1e-4 / 0.1 rad.
+            assert!((found[0].distance - before).abs() < 1.01e-4);
+            let angle = found[0].normal.x.atan2(found[0].normal.z);
+            assert!((angle - turned).abs() < 1.1e-3);
+            (before, turned) = (found[0].distance, angle);
+        }
+        assert!(turned > 0.4);
+    }
+
+    #[test]
+    fn concave_corners_are_touched_twice_and_straight_seams_once() {
+        let valley = GroundSurface::new(&Profile::new(vec![[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
+        assert_eq!(near(&valley, DVec3::new(0.0, 0.0, 0.2)).len(), 2);
+        let straight = GroundSurface::new(&Profile::new(vec![[-1.0, -0.5], [0.0, 0.0], [1.0, 0.5]]));
+        for i in -100..100 {
+            let x = 1e-3 * f64::from(i);
+            let found = near(&straight, DVec3::new(x, 0.0, 0.5 * x + 0.1));
+            assert_eq!(found.len(), 1);
+            // cos(atan 0.5) x 0.1.
+            assert!((found[0].distance - 0.0894427191).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn far_flank_of_a_mound_is_not_touched_from_behind() {
+        let found = near(&trapezoid(), DVec3::new(-1.6, 0.0, 0.75));
+        assert!(found.iter().all(|a| a.distance > 0.0));
+        assert_eq!(found.len(), 1);
+    }
+}

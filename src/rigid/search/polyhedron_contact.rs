@@ -1,0 +1,181 @@
+//! Contact points of two rounded polyhedra.
+//!
+//! Two polyhedra with parallel faces in contact share a contact patch, so a single pair of nearest points is arbitrary.
+//! The patch is a polygon. Its corners are corners of one body over a face of the other, and crossings of two edges.
+//! Each of them is a contact point. The distances of corners are exact and change smoothly. NearPoint the end of an edge,
+//! the edge is assumed to bend back with the rounding radius: the crossing fades out while the corner takes over.
+
+use glam::DVec3;
+
+use super::nearest_points::Placement;
+use crate::geometry::polyhedron::Polyhedron;
+use crate::rigid::contact::WHOLE;
+
+/// Squared sine of the angle below which two edges count as parallel [-]: 0.6 degrees; the corners carry the load then.
+const PARALLEL: f64 = 1e-4;
+/// Tolerance, as a sine, for the condition that the other edge lies outside both faces of an edge [-].
+const BEHIND: f64 = 0.2;
+
+/// A point where two bodies are near each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearPoint {
+    /// Feature (corner, edge or whole) of the first and of the second body.
+    pub features: [u16; 2],
+    /// Nearest points of the cores, world axes [m].
+    pub points: [DVec3; 2],
+    /// Distance by which the bent edges reduce the overlap here [m].
+    pub overlap_reduction: f64,
+}
+
+/// Points where the cores of two polyhedra, rounded by `rounding` [m], are nearer than `reach` [m]. A distance of zero
+/// means that the cores overlap.
+pub fn near_points(
+    (a, (q_a, x_a)): (&Polyhedron, Placement),
+    (b, (q_b, x_b)): (&Polyhedron, Placement),
+    rounding: f64,
+    reach: f64,
+) -> Vec<NearPoint> {
+    // Corners of each body in the axes of the other.
+    let (back_a, back_b) = (q_a.inverse(), q_b.inverse());
+    let a_at_b: Vec<DVec3> = a.corners().iter().map(|c| back_b * (q_a * *c + x_a - x_b)).collect();
+    let b_at_a: Vec<DVec3> = b.corners().iter().map(|c| back_a * (q_b * *c + x_b - x_a)).collect();
+    if are_apart(a, &b_at_a, reach) || are_apart(b, &a_at_b, reach) {
+        return Vec::new();
+    }
+    let (from_a, from_b) = (|p: DVec3| q_a * p + x_a, |p: DVec3| q_b * p + x_b);
+    let mut found = Vec::new();
+    let mut keep = |near: NearPoint| {
+        if near.points[0].distance_squared(near.points[1]) < reach * reach {
+            found.push(near);
+        }
+    };
+    for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
+        let points = [from_b(*corner), from_b(b.nearest(*corner))];
+        keep(NearPoint { features: [number as u16, WHOLE], points, overlap_reduction: 0.0 });
+    }
+    for (number, corner) in b_at_a.iter().enumerate().filter(|(_, corner)| a.least_distance(**corner) < reach) {
+        let points = [from_a(a.nearest(*corner)), from_a(*corner)];
+        keep(NearPoint { features: [WHOLE, number as u16], points, overlap_reduction: 0.0 });
+    }
+    let relative = back_a * q_b;
+    let edges_of_b: Vec<EdgeAt> = b
+        .edges()
+        .iter()
+        .map(|edge| EdgeAt { ends: edge.ends.map(|c| b_at_a[c]), normals: edge.normals.map(|n| relative * n) })
+        .collect();
+    for (i, edge) in a.edges().iter().enumerate() {
+        let edge = EdgeAt { ends: edge.ends.map(|c| a.corners()[c]), normals: edge.normals };
+        for (j, other) in edges_of_b.iter().enumerate() {
+            if let Some((points, overlap_reduction)) = crossing(&edge, other, rounding, reach) {
+                let features = [(a.corners().len() + i) as u16, (b.corners().len() + j) as u16];
+                keep(NearPoint { features, points: points.map(from_a), overlap_reduction });
+            }
+        }
+    }
+    found
+}
+
+/// Whether a face of the first body separates the corners of the second by more than `reach` [m].
+fn are_apart(body: &Polyhedron, corners: &[DVec3], reach: f64) -> bool {
+    body.faces().iter().any(|face| corners.iter().all(|corner| face.plane.distance(*corner) > reach))
+}
+
+/// An edge with its ends [m] and the outward normals of its faces, in the axes of the first body.
+struct EdgeAt {
+    ends: [DVec3; 2],
+    normals: [DVec3; 2],
+}
+
+impl EdgeAt {
+    /// Whether `direction` points out of the body at the edge.
+    fn points_out(&self, direction: DVec3) -> bool {
+        self.normals.iter().all(|face| face.dot(direction) > -BEHIND)
+    }
+}
+
+/// Nearest points of two edges that cross within `reach` [m], and the reduction of their overlap by bending [m]. `None`
+/// unless each edge lies on the outer side of the other.
+fn crossing(a: &EdgeAt, b: &EdgeAt, rounding: f64, reach: f64) -> Option<([DVec3; 2], f64)> {
+    let ([a_0, a_1], [b_0, b_1]) = (a.ends, b.ends);
+    let (length_a, length_b) = (a_0.distance(a_1), b_0.distance(b_1));
+    let (u, v) = ((a_1 - a_0) / length_a, (b_1 - b_0) / length_b);
+    let (between, cosine) = (a_0 - b_0, u.dot(v));
+    let sine_squared = 1.0 - cosine * cosine;
+    // Compares the distance of the lines, multiplied by the sine.
+    if sine_squared < PARALLEL || between.dot(u.cross(v)).powi(2) > reach * reach * sine_squared {
+        return None;
+    }
+    let s = (cosine * v.dot(between) - u.dot(between)) / sine_squared;
+    let t = (v.dot(between) - cosine * u.dot(between)) / sine_squared;
+    let from_ends = [s, length_a - s, t, length_b - t];
+    if from_ends.iter().any(|distance| *distance <= 0.0) {
+        return None;
+    }
+    let (on_a, on_b) = (a_0 + s * u, b_0 + t * v);
+    let out = (on_b - on_a).normalize_or_zero();
+    if !(a.points_out(out) && b.points_out(-out)) {
+        return None;
+    }
+    let reduction = |distance: &f64| (rounding - distance).max(0.0).powi(2) / (2.0 * rounding);
+    Some(([on_a, on_b], from_ends.iter().map(reduction).sum()))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+
+    const ROUNDING: f64 = 0.05;
+    /// Edges come after the eight corners.
+    const FIRST_EDGE: u16 = 8;
+
+    fn cube() -> Polyhedron {
+        let side = |number: usize, axis: usize| if number >> axis & 1 == 1 { 0.45 } else { -0.45 };
+        let corner = |number: usize| DVec3::new(side(number, 0), side(number, 1), side(number, 2));
+        Polyhedron::hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn above(x: f64, z: f64, turn: f64) -> Vec<NearPoint> {
+        let upper = (DQuat::from_rotation_z(turn), DVec3::new(x, 0.0, z));
+        near_points((&cube(), (DQuat::IDENTITY, DVec3::ZERO)), (&cube(), upper), ROUNDING, 0.2)
+    }
+
+    #[test]
+    fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
+        let points = above(0.3, 1.0, 0.0);
+        // Two corners of each box lie over the other's face; the others are 0.3 away. Edges that only meet bend back.
+        let bearing = points.iter().filter(|near| near.overlap_reduction == 0.0);
+        assert_eq!(bearing.clone().count(), 4);
+        for near in bearing {
+            assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn rotated_boxes_touch_where_their_edges_cross() {
+        let points = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
+        // Two squares rotated by 45 degrees share an octagon; no corner of one lies over the other.
+        let crossings = points.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
+        assert_eq!((crossings.count(), points.len()), (8, 8));
+        for near in points {
+            assert!(
+                (near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12 && near.overlap_reduction == 0.0
+            );
+        }
+    }
+
+    #[test]
+    fn edge_crossing_fades_out_at_the_end_of_an_edge() {
+        let edge_up = DQuat::from_rotation_x(0.25 * std::f64::consts::PI);
+        for shift in [0.0, 0.3, 0.41, 0.4499] {
+            let lower = (edge_up, DVec3::ZERO);
+            let across = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
+            let upper = (across * edge_up, DVec3::new(shift, 0.0, 0.9 * 2f64.sqrt() + 0.1));
+            let points = near_points((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
+            let near = points.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
+            let past = (shift - 0.4f64).max(0.0);
+            assert!((near.overlap_reduction - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.overlap_reduction);
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Layered non-hydrostatic model of the whole flume.
+//!
+//! | module | contents |
+//! | --- | --- |
+//! | `run` | one run of the flume model, from a [`FlumeSetup`] to a record; the entry point of this module |
+//! | [`layered`] | K-layer non-hydrostatic flume model with its ends, friction and breaking |
+//! | [`incoming`] | any wave theory as an inflow at the left end of the flume |
+//! | [`record`] | recorded gauges, surface profiles and flow, interpolated at any (x, z, t) |
+//! | `interpolation` | cubic interpolation next to dry points |
+
+pub mod incoming;
+mod interpolation;
+pub mod layered;
+pub mod record;
+mod run;
+
+pub use run::{FlumeError, FlumeSetup, MAX_LAYERS, WaveSource, run};
