@@ -3,10 +3,9 @@
 
 use breakwater::bench::tank::Tank;
 use breakwater::sph::{
-    kernel::Wendland,
     lanes::{InstructionSet, Lanes, WithLanes},
     parameters::Parameters,
-    wall_slip::WallSlip,
+    terms::{kernel::Wendland, wall_slip::WallSlip},
 };
 use divan::{Bencher, counter::ItemsCount};
 use glam::DVec2;
@@ -33,7 +32,7 @@ fn tank(instructions: InstructionSet) -> Tank {
     let mut tank = Tank::new(instructions, parameters, [side; 3], &|_| side, &|_, _| DVec2::ZERO, &[]);
     let Tank { solver, water, boundary } = &mut tank;
     solver.sort(water, boundary);
-    solver.list(water, boundary);
+    solver.build_neighbour_lists(water, boundary);
     solver.boundary_densities(boundary);
     tank
 }
@@ -52,7 +51,7 @@ fn sort(bencher: Bencher, instructions: InstructionSet) {
 
 #[divan::bench(args = instruction_sets())]
 fn neighbour_lists(bencher: Bencher, instructions: InstructionSet) {
-    measure(bencher, instructions, |Tank { solver, water, boundary }| solver.list(water, boundary));
+    measure(bencher, instructions, |Tank { solver, water, boundary }| solver.build_neighbour_lists(water, boundary));
 }
 
 #[divan::bench(args = instruction_sets())]

@@ -66,6 +66,7 @@ pub mod case;
 pub mod cli;
 pub mod femdem;
 pub mod geometry;
+pub mod mechanics;
 pub mod output;
 mod random;
 pub mod report;

@@ -11,8 +11,8 @@ use breakwater::case::Case;
 use breakwater::simulation::flume::Simulation;
 use breakwater::simulation::flume::checkpoint::{self, Checkpoint};
 use breakwater::simulation::flume::recorder_state::RecorderState;
-use breakwater::sph::backend::Surfaces;
 use breakwater::sph::device::{Device, DeviceChoice};
+use breakwater::sph::solver::backend::Surfaces;
 use glam::DVec3;
 use serde_json::{Value, json};
 
@@ -301,15 +301,16 @@ fn velocities_of_all_water_near_surfaces_can_be_read_and_written() {
     let grid = start.solver().grid().clone();
     let high = grid.low + grid.size * DVec3::from_array(grid.count.map(|n| n as f64));
     let mut solver = device.solver(*start.solver().parameters(), [grid.low, high], [grid.low, high]).unwrap();
-    solver.load(&water, &boundary).unwrap();
+    solver.device_memory().unwrap().load(&water, &boundary).unwrap();
     solver.sort(&mut water, &boundary);
     // This is more water than the buffer holds at first.
-    let everywhere = Surfaces { balls: vec![(high, 100.0)], ..Surfaces::default() };
-    let mut near = solver.take_near(&everywhere).unwrap();
-    assert!(near.places.iter().copied().eq(0..water.len() as u32));
+    let everywhere = Surfaces { bounding_spheres: vec![(high, 100.0)], ..Surfaces::default() };
+    let memory = solver.device_memory().unwrap();
+    let mut near = memory.fetch_near_water(&everywhere).unwrap();
+    assert!(near.indices.iter().copied().eq(0..water.len() as u32));
     let given = |id: u32| DVec3::new(f64::from(id % 512), 1.0, -2.0);
-    near.water.velocity = near.places.iter().map(|&place| given(place)).collect();
-    solver.put_near(&near);
-    solver.fetch(&mut water, &mut boundary).unwrap();
+    near.water.velocity = near.indices.iter().map(|&place| given(place)).collect();
+    memory.write_near_velocities(&near);
+    memory.fetch(&mut water, &mut boundary).unwrap();
     assert!(water.velocity.iter().enumerate().all(|(i, velocity)| *velocity == given(i as u32)));
 }

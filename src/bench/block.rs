@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::{PHASES, tank::Tank};
 #[cfg(feature = "gpu")]
 use crate::sph::particles::{boundary::Boundary, water::Water};
-use crate::sph::{lanes::InstructionSet, parameters::Parameters, step::Solver, wall_slip::WallSlip};
+use crate::sph::{lanes::InstructionSet, parameters::Parameters, solver::step::Solver, terms::wall_slip::WallSlip};
 
 const GRAVITY: f64 = 9.81;
 
@@ -79,7 +79,7 @@ impl Block {
         };
         solver.sort(water, boundary);
         end_phase(0);
-        solver.list(water, boundary);
+        solver.build_neighbour_lists(water, boundary);
         end_phase(1);
         solver.boundary_densities(boundary);
         end_phase(2);

@@ -4,12 +4,12 @@ use std::time::{Duration, Instant};
 
 use super::{FLOPS_PER_PAIR, Measurement, PHASES, block::Block, phases_of};
 use crate::sph::{
-    backend::{Backend, DeviceError},
     gpu::{
         card::{Card, groups},
         shaders::Shader,
         solver::GpuSolver,
     },
+    solver::backend::{Backend, DeviceError, DeviceMemory},
 };
 
 /// Shader that measures the peaks.
@@ -87,7 +87,7 @@ pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peak
         };
         solver.sort(water, boundary);
         end_phase(&mut solver, 0)?;
-        solver.list(water, boundary);
+        solver.build_neighbour_lists(water, boundary);
         end_phase(&mut solver, 1)?;
         solver.boundary_densities(boundary);
         end_phase(&mut solver, 2)?;

@@ -11,7 +11,7 @@ use crate::sph::{
         fill::Basin,
         water::Water,
     },
-    step::Solver,
+    solver::step::Solver,
 };
 
 /// Layers of particles in bed and walls.

@@ -5,7 +5,7 @@ use clap::Args;
 use super::Trouble;
 use crate::{
     case::Case,
-    simulation::flume::scheme::not_on_cards,
+    simulation::flume::scheme::unsupported_on_gpu,
     sph::device::{Device, DeviceChoice},
 };
 
@@ -25,8 +25,8 @@ pub(super) struct DeviceArgument {
 impl DeviceArgument {
     /// Opens the device for a case.
     pub(super) fn open(&self, case: &Case, quiet: bool) -> Result<Device, Trouble> {
-        let (mut device, mut reason) = Device::open(self.device, not_on_cards(case)).map_err(Trouble::refused)?;
-        if self.device == DeviceChoice::Auto && !device.holds(case.estimate().particles()) {
+        let (mut device, mut reason) = Device::open(self.device, unsupported_on_gpu(case)).map_err(Trouble::refused)?;
+        if self.device == DeviceChoice::Auto && !device.fits(case.estimate().particles()) {
             reason = Some(format!("{} has too little memory", device.name()));
             device = Device::Cpu;
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::sph::backend::DeviceError;
+use crate::sph::solver::backend::DeviceError;
 
 /// A file of a run folder cannot be written or read, or is invalid.
 #[derive(Debug, thiserror::Error)]

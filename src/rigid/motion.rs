@@ -8,69 +8,8 @@
 //! a second (see the test). rapier therefore serves as a reference in the test only.
 
 use glam::{DMat3, DQuat, DVec3};
-use serde::{Deserialize, Serialize};
 
-/// Position and motion of a body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(from = "BodyNumbers", into = "BodyNumbers")]
-pub struct BodyState {
-    /// Centre of mass [m]; y is not wrapped at periodic sides.
-    pub position: DVec3,
-    /// Rotation from body to world axes, a unit quaternion.
-    pub rotation: DQuat,
-    /// Velocity of the centre of mass [m/s].
-    pub velocity: DVec3,
-    /// Angular velocity in world axes [rad/s].
-    pub angular_velocity: DVec3,
-}
-
-impl BodyState {
-    /// Returns the state of a body at rest.
-    pub fn at_rest(position: DVec3, rotation: DQuat) -> Self {
-        Self { position, rotation, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO }
-    }
-}
-
-/// Serialized form of a body's state.
-#[derive(Serialize, Deserialize)]
-struct BodyNumbers {
-    position: [f64; 3],
-    /// x, y, z, w.
-    rotation: [f64; 4],
-    velocity: [f64; 3],
-    angular_velocity: [f64; 3],
-}
-
-impl From<BodyState> for BodyNumbers {
-    fn from(state: BodyState) -> Self {
-        Self {
-            position: state.position.to_array(),
-            rotation: state.rotation.to_array(),
-            velocity: state.velocity.to_array(),
-            angular_velocity: state.angular_velocity.to_array(),
-        }
-    }
-}
-
-impl From<BodyNumbers> for BodyState {
-    fn from(numbers: BodyNumbers) -> Self {
-        Self {
-            position: DVec3::from_array(numbers.position),
-            rotation: DQuat::from_array(numbers.rotation),
-            velocity: DVec3::from_array(numbers.velocity),
-            angular_velocity: DVec3::from_array(numbers.angular_velocity),
-        }
-    }
-}
-
-/// Force and torque on a body.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Load {
-    /// Force [N].
-    pub force: DVec3,
-    /// Torque about the centre of mass in world axes [N m].
-    pub torque: DVec3,
-}
+pub use crate::mechanics::{BodyState, Load};
 
 /// Angular momentum L = R I R^T omega [kg m2/s].
 pub fn angular_momentum(rotation: DQuat, inertia: &DMat3, angular_velocity: DVec3) -> DVec3 {

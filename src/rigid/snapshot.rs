@@ -33,8 +33,8 @@ struct BodySnapshot {
     velocity: [f64; 3],
     angular_momentum: [f64; 3],
     /// Force and torque of the contacts now, and their mean over the last `advance`.
-    contact_now: [[f64; 3]; 2],
-    contact_mean: [[f64; 3]; 2],
+    contact_now: Load,
+    contact_mean: Load,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -54,14 +54,6 @@ struct ContactSnapshot {
     record: RecordedContact,
 }
 
-fn to_arrays(load: &Load) -> [[f64; 3]; 2] {
-    [load.force.to_array(), load.torque.to_array()]
-}
-
-fn from_arrays([force, torque]: [[f64; 3]; 2]) -> Load {
-    Load { force: DVec3::from_array(force), torque: DVec3::from_array(torque) }
-}
-
 impl RigidWorld {
     /// Returns the state for a restart.
     pub fn snapshot(&self) -> RigidSnapshot {
@@ -70,8 +62,8 @@ impl RigidWorld {
             rotation: self.rotation[b].to_array(),
             velocity: self.velocity[b].to_array(),
             angular_momentum: self.angular_momentum[b].to_array(),
-            contact_now: to_arrays(&self.contact_now[b]),
-            contact_mean: to_arrays(&self.contact_mean[b]),
+            contact_now: self.contact_now[b],
+            contact_mean: self.contact_mean[b],
         };
         let contact = |(c, record): (&Contact, &RecordedContact)| ContactSnapshot {
             key: c.key,
@@ -109,8 +101,8 @@ impl RigidWorld {
             self.rotation[b] = DQuat::from_array(body.rotation);
             self.velocity[b] = DVec3::from_array(body.velocity);
             self.angular_momentum[b] = DVec3::from_array(body.angular_momentum);
-            self.contact_now[b] = from_arrays(body.contact_now);
-            self.contact_mean[b] = from_arrays(body.contact_mean);
+            self.contact_now[b] = body.contact_now;
+            self.contact_mean[b] = body.contact_mean;
         }
         let contact = |c: &ContactSnapshot| Contact {
             key: c.key,

@@ -6,11 +6,9 @@ use glam::DVec3;
 
 #[cfg(feature = "gpu")]
 use super::gpu::{card::Card, memory::most_particles, solver::GpuSolver};
-use super::{
-    backend::{Backend, DeviceError, PROCESSOR},
-    parameters::Parameters,
-    step::Solver,
-};
+use super::parameters::Parameters;
+use super::solver::backend::{Backend, DeviceError, PROCESSOR};
+use super::solver::step::Solver;
 
 /// Device that the user requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -125,7 +123,7 @@ impl Device {
     }
 
     /// Returns whether this number of particles fits into its memory.
-    pub fn holds(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
+    pub fn fits(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
         match self {
             Self::Cpu => true,
             #[cfg(feature = "gpu")]
@@ -161,38 +159,18 @@ impl Device {
     }
 }
 
-/// Returns the part of a scheme that graphics cards do not support, if any.
-pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
-    use super::{
-        density_diffusion::DensityDiffusion, parameters::BoundaryCondition, viscosity::Viscosity, wall_slip::WallSlip,
-    };
-    if parameters.boundary == BoundaryCondition::Dynamic {
-        return Some("the dynamic boundary condition (numerics.boundary = \"dbc\")");
-    }
-    if !matches!(parameters.viscosity, Viscosity::Artificial { .. }) {
-        return Some("laminar viscosity (numerics.viscosity)");
-    }
-    if parameters.diffusion.kind == DensityDiffusion::Antuono {
-        return Some("density diffusion with renormalised gradients (numerics.density_diffusion = \"antuono\")");
-    }
-    if parameters.slip != WallSlip::Original {
-        return Some("free slip or no slip at walls (numerics.wall_slip other than \"original\")");
-    }
-    if !parameters.gap_pressure {
-        return Some("units without gap pressure (numerics.gap_pressure = false)");
-    }
-    parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn unsupported_schemes_are_named() {
-        use super::super::{density_diffusion::DensityDiffusion, parameters::BoundaryCondition, wall_slip::WallSlip};
+        use crate::sph::parameters::BoundaryCondition;
+        use crate::sph::solver::backend::unsupported_on_gpu;
+        use crate::sph::terms::density_diffusion::DensityDiffusion;
+        use crate::sph::terms::wall_slip::WallSlip;
         let published = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
-        assert_eq!(not_on_cards(&published), None);
+        assert_eq!(unsupported_on_gpu(&published), None);
         let free_slip = Parameters { slip: WallSlip::FreeSlip, ..published };
         let dynamic = Parameters { boundary: BoundaryCondition::Dynamic, ..published };
         let gaps = Parameters { gap_pressure: false, ..published };
@@ -204,11 +182,11 @@ mod tests {
             (gaps, "gap_pressure"),
             (antuono, "density_diffusion"),
         ] {
-            assert!(not_on_cards(&parameters).is_some_and(|what| what.contains(key)), "{key}");
+            assert!(unsupported_on_gpu(&parameters).is_some_and(|what| what.contains(key)), "{key}");
             // An explicit GPU is refused; `Auto` falls back to the processor and gives the reason.
-            let refused = Device::open(DeviceChoice::Gpu(0), not_on_cards(&parameters)).unwrap_err().to_string();
+            let refused = Device::open(DeviceChoice::Gpu(0), unsupported_on_gpu(&parameters)).unwrap_err().to_string();
             assert!(refused.contains(key) && refused.contains("--device cpu"), "{refused}");
-            let (device, reason) = Device::open(DeviceChoice::Auto, not_on_cards(&parameters)).unwrap();
+            let (device, reason) = Device::open(DeviceChoice::Auto, unsupported_on_gpu(&parameters)).unwrap();
             assert!(matches!(device, Device::Cpu) && reason.is_some_and(|reason| reason.contains(key)));
         }
     }

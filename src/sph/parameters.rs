@@ -1,13 +1,11 @@
 //! Constants of the numerical scheme, derived once from the case.
 
-use super::{
-    density_diffusion::{DensityDiffusion, Diffusion},
-    equation_of_state::Tait,
-    kernel::Wendland,
-    shifting::Shifting,
-    viscosity::Viscosity,
-    wall_slip::WallSlip,
-};
+use super::terms::density_diffusion::{DensityDiffusion, Diffusion};
+use super::terms::equation_of_state::Tait;
+use super::terms::kernel::Wendland;
+use super::terms::shifting::Shifting;
+use super::terms::viscosity::Viscosity;
+use super::terms::wall_slip::WallSlip;
 
 /// Method for the density of boundary particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -36,8 +36,8 @@ struct Parameters {
     density_slope: f32,
     padding: f32,
     // Limits of the trust in a fitted gradient, for the position and the spread of the water (mdbc.rs).
-    trust_place: vec2<f32>,
-    trust_spread: vec2<f32>,
+    centroid_limits: vec2<f32>,
+    spread_limits: vec2<f32>,
     // Smallest scaled determinant for which a gradient is fitted.
     least_determinant: f32,
     // Sum of W V below which a node is dry.

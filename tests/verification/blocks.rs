@@ -2,18 +2,21 @@
 
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
-    gradients::Gradients,
-    grid::{Bins, Grid},
-    kernel::Wendland,
     lanes::InstructionSet,
-    neighbours::{NeighbourLists, SortedPositions, Sources},
+    neighbours::{
+        grid::{Bins, Grid},
+        lists::{NeighbourLists, SortedPositions, Sources},
+        records::record,
+    },
+    pairs::{gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::Parameters,
-    rates::{PairLoop, Rate},
-    records::record,
-    step::Solver,
-    turbulence::Smagorinsky,
-    viscosity::Viscosity,
+    solver::step::Solver,
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        kernel::Wendland,
+        turbulence::Smagorinsky,
+        viscosity::Viscosity,
+    },
 };
 use glam::DVec3;
 
@@ -83,7 +86,7 @@ pub fn rates_beside(
 ) -> (Water, Vec<Rate>) {
     let mut solver = Solver::new(parameters, low, high);
     solver.sort(&mut water, &boundary);
-    solver.list(&water, &boundary);
+    solver.build_neighbour_lists(&water, &boundary);
     solver.boundary_densities(&mut boundary);
     solver.rates();
     let rates = solver.water_rates().to_vec();

@@ -64,7 +64,7 @@ fn above_bed(centre_z: f64, depth: f64, dp: f64) -> Deviation {
     while time < DURATION {
         time += tank.step(|tank| {
             if time > 0.5 * DURATION {
-                sum += tank.solver.unit_loads(&tank.boundary, &[centre])[0].0;
+                sum += tank.solver.unit_loads(&tank.boundary, &[centre])[0].force;
                 count += 1.0;
             }
         });

@@ -3,12 +3,14 @@
 use breakwater::simulation::flume::balance::Balance;
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
     parameters::Parameters,
-    shifting::Shifting,
-    step::Solver,
-    turbulence::Smagorinsky,
-    viscosity::Viscosity,
+    solver::step::Solver,
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        shifting::Shifting,
+        turbulence::Smagorinsky,
+        viscosity::Viscosity,
+    },
 };
 use glam::DVec3;
 
@@ -105,7 +107,7 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
     let mut drift = Drift { momentum: 0.0, angular: 0.0, impulse: 0.0 };
     for _ in 0..steps {
         solver.sort(&mut water, &boundary);
-        solver.list(&water, &boundary);
+        solver.build_neighbour_lists(&water, &boundary);
         solver.boundary_densities(&mut boundary);
         solver.rates();
         let dt = solver.limits().time_step(&parameters);

@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
-    kernel::Wendland,
-    rates::Rate,
+    pairs::rate::Rate,
+    terms::{
+        density_diffusion::{DensityDiffusion, Diffusion},
+        kernel::Wendland,
+    },
 };
 use glam::DVec3;
 
@@ -126,7 +128,7 @@ fn wave_on_a_lattice(dp: f64, length: f64, amplitude: f64) -> [f64; 3] {
         add(1, DVec3::X * f64::from(rate.density), DVec3::X * 2.0 * k * wave(p) * sorted.density[i]);
         // d rho / d p = 1 / c^2.
         let per_pressure = tait.sound_speed(sorted.density[i]).powi(-2);
-        let density_gradient = DVec3::from_array(gradients.extra()[i].density_gradient.map(f64::from));
+        let density_gradient = DVec3::from_array(gradients.neighbour_data()[i].density_gradient.map(f64::from));
         add(2, density_gradient, amplitude * per_pressure * slope(p));
     }
     sums.map(|[product, square]| 1.0 - product / square)

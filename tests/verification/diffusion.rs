@@ -2,8 +2,8 @@
 
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
     parameters::BoundaryCondition,
+    terms::density_diffusion::{DensityDiffusion, Diffusion},
 };
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Ve
             position: DVec3::new(DP * (f64::from(i % 20) - 9.5), DP * (f64::from(i / 20) - 9.5), WALL),
             to_surface: DVec3::new(0.0, 0.0, 0.5 * DP),
             volume: DP.powi(3),
-            slides: false,
+            allows_free_slip: false,
         })
         .collect();
     let mut parameters = ideal(DP, None);

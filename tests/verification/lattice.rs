@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use breakwater::sph::kernel::Wendland;
+use breakwater::sph::terms::kernel::Wendland;
 use glam::DVec3;
 
 /// Returns points at dp (i, j, k) from a corner [m], each shifted by up to `jitter` dp along each axis.

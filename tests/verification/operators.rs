@@ -1,6 +1,9 @@
 //! Kernel sums of the solver compared with exact values: moments of the kernel, gradients, divergence.
 
-use breakwater::sph::{kernel::Wendland, rates::Rate, turbulence::Smagorinsky};
+use breakwater::sph::{
+    pairs::rate::Rate,
+    terms::{kernel::Wendland, turbulence::Smagorinsky},
+};
 use glam::DVec3;
 
 use super::blocks::{
@@ -107,7 +110,7 @@ fn renormalised_gradients_of_linear_fields_are_exact() {
         let water = block(jitter, |p| RHO0 + slope.dot(p), |p| DVec3::new(3.0 * p.z, 0.0, 0.0));
         let (gradients, order) = gradients_of_block(&water);
         let (mut worst, mut worst_inside, mut worst_stress) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for (extra, &particle) in gradients.extra().iter().zip(&order) {
+        for (extra, &particle) in gradients.neighbour_data().iter().zip(&order) {
             let found = DVec3::from_array(extra.density_gradient.map(f64::from));
             let error = (found - slope).length() / slope.length();
             // At edges and corners, the gradients are not renormalised.

@@ -2,7 +2,10 @@
 
 use std::f64::consts::PI;
 
-use breakwater::sph::{lanes::InstructionSet, viscosity::Viscosity, wall_slip::WallSlip};
+use breakwater::sph::{
+    lanes::InstructionSet,
+    terms::{viscosity::Viscosity, wall_slip::WallSlip},
+};
 
 use super::tanks::{BareTank, GRAVITY, parameters};
 

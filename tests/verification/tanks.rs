@@ -13,10 +13,10 @@ use breakwater::sph::particles::fill::{Basin, clear_solid};
 use breakwater::sph::particles::unit::LEAST_DEPTH;
 use breakwater::sph::particles::water::Water;
 use breakwater::sph::{
-    density_diffusion::{DensityDiffusion, Diffusion},
     lanes::InstructionSet,
     parameters::Parameters,
-    step::Solver,
+    solver::step::Solver,
+    terms::density_diffusion::{DensityDiffusion, Diffusion},
 };
 use glam::{DQuat, DVec2, DVec3};
 use serde_json::{Value, json};
@@ -182,7 +182,7 @@ impl BareTank {
     /// Advances by one time step and returns its length [s]; `observe` gets the state between its halves.
     pub fn step(&mut self, observe: impl FnOnce(&mut Self)) -> f64 {
         self.solver.sort(&mut self.water, &self.boundary);
-        self.solver.list(&self.water, &self.boundary);
+        self.solver.build_neighbour_lists(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let dt = self.solver.limits().time_step(&self.solver.parameters);

@@ -7,8 +7,7 @@ use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::simulation::flume::setup::particles_of;
 use breakwater::sph::{
     parameters::BoundaryCondition::{self, Dynamic, ModifiedDynamic},
-    viscosity::Viscosity,
-    wall_slip::WallSlip,
+    terms::{viscosity::Viscosity, wall_slip::WallSlip},
 };
 use glam::{DQuat, DVec3};
 
@@ -102,7 +101,7 @@ impl Stream {
         let (mut impulse, mut span) = (DVec3::ZERO, 0.0);
         while self.time < to {
             let (centre, mut force) = (self.centre, DVec3::ZERO);
-            let dt = self.tank.step(|tank| force = tank.solver.unit_loads(&tank.boundary, &[centre])[0].0);
+            let dt = self.tank.step(|tank| force = tank.solver.unit_loads(&tank.boundary, &[centre])[0].force);
             if self.time >= from {
                 (impulse, span) = (impulse + force * dt, span + dt);
             }
@@ -202,7 +201,7 @@ fn free_slip_on_the_unit_lowers_the_drag() {
         let [no_slip, free_slip] = [false, true].map(|free_slip| {
             let mut stream = Stream::new(8.5, ModifiedDynamic, 0.0125, position);
             if free_slip {
-                stream.tank.boundary.slides.fill(true);
+                stream.tank.boundary.allows_free_slip.fill(true);
             }
             force_over_pressure(stream, &format!("8.5 particles in the height, {position:?}, free slip: {free_slip}"))
         });

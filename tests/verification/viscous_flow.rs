@@ -4,10 +4,12 @@ use std::f64::consts::PI;
 
 use breakwater::sph::{
     parameters::Parameters,
-    power::Powers,
-    shifting::Shifting,
-    viscosity::{Viscosity, approach_rate, monaghan_gingold_stress},
-    wall_slip::WallSlip,
+    solver::power::Powers,
+    terms::{
+        shifting::Shifting,
+        viscosity::{Viscosity, approach_rate, monaghan_gingold_stress},
+        wall_slip::WallSlip,
+    },
 };
 use glam::DVec3;
 

@@ -7,7 +7,7 @@ use super::numerics::Numerics;
 use crate::case::file::{Sides, Viscosity};
 use crate::case::flume::domain::Water;
 use crate::geometry::{axis_box::AxisBox, profile::Profile};
-use crate::sph::time_step::viscous_limit;
+use crate::sph::solver::time_step::viscous_limit;
 
 /// Memory per particle, with its neighbour lists [bytes].
 const BYTES_PER_PARTICLE: f64 = 600.0;

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::sph::power::Powers;
+use crate::sph::solver::power::Powers;
 
 /// Energy received by the water since the start [J]; part of every checkpoint.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

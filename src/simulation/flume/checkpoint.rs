@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Version of the file layout; raised when the layout changes.
-const VERSION: u32 = 13;
+const VERSION: u32 = 14;
 
 /// All state except the arrays.
 #[derive(Serialize, Deserialize)]
@@ -38,7 +38,7 @@ struct Scalars {
     statistics: Statistics,
     recorder: RecorderState,
     rigid: Option<RigidSnapshot>,
-    fluid_loads: Vec<[[f64; 3]; 2]>,
+    fluid_loads: Vec<Load>,
     mean_loads: MeanLoads,
     absorbed: AbsorptionState,
 }
@@ -70,9 +70,7 @@ impl Checkpoint {
             statistics: simulation.statistics.clone(),
             recorder: recorder.clone(),
             rigid: units.map(|units| units.world.snapshot()),
-            fluid_loads: units.map_or_else(Vec::new, |units| {
-                units.fluid_loads.iter().map(|load| [load.force.to_array(), load.torque.to_array()]).collect()
-            }),
+            fluid_loads: units.map_or_else(Vec::new, |units| units.fluid_loads.clone()),
             mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
             absorbed: simulation.absorbed,
         };
@@ -170,12 +168,9 @@ impl Checkpoint {
         simulation.absorbed = scalars.absorbed;
         if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
             units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
-            for (load, [force, torque]) in units.fluid_loads.iter_mut().zip(scalars.fluid_loads) {
-                load.force = DVec3::from_array(force);
-                load.torque = DVec3::from_array(torque);
-            }
+            units.fluid_loads = scalars.fluid_loads;
             units.mean_loads = scalars.mean_loads;
-            let points = simulation.boundary.places_in_unit().count();
+            let points = simulation.boundary.positions_in_unit().count();
             if water_at_impacts.0.values().any(|water| water.pressure.len() != points) {
                 return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
             }

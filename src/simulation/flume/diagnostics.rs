@@ -7,7 +7,7 @@ use super::{
     extremes::Extremes,
     failure::{self, Failure, LARGEST_COMPRESSION, Particle},
 };
-use crate::sph::backend::Watched;
+use crate::sph::solver::backend::WaterExtremes;
 
 /// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is its
 /// square; weakly compressible SPH allows 1 % (Monaghan 1994).
@@ -19,8 +19,9 @@ impl Simulation {
     /// # Errors
     /// If a particle has left the domain, or its density is impossible.
     pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
-        if let Some(watched) = self.solver.watch()? {
-            return self.judge(&watched);
+        if let Some(memory) = self.solver.device_memory() {
+            let water = memory.water_extremes()?;
+            return self.judge(&water);
         }
         if let Some(failure) = failure::find_escape(self) {
             return Err(failure);
@@ -38,13 +39,14 @@ impl Simulation {
     }
 
     /// The same for water that a device has checked; particles are fetched only if a message names them.
-    fn judge(&mut self, watched: &Watched) -> Result<(), Failure> {
-        let mach = watched.fastest / self.case.fluid.sound_speed;
+    fn judge(&mut self, water: &WaterExtremes) -> Result<(), Failure> {
+        let mach = water.largest_speed / self.case.fluid.sound_speed;
         let rho0 = self.case.fluid.rho0;
-        let compressed =
-            [watched.lightest, watched.densest].iter().any(|rho| (rho / rho0 - 1.0).abs() > LARGEST_COMPRESSION);
+        let compressed = [water.lowest_density, water.highest_density]
+            .iter()
+            .any(|rho| (rho / rho0 - 1.0).abs() > LARGEST_COMPRESSION);
         let fast = mach > LARGEST_MACH && self.statistics.largest_mach <= LARGEST_MACH;
-        if watched.astray || compressed || fast {
+        if water.is_unstable || compressed || fast {
             self.fetch()?;
             if let Some(failure) = failure::find_escape(self) {
                 return Err(failure);
@@ -58,12 +60,12 @@ impl Simulation {
                 self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
             }
         }
-        self.statistics.count_water(mach, watched.lightest, watched.densest);
+        self.statistics.count_water(mach, water.lowest_density, water.highest_density);
         Ok(())
     }
 
     /// Returns a row of `diagnostics.csv`; `dt` is the length of the next time step [s], `divergence` is that of
-    /// [`crate::sph::power::Powers`] [1/s]. Mach number and densities are the extremes since the last row.
+    /// [`crate::sph::solver::power::Powers`] [1/s]. Mach number and densities are the extremes since the last row.
     pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
         let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));

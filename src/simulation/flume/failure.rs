@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::{Simulation, extremes::Extremes};
 use crate::{
     rigid::RigidError,
-    sph::{backend::DeviceError, particles::water::Water},
+    sph::{particles::water::Water, solver::backend::DeviceError},
 };
 
 /// Relative change of density above which a run fails [-]. DualSPHysics drops particles outside 700 to 1300 kg/m3 by

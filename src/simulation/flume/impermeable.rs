@@ -11,13 +11,13 @@ use rayon::prelude::*;
 
 use super::{Simulation, Units, absorb::rows};
 use crate::{
-    case::Sides,
+    case::{Case, Sides},
     geometry::{axis_box::AxisBox, convex_part::ConvexPart},
     rigid::{BodyState, Load},
     sph::{
-        backend::{DeviceError, Surfaces},
-        grid::{Bins, Grid},
+        neighbours::grid::{Bins, Grid},
         particles::{bed::Outline, water::Water},
+        solver::backend::{DeviceError, Surfaces},
     },
     waves::generation::wavemaker::Wavemaker,
 };
@@ -36,11 +36,14 @@ impl Simulation {
         let flume_time = self.flume_time() + dt;
         let rows = self.wavemaker.as_ref().map(|wavemaker| rows(wavemaker, &self.absorbed, flume_time, 0.0));
         let rows = rows.unwrap_or_default();
-        let near = match self.solver.keeps_water() {
-            true => Some(self.solver.take_near(&self.surfaces(&rows))?),
-            false => None,
-        };
         let Self { case, outline, wavemaker, units, solver, water, .. } = self;
+        let near = match solver.device_memory() {
+            Some(memory) => {
+                let surfaces = surfaces(case, outline, units.as_ref(), wavemaker.as_ref(), &rows);
+                Some(memory.fetch_near_water(&surfaces)?)
+            }
+            None => None,
+        };
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
         // Particles from a device are already near a surface; otherwise the bins find those near the units.
@@ -59,44 +62,50 @@ impl Simulation {
             let impulses = keep_out_of_units(water, units, solver.grid(), bins, nearest);
             let slices = case.units.as_ref().map_or(1.0, |units| units.slices);
             for (load, impulse) in units.fluid_loads.iter_mut().zip(impulses) {
-                load.force += slices * impulse.force / dt;
-                load.torque += slices * impulse.torque / dt;
+                *load += impulse.map(|sum| slices * sum / dt);
             }
         };
         match near {
             None => keep_out(water, Some(solver.water_bins())),
             Some(mut near) => {
                 keep_out(&mut near.water, None);
-                self.solver.put_near(&near);
+                if let Some(memory) = solver.device_memory() {
+                    memory.write_near_velocities(&near);
+                }
             }
         }
         Ok(())
     }
+}
 
-    /// Returns the impermeable surfaces, with the wavemaker's rows displaced by `rows`.
-    fn surfaces(&self, rows: &[[f64; 2]]) -> Surfaces {
-        let (case, dp) = (&self.case, self.case.domain.dp);
-        let nearest = NEAREST * dp;
-        let balls = self.units.iter().flat_map(|units| {
-            let of_unit = move |state: &BodyState| {
-                let ball = |part: &ConvexPart| {
-                    let (centre, radius) = part.bounding_sphere();
-                    (state.position + state.rotation * centre, radius + nearest)
-                };
-                units.shape.parts().iter().map(ball).collect::<Vec<_>>()
+/// Returns the impermeable surfaces, with the wavemaker's rows displaced by `rows`.
+fn surfaces(
+    case: &Case,
+    outline: &Outline,
+    units: Option<&Units>,
+    wavemaker: Option<&Wavemaker>,
+    rows: &[[f64; 2]],
+) -> Surfaces {
+    let nearest = NEAREST * case.domain.dp;
+    let bounding_spheres = units.into_iter().flat_map(|units| {
+        let of_unit = move |state: &BodyState| {
+            let bounding_sphere = |part: &ConvexPart| {
+                let (centre, radius) = part.bounding_sphere();
+                (state.position + state.rotation * centre, radius + nearest)
             };
-            units.states().iter().flat_map(of_unit).collect::<Vec<_>>()
-        });
-        Surfaces {
-            nearest,
-            outline: self.outline.pieces().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
-            boxes: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
-            balls: balls.collect(),
-            wavemaker: self.wavemaker.as_ref().map(|wavemaker| {
-                (wavemaker.rest_x_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
-            }),
-            sides: (case.domain.sides == Sides::Walls).then_some(case.domain.width),
-        }
+            units.shape.parts().iter().map(bounding_sphere).collect::<Vec<_>>()
+        };
+        units.states().iter().flat_map(of_unit).collect::<Vec<_>>()
+    });
+    Surfaces {
+        min_distance: nearest,
+        outline: outline.segments().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect(),
+        obstacles: case.domain.obstacles.iter().map(|obstacle| [obstacle.low, obstacle.high]).collect(),
+        bounding_spheres: bounding_spheres.collect(),
+        wavemaker: wavemaker.map(|wavemaker| {
+            (wavemaker.rest_x_m(), wavemaker.row_heights_m()[0], rows.iter().map(|row| row[0]).collect())
+        }),
+        sides: (case.domain.sides == Sides::Walls).then_some(case.domain.width),
     }
 }
 
@@ -177,8 +186,7 @@ fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option
             let velocity = surface + without_approach(water.velocity[particle] - surface, normal);
             let taken = water.mass[particle] * (water.velocity[particle] - velocity);
             water.velocity[particle] = velocity;
-            impulse.force += taken;
-            impulse.torque += arm.cross(taken);
+            impulse += Load::of_force(taken, arm);
         }
         impulse
     };

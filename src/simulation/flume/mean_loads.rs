@@ -3,7 +3,6 @@
 //! Impacts of water on a surface last one time step, and a contact may begin and end between two rows. Single samples
 //! would show neither correctly. A mean load times its interval is the momentum exchanged.
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::rigid::Load;
@@ -12,7 +11,7 @@ use crate::rigid::Load;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeanLoads {
     /// Impulse [N s] and angular impulse [N m s] of the water on each unit, then those of contact.
-    impulses: Vec<[[f64; 3]; 4]>,
+    impulses: Vec<[Load; 2]>,
     /// Time of the sums [s].
     over: f64,
 }
@@ -20,16 +19,14 @@ pub struct MeanLoads {
 impl MeanLoads {
     /// Returns zero sums for `units` units.
     pub fn new(units: usize) -> Self {
-        Self { impulses: vec![[[0.0; 3]; 4]; units], over: 0.0 }
+        Self { impulses: vec![[Load::default(); 2]; units], over: 0.0 }
     }
 
     /// Adds the loads of a time step of length `dt` [s].
     pub fn add(&mut self, dt: f64, fluid: &[Load], contact: &[Load]) {
         for (sums, (fluid, contact)) in self.impulses.iter_mut().zip(fluid.iter().zip(contact)) {
-            let parts = [fluid.force, fluid.torque, contact.force, contact.torque];
-            for (sum, part) in sums.iter_mut().zip(parts) {
-                *sum = (DVec3::from(*sum) + dt * part).to_array();
-            }
+            sums[0] += fluid.map(|load| dt * load);
+            sums[1] += contact.map(|load| dt * load);
         }
         self.over += dt;
     }
@@ -37,16 +34,15 @@ impl MeanLoads {
     /// Returns the mean loads of water and contact on each unit since the last call; `None` without a time step since.
     pub fn take(&mut self) -> Option<Vec<[Load; 2]>> {
         let gathered = std::mem::replace(self, Self::new(self.impulses.len()));
-        let mean = |sums: &[[f64; 3]; 4]| {
-            let [force, torque, contact_force, contact_torque] = sums.map(|sum| DVec3::from(sum) / gathered.over);
-            [Load { force, torque }, Load { force: contact_force, torque: contact_torque }]
-        };
+        let mean = |sums: &[Load; 2]| sums.map(|sum| sum.map(|impulse| impulse / gathered.over));
         (gathered.over > 0.0).then(|| gathered.impulses.iter().map(mean).collect())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]

@@ -56,9 +56,9 @@ use crate::{
     geometry::armour_unit::ArmourUnit,
     rigid::{BodyState, Load, RigidWorld},
     sph::{
-        backend::{Backend, DeviceError},
+        pairs::rate::Rate,
         particles::{bed::Outline, boundary::Boundary, water::Water},
-        rates::Rate,
+        solver::backend::{Backend, DeviceError},
     },
     waves::{
         flume_model::record::FlumeRecord, generation::absorption::AbsorptionState, generation::wavemaker::Wavemaker,
@@ -170,12 +170,13 @@ impl Simulation {
     /// # Errors
     /// If the device is lost.
     pub fn fetch(&mut self) -> Result<(), DeviceError> {
-        self.solver.fetch(&mut self.water, &mut self.boundary)
+        let Self { solver, water, boundary, .. } = self;
+        solver.device_memory().map_or(Ok(()), |memory| memory.fetch(water, boundary))
     }
 
     /// Returns whether a device, and not the host, holds the water.
-    pub fn is_on_card(&self) -> bool {
-        self.solver.keeps_water()
+    pub fn is_on_card(&mut self) -> bool {
+        self.solver.device_memory().is_some()
     }
 
     /// Copies water and boundary from the host's arrays to the device.
@@ -183,7 +184,8 @@ impl Simulation {
     /// # Errors
     /// If the device has too little memory.
     pub fn load(&mut self) -> Result<(), DeviceError> {
-        self.solver.load(&self.water, &self.boundary)
+        let Self { solver, water, boundary, .. } = self;
+        solver.device_memory().map_or(Ok(()), |memory| memory.load(water, boundary))
     }
 }
 

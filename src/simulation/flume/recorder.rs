@@ -25,7 +25,7 @@ use crate::{
         write_flume_gauges,
     },
     rigid::{ContactEvent, RecordedContact},
-    sph::power::Powers,
+    sph::solver::power::Powers,
 };
 
 /// Open output files of a run.

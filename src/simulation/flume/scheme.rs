@@ -3,15 +3,17 @@
 use crate::{
     case::{self, Case},
     sph::{
-        density_diffusion::{DensityDiffusion, Diffusion},
-        device,
-        equation_of_state::Tait,
-        kernel::Wendland,
         parameters::{BoundaryCondition, Parameters},
-        shifting::Shifting,
-        turbulence::Smagorinsky,
-        viscosity::Viscosity,
-        wall_slip::WallSlip,
+        solver::backend,
+        terms::{
+            density_diffusion::{DensityDiffusion, Diffusion},
+            equation_of_state::Tait,
+            kernel::Wendland,
+            shifting::Shifting,
+            turbulence::Smagorinsky,
+            viscosity::Viscosity,
+            wall_slip::WallSlip,
+        },
     },
 };
 
@@ -61,14 +63,14 @@ pub fn parameters(case: &Case) -> Parameters {
 }
 
 /// Returns a feature of the case that graphics cards cannot compute, if any.
-pub fn not_on_cards(case: &Case) -> Option<&'static str> {
+pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     if case.domain.damping_zone.is_some() || case.domain.relaxation_zone.is_some() {
         return Some("damping and relaxation zones (domain.damping_zone, domain.relaxation_zone)");
     }
     if case.wavemaker.absorption_gauge().is_some() {
         return Some("wavemakers that absorb (wavemaker.absorption)");
     }
-    device::not_on_cards(&parameters(case))
+    backend::unsupported_on_gpu(&parameters(case))
 }
 
 /// Returns the equation of state of the water.

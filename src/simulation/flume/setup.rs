@@ -19,7 +19,6 @@ use crate::{
     geometry::{armour_unit::ArmourUnit, profile::Profile},
     rigid::{Load, RigidError, RigidWorld},
     sph::{
-        backend::DeviceError,
         device::Device,
         particles::{
             bed::{Across, Outline, outline_particles, side_wall_particles},
@@ -29,6 +28,7 @@ use crate::{
             unit::{LEAST_DEPTH, unit_particles},
             water::Water,
         },
+        solver::backend::DeviceError,
     },
     waves::{
         flume_model::FlumeError, flume_model::record::FlumeRecord, generation::absorption::AbsorptionState,
@@ -250,7 +250,7 @@ fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> V
                         position: DVec3::new(case.domain.x[0] - behind, y, z),
                         to_surface: DVec3::new(behind, across.to_inside(y), 0.0),
                         volume: dp * dp * across.spacing(),
-                        slides: true,
+                        allows_free_slip: true,
                     },
                 ));
             }
@@ -306,7 +306,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
         }
         _ => particles_of(shape, dp),
     };
-    particles.iter_mut().for_each(|particle| particle.slides = case.numerics.slip_on_units);
+    particles.iter_mut().for_each(|particle| particle.allows_free_slip = case.numerics.slip_on_units);
     particles
 }
 
@@ -353,7 +353,7 @@ mod tests {
             let case = Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
             let particles = unit_in_place(units.shape.unit(), &case);
-            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.slides == slides));
+            assert!(!particles.is_empty() && particles.iter().all(|particle| particle.allows_free_slip == slides));
         }
     }
 }

@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use super::{Simulation, Units, absorb::move_wavemaker, failure, failure::Failure};
 use crate::{
-    rigid::{BodyState, Load},
-    sph::{backend::DeviceError, power::Powers, sampling::Sampler},
+    rigid::BodyState,
+    sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
 /// A simulation with the rates of its present state: ready for measurements and for the time step.
@@ -42,7 +42,7 @@ impl Simulation {
     /// If a rate is not finite.
     pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
         self.solver.sort(&mut self.water, &self.boundary);
-        self.solver.list(&self.water, &self.boundary);
+        self.solver.build_neighbour_lists(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let limits = self.solver.limits()?;
@@ -88,8 +88,7 @@ impl Simulation {
         let loads = self.solver.unit_loads(&self.boundary, &centres)?;
         // In two dimensions the particles are a slice of each unit.
         let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
-        let load = |(force, torque)| Load { force: slices * force, torque: slices * torque };
-        units.fluid_loads = loads.into_iter().map(load).collect();
+        units.fluid_loads = loads.into_iter().map(|load| load.map(|sum| slices * sum)).collect();
         Ok(())
     }
 
@@ -102,8 +101,10 @@ impl Simulation {
             if let Err(error) = world.advance(dt, fluid_loads) {
                 return Err(failure::of_units(self, error));
             }
-            if world.impacts_with_peak_after(since).next().is_some() {
-                self.solver.fetch_boundary_densities(&mut self.boundary)?;
+            if world.impacts_with_peak_after(since).next().is_some()
+                && let Some(memory) = self.solver.device_memory()
+            {
+                memory.fetch_boundary_densities(&mut self.boundary)?;
             }
             water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters().tait);
         } else if self.time >= 0.5 * self.case.numerics.hold_units {
@@ -177,7 +178,9 @@ impl PreparedStep<'_> {
         simulation.relax_in_zones(dt);
         simulation.sum_unit_loads(dt)?;
         simulation.keep_water_out(dt)?;
-        simulation.solver.sort_ahead();
+        if let Some(memory) = simulation.solver.device_memory() {
+            memory.sort_ahead();
+        }
         simulation.advance_units(dt)?;
         simulation.time += dt;
         simulation.steps += 1;

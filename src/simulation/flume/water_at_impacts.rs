@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::{
     output::{FluidAtPeak, PressurePlace},
     rigid::{Load, RigidWorld},
-    sph::{equation_of_state::Tait, particles::boundary::Boundary},
+    sph::{particles::boundary::Boundary, terms::equation_of_state::Tait},
 };
 
 /// Water loads at the peaks of the hardest contacts of each unit, by the number of the contact.
@@ -34,5 +34,5 @@ impl WaterAtImpacts {
 /// Returns the points of the unit at which pressures are recorded.
 pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePlace> {
     let place = |(particle, to_surface)| PressurePlace { particle, to_surface };
-    boundary.places_in_unit().map(place).collect()
+    boundary.positions_in_unit().map(place).collect()
 }

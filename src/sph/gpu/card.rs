@@ -9,7 +9,7 @@ use std::{
 use bytemuck::Pod;
 use wgpu::{Backends, BufferDescriptor, BufferUsages, DeviceDescriptor, DeviceType, Features, Instance, Limits};
 
-use crate::sph::backend::DeviceError;
+use crate::sph::solver::backend::DeviceError;
 
 /// Largest number of workgroups of a dispatch in one dimension that every card supports.
 const MOST_GROUPS: u64 = 65_535;

@@ -4,12 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 use crate::sph::{
-    density_diffusion::Diffusion,
-    equation_of_state::Tait,
-    grid::Grid,
-    mdbc::{DRY, LEAST_DETERMINANT, SPREAD, TRUST},
+    boundary::mdbc::{CENTROID_LIMITS, DRY_LIMIT, LEAST_DETERMINANT, SPREAD_LIMITS},
+    neighbours::grid::Grid,
     parameters::Parameters,
-    viscosity::Viscosity,
+    terms::{density_diffusion::Diffusion, equation_of_state::Tait, viscosity::Viscosity},
 };
 
 /// `Parameters` of the shaders, with the same fields in the same order.
@@ -34,8 +32,8 @@ pub struct Constants {
     gravity: f32,
     density_slope: f32,
     padding: f32,
-    trust_place: [f32; 2],
-    trust_spread: [f32; 2],
+    centroid_limits: [f32; 2],
+    spread_limits: [f32; 2],
     least_determinant: f32,
     dry: f32,
     bounds_low: [f32; 3],
@@ -84,10 +82,10 @@ impl Constants {
             gravity: gravity as f32,
             density_slope: (-tait.rho0 * gravity / tait.c0.powi(2)) as f32,
             padding: 0.0,
-            trust_place: TRUST.map(|t| t as f32),
-            trust_spread: SPREAD.map(|t| t as f32),
+            centroid_limits: CENTROID_LIMITS.map(|t| t as f32),
+            spread_limits: SPREAD_LIMITS.map(|t| t as f32),
             least_determinant: LEAST_DETERMINANT as f32,
-            dry: DRY as f32,
+            dry: DRY_LIMIT as f32,
             bounds_low: low,
             padding_low: 0.0,
             bounds_high: high,

@@ -1,13 +1,11 @@
 //! Buffers on a card, and the kernels bound to them.
 
-use super::{
-    card::{Card, CardInfo},
-    constants::{Constants, StepConstants},
-    shaders::{Bound, MDBC, RATES, RECORDS, STEP, Shader},
-    sort::Sort,
-    state::CardState,
-};
-use crate::sph::backend::DeviceError;
+use super::card::{Card, CardInfo};
+use super::constants::{Constants, StepConstants};
+use super::shaders::{Bound, MDBC, RATES, RECORDS, STEP, Shader};
+use super::sort::Sort;
+use super::state::CardState;
+use crate::sph::solver::backend::DeviceError;
 
 /// Size of a record [bytes].
 const RECORD: usize = 48;

@@ -3,16 +3,12 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
-use super::{
-    card::{Card, groups},
-    memory::Memory,
-    shaders::{Bound, IMPERMEABLE, Kernel, Shader},
-    state::CardState,
-};
-use crate::sph::{
-    backend::{DeviceError, NearWater, Surfaces},
-    grid::Grid,
-};
+use super::card::{Card, groups};
+use super::memory::Memory;
+use super::shaders::{Bound, Kernel, NEAR, Shader};
+use super::state::CardState;
+use crate::sph::neighbours::grid::Grid;
+use crate::sph::solver::backend::{DeviceError, NearWater, Surfaces};
 
 /// Initial capacity for particles near surfaces.
 const INITIAL_ROOM: usize = 4096;
@@ -24,11 +20,11 @@ const ALLOWANCE: f64 = 0.01;
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct SurfaceConstants {
-    pieces: u32,
-    boxes: u32,
-    balls: u32,
+    segments: u32,
+    obstacles: u32,
+    spheres: u32,
     rows: u32,
-    nearest: f32,
+    min_distance: f32,
     place: f32,
     lowest: f32,
     dp: f32,
@@ -71,7 +67,7 @@ struct SearchMemory {
 impl NearSearch {
     /// Creates a search in the water of `memory`.
     pub fn new(card: &Card, memory: &Memory) -> Result<Self, DeviceError> {
-        let shader = Shader::new(card, IMPERMEABLE).periodic(memory.is_periodic);
+        let shader = Shader::new(card, NEAR).periodic(memory.is_periodic);
         let [find, put] = ["find_near", "put_velocities"].map(|name| shader.kernel(name));
         let constants = card.uniform("surfaces", &SurfaceConstants::default());
         let put_constants = card.uniform("velocities", &SurfaceConstants::default());
@@ -138,7 +134,7 @@ impl NearSearch {
             let [x, y, z] = velocity.as_vec3().to_array().map(f32::to_bits);
             [x, y, z, place]
         };
-        let changes: Vec<[u32; 4]> = near.places.iter().zip(&near.water.velocity).map(change).collect();
+        let changes: Vec<[u32; 4]> = near.indices.iter().zip(&near.water.velocity).map(change).collect();
         let constants = SurfaceConstants { room: changes.len() as u32, ..SurfaceConstants::default() };
         card.write(&self.put_constants, 0, &[constants]);
         card.write(&self.memory.changes, 0, &changes);
@@ -170,22 +166,22 @@ impl SearchMemory {
 fn shapes_of(grid: &Grid, dp: f64, surfaces: &Surfaces) -> (SurfaceConstants, Vec<[f32; 4]>) {
     let vector = |point: DVec3, w: f64| (point - grid.low).as_vec3().extend(w as f32).to_array();
     let (low_x, low_z) = (grid.low.x, grid.low.z);
-    let nearest = surfaces.nearest + ALLOWANCE * dp;
-    let pieces = surfaces
+    let min_distance = surfaces.min_distance + ALLOWANCE * dp;
+    let segments = surfaces
         .outline
         .iter()
         .map(|&[x0, z0, x1, z1]| [x0 - low_x, z0 - low_z, x1 - low_x, z1 - low_z].map(|value| value as f32));
-    let boxes = surfaces.boxes.iter().flatten().map(|&corner| vector(corner, 0.0));
-    let balls = surfaces.balls.iter().map(|&(centre, radius)| vector(centre, radius + ALLOWANCE * dp));
+    let obstacles = surfaces.obstacles.iter().flatten().map(|&corner| vector(corner, 0.0));
+    let spheres = surfaces.bounding_spheres.iter().map(|&(centre, radius)| vector(centre, radius + ALLOWANCE * dp));
     let nothing = (0.0, 0.0, Vec::new());
     let (place, lowest, rows) = surfaces.wavemaker.as_ref().unwrap_or(&nothing);
     let displacements = rows.iter().map(|&row| Vec3::new(row as f32, 0.0, 0.0).extend(0.0).to_array());
     let constants = SurfaceConstants {
-        pieces: surfaces.outline.len() as u32,
-        boxes: surfaces.boxes.len() as u32,
-        balls: surfaces.balls.len() as u32,
+        segments: surfaces.outline.len() as u32,
+        obstacles: surfaces.obstacles.len() as u32,
+        spheres: surfaces.bounding_spheres.len() as u32,
         rows: rows.len() as u32,
-        nearest: nearest as f32,
+        min_distance: min_distance as f32,
         place: (place - low_x) as f32,
         lowest: (lowest - low_z) as f32,
         dp: dp as f32,
@@ -193,5 +189,5 @@ fn shapes_of(grid: &Grid, dp: f64, surfaces: &Surfaces) -> (SurfaceConstants, Ve
         low_side: -grid.low.y as f32,
         ..SurfaceConstants::default()
     };
-    (constants, pieces.chain(boxes).chain(balls).chain(displacements).collect())
+    (constants, segments.chain(obstacles).chain(spheres).chain(displacements).collect())
 }

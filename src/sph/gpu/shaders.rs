@@ -8,17 +8,19 @@ macro_rules! shader {
 }
 
 /// The counting sort.
-pub const GRID: &str = shader!("../parameters.wgsl", "../grid.wgsl");
+pub const GRID: &str = shader!("../parameters.wgsl", "../neighbours/grid.wgsl");
 /// Particle records.
-pub const RECORDS: &str = shader!("../parameters.wgsl", "../records.wgsl");
+pub const RECORDS: &str = shader!("../parameters.wgsl", "../neighbours/records.wgsl");
 /// Boundary densities (mDBC).
-pub const MDBC: &str = shader!("../parameters.wgsl", "../kernel.wgsl", "../neighbours.wgsl", "../mdbc.wgsl");
+pub const MDBC: &str =
+    shader!("../parameters.wgsl", "../terms/kernel.wgsl", "../neighbours/lists.wgsl", "../boundary/mdbc.wgsl");
 /// Rates.
-pub const RATES: &str = shader!("../parameters.wgsl", "../kernel.wgsl", "../neighbours.wgsl", "../rates.wgsl");
+pub const RATES: &str =
+    shader!("../parameters.wgsl", "../terms/kernel.wgsl", "../neighbours/lists.wgsl", "../pairs/rates.wgsl");
 /// Predictor and corrector.
-pub const STEP: &str = shader!("../parameters.wgsl", "../step.wgsl");
+pub const STEP: &str = shader!("../parameters.wgsl", "../solver/step.wgsl");
 /// Water near surfaces.
-pub const IMPERMEABLE: &str = shader!("../parameters.wgsl", "../impermeable.wgsl");
+pub const NEAR: &str = shader!("../parameters.wgsl", "near.wgsl");
 
 /// A compiled function of a shader.
 #[derive(Debug)]
@@ -122,7 +124,7 @@ mod tests {
         ("mdbc", MDBC),
         ("rates", RATES),
         ("step", STEP),
-        ("impermeable", IMPERMEABLE),
+        ("near", NEAR),
         ("peaks", crate::bench::card::PEAKS),
     ];
 
@@ -146,11 +148,9 @@ mod tests {
 
     #[test]
     fn constants_have_the_size_of_the_shader_structs() {
-        use super::super::{
-            constants::{Constants, StepConstants},
-            near::{NearParticle, SurfaceConstants},
-            sort::SortConstants,
-        };
+        use super::super::constants::{Constants, StepConstants};
+        use super::super::near::{NearParticle, SurfaceConstants};
+        use super::super::sort::SortConstants;
         let size_of_struct = |source: &str, name: &str| {
             let module = wgsl::parse_str(source).unwrap();
             let named = module.types.iter().find(|(_, of_type)| of_type.name.as_deref() == Some(name));
@@ -161,9 +161,9 @@ mod tests {
         };
         assert_eq!(size_of_struct(RATES, "Parameters"), size_of::<Constants>());
         assert_eq!(size_of_struct(RATES, "Step"), size_of::<StepConstants>());
-        assert_eq!(size_of_struct(IMPERMEABLE, "Near"), size_of::<NearParticle>());
+        assert_eq!(size_of_struct(NEAR, "Near"), size_of::<NearParticle>());
         // Rounded up to whole vectors; the shaders do not declare the trailing padding.
         assert_eq!(size_of_struct(GRID, "Sort").next_multiple_of(16), size_of::<SortConstants>());
-        assert_eq!(size_of_struct(IMPERMEABLE, "Surfaces").next_multiple_of(16), size_of::<SurfaceConstants>());
+        assert_eq!(size_of_struct(NEAR, "Surfaces").next_multiple_of(16), size_of::<SurfaceConstants>());
     }
 }

@@ -5,23 +5,22 @@
 
 use glam::DVec3;
 
-use super::{
-    card::{Card, groups},
-    constants::{Constants, StepConstants},
-    memory::Memory,
-    near::NearSearch,
-    state::CardState,
+use super::card::{Card, groups};
+use super::constants::{Constants, StepConstants};
+use super::memory::Memory;
+use super::near::NearSearch;
+use super::state::CardState;
+use crate::mechanics::Load;
+use crate::sph::neighbours::grid::{Bins, Grid};
+use crate::sph::pairs::rate::Rate;
+use crate::sph::parameters::Parameters;
+use crate::sph::particles::boundary::Boundary;
+use crate::sph::particles::water::Water;
+use crate::sph::solver::backend::{
+    Backend, DeviceError, DeviceMemory, NearWater, Surfaces, WaterExtremes, unsupported_on_gpu,
 };
-use crate::sph::{
-    backend::{Backend, DeviceError, NearWater, Surfaces, Watched},
-    device::not_on_cards,
-    grid::{Bins, Grid},
-    parameters::Parameters,
-    particles::{boundary::Boundary, water::Water},
-    power::Powers,
-    rates::Rate,
-    time_step::Limits,
-};
+use crate::sph::solver::power::Powers;
+use crate::sph::solver::time_step::Limits;
 
 /// Initial values of the extremes; see `step.wgsl`.
 const INITIAL_EXTREMES: [u32; 5] = [0, u32::MAX, 0, 0, 0];
@@ -50,9 +49,9 @@ struct Loaded {
     memory: Memory,
     near: NearSearch,
     /// Largest speed of water and of boundary at the start of the time step [m/s].
-    fastest: [f64; 2],
+    largest_speeds: [f64; 2],
     /// Extremes, as last read.
-    watched: Watched,
+    extremes: WaterExtremes,
     /// Whether the water is already sorted, while the host moved the units.
     is_sorted: bool,
 }
@@ -78,7 +77,7 @@ impl GpuSolver {
         [low, high]: [DVec3; 2],
         bounds: [DVec3; 2],
     ) -> Result<Self, DeviceError> {
-        if let Some(what) = not_on_cards(&parameters) {
+        if let Some(what) = unsupported_on_gpu(&parameters) {
             return Err(DeviceError::Scheme(what));
         }
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
@@ -137,7 +136,7 @@ impl GpuSolver {
         self.card.write(&memory.boundary_cell, first, &state.cell);
         self.card.write(&memory.boundary_motion, first, &state.motion);
         self.card.write(&memory.to_surface, first, &surfaces);
-        loaded.fastest[1] = largest(&boundary.velocity[first..]);
+        loaded.largest_speeds[1] = largest(&boundary.velocity[first..]);
     }
 }
 
@@ -158,10 +157,103 @@ impl Backend for GpuSolver {
         &self.bins
     }
 
-    fn keeps_water(&self) -> bool {
-        true
+    fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {
+        Some(self)
     }
 
+    fn sort(&mut self, _: &mut Water, boundary: &Boundary) {
+        self.upload_moving(boundary);
+        let reach = self.parameters.kernel.support() as f32;
+        self.enqueue(|card, loaded, encoder| {
+            loaded.sort_water(encoder);
+            let memory = &loaded.memory;
+            card.write(&memory.step, 0, &[StepConstants { dt: 0.0, reach }]);
+            memory.boundary_sort.run(encoder);
+            memory.water_records.run(encoder, groups(memory.water, 64));
+        });
+    }
+
+    /// Does nothing: each particle searches the bins for its neighbours.
+    fn build_neighbour_lists(&mut self, _: &Water, _: &Boundary) {}
+
+    fn boundary_densities(&mut self, _: &mut Boundary) {
+        self.enqueue(|_, Loaded { memory, .. }, encoder| {
+            memory.densities.run(encoder, groups(memory.boundary, 64));
+            memory.boundary_records.run(encoder, groups(memory.boundary, 64));
+        });
+    }
+
+    fn rates(&mut self) {
+        self.enqueue(|_, Loaded { memory, .. }, encoder| {
+            encoder.clear_buffer(&memory.limits, 0, None);
+            memory.all_rates.run(encoder, groups(memory.water + memory.boundary, 64));
+        });
+    }
+
+    fn limits(&mut self) -> Result<Limits, DeviceError> {
+        let encoder = self.take_encoder();
+        let limits = self.loaded()?.memory.limits.clone();
+        let values: Vec<f32> = self.card.read(encoder, &limits, 0, 2)?;
+        Ok(Limits { acceleration: f64::from(values[0]), signal_speed: f64::from(values[1]) })
+    }
+
+    fn predict(&mut self, dt: f64, _: &Water, boundary: &mut Boundary, move_boundary: &mut dyn FnMut(&mut Boundary)) {
+        move_boundary(boundary);
+        self.upload_moving(boundary);
+        let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
+        self.enqueue(|card, Loaded { memory, largest_speeds, .. }, encoder| {
+            // After its approach to a surface is removed, water can have its own speed plus that of the surface.
+            let speed = largest_speeds[0] + largest_speeds[1];
+            let moved = (0.5 * dt * speed).min(h);
+            let reach = (support + moved) * ROUNDING;
+            card.write(&memory.step, 0, &[StepConstants { dt: dt as f32, reach: reach as f32 }]);
+            card.write(&memory.extremes, 0, &INITIAL_EXTREMES);
+            memory.predict.run(encoder, groups(memory.water, 64));
+            memory.half_records.run(encoder, groups(memory.water, 64));
+            memory.boundary_records.run(encoder, groups(memory.boundary, 64));
+        });
+    }
+
+    fn correct(&mut self, _: f64, _: &mut Water, _: &mut Boundary) {
+        self.enqueue(|_, Loaded { memory, is_sorted, .. }, encoder| {
+            *is_sorted = false;
+            memory.correct.run(encoder, groups(memory.water, 64));
+        });
+    }
+
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError> {
+        let encoder = self.take_encoder();
+        let first_unit = boundary.walls().end;
+        let memory = &self.loaded()?.memory;
+        let (rates, first) = (memory.rates.clone(), memory.water + first_unit);
+        let rates: Vec<[f32; 4]> = self.card.read(encoder, &rates, first, boundary.len() - first_unit)?;
+        let rho0 = self.parameters.tait.rho0;
+        Ok(boundary.unit_loads(centres, |i| {
+            let [x, y, z, _] = rates[i - first_unit].map(f64::from);
+            rho0 * boundary.volume[i] * DVec3::new(x, y, z)
+        }))
+    }
+
+    fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {
+        let encoder = self.take_encoder();
+        let loaded = self.loaded()?;
+        let (rates, count) = (loaded.memory.rates.clone(), loaded.memory.water);
+        Ok(rates_of(&self.card.read(encoder, &rates, 0, count)?))
+    }
+
+    fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError> {
+        let all = self.water_rates()?;
+        self.enqueue(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
+        let encoder = self.take_encoder();
+        let memory = &self.loaded()?.memory;
+        // `pressure_rates` writes to the half-step buffer, which is free now.
+        let (rates, count) = (memory.half_offset.clone(), memory.water);
+        let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
+        Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
+    }
+}
+
+impl DeviceMemory for GpuSolver {
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError> {
         let particles = [water.len(), boundary.len(), boundary.walls().end];
         let constants = Constants::new(&self.parameters, &self.grid, self.bounds, particles);
@@ -173,14 +265,19 @@ impl Backend for GpuSolver {
             Some(loaded) if loaded.memory.holds(particles) => loaded,
             _ => {
                 let memory = Memory::new(&self.card, &constants, particles, self.grid.bins())?;
-                let watched = Watched { fastest: 0.0, lightest: rho0, densest: rho0, astray: false };
+                let extremes = WaterExtremes {
+                    largest_speed: 0.0,
+                    lowest_density: rho0,
+                    highest_density: rho0,
+                    is_unstable: false,
+                };
                 let near = NearSearch::new(&self.card, &memory)?;
-                Loaded { near, memory, fastest: [0.0; 2], watched, is_sorted: false }
+                Loaded { near, memory, largest_speeds: [0.0; 2], extremes, is_sorted: false }
             }
         };
         let loaded = self.loaded.insert(loaded);
         loaded.memory.fill(&self.card, &state, &of_boundary, &excess);
-        loaded.fastest = [largest(&water.velocity), largest(&boundary.velocity)];
+        loaded.largest_speeds = [largest(&water.velocity), largest(&boundary.velocity)];
         loaded.is_sorted = false;
         self.encoder = None;
         self.trouble = None;
@@ -213,100 +310,23 @@ impl Backend for GpuSolver {
         Ok(())
     }
 
-    fn sort(&mut self, _: &mut Water, boundary: &Boundary) {
-        self.upload_moving(boundary);
-        let reach = self.parameters.kernel.support() as f32;
-        self.enqueue(|card, loaded, encoder| {
-            loaded.sort_water(encoder);
-            let memory = &loaded.memory;
-            card.write(&memory.step, 0, &[StepConstants { dt: 0.0, reach }]);
-            memory.boundary_sort.run(encoder);
-            memory.water_records.run(encoder, groups(memory.water, 64));
-        });
-    }
-
-    /// Does nothing: each particle searches the bins for its neighbours.
-    fn list(&mut self, _: &Water, _: &Boundary) {}
-
-    fn boundary_densities(&mut self, _: &mut Boundary) {
-        self.enqueue(|_, Loaded { memory, .. }, encoder| {
-            memory.densities.run(encoder, groups(memory.boundary, 64));
-            memory.boundary_records.run(encoder, groups(memory.boundary, 64));
-        });
-    }
-
-    fn rates(&mut self) {
-        self.enqueue(|_, Loaded { memory, .. }, encoder| {
-            encoder.clear_buffer(&memory.limits, 0, None);
-            memory.all_rates.run(encoder, groups(memory.water + memory.boundary, 64));
-        });
-    }
-
-    fn limits(&mut self) -> Result<Limits, DeviceError> {
-        let encoder = self.take_encoder();
-        let limits = self.loaded()?.memory.limits.clone();
-        let values: Vec<f32> = self.card.read(encoder, &limits, 0, 2)?;
-        Ok(Limits { acceleration: f64::from(values[0]), signal_speed: f64::from(values[1]) })
-    }
-
-    fn predict(&mut self, dt: f64, _: &Water, boundary: &mut Boundary, move_boundary: &mut dyn FnMut(&mut Boundary)) {
-        move_boundary(boundary);
-        self.upload_moving(boundary);
-        let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
-        self.enqueue(|card, Loaded { memory, fastest, .. }, encoder| {
-            // After its approach to a surface is removed, water can have its own speed plus that of the surface.
-            let speed = fastest[0] + fastest[1];
-            let moved = (0.5 * dt * speed).min(h);
-            let reach = (support + moved) * ROUNDING;
-            card.write(&memory.step, 0, &[StepConstants { dt: dt as f32, reach: reach as f32 }]);
-            card.write(&memory.extremes, 0, &INITIAL_EXTREMES);
-            memory.predict.run(encoder, groups(memory.water, 64));
-            memory.half_records.run(encoder, groups(memory.water, 64));
-            memory.boundary_records.run(encoder, groups(memory.boundary, 64));
-        });
-    }
-
-    fn correct(&mut self, _: f64, _: &mut Water, _: &mut Boundary) {
-        self.enqueue(|_, Loaded { memory, is_sorted, .. }, encoder| {
-            *is_sorted = false;
-            memory.correct.run(encoder, groups(memory.water, 64));
-        });
-    }
-
-    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError> {
-        let encoder = self.take_encoder();
-        let first_unit = boundary.walls().end;
-        let memory = &self.loaded()?.memory;
-        let (rates, first) = (memory.rates.clone(), memory.water + first_unit);
-        let rates: Vec<[f32; 4]> = self.card.read(encoder, &rates, first, boundary.len() - first_unit)?;
-        let rho0 = self.parameters.tait.rho0;
-        let load = |(unit, centre): (&std::ops::Range<usize>, &DVec3)| {
-            unit.clone().fold((DVec3::ZERO, DVec3::ZERO), |(force, torque), i| {
-                let [x, y, z, _] = rates[i - first_unit].map(f64::from);
-                let f = rho0 * boundary.volume[i] * DVec3::new(x, y, z);
-                (force + f, torque + (boundary.position[i] - *centre).cross(f))
-            })
-        };
-        Ok(boundary.units().iter().zip(centres).map(load).collect())
-    }
-
-    fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError> {
+    fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError> {
         let encoder = self.take_encoder();
         self.loaded()?;
         let rho0 = self.parameters.tait.rho0;
         let (card, grid, dp) = (&self.card, &self.grid, self.parameters.dp);
-        let Some(Loaded { memory, near, fastest, watched, .. }) = &mut self.loaded else {
+        let Some(Loaded { memory, near, largest_speeds, extremes, .. }) = &mut self.loaded else {
             return Ok(NearWater::default());
         };
-        let (extremes, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
-        *watched = watched_from(extremes, rho0);
-        fastest[0] = watched.fastest;
+        let (encoded, found) = near.find(card, memory, grid, dp, surfaces, encoder)?;
+        *extremes = decode_extremes(encoded, rho0);
+        largest_speeds[0] = extremes.largest_speed;
         let mut water = Water::default();
         found.put_into(grid, rho0, &mut water);
-        Ok(NearWater { places: water.id.clone(), water })
+        Ok(NearWater { indices: water.id.clone(), water })
     }
 
-    fn put_near(&mut self, near: &NearWater) {
+    fn write_near_velocities(&mut self, near: &NearWater) {
         let Some(Loaded { near: search, .. }) = &mut self.loaded else { return };
         let mut encoder = self.encoder.take().unwrap_or_else(|| self.card.encoder());
         if let Err(trouble) = search.put(&self.card, near, &mut encoder) {
@@ -321,26 +341,8 @@ impl Backend for GpuSolver {
         self.card.submit(encoder);
     }
 
-    fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
-        Ok(Some(self.loaded()?.watched))
-    }
-
-    fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {
-        let encoder = self.take_encoder();
-        let loaded = self.loaded()?;
-        let (rates, count) = (loaded.memory.rates.clone(), loaded.memory.water);
-        Ok(rates_of(&self.card.read(encoder, &rates, 0, count)?))
-    }
-
-    fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError> {
-        let all = self.water_rates()?;
-        self.enqueue(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
-        let encoder = self.take_encoder();
-        let memory = &self.loaded()?.memory;
-        // `pressure_rates` writes to the half-step buffer, which is free now.
-        let (rates, count) = (memory.half_offset.clone(), memory.water);
-        let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
-        Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
+    fn water_extremes(&mut self) -> Result<WaterExtremes, DeviceError> {
+        Ok(self.loaded()?.extremes)
     }
 }
 
@@ -355,16 +357,16 @@ fn largest(vectors: &[DVec3]) -> f64 {
 }
 
 /// Converts the extremes that `step.wgsl` collects.
-fn watched_from([fastest, lightest, densest, astray, _]: [u32; 5], rho0: f64) -> Watched {
+fn decode_extremes([speed, lowest, highest, unstable, _]: [u32; 5], rho0: f64) -> WaterExtremes {
     let decode_density = |ordered: u32| {
         let bits = if ordered & 0x8000_0000 == 0 { !ordered } else { ordered & 0x7fff_ffff };
         rho0 + f64::from(f32::from_bits(bits))
     };
-    Watched {
-        fastest: f64::from(f32::from_bits(fastest)),
-        lightest: decode_density(lightest),
-        densest: decode_density(densest),
-        astray: astray != 0,
+    WaterExtremes {
+        largest_speed: f64::from(f32::from_bits(speed)),
+        lowest_density: decode_density(lowest),
+        highest_density: decode_density(highest),
+        is_unstable: unstable != 0,
     }
 }
 
@@ -380,7 +382,10 @@ mod tests {
             if bits & 0x8000_0000 == 0 { bits | 0x8000_0000 } else { !bits }
         };
         assert!(ordered(-2.0) < ordered(-1.0) && ordered(-1.0) < ordered(0.0) && ordered(0.0) < ordered(0.5));
-        let watched = watched_from([1.5_f32.to_bits(), ordered(-3.0), ordered(4.25), 0, 9], 1000.0);
-        assert_eq!(watched, Watched { fastest: 1.5, lightest: 997.0, densest: 1004.25, astray: false });
+        let extremes = decode_extremes([1.5_f32.to_bits(), ordered(-3.0), ordered(4.25), 0, 9], 1000.0);
+        assert_eq!(
+            extremes,
+            WaterExtremes { largest_speed: 1.5, lowest_density: 997.0, highest_density: 1004.25, is_unstable: false }
+        );
     }
 }

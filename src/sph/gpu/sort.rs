@@ -1,12 +1,10 @@
-//! Stable counting sort of particles into bins on a card; it gives the same order as [`crate::sph::grid`].
+//! Stable counting sort of particles into bins on a card; it gives the same order as [`crate::sph::neighbours::grid`].
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{
-    card::{Card, groups},
-    shaders::{Bound, GRID, Shader},
-};
-use crate::sph::backend::DeviceError;
+use super::card::{Card, groups};
+use super::shaders::{Bound, GRID, Shader};
+use crate::sph::solver::backend::DeviceError;
 
 /// Number of bins that a workgroup scans.
 const SCANNED: usize = 1024;
@@ -99,10 +97,8 @@ mod tests {
     use glam::DVec3;
 
     use super::{super::constants::Constants, *};
-    use crate::sph::{
-        grid::{Bins, Grid},
-        parameters::Parameters,
-    };
+    use crate::sph::neighbours::grid::{Bins, Grid};
+    use crate::sph::parameters::Parameters;
 
     #[test]
     fn card_and_processor_sort_into_the_same_order() {

@@ -3,10 +3,9 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::sph::{
-    grid::Grid,
-    particles::{boundary::Boundary, water::Water},
-};
+use crate::sph::neighbours::grid::Grid;
+use crate::sph::particles::boundary::Boundary;
+use crate::sph::particles::water::Water;
 
 /// Smallest chunk of an array that is worth a task of the thread pool.
 const MIN_CHUNK: usize = 4096;

@@ -40,16 +40,16 @@ impl Outline {
     }
 
     /// Returns the two end points of each straight segment.
-    pub fn pieces(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        self.points.windows(2).map(|piece| [piece[0], piece[1]])
+    pub fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+        self.points.windows(2).map(|segment| [segment[0], segment[1]])
     }
 
     /// Returns the point of the outline nearest to `point`.
     pub fn nearest(&self, point: DVec2) -> DVec2 {
-        let candidates = self.points.windows(2).map(|piece| {
-            let along = piece[1] - piece[0];
-            let t = ((point - piece[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            piece[0] + t * along
+        let candidates = self.points.windows(2).map(|segment| {
+            let along = segment[1] - segment[0];
+            let t = ((point - segment[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            segment[0] + t * along
         });
         candidates
             .min_by(|a, b| a.distance_squared(point).total_cmp(&b.distance_squared(point)))
@@ -59,24 +59,24 @@ impl Outline {
     /// Returns the normal into the water at the outline's point nearest to `point`. `None` if `point` is in the water
     /// and at least `max_distance` [m] away.
     pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<DVec2> {
-        let is_far = |piece: &[DVec2]| {
-            let normal = left_normal(piece);
+        let is_far = |segment: &[DVec2]| {
+            let normal = left_normal(segment);
             // The point lies in front of this segment and further from its line than `max_distance`.
-            (point - piece[0]).dot(normal) > max_distance
+            (point - segment[0]).dot(normal) > max_distance
         };
         if self.points.windows(2).all(is_far) {
             return None;
         }
         let mut best: Option<(f64, DVec2)> = None;
-        for piece in self.points.windows(2) {
-            let along = piece[1] - piece[0];
-            let t = ((point - piece[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            let offset = point - (piece[0] + t * along);
+        for segment in self.points.windows(2) {
+            let along = segment[1] - segment[0];
+            let t = ((point - segment[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            let offset = point - (segment[0] + t * along);
             // Of two segments that meet in the nearest corner, the one that the point is further behind decides.
-            let side = offset.dot(left_normal(piece));
+            let side = offset.dot(left_normal(segment));
             let signed = if side < 0.0 { -offset.length() } else { offset.length() };
             if best.is_none_or(|(nearest, _)| signed.abs() < f64::abs(nearest) - 1e-12) {
-                best = Some((signed, left_normal(piece)));
+                best = Some((signed, left_normal(segment)));
             }
         }
         best.filter(|(signed, _)| *signed < max_distance).map(|(_, normal)| normal)
@@ -95,9 +95,9 @@ impl Outline {
     fn layers(&self, dp: f64, layers: u32) -> Vec<(DVec2, f64)> {
         let mut all = Vec::new();
         for depth in (0..layers).map(|k| (f64::from(k) + 0.5) * dp) {
-            for piece in self.points.windows(2) {
-                let (length, behind) = (piece[0].distance(piece[1]), -left_normal(piece) * depth);
-                self.divide(depth, dp, length, |s| piece[0].lerp(piece[1], s / length) + behind, &mut all);
+            for segment in self.points.windows(2) {
+                let (length, behind) = (segment[0].distance(segment[1]), -left_normal(segment) * depth);
+                self.divide(depth, dp, length, |s| segment[0].lerp(segment[1], s / length) + behind, &mut all);
             }
             for corner in self.points.windows(3) {
                 let (before, after) = (left_normal(&corner[0..2]), left_normal(&corner[1..3]));
@@ -165,8 +165,8 @@ fn find_change(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -
 }
 
 /// Returns the unit normal to the left of a segment, which points into the water.
-fn left_normal(piece: &[DVec2]) -> DVec2 {
-    (piece[1] - piece[0]).normalize().perp()
+fn left_normal(segment: &[DVec2]) -> DVec2 {
+    (segment[1] - segment[0]).normalize().perp()
 }
 
 /// Arrangement of the particles across the flume.
@@ -215,13 +215,13 @@ pub fn outline_particles(
         let to_outline = nearest - point;
         let upright = to_outline.normalize_or_zero().y.abs();
         let on_flank = (FLANK_ANGLE.sin()..FLANK_ANGLE.cos()).contains(&upright);
-        let slides = !on_flank && !outline.is_at_edge(nearest, reach);
+        let allows_free_slip = !on_flank && !outline.is_at_edge(nearest, reach);
         for y in across.rows(layers) {
             particles.push(BoundaryParticle {
                 position: DVec3::new(point.x, y, point.y),
                 to_surface: DVec3::new(to_outline.x, across.to_inside(y), to_outline.y),
                 volume: length * dp * across.spacing(),
-                slides,
+                allows_free_slip,
             });
         }
     }
@@ -243,7 +243,7 @@ pub fn side_wall_particles(section: &[(DVec2, f64)], across: &Across, layers: u3
                     position: DVec3::new(point.x, y, point.y),
                     to_surface: DVec3::Y * to_wall,
                     volume: area * across.spacing(),
-                    slides: true,
+                    allows_free_slip: true,
                 });
             }
         }
@@ -301,13 +301,13 @@ mod tests {
             let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
             // Behind a concave corner the vector to the surface has any direction.
             let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
-            assert!(behind_corner || particle.slides == (from_edge >= reach), "{foot}");
+            assert!(behind_corner || particle.allows_free_slip == (from_edge >= reach), "{foot}");
         }
         let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
         for particle in outline_particles(&flank, &across, 0.02, 3, reach) {
             // No free slip at 1:2, free slip at 1:8; the layers overlap near x = 1.
             let x = particle.position.x + particle.to_surface.x;
-            assert!((x - 1.0).abs() < 0.1 || particle.slides == (x > 1.0), "{x}");
+            assert!((x - 1.0).abs() < 0.1 || particle.allows_free_slip == (x > 1.0), "{x}");
         }
     }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::rigid::BodyState;
+use crate::mechanics::{BodyState, Load};
 
 /// Boundary particles in a fixed order: bed and walls, then the piston, then one unit after the other.
 #[derive(Debug, Clone, Default)]
@@ -20,7 +20,7 @@ pub struct Boundary {
     /// Whether the particle allows free slip: on beds flatter than 1:4 and on walls. Particles at convex edges, of
     /// units and of obstacles represent surfaces of several directions. Free slip along all of them would let water
     /// converge inside the solid.
-    pub slides: Vec<bool>,
+    pub allows_free_slip: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
     /// Particles of the piston.
@@ -44,8 +44,8 @@ pub struct BoundaryParticle {
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
-    /// Whether the particle allows free slip, see [`Boundary::slides`].
-    pub slides: bool,
+    /// Whether the particle allows free slip, see [`Boundary::allows_free_slip`].
+    pub allows_free_slip: bool,
 }
 
 impl Boundary {
@@ -79,7 +79,7 @@ impl Boundary {
         self.velocity.push(DVec3::ZERO);
         self.to_surface.push(particle.to_surface);
         self.volume.push(particle.volume);
-        self.slides.push(particle.slides);
+        self.allows_free_slip.push(particle.allows_free_slip);
         self.density.push(rho0);
     }
 
@@ -109,9 +109,20 @@ impl Boundary {
     }
 
     /// Returns position and vector to the surface of each unit particle, in the unit's axes [m]; all units share them.
-    pub fn places_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+    pub fn positions_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
+    }
+
+    /// Returns the load on each unit about its centre [m], from the force on each boundary particle [N]. The order of
+    /// summation over particles is fixed.
+    pub fn unit_loads(&self, centres: &[DVec3], force_on: impl Fn(usize) -> DVec3) -> Vec<Load> {
+        let load = |(unit, centre): (&Range<usize>, &DVec3)| {
+            let mut load = Load::default();
+            unit.clone().for_each(|i| load += Load::of_force(force_on(i), self.position[i] - *centre));
+            load
+        };
+        self.units.iter().zip(centres).map(load).collect()
     }
 
     /// Moves the piston; `rows` gives the displacement [m] and velocity [m/s] of each row along x.
@@ -142,7 +153,8 @@ mod tests {
 
     #[test]
     fn unit_particles_move_as_a_rigid_body() {
-        let particle = BoundaryParticle { position: DVec3::X, to_surface: DVec3::X * 0.1, volume: 1.0, slides: false };
+        let particle =
+            BoundaryParticle { position: DVec3::X, to_surface: DVec3::X * 0.1, volume: 1.0, allows_free_slip: false };
         let mut boundary = Boundary::new(&[], &[], &[particle], 2, 1000.0);
         let quarter = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
         boundary.move_unit(

@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{bed::Across, water::Water};
-use crate::sph::equation_of_state::Tait;
+use crate::sph::terms::equation_of_state::Tait;
 
 /// The region to be filled with water.
 pub struct Basin<'a> {

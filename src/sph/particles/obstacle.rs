@@ -22,7 +22,7 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
                 let position = bounds.low + lattice * spacing;
                 if bounds.depth(position) < thickness {
                     let to_surface = bounds.vector_to_surface(position);
-                    particles.push(BoundaryParticle { position, to_surface, volume, slides: false });
+                    particles.push(BoundaryParticle { position, to_surface, volume, allows_free_slip: false });
                 }
             }
         }
@@ -74,7 +74,7 @@ mod tests {
             position: DVec3::new(x, 0.1, -0.01),
             to_surface: DVec3::Z * 0.01,
             volume: 8e-6,
-            slides: false,
+            allows_free_slip: false,
         };
         let mut bed = [below(-0.01), below(0.03)];
         cover(&mut bed, &obstacle);

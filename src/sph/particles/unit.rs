@@ -40,7 +40,7 @@ pub fn unit_particles(
         } else {
             point
         };
-        BoundaryParticle { position, to_surface: locate(position).0 - position, volume: share, slides: false }
+        BoundaryParticle { position, to_surface: locate(position).0 - position, volume: share, allows_free_slip: false }
     };
     points.into_iter().map(to_particle).collect()
 }

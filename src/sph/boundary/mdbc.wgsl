@@ -79,8 +79,8 @@ fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
     let along = vec3<f32>(dot(vec3<f32>(s.x, p.x, p.y), normal), dot(vec3<f32>(p.x, s.y, p.z), normal),
                           dot(vec3<f32>(p.y, p.z, s.z), normal));
     let spread = dot(along, normal) / occupied;
-    let place = parameters.trust_place;
-    let layers = parameters.trust_spread;
+    let place = parameters.centroid_limits;
+    let layers = parameters.spread_limits;
     return clamp((place.y - behind) / (place.y - place.x), 0.0, 1.0)
         * clamp((spread - layers.x) / (layers.y - layers.x), 0.0, 1.0);
 }

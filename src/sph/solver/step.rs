@@ -1,4 +1,5 @@
-//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls them in the order:
+//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls them in
+//! the order:
 //!
 //! sort - list - boundary densities - rates - time step - predict - rates - correct
 //!
@@ -9,23 +10,21 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{
-    density_diffusion::Diffusion,
-    ghost_velocity::GhostVelocity,
-    gradients::Gradients,
-    grid::{Bins, Grid},
-    group::Group,
+use super::{group::Group, time_step::Limits};
+use crate::mechanics::Load;
+use crate::sph::{
+    boundary::{ghost_velocity::GhostVelocities, mdbc::GhostNodes},
     lanes::InstructionSet,
-    mdbc::GhostNodes,
-    neighbours::NeighbourLists,
+    neighbours::{
+        grid::{Bins, Grid},
+        lists::NeighbourLists,
+        records::{Record, record},
+    },
+    pairs::{gradients::Gradients, pair_loop::PairLoop, rate::Rate},
     parameters::{BoundaryCondition, Parameters},
-    rates::{PairLoop, Rate},
-    records::{Record, record},
-    time_step::Limits,
-    viscosity::Viscosity,
-    wall_slip::WallSlip,
+    particles::{boundary::Boundary, water::Water},
+    terms::{density_diffusion::Diffusion, viscosity::Viscosity, wall_slip::WallSlip},
 };
-use crate::sph::particles::{boundary::Boundary, water::Water};
 
 /// Smallest chunk of an array that is worth a task of the thread pool.
 const MIN_CHUNK: usize = 4096;
@@ -45,8 +44,8 @@ pub struct Solver {
     gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
-    /// Velocity of the water at the ghost nodes; empty if the wall slip condition does not need it.
-    ghost_velocity: Vec<Option<GhostVelocity>>,
+    /// Velocities at the ghost nodes; not computed if the wall slip condition does not need them.
+    ghost_velocities: GhostVelocities,
     gradients: Gradients,
     half: Water,
     half_density: Vec<f64>,
@@ -91,7 +90,7 @@ impl Solver {
             gap_lists: lists(),
             records: Vec::new(),
             ghosts: GhostNodes::new(instructions),
-            ghost_velocity: Vec::new(),
+            ghost_velocities: GhostVelocities::default(),
             gradients: Gradients::default(),
             half: Water::default(),
             half_density: Vec::new(),
@@ -114,7 +113,7 @@ impl Solver {
     }
 
     /// Builds the neighbour lists of this time step.
-    pub fn list(&mut self, water: &Water, boundary: &Boundary) {
+    pub fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary) {
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
         let mut lists = std::mem::take(&mut w.lists);
@@ -167,16 +166,16 @@ impl Solver {
 
     /// Fills the records of the boundary with densities at the start or at the half of a time step.
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
-        let (grid, parameters, ghost_velocity) = (&self.grid, &self.parameters, &self.ghost_velocity);
+        let (grid, parameters, ghost_velocities) = (&self.grid, &self.parameters, &self.ghost_velocities);
         let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
             out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
-                let ghost = ghost_velocity.get(i).copied().flatten();
-                let (wall, slides) = (boundary.velocity[i], boundary.slides[i]);
-                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], slides);
+                let ghost = ghost_velocities.at_node_of(i);
+                let (wall, free_slip) = (boundary.velocity[i], boundary.allows_free_slip[i]);
+                let velocity = parameters.slip.velocity(wall, ghost, boundary.to_surface[i], free_slip);
                 *out = record(grid, parameters, boundary.position[i], velocity, density[i], mass, diffuses);
             });
         };
@@ -189,7 +188,8 @@ impl Solver {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
             if self.parameters.slip != WallSlip::Original {
-                self.ghosts.velocities(&self.grid, &self.parameters, &self.records, boundary, &mut self.ghost_velocity);
+                let Self { ghosts, ghost_velocities, grid, parameters, records, .. } = self;
+                ghost_velocities.compute(ghosts, grid, parameters, records, boundary);
             }
         }
         self.fill_boundary_records(boundary, &boundary.density);
@@ -201,11 +201,11 @@ impl Solver {
         if Gradients::are_needed(parameters) {
             gradients.compute(pairs, &water.lists, records, water.rates.len());
         }
-        let extra = gradients.extra();
-        pairs.rates(&water.lists, records, extra, 0, &mut water.rates);
-        pairs.rates(&units.lists, records, extra, units.first_record, &mut units.rates);
+        let neighbour_data = gradients.neighbour_data();
+        pairs.rates(&water.lists, records, neighbour_data, 0, &mut water.rates);
+        pairs.rates(&units.lists, records, neighbour_data, units.first_record, &mut units.rates);
         if parameters.boundary == BoundaryCondition::Dynamic {
-            pairs.rates(&walls.lists, records, extra, walls.first_record, &mut walls.rates);
+            pairs.rates(&walls.lists, records, neighbour_data, walls.first_record, &mut walls.rates);
         } else if parameters.gap_pressure {
             pairs.add_gap_pressure(gap_lists, records, units.first_record, &mut units.rates);
         }
@@ -218,7 +218,7 @@ impl Solver {
 
     /// Computes the rates of the water with another viscosity and diffusion.
     pub(super) fn rates_with(&self, viscosity: Viscosity, diffusion: Diffusion) -> Vec<Rate> {
-        let pairs = self.pairs.with(Parameters { viscosity, diffusion, ..self.parameters });
+        let pairs = self.pairs.with_parameters(Parameters { viscosity, diffusion, ..self.parameters });
         let mut rates = vec![Rate::default(); self.water.rates.len()];
         pairs.rates(&self.water.lists, &self.records, &[], 0, &mut rates);
         rates
@@ -313,22 +313,15 @@ impl Solver {
         }
     }
 
-    /// Returns the force [N] of the water on each unit and its torque [N m] about the unit's centre [m]. The order of
-    /// summation over particles is fixed.
-    pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<(DVec3, DVec3)> {
+    /// Returns the load of the water on each unit about its centre [m].
+    pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<Load> {
         let first_unit = boundary.walls().end;
         self.unit_force.resize(boundary.len() - first_unit, DVec3::ZERO);
         for (&i, rate) in self.units.bins.order.iter().zip(&self.units.rates) {
             let mass = self.parameters.tait.rho0 * boundary.volume[first_unit + i as usize];
             self.unit_force[i as usize] = mass * acceleration(rate);
         }
-        let load = |(unit, centre): (&std::ops::Range<usize>, &DVec3)| {
-            unit.clone().fold((DVec3::ZERO, DVec3::ZERO), |(force, torque), i| {
-                let f = self.unit_force[i - first_unit];
-                (force + f, torque + (boundary.position[i] - *centre).cross(f))
-            })
-        };
-        boundary.units().iter().zip(centres).map(load).collect()
+        boundary.unit_loads(centres, |i| self.unit_force[i - first_unit])
     }
 
     /// Returns the mean number of pairs computed per water particle, including idle lanes.
@@ -354,6 +347,7 @@ impl Solver {
             + self.gap_lists.bytes()
             + records
             + self.ghosts.bytes()
+            + self.ghost_velocities.bytes()
             + self.gradients.bytes()
             + self.half.bytes()
             + self.sorted.bytes()

@@ -7,10 +7,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{
-    grid::{Bins, Grid},
-    lanes::{InstructionSet, Lanes, MOST_LANES, WithLanes},
-};
+use super::grid::{Bins, Grid};
+use crate::sph::lanes::{InstructionSet, Lanes, MOST_LANES, WithLanes};
 
 /// Smallest chunk of an array that is worth a task of the thread pool.
 const MIN_CHUNK: usize = 4096;
@@ -52,6 +50,17 @@ impl Chunk {
             (cluster, neighbours)
         })
     }
+}
+
+/// Returns `f` of the members of a cluster, one per lane; surplus lanes repeat the last member.
+#[inline(always)]
+pub(in crate::sph) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
+    let members = &targets[cluster.first as usize..][..cluster.len as usize];
+    let mut values = [0.0; MOST_LANES];
+    values.iter_mut().zip(members).for_each(|(value, member)| *value = f(member));
+    let last = values[members.len() - 1];
+    values[members.len()..].fill(last);
+    L::load(&values)
 }
 
 /// Sorted particles that are candidates for neighbours.

@@ -8,7 +8,7 @@
 @group(0) @binding(6) var<storage, read_write> half_offset: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> half_motion: array<vec4<f32>>;
 // Bits of the largest speed [m/s]; lowest and highest rho - rho0 as ordered integers; whether a particle has left the
-// domain or is not finite; number of particles near surfaces, see impermeable.wgsl.
+// domain or is not finite; number of particles near surfaces, see near.wgsl.
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>, 5>;
 
 fn with_gravity(rate: vec4<f32>) -> vec3<f32> {

@@ -1,18 +1,17 @@
-// The few particles that are near a surface (impermeable.rs): gathered for the host, which knows all shapes, and given
-// the velocities that it leaves them.
+// The water near surfaces (near.rs): gathered for the host, which knows all shapes and changes the velocities.
 
 // Numbers of each kind of shape, which follow each other in `shapes`.
 struct Surfaces {
-    // Pieces of the outline, x and z of both ends [m].
-    pieces: u32,
-    // Low and high corners of boxes [m].
-    boxes: u32,
-    // Balls that hold the parts of units, radius with the distance [m].
-    balls: u32,
+    // Segments of the outline, x and z of both ends [m].
+    segments: u32,
+    // Low and high corners of obstacles [m].
+    obstacles: u32,
+    // Bounding spheres of the units' parts, radius with the distance [m].
+    spheres: u32,
     // Displacements of the rows of the wavemaker [m].
     rows: u32,
     // Distance from a surface at which the approach ends, and a little [m].
-    nearest: f32,
+    min_distance: f32,
     // Rows of the wavemaker: place, height of the lowest, distance of one from the next [m].
     place: f32,
     lowest: f32,
@@ -48,30 +47,30 @@ struct Near {
 fn is_near_outline(at: vec2<f32>) -> bool {
     var least = 1e30;
     var behind = false;
-    for (var k = 0u; k < surfaces.pieces; k++) {
+    for (var k = 0u; k < surfaces.segments; k++) {
         let piece = shapes[k];
         let along = piece.zw - piece.xy;
         let from_start = at - piece.xy;
         let t = clamp(dot(from_start, along) / dot(along, along), 0.0, 1.0);
         let away = length(from_start - t * along);
-        // Where two pieces meet in the nearest corner, being behind one of them is enough.
+        // Where two segments meet in the nearest corner, being behind one of them is enough.
         if away < least + 1e-6 {
             let is_behind = dot(from_start, vec2<f32>(-along.y, along.x)) < 0.0;
             behind = is_behind || (behind && away > least - 1e-6);
             least = min(least, away);
         }
     }
-    return least < surfaces.nearest || behind;
+    return least < surfaces.min_distance || behind;
 }
 
 fn is_near_shape(at: vec3<f32>) -> bool {
-    var k = surfaces.pieces;
-    for (let end = k + 2u * surfaces.boxes; k < end; k += 2u) {
-        if all(at > shapes[k].xyz - surfaces.nearest) && all(at < shapes[k + 1u].xyz + surfaces.nearest) {
+    var k = surfaces.segments;
+    for (let end = k + 2u * surfaces.obstacles; k < end; k += 2u) {
+        if all(at > shapes[k].xyz - surfaces.min_distance) && all(at < shapes[k + 1u].xyz + surfaces.min_distance) {
             return true;
         }
     }
-    for (let end = k + surfaces.balls; k < end; k++) {
+    for (let end = k + surfaces.spheres; k < end; k++) {
         var r = at - shapes[k].xyz;
         if PERIODIC {
             r.y -= parameters.width * round(r.y / parameters.width);
@@ -82,13 +81,13 @@ fn is_near_shape(at: vec3<f32>) -> bool {
     }
     if surfaces.rows > 0u {
         let row = clamp(i32(round((at.z - surfaces.lowest) / surfaces.dp)), 0, i32(surfaces.rows) - 1);
-        if at.x < surfaces.place + shapes[k + u32(row)].x + surfaces.nearest {
+        if at.x < surfaces.place + shapes[k + u32(row)].x + surfaces.min_distance {
             return true;
         }
     }
     if surfaces.sides > 0.0 {
         let y = at.y - surfaces.low_side;
-        return y < surfaces.nearest || y > surfaces.sides - surfaces.nearest;
+        return y < surfaces.min_distance || y > surfaces.sides - surfaces.min_distance;
     }
     return false;
 }

@@ -1,6 +1,6 @@
 //! Equation 2: d rho_a/dt = sum_b m_b v_ab . grad_a W_ab + D.
 
-use super::lanes::Real;
+use crate::sph::lanes::Real;
 
 /// Returns `sum` + m_b v_ab . grad_a W_ab [kg/(m3 s)] with m_b = rho_b V_b and v_ab . grad_a W_ab = (v_ab . r_ab) G;
 /// `gv` is G V_b.

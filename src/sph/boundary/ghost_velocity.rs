@@ -7,58 +7,65 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{
-    grid::Grid,
-    lanes::Lanes,
-    mdbc::{
-        DRY, GhostNodes, NodeSums, PIECE,
-        node_sums::{NodeTerms, Pair, sum_round_nodes},
-    },
-    parameters::Parameters,
-    records::Record,
-};
+use super::mdbc::{DRY_LIMIT, GhostNodes, MIN_CHUNK, NodeSums};
+use super::node_sums::{NodeTerms, Pair, sum_around_nodes};
+use crate::sph::lanes::Lanes;
+use crate::sph::neighbours::grid::Grid;
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
 use crate::sph::particles::boundary::Boundary;
+use crate::sph::terms::wall_slip::GhostVelocity;
 
-/// Velocity of the water at a ghost node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GhostVelocity {
-    /// Velocity [m/s].
-    pub velocity: DVec3,
-    /// Trust in the linear fit, from 0 (too few layers of water) to 1.
-    pub trust: f64,
+/// Velocities of the water at the ghost nodes.
+#[derive(Debug, Default)]
+pub struct GhostVelocities {
+    /// Weights of the water's velocities, and the velocity sums, in the order of the nodes.
+    weights: Vec<[f32; 4]>,
+    sums: Vec<VelocitySum>,
+    /// Velocity at the node of each boundary particle; empty until it is computed.
+    of_particles: Vec<Option<GhostVelocity>>,
 }
 
 /// Weighted sum of the velocities around a node [m/s].
 #[derive(Debug, Clone, Copy, Default)]
-pub struct VelocitySum([f32; 3]);
+struct VelocitySum([f32; 3]);
 
-impl GhostNodes {
-    /// Computes the velocity at the ghost node of each boundary particle, `None` where the node is dry. Call it after
-    /// [`GhostNodes::densities`].
-    pub fn velocities(
+impl GhostVelocities {
+    /// Computes the velocity at the ghost node of each boundary particle. Call it after [`GhostNodes::densities`].
+    pub fn compute(
         &mut self,
+        nodes: &GhostNodes,
         grid: &Grid,
         parameters: &Parameters,
         records: &[Record],
         boundary: &Boundary,
-        out: &mut Vec<Option<GhostVelocity>>,
     ) {
         let (bin_x, to_surface) = (grid.size.x as f32, &boundary.to_surface);
-        let Self { sums, velocity_weights, velocity_sums, split, lists, bins, .. } = self;
-        velocity_weights.resize(sums.len(), [0.0; 4]);
-        (&mut *velocity_weights, &*sums, &bins.order)
+        let GhostNodes { sums, split, lists, bins, .. } = nodes;
+        self.weights.resize(sums.len(), [0.0; 4]);
+        (&mut self.weights, sums, &bins.order)
             .into_par_iter()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(weights, sums, &i)| *weights = velocity_weights_of(sums, parameters, to_surface[i as usize]));
-        velocity_sums.resize(sums.len(), VelocitySum::default());
-        sum_round_nodes(parameters, bin_x, split, velocity_weights, lists, records, velocity_sums);
-        out.resize(sums.len(), None);
-        for ((sums, velocity), &particle) in sums.iter().zip(velocity_sums).zip(&bins.order) {
+        self.sums.resize(sums.len(), VelocitySum::default());
+        sum_around_nodes(parameters, bin_x, split, &self.weights, lists, records, &mut self.sums);
+        self.of_particles.resize(sums.len(), None);
+        for ((sums, velocity), &particle) in sums.iter().zip(&self.sums).zip(&bins.order) {
             let trust = sums.trust(to_surface[particle as usize]);
-            let is_wet = f64::from(sums.value[0]) >= DRY;
+            let is_wet = f64::from(sums.value[0]) >= DRY_LIMIT;
             let velocity = DVec3::from_array(velocity.0.map(f64::from));
-            out[particle as usize] = is_wet.then_some(GhostVelocity { velocity, trust });
+            self.of_particles[particle as usize] = is_wet.then_some(GhostVelocity { velocity, trust });
         }
+    }
+
+    /// Returns the velocity at the ghost node of a boundary particle; `None` if the node is dry or nothing is computed.
+    pub fn at_node_of(&self, particle: usize) -> Option<GhostVelocity> {
+        self.of_particles.get(particle).copied().flatten()
+    }
+
+    /// Returns the memory in use [bytes].
+    pub fn bytes(&self) -> usize {
+        self.sums.capacity() * size_of::<VelocitySum>() + self.weights.capacity() * size_of::<[f32; 4]>()
     }
 }
 
@@ -66,7 +73,7 @@ impl GhostNodes {
 /// weighted mean with the four equations. `to_surface` [m] is half the vector from boundary particle to node.
 fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
     let occupied = f64::from(sums.value[0]);
-    if occupied < DRY {
+    if occupied < DRY_LIMIT {
         return [0.0; 4];
     }
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::lanes::Real;
+use crate::sph::lanes::Real;
 
 /// Wendland kernel with a given smoothing length.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,20 +1,20 @@
 //! The operations of a time step, for the processor ([`Solver`]) and for a graphics card.
 //!
-//! The processor works on the host's water arrays. A card keeps its own arrays and copies them to the host on
-//! [`Backend::fetch`]; it executes queued commands when a result is read back.
+//! The processor works on the host's water arrays. A card keeps its own arrays ([`DeviceMemory`]); it executes queued
+//! commands when a result is read back.
 
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{
-    grid::{Bins, Grid},
-    parameters::Parameters,
-    power::Powers,
-    rates::Rate,
-    step::Solver,
-    time_step::Limits,
+use super::{power::Powers, step::Solver, time_step::Limits};
+use crate::mechanics::Load;
+use crate::sph::{
+    neighbours::grid::{Bins, Grid},
+    pairs::rate::Rate,
+    parameters::{BoundaryCondition, Parameters},
+    particles::{boundary::Boundary, water::Water},
+    terms::{density_diffusion::DensityDiffusion, viscosity::Viscosity, wall_slip::WallSlip},
 };
-use crate::sph::particles::{boundary::Boundary, water::Water};
 
 /// Device name of the processor.
 pub const PROCESSOR: &str = "CPU";
@@ -48,28 +48,28 @@ pub enum DeviceError {
 
 /// Extremes of the water at the end of a time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Watched {
+pub struct WaterExtremes {
     /// Largest speed [m/s].
-    pub fastest: f64,
+    pub largest_speed: f64,
     /// Lowest density [kg/m3].
-    pub lightest: f64,
+    pub lowest_density: f64,
     /// Highest density [kg/m3].
-    pub densest: f64,
+    pub highest_density: f64,
     /// Whether a particle has left the domain or has a state that is not finite.
-    pub astray: bool,
+    pub is_unstable: bool,
 }
 
 /// Surfaces that water must not penetrate, at the end of a time step (see [`crate::simulation::flume`]). Lengths [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
     /// Smallest distance of a particle; nearer particles lose their approach velocity.
-    pub nearest: f64,
+    pub min_distance: f64,
     /// Segments of the outline of bed and walls, x and z of both ends.
     pub outline: Vec<[f64; 4]>,
     /// Obstacles: low and high corner.
-    pub boxes: Vec<[DVec3; 2]>,
+    pub obstacles: Vec<[DVec3; 2]>,
     /// Bounding spheres of the units' parts: centre and radius.
-    pub balls: Vec<(DVec3, f64)>,
+    pub bounding_spheres: Vec<(DVec3, f64)>,
     /// Position of the wavemaker at rest, height of its lowest row, and the displacement of each row.
     pub wavemaker: Option<(f64, f64, Vec<f64>)>,
     /// Width between the side walls; the first one stands at y = 0.
@@ -80,12 +80,12 @@ pub struct Surfaces {
 #[derive(Debug, Clone, Default)]
 pub struct NearWater {
     /// Index of each particle in the arrays of the device, ascending.
-    pub places: Vec<u32>,
+    pub indices: Vec<u32>,
     /// State of the particles.
     pub water: Water,
 }
 
-/// The operations of a time step.
+/// The operations of a time step. They fail only if the device is lost.
 pub trait Backend: Send {
     /// Returns the name of the device.
     fn name(&self) -> &str;
@@ -99,32 +99,14 @@ pub trait Backend: Send {
     /// Returns where each bin of the water begins, as last sorted and fetched.
     fn water_bins(&self) -> &Bins;
 
-    /// Returns whether the device keeps the water in its own memory instead of the host's arrays.
-    fn keeps_water(&self) -> bool;
-
-    /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
-    ///
-    /// # Errors
-    /// If the device does not have enough memory.
-    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
-
-    /// Updates water, its bins and the boundary densities in the arrays of the host.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
-
-    /// Updates only the boundary densities in the arrays of the host.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
+    /// Returns the device's own memory; `None` if it works on the arrays of the host.
+    fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory>;
 
     /// Sorts the particles into bins and the water's arrays into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
 
     /// Builds the neighbour lists of this time step.
-    fn list(&mut self, water: &Water, boundary: &Boundary);
+    fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary);
 
     /// Computes the densities of the boundary particles from their ghost nodes.
     fn boundary_densities(&mut self, boundary: &mut Boundary);
@@ -133,9 +115,6 @@ pub trait Backend: Send {
     fn rates(&mut self);
 
     /// Returns the largest acceleration and signal speed of the water.
-    ///
-    /// # Errors
-    /// If the device is lost.
     fn limits(&mut self) -> Result<Limits, DeviceError>;
 
     /// Predictor, equations 8.1, 8.2 and 9.1; `move_boundary` moves the boundary to the half step.
@@ -150,42 +129,60 @@ pub trait Backend: Send {
     /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary);
 
-    /// Returns the force [N] of the water on each unit and its torque [N m] about the unit's centre [m].
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError>;
+    /// Returns the load of the water on each unit about its centre [m].
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError>;
 
-    /// Returns the water near surfaces, which the host keeps out of them; empty if the host holds the water.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
+    /// Returns the last computed rates of the water in its order, valid until [`DeviceMemory::sort_ahead`]. Rates from
+    /// cards do not include the approach speed.
+    fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
+
+    /// Returns the powers that act on the water, at the fetched state whose rates were computed last.
+    fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
+}
+
+/// A device that keeps the water in its own memory instead of the host's arrays. The operations fail if the device is
+/// lost, and [`Self::load`] if its memory is too small.
+pub trait DeviceMemory {
+    /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
+    fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
+
+    /// Updates water, its bins and the boundary densities in the arrays of the host.
+    fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
+
+    /// Updates only the boundary densities in the arrays of the host.
+    fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
+
+    /// Returns the water near surfaces, which the host keeps out of them.
+    fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
 
     /// Writes the velocities of the water near surfaces back to the device.
-    fn put_near(&mut self, near: &NearWater);
+    fn write_near_velocities(&mut self, near: &NearWater);
 
     /// Starts sorting the water at its positions at the end of the time step, while the host moves the units.
     fn sort_ahead(&mut self);
 
-    /// Returns the extremes of the water at the end of a time step; `None` if the host holds the water.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn watch(&mut self) -> Result<Option<Watched>, DeviceError>;
+    /// Returns the extremes of the water at the end of a time step.
+    fn water_extremes(&mut self) -> Result<WaterExtremes, DeviceError>;
+}
 
-    /// Returns the last computed rates of the water in its order, valid until [`Self::sort_ahead`]. Rates from cards
-    /// do not include the approach speed.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
-
-    /// Returns the powers that act on the water, at the fetched state whose rates were computed last.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
+/// Returns the part of a scheme that graphics cards do not support, if any.
+pub fn unsupported_on_gpu(parameters: &Parameters) -> Option<&'static str> {
+    if parameters.boundary == BoundaryCondition::Dynamic {
+        return Some("the dynamic boundary condition (numerics.boundary = \"dbc\")");
+    }
+    if !matches!(parameters.viscosity, Viscosity::Artificial { .. }) {
+        return Some("laminar viscosity (numerics.viscosity)");
+    }
+    if parameters.diffusion.kind == DensityDiffusion::Antuono {
+        return Some("density diffusion with renormalised gradients (numerics.density_diffusion = \"antuono\")");
+    }
+    if parameters.slip != WallSlip::Original {
+        return Some("free slip or no slip at walls (numerics.wall_slip other than \"original\")");
+    }
+    if !parameters.gap_pressure {
+        return Some("units without gap pressure (numerics.gap_pressure = false)");
+    }
+    parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
 }
 
 impl Backend for Solver {
@@ -205,28 +202,16 @@ impl Backend for Solver {
         Self::water_bins(self)
     }
 
-    fn keeps_water(&self) -> bool {
-        false
-    }
-
-    fn load(&mut self, _: &Water, _: &Boundary) -> Result<(), DeviceError> {
-        Ok(())
-    }
-
-    fn fetch(&mut self, _: &mut Water, _: &mut Boundary) -> Result<(), DeviceError> {
-        Ok(())
-    }
-
-    fn fetch_boundary_densities(&mut self, _: &mut Boundary) -> Result<(), DeviceError> {
-        Ok(())
+    fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory> {
+        None
     }
 
     fn sort(&mut self, water: &mut Water, boundary: &Boundary) {
         Self::sort(self, water, boundary);
     }
 
-    fn list(&mut self, water: &Water, boundary: &Boundary) {
-        Self::list(self, water, boundary);
+    fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary) {
+        Self::build_neighbour_lists(self, water, boundary);
     }
 
     fn boundary_densities(&mut self, boundary: &mut Boundary) {
@@ -255,20 +240,8 @@ impl Backend for Solver {
         Self::correct(self, dt, water, boundary);
     }
 
-    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError> {
+    fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError> {
         Ok(Self::unit_loads(self, boundary, centres))
-    }
-
-    fn take_near(&mut self, _: &Surfaces) -> Result<NearWater, DeviceError> {
-        Ok(NearWater::default())
-    }
-
-    fn put_near(&mut self, _: &NearWater) {}
-
-    fn sort_ahead(&mut self) {}
-
-    fn watch(&mut self) -> Result<Option<Watched>, DeviceError> {
-        Ok(None)
     }
 
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError> {

@@ -10,7 +10,8 @@
 //! DualSPHysics, density diffusion excludes them and the water within their support: diffusion would remove that
 //! excess, and the water would sink into the wall.
 
-use super::{equation_of_state::Tait, lanes::Real};
+use super::equation_of_state::Tait;
+use crate::sph::lanes::Real;
 
 /// Form of the density diffusion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,7 +56,7 @@ impl Diffusion {
 
     /// Returns the coefficients of rho^H: rho0 g / c0^2 [kg/m4] and (gamma - 1) g / (2 c0^2) [1/m].
     #[cfg(feature = "gpu")]
-    pub(super) fn hydrostatic(&self) -> [f32; 2] {
+    pub(in crate::sph) fn hydrostatic(&self) -> [f32; 2] {
         [self.hydrostatic, self.curvature]
     }
 

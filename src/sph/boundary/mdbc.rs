@@ -16,44 +16,39 @@
 //! neighbours gives its particle the reference density, which is also the lower bound: a wall exerts pressure on the
 //! water but no suction.
 
-pub(super) mod node_sums;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
-use self::node_sums::{NodeTerms, Pair, sum_round_nodes};
-use super::{
-    ghost_velocity::VelocitySum,
-    grid::{Bins, Grid},
-    lanes::{InstructionSet, Lanes},
-    neighbours::{NeighbourLists, Sources},
-    parameters::Parameters,
-    records::{Record, split_position},
-    solve::solve,
-};
+use super::linear_equations::solve;
+use super::node_sums::{NodeTerms, Pair, sum_around_nodes};
+use crate::sph::lanes::{InstructionSet, Lanes};
+use crate::sph::neighbours::grid::{Bins, Grid};
+use crate::sph::neighbours::lists::{NeighbourLists, Sources};
+use crate::sph::neighbours::records::{Record, split_position};
+use crate::sph::parameters::Parameters;
 use crate::sph::particles::boundary::Boundary;
 
 /// Smallest determinant of the scaled matrix for which the gradient is fitted, relative to a full neighbourhood with
 /// the same sum of W V. Half a neighbourhood has 0.1; a single layer or a corner with few particles is below the limit.
-pub(super) const LEAST_DETERMINANT: f64 = 0.01;
+pub(in crate::sph) const LEAST_DETERMINANT: f64 = 0.01;
 
 /// Distance of the water's centroid from the node towards the boundary [h]: at the first value trust in the fitted
 /// gradient starts to decrease, at the second it is zero. The distance is 0.42 h for a node at the surface of deep
 /// water on a bed. It is negative for a node inside the water or next to it, at a surface-piercing wall. Calibrated:
 /// with 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
-pub(super) const TRUST: [f64; 2] = [0.1, 0.2];
+pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 
 /// Spread of the water along the wall's normal, sum g V r_n^2 / sum W V [h2]: below the first value trust in the fitted
 /// gradient is zero, from the second on it is full. At the node nearest to the wall two layers of particles give 0.2 to
 /// 0.3, three layers 0.5 to 0.65, deep water 0.74. Calibrated with still water on a beach: a gradient from two layers
 /// is mostly noise, which the walls amplify.
-pub(super) const SPREAD: [f64; 2] = [0.4, 0.7];
+pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
 /// Smallest chunk of an array that is worth a task of the thread pool.
-pub(super) const PIECE: usize = 1024;
+pub(super) const MIN_CHUNK: usize = 1024;
 
 /// Sum of W V below which a node is dry: less than the contribution of one particle at the distance dp.
-pub(super) const DRY: f64 = 0.01;
+pub(in crate::sph) const DRY_LIMIT: f64 = 0.01;
 
 /// Ghost nodes, sorted into bins, with their neighbour lists and sums.
 #[derive(Debug, Default)]
@@ -66,14 +61,11 @@ pub struct GhostNodes {
     pub(super) sums: Vec<NodeSums>,
     /// Densities of the boundary particles in the order of the nodes [kg/m3].
     densities: Vec<f64>,
-    /// Weights of the water's velocities, and the velocity sums, in the order of the nodes.
-    pub(super) velocity_weights: Vec<[f32; 4]>,
-    pub(super) velocity_sums: Vec<VelocitySum>,
 }
 
 /// Sums over the water around one ghost node, lengths in h.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct NodeSums {
+pub struct NodeSums {
     /// sum W V (1, x, y, z).
     pub(super) value: [f32; 4],
     /// sum W V f.
@@ -95,10 +87,7 @@ impl GhostNodes {
     /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
-        let sums = self.split.capacity() * size_of::<[f32; 4]>()
-            + self.sums.capacity() * size_of::<NodeSums>()
-            + self.velocity_sums.capacity() * size_of::<VelocitySum>()
-            + self.velocity_weights.capacity() * size_of::<[f32; 4]>();
+        let sums = self.split.capacity() * size_of::<[f32; 4]>() + self.sums.capacity() * size_of::<NodeSums>();
         points + sums + self.bins.bytes() + self.lists.bytes()
     }
 
@@ -115,13 +104,13 @@ impl GhostNodes {
         self.points.resize(count, DVec3::ZERO);
         (&mut self.points, &boundary.position, &boundary.to_surface)
             .into_par_iter()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(point, &position, &to_surface)| *point = position + 2.0 * to_surface);
         self.bins.sort(grid, &self.points);
         self.sorted.resize(count, DVec3::ZERO);
         self.split.resize(count, [0.0; 4]);
         let points = &self.points;
-        (&mut self.sorted, &mut self.split, &self.bins.order).into_par_iter().with_min_len(PIECE).for_each(
+        (&mut self.sorted, &mut self.split, &self.bins.order).into_par_iter().with_min_len(MIN_CHUNK).for_each(
             |(sorted, split, &i)| {
                 *sorted = points[i as usize];
                 *split = split_position(grid, *sorted);
@@ -132,11 +121,11 @@ impl GhostNodes {
         self.sums.resize(self.sorted.len(), NodeSums::default());
         let bin_x = grid.size.x as f32;
         let nothing = vec![[0.0; 0]; count];
-        sum_round_nodes(parameters, bin_x, &self.split, &nothing, &self.lists, records, &mut self.sums);
+        sum_around_nodes(parameters, bin_x, &self.split, &nothing, &self.lists, records, &mut self.sums);
         self.densities.resize(count, 0.0);
         (&mut self.densities, &self.sums, &self.bins.order)
             .into_par_iter()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(density, sums, &i)| *density = sums.density_at(parameters, boundary.to_surface[i as usize]));
         for (&density, &i) in self.densities.iter().zip(&self.bins.order) {
             boundary.density[i as usize] = density;
@@ -200,7 +189,7 @@ impl NodeSums {
     fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
-        if occupied < DRY {
+        if occupied < DRY_LIMIT {
             return rho0;
         }
         // Vector from the node to the particle, in h.
@@ -231,8 +220,9 @@ impl NodeSums {
             DVec3::new(xz, yz, zz).dot(normal),
         );
         let spread = along.dot(normal) / occupied;
-        let position_trust = ((TRUST[1] - behind) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
-        let layer_trust = ((spread - SPREAD[0]) / (SPREAD[1] - SPREAD[0])).clamp(0.0, 1.0);
+        let position_trust =
+            ((CENTROID_LIMITS[1] - behind) / (CENTROID_LIMITS[1] - CENTROID_LIMITS[0])).clamp(0.0, 1.0);
+        let layer_trust = ((spread - SPREAD_LIMITS[0]) / (SPREAD_LIMITS[1] - SPREAD_LIMITS[0])).clamp(0.0, 1.0);
         position_trust * layer_trust
     }
 

@@ -8,15 +8,13 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::{
-    density_diffusion::DensityDiffusion,
-    lanes::{Lanes, WithLanes},
-    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
-    parameters::Parameters,
-    rates::{PairLoop, lanes_of},
-    records::Record,
-    viscosity::Viscosity,
-};
+use super::pair_loop::PairLoop;
+use crate::sph::lanes::{Lanes, WithLanes};
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
+use crate::sph::terms::density_diffusion::DensityDiffusion;
+use crate::sph::terms::viscosity::Viscosity;
 
 /// Smallest determinant of M for which M is inverted: that of a quarter of a neighbourhood.
 const LEAST_DETERMINANT: f64 = 0.05;
@@ -24,7 +22,7 @@ const LEAST_DETERMINANT: f64 = 0.05;
 /// Data of a particle that neighbours need in addition to its record; empty for boundary particles.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
-pub struct Extra {
+pub struct NeighbourData {
     /// Renormalised gradient of the density [kg/m4].
     pub density_gradient: [f32; 3],
     /// Share of the target's gradient that replaces the neighbour's: 1 for boundary particles, which have none.
@@ -33,7 +31,7 @@ pub struct Extra {
     pub stress: [f32; 6],
 }
 
-impl Extra {
+impl NeighbourData {
     /// Value for a boundary particle.
     pub(super) const OF_BOUNDARY: Self = Self { density_gradient: [0.0; 3], borrowed: 1.0, stress: [0.0; 6] };
 }
@@ -52,7 +50,7 @@ pub struct Order {
 pub struct Gradients {
     sums: Vec<Sums>,
     /// One entry per record; empty if the scheme does not need it.
-    extra: Vec<Extra>,
+    neighbour_data: Vec<NeighbourData>,
 }
 
 /// Sums of one target.
@@ -71,10 +69,10 @@ struct Sums {
 impl Gradients {
     /// Returns whether a scheme needs the gradients.
     pub fn are_needed(parameters: &Parameters) -> bool {
-        Self::needs_extra(parameters) || parameters.shifting.is_some()
+        Self::needs_neighbour_data(parameters) || parameters.shifting.is_some()
     }
 
-    fn needs_extra(parameters: &Parameters) -> bool {
+    fn needs_neighbour_data(parameters: &Parameters) -> bool {
         let turbulent = matches!(parameters.viscosity, Viscosity::Laminar { turbulence: Some(_), .. });
         turbulent || parameters.diffusion.kind == DensityDiffusion::Antuono
     }
@@ -87,20 +85,20 @@ impl Gradients {
             let targets = &records[begin..begin + sums.len()];
             lists.instructions().dispatch(ChunkSums { pairs, chunk, targets, records, sums });
         });
-        if Self::needs_extra(&pairs.parameters) {
-            self.extra.resize(records.len(), Extra::OF_BOUNDARY);
-            let (of_water, of_boundary) = self.extra.split_at_mut(targets);
+        if Self::needs_neighbour_data(&pairs.parameters) {
+            self.neighbour_data.resize(records.len(), NeighbourData::OF_BOUNDARY);
+            let (of_water, of_boundary) = self.neighbour_data.split_at_mut(targets);
             let parameters = &pairs.parameters;
             (of_water, &self.sums, &records[..targets])
                 .into_par_iter()
-                .for_each(|(extra, sums, record)| *extra = sums.extra(parameters, record));
-            of_boundary.fill(Extra::OF_BOUNDARY);
+                .for_each(|(data, sums, record)| *data = sums.neighbour_data(parameters, record));
+            of_boundary.fill(NeighbourData::OF_BOUNDARY);
         }
     }
 
     /// Returns the additional data of all records.
-    pub fn extra(&self) -> &[Extra] {
-        &self.extra
+    pub fn neighbour_data(&self) -> &[NeighbourData] {
+        &self.neighbour_data
     }
 
     /// Returns the distribution of the particles around a target.
@@ -114,7 +112,7 @@ impl Gradients {
 
     /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
-        self.sums.capacity() * size_of::<Sums>() + self.extra.capacity() * size_of::<Extra>()
+        self.sums.capacity() * size_of::<Sums>() + self.neighbour_data.capacity() * size_of::<NeighbourData>()
     }
 }
 
@@ -128,7 +126,7 @@ impl Sums {
         if moments.determinant() > LEAST_DETERMINANT { moments.inverse() } else { DMat3::IDENTITY }
     }
 
-    fn extra(&self, parameters: &Parameters, record: &Record) -> Extra {
+    fn neighbour_data(&self, parameters: &Parameters, record: &Record) -> NeighbourData {
         let renormalisation = self.renormalisation();
         let corrected = |sum: [f32; 3]| renormalisation * DVec3::from_array(sum.map(f64::from));
         let stress = match parameters.viscosity {
@@ -138,7 +136,7 @@ impl Sums {
             }
             _ => [0.0; 6],
         };
-        Extra {
+        NeighbourData {
             density_gradient: corrected(self.density).as_vec3().to_array(),
             borrowed: 0.0,
             stress: stress.map(|component| component as f32),

@@ -2,12 +2,10 @@
 
 use glam::DVec3;
 
-use super::{
-    grid::{Bins, Grid},
-    lanes::InstructionSet,
-    neighbours::{NeighbourLists, SortedPositions, Sources},
-    rates::Rate,
-};
+use crate::sph::lanes::InstructionSet;
+use crate::sph::neighbours::grid::{Bins, Grid};
+use crate::sph::neighbours::lists::{NeighbourLists, SortedPositions, Sources};
+use crate::sph::pairs::rate::Rate;
 
 /// One of the three groups of particles in the records: water, walls (with bed and piston) or units.
 #[derive(Debug, Default)]

@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 
-use super::{parameters::Parameters, rates::Rate, records::Record, viscosity::Viscosity};
+use crate::sph::{neighbours::records::Record, pairs::rate::Rate, parameters::Parameters, terms::viscosity::Viscosity};
 
 /// Largest acceleration and signal speed over the water.
 #[derive(Debug, Clone, Copy, Default)]

@@ -14,7 +14,8 @@
 //! Revenga 2003; Hu & Adams 2006). Only the second form conserves angular momentum. At a free surface, only the second
 //! form dissipates as a Newtonian fluid: 2 mu S : S per volume, not mu |grad v|^2 (Colagrossi et al. 2011).
 
-use super::{lanes::Real, turbulence::Smagorinsky};
+use super::turbulence::Smagorinsky;
+use crate::sph::lanes::Real;
 
 /// Viscosity model.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,4 @@
-// Bins within reach of a point, row by row (neighbours.rs).
+// Bins within reach of a point, row by row (lists.rs).
 
 // Rows of bins within reach of a point; in a periodic flume, take the indices across modulo the number of rows.
 struct Rows {

@@ -3,17 +3,15 @@
 //! No particle fits below a unit's foot on the bed. Pressure from water particles alone would act on the foot only from
 //! above and hold the unit down with several times its weight. Real water fills such gaps, and its pressure is
 //! continuous through them. Therefore bed, walls and other units act on a unit with the pressure term of equation 1;
-//! their densities come from the nearby water (see [`super::mdbc`]). Viscosity is excluded: the contact law provides
-//! dry friction.
+//! their densities come from the nearby water (see [`mdbc`](crate::sph::boundary::mdbc)). Viscosity is excluded: the
+//! contact law provides dry friction.
 
 use rayon::prelude::*;
 
-use super::{
-    momentum::pair_stress,
-    neighbours::{CHUNK, NeighbourLists},
-    rates::{PairLoop, Rate},
-    records::Record,
-};
+use super::{pair_loop::PairLoop, rate::Rate};
+use crate::sph::neighbours::lists::{CHUNK, NeighbourLists};
+use crate::sph::neighbours::records::Record;
+use crate::sph::terms::momentum::pair_stress;
 
 impl PairLoop {
     /// Adds the pressure of bed, walls and other units across gaps to the units' accelerations; arguments as in

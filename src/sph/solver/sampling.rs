@@ -2,18 +2,16 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{
-    equation_of_state::Tait,
-    grid::{Bins, Grid},
-    kernel::Wendland,
-    solve::solve,
-};
+use crate::sph::boundary::linear_equations::solve;
+use crate::sph::neighbours::grid::{Bins, Grid};
 use crate::sph::particles::water::Water;
+use crate::sph::terms::equation_of_state::Tait;
+use crate::sph::terms::kernel::Wendland;
 
 /// Sum of W V at the free surface: half a neighbourhood.
 const SURFACE: f64 = 0.5;
 
-/// Smallest scaled determinant for which the linear fit is used; see [`super::mdbc`].
+/// Smallest scaled determinant for which the linear fit is used; see [`mdbc`](crate::sph::boundary::mdbc).
 const LEAST_DETERMINANT: f64 = 0.01;
 
 /// Second moment of the kernel along each axis, int W x^2 dV [h^2]; 5/18 in two dimensions.

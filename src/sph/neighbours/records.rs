@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{grid::Grid, parameters::Parameters};
+use super::grid::Grid;
+use crate::sph::parameters::Parameters;
 
 /// Data of a particle that its neighbours need, in single precision, 48 bytes.
 ///

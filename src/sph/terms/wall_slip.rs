@@ -2,7 +2,14 @@
 
 use glam::DVec3;
 
-use super::ghost_velocity::GhostVelocity;
+/// Velocity of the water at a ghost node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GhostVelocity {
+    /// Velocity [m/s].
+    pub velocity: DVec3,
+    /// Trust in the linear fit, from 0 (too few layers of water) to 1.
+    pub trust: f64,
+}
 
 /// Wall slip condition: which velocity a boundary particle has in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,11 +25,11 @@ pub enum WallSlip {
 impl WallSlip {
     /// Returns the velocity [m/s] from the wall's velocity [m/s], the water at the ghost node and the vector to the
     /// surface [m]. A dry node gives the wall's velocity. In thin sheets nothing is mirrored, because a sheet would
-    /// bounce off its own mirrored velocity. Where free slip is not allowed ([`Boundary::slides`]), `FreeSlip` keeps
+    /// bounce off its own mirrored velocity. Without `free_slip` (see [`Boundary::allows_free_slip`]), `FreeSlip` keeps
     /// the wall's tangential velocity.
     ///
-    /// [`Boundary::slides`]: crate::sph::particles::boundary::Boundary::slides
-    pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, slides: bool) -> DVec3 {
+    /// [`Boundary::allows_free_slip`]: crate::sph::particles::boundary::Boundary::allows_free_slip
+    pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, free_slip: bool) -> DVec3 {
         let Some(GhostVelocity { velocity, trust }) = ghost else { return wall };
         let relative = velocity - wall;
         match self {
@@ -31,7 +38,7 @@ impl WallSlip {
             Self::FreeSlip => {
                 let normal = to_surface.normalize_or_zero();
                 let across = relative.dot(normal) * normal;
-                let along = if slides { relative - across } else { DVec3::ZERO };
+                let along = if free_slip { relative - across } else { DVec3::ZERO };
                 wall + along - trust * across
             }
         }

@@ -1,18 +1,15 @@
 //! Sums of equations 1 and 2 over the neighbours of a cluster, one member per lane.
 
-use super::{
-    continuity::add_compression,
-    density_diffusion::Diffusion,
-    gradients::Extra,
-    kernel::Wendland,
-    lanes::{Lanes, MOST_LANES},
-    momentum::pair_stress,
-    neighbours::Cluster,
-    parameters::Parameters,
-    rates::{Rate, lanes_of},
-    records::Record,
-    viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
-};
+use super::{gradients::NeighbourData, rate::Rate};
+use crate::sph::lanes::{Lanes, MOST_LANES};
+use crate::sph::neighbours::lists::{Cluster, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
+use crate::sph::terms::continuity::add_compression;
+use crate::sph::terms::density_diffusion::Diffusion;
+use crate::sph::terms::kernel::Wendland;
+use crate::sph::terms::momentum::pair_stress;
+use crate::sph::terms::viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress};
 
 /// Viscosity model; the pair loop is compiled once per model.
 pub(super) trait Resistance {
@@ -142,13 +139,13 @@ impl Constants {
 }
 
 impl<L: Lanes> Members<L> {
-    /// Creates the members of `cluster` from the `targets` and, for schemes that need it, from their `extra` data.
+    /// Creates the members of `cluster` from the `targets` and, for schemes that need it, from their `data`.
     #[inline(always)]
     pub(super) fn new<R: Resistance, const ANTUONO: bool>(
         constants: &Constants,
         cluster: &Cluster,
         targets: &[Record],
-        extra: &[Extra],
+        data: &[NeighbourData],
     ) -> Self {
         let a = |f: fn(&Record) -> f32| lanes_of::<L, Record>(cluster, targets, f);
         let excess_density = a(|r| r.excess_density);
@@ -165,10 +162,10 @@ impl<L: Lanes> Members<L> {
         };
         if ANTUONO {
             members.density_gradient =
-                std::array::from_fn(|k| lanes_of(cluster, extra, |e: &Extra| e.density_gradient[k]));
+                std::array::from_fn(|k| lanes_of(cluster, data, |e: &NeighbourData| e.density_gradient[k]));
         }
         if R::TURBULENT {
-            members.stress = std::array::from_fn(|k| lanes_of(cluster, extra, |e: &Extra| e.stress[k]));
+            members.stress = std::array::from_fn(|k| lanes_of(cluster, data, |e: &NeighbourData| e.stress[k]));
         }
         members
     }
@@ -189,7 +186,7 @@ impl<L: Lanes> Sums<L> {
         a: &Members<L>,
         near: &Near<L>,
         b: &Record,
-        extra_b: &Extra,
+        data_b: &NeighbourData,
     ) {
         let &Constants { kernel, diffusion, h, rho0, .. } = constants;
         let splat = L::splat;
@@ -210,14 +207,14 @@ impl<L: Lanes> Sums<L> {
         }
         if R::TURBULENT {
             let factor = a.density * rho_b * gv;
-            let [xx, yy, zz, xy, xz, yz]: [L; 6] = std::array::from_fn(|k| a.stress[k] + splat(extra_b.stress[k]));
+            let [xx, yy, zz, xy, xz, yz]: [L; 6] = std::array::from_fn(|k| a.stress[k] + splat(data_b.stress[k]));
             let along = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
             add_to(&mut self.shear, -factor, along);
         }
         self.compression = add_compression(self.compression, rho_b, v_dot_r, gv);
         let mut excess = diffusion.excess(a.excess_density, excess_b, z);
         if ANTUONO {
-            excess += explained_by_gradients(a, near, extra_b);
+            excess += explained_by_gradients(a, near, data_b);
         }
         self.diffusion = (g * splat(b.diffusive_volume)).mul_add(excess, self.diffusion);
     }
@@ -254,7 +251,7 @@ impl<L: Lanes> Sums<L> {
 
 /// Returns (grad rho_a + grad rho_b) . r_ab / 2 [kg/m3], the part excluded from diffusion by Antuono et al. (2010).
 #[inline(always)]
-fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &Extra) -> L {
+fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &NeighbourData) -> L {
     let share = L::splat(0.5 * (1.0 + b.borrowed));
     let slope = |k: usize| share.mul_add(a.density_gradient[k], L::splat(0.5 * b.density_gradient[k]));
     let [x, y, z] = near.r;

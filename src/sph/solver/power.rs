@@ -9,8 +9,12 @@
 
 use glam::DVec3;
 
-use super::{density_diffusion::Diffusion, equation_of_state::Tait, rates::Rate, step::Solver, viscosity::Viscosity};
-use crate::sph::particles::water::Water;
+use super::step::Solver;
+use crate::sph::{
+    pairs::rate::Rate,
+    particles::water::Water,
+    terms::{density_diffusion::Diffusion, equation_of_state::Tait, viscosity::Viscosity},
+};
 
 /// Power received by the water [W].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -43,7 +47,7 @@ impl Solver {
 
 impl Powers {
     /// Computes the powers from the rates of the sorted water with and without viscosity and diffusion.
-    pub(super) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
+    pub(in crate::sph) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
         let mut powers = Self::default();
         let (mut volume, mut squares) = (0.0, 0.0);

@@ -2,13 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::sph::{
-    lanes::{Lanes, WithLanes},
-    neighbours::{CHUNK, Chunk, Cluster, NeighbourLists},
-    parameters::Parameters,
-    rates::lanes_of,
-    records::Record,
-};
+use crate::sph::lanes::{Lanes, WithLanes};
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
 
 /// A ghost node and a water particle near it.
 pub struct Pair<L> {
@@ -32,9 +29,10 @@ pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
     fn of_sums(sums: [f32; N]) -> Self;
 }
 
-/// Computes the sums of all nodes. `nodes` are split positions (see [`crate::sph::records::split_position`]); `known`
-/// has the given numbers of each node, `lists` its neighbours in the records. `bin_x` is the length of a bin [m].
-pub fn sum_round_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
+/// Computes the sums of all nodes. `nodes` are split positions (see
+/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the given numbers of each node,
+/// `lists` its neighbours in the records. `bin_x` is the length of a bin [m].
+pub fn sum_around_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,
     nodes: &[[f32; 4]],

@@ -1,0 +1,13 @@
+//! Density and velocity of the boundary particles, from ghost nodes in the water.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | [`mdbc`] | section 2.2: ghost nodes, and the density of boundary particles |
+//! | [`ghost_velocity`] | velocity of the water at the ghost nodes, for the wall slip conditions |
+//! | [`node_sums`] | sums over the water around each node |
+//! | [`linear_equations`] | solution of the four equations of a first-order consistent correction |
+
+pub mod ghost_velocity;
+pub mod linear_equations;
+pub mod mdbc;
+pub mod node_sums;

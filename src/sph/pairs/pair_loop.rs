@@ -1,0 +1,79 @@
+//! Constants of a loop over pairs, and the distance of a pair.
+
+use rayon::prelude::*;
+
+use crate::sph::lanes::Lanes;
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::Parameters;
+
+/// Loop over pairs: its constants besides the records.
+#[derive(Debug, Clone, Copy)]
+pub struct PairLoop {
+    /// Constants of the scheme.
+    pub parameters: Parameters,
+    bin_x: f32,
+    width: f32,
+}
+
+impl PairLoop {
+    /// Creates a loop over pairs in bins of length `bin_x` [m].
+    pub fn new(parameters: Parameters, bin_x: f64) -> Self {
+        let width = parameters.periodic_width.unwrap_or(0.0) as f32;
+        Self { parameters, bin_x: bin_x as f32, width }
+    }
+
+    /// Returns the same loop with other parameters.
+    pub(in crate::sph) fn with_parameters(self, parameters: Parameters) -> Self {
+        Self { parameters, ..self }
+    }
+
+    /// Counts the pairs of a target and a neighbour within the kernel support; the targets are the first `records`.
+    pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
+        let count_chunk = |(number, chunk): (usize, &Chunk)| {
+            let count_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
+                let first = number * CHUNK + cluster.first as usize;
+                let is_near =
+                    |a: &Record, j: &u32| self.distance(a, &records[*j as usize]).1 < self.parameters.kernel.support();
+                let count_target = |a| neighbours.iter().filter(|j| is_near(a, j)).count() as u64;
+                records[first..first + cluster.len as usize].iter().map(count_target).sum::<u64>()
+            };
+            chunk.clusters().map(count_cluster).sum::<u64>()
+        };
+        lists.chunks().par_iter().enumerate().map(count_chunk).sum()
+    }
+
+    /// Returns the split positions of the members of a cluster, see
+    /// [`split_position`](crate::sph::neighbours::records::split_position).
+    #[inline(always)]
+    pub(super) fn split_positions<L: Lanes>(&self, cluster: &Cluster, targets: &[Record]) -> [L; 4] {
+        let fields: [fn(&Record) -> f32; 4] = [|r| r.bin_x, |r| r.x, |r| r.y, |r| r.z];
+        fields.map(|f| lanes_of(cluster, targets, f))
+    }
+
+    /// Returns r_ab [m] of the members of a cluster and a neighbour, or of its nearest image if `PERIODIC`.
+    #[inline(always)]
+    pub(super) fn difference<L: Lanes, const PERIODIC: bool>(&self, a: [L; 4], b: &Record) -> [L; 3] {
+        let splat = L::splat;
+        let x = (a[0] - splat(b.bin_x)).mul_add(splat(self.bin_x), a[1] - splat(b.x));
+        let mut y = a[2] - splat(b.y);
+        if PERIODIC {
+            y = y - splat(self.width) * (y * splat(1.0 / self.width)).round();
+        }
+        [x, y, a[3] - splat(b.z)]
+    }
+
+    /// Returns the vector from b to a and its length [m]; in a periodic flume, from the nearest image.
+    pub(super) fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
+        let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
+        let mut r = [
+            difference(a.bin_x, b.bin_x) * f64::from(self.bin_x) + difference(a.x, b.x),
+            difference(a.y, b.y),
+            difference(a.z, b.z),
+        ];
+        if let Some(width) = self.parameters.periodic_width {
+            r[1] -= width * (r[1] / width).round();
+        }
+        (r, r.iter().map(|r| r * r).sum::<f64>().sqrt())
+    }
+}

@@ -1,0 +1,12 @@
+//! Result of a loop over pairs.
+
+/// Rates of one target.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Rate {
+    /// Acceleration without gravity [m/s2].
+    pub acceleration: [f32; 3],
+    /// d rho / dt [kg/(m3 s)].
+    pub density: f32,
+    /// Largest |mu_ab| of equation 3 over the neighbours [m/s].
+    pub approach: f32,
+}

@@ -1,0 +1,144 @@
+//! Right-hand sides of equations 1 and 2. One pass over the neighbour lists computes the acceleration, the density rate
+//! and the largest approach speed of each target.
+
+use rayon::prelude::*;
+
+use super::gradients::NeighbourData;
+use super::pair_loop::PairLoop;
+use super::pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent};
+use super::rate::Rate;
+use crate::sph::lanes::{Lanes, MOST_LANES, WithLanes};
+use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
+use crate::sph::neighbours::records::Record;
+use crate::sph::parameters::BoundaryCondition;
+use crate::sph::terms::density_diffusion::DensityDiffusion;
+use crate::sph::terms::viscosity::Viscosity;
+
+/// Number of neighbours per partial sum; partial sums reduce rounding errors.
+const BLOCK: usize = 32;
+
+impl PairLoop {
+    /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `data` has one entry
+    /// per record, or is empty if the scheme needs none.
+    pub fn rates(
+        &self,
+        lists: &NeighbourLists,
+        records: &[Record],
+        data: &[NeighbourData],
+        first_target: usize,
+        rates: &mut [Rate],
+    ) {
+        rates.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (rates, chunk))| {
+            let begin = first_target + number * CHUNK;
+            let targets = &records[begin..begin + rates.len()];
+            lists.instructions().dispatch(ChunkRates { pairs: self, chunk, begin, targets, records, data, rates });
+        });
+    }
+}
+
+/// Computation of the rates of one chunk of targets.
+struct ChunkRates<'a> {
+    pairs: &'a PairLoop,
+    chunk: &'a Chunk,
+    /// Index of the first target in the records.
+    begin: usize,
+    targets: &'a [Record],
+    records: &'a [Record],
+    data: &'a [NeighbourData],
+    rates: &'a mut [Rate],
+}
+
+impl WithLanes for ChunkRates<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        match self.pairs.parameters.viscosity {
+            Viscosity::Artificial { .. } => self.run_viscous::<L, Artificial>(),
+            Viscosity::MonaghanGingold { .. } => self.run_viscous::<L, MonaghanGingold>(),
+            Viscosity::Laminar { turbulence: None, .. } => self.run_viscous::<L, Laminar>(),
+            Viscosity::Laminar { .. } => self.run_viscous::<L, Turbulent>(),
+        }
+    }
+}
+
+impl ChunkRates<'_> {
+    #[inline(always)]
+    fn run_viscous<L: Lanes, R: Resistance>(self) {
+        if self.pairs.parameters.diffusion.kind == DensityDiffusion::Antuono {
+            self.run_terms::<L, R, true>();
+        } else {
+            self.run_terms::<L, R, false>();
+        }
+    }
+
+    #[inline(always)]
+    fn run_terms<L: Lanes, R: Resistance, const ANTUONO: bool>(self) {
+        let constants = Constants::new(&self.pairs.parameters);
+        for (cluster, neighbours) in self.chunk.clusters() {
+            let members = cluster.first as usize..(cluster.first + cluster.len) as usize;
+            let rates = if cluster.crosses_sides {
+                self.cluster_rates::<L, R, ANTUONO, true>(&constants, cluster, neighbours)
+            } else {
+                self.cluster_rates::<L, R, ANTUONO, false>(&constants, cluster, neighbours)
+            };
+            self.rates[members].copy_from_slice(&rates[..cluster.len as usize]);
+        }
+    }
+
+    /// Returns the rates of a cluster. Partial sums over blocks have a third of the rounding error of one long sum.
+    #[inline(always)]
+    fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const PERIODIC: bool>(
+        &self,
+        constants: &Constants,
+        cluster: &Cluster,
+        neighbours: &[u32],
+    ) -> [Rate; MOST_LANES] {
+        let Self { pairs, targets, records, .. } = self;
+        let place = pairs.split_positions(cluster, targets);
+        let data = self.data.get(self.begin..).unwrap_or_default();
+        let mut a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, data);
+        if pairs.parameters.boundary == BoundaryCondition::Dynamic {
+            a.diffuses = self.out_of_reach_of_walls::<L, PERIODIC>(constants, cluster, neighbours);
+        }
+        let Some(&first) = neighbours.first() else { return Sums::zero().rates(constants, &a) };
+        let mut sums = Sums::zero();
+        let mut next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[first as usize]));
+        for (block, following) in neighbours.chunks(BLOCK).zip(neighbours[1..].chunks(BLOCK).chain([&[][..]])) {
+            let mut block_sums = Sums::zero();
+            for (k, &number) in block.iter().enumerate() {
+                let current = next;
+                let after = *following.get(k).unwrap_or(&first);
+                next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[after as usize]));
+                let b = &records[number as usize];
+                let data_b =
+                    if ANTUONO || R::TURBULENT { &self.data[number as usize] } else { &NeighbourData::OF_BOUNDARY };
+                block_sums.add::<R, ANTUONO>(constants, &a, &current, b, data_b);
+            }
+            sums.add_sums(&block_sums);
+        }
+        sums.rates(constants, &a)
+    }
+
+    /// Returns zero for members that are boundary particles of the dynamic boundary condition or have one within their
+    /// support, and one for all other members.
+    #[inline(always)]
+    fn out_of_reach_of_walls<L: Lanes, const PERIODIC: bool>(
+        &self,
+        constants: &Constants,
+        cluster: &Cluster,
+        neighbours: &[u32],
+    ) -> L {
+        let Self { pairs, targets, records, .. } = self;
+        let place = pairs.split_positions(cluster, targets);
+        let is_dynamic_boundary = |record: &Record| record.diffusive_volume == 0.0;
+        let mut closest: L = lanes_of(cluster, targets, |a| if is_dynamic_boundary(a) { 1.0 } else { 0.0 });
+        for &number in neighbours {
+            let b = &records[number as usize];
+            if is_dynamic_boundary(b) {
+                closest = closest.max(constants.near(pairs.difference::<L, PERIODIC>(place, b)).closeness);
+            }
+        }
+        L::splat(1.0) - L::splat(1.0).where_positive(closest)
+    }
+}
