@@ -26,10 +26,10 @@ fn all_files() -> Vec<PathBuf> {
     json_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"))
 }
 
-/// All files of a kind.
+/// Lists the files of a kind.
 fn files(kind: InputKind) -> Vec<PathBuf> {
-    let is_one = |path: &PathBuf| Document::read(path).unwrap().kind() == kind;
-    all_files().into_iter().filter(is_one).collect()
+    let is_of_kind = |path: &PathBuf| Document::read(path).unwrap().kind() == kind;
+    all_files().into_iter().filter(is_of_kind).collect()
 }
 
 fn case(name: &str) -> Case {
@@ -61,7 +61,7 @@ fn every_case_file_loads() {
 
 #[test]
 fn every_dry_test_loads_and_survives_a_round_trip() {
-    let files = dry_cases();
+    let files = files(InputKind::DryTest);
     assert!(files.len() >= 5, "only {} dry tests found", files.len());
     for path in files {
         let case = DryTestCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
@@ -74,7 +74,7 @@ fn every_dry_test_loads_and_survives_a_round_trip() {
         if let Some(terrain) = &case.site.terrain {
             std::fs::write(folder.path().join("terrain.stl"), terrain.content.as_slice()).unwrap();
         }
-        if let Some(breakage) = &case.fracture {
+        if let Some(breakage) = &case.breakage {
             std::fs::write(folder.path().join(BreakageSettings::MESH), &breakage.mesh_file).unwrap();
         }
         let name = folder.path().join("case.json").display().to_string();
@@ -86,7 +86,7 @@ fn every_dry_test_loads_and_survives_a_round_trip() {
 
 #[test]
 fn every_fracture_case_loads_and_survives_a_round_trip() {
-    let files = fracture_cases();
+    let files = files(InputKind::Fracture);
     assert!(!files.is_empty());
     for path in files {
         let case = FractureCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
@@ -124,7 +124,7 @@ fn template_loads_without_a_warning() {
 
 #[test]
 fn flume_cases_survive_a_round_trip() {
-    for path in cases() {
+    for path in files(InputKind::Flume) {
         let file: CaseFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
         let reread: CaseFile = serde_json::from_str(&written).unwrap();
@@ -133,7 +133,7 @@ fn flume_cases_survive_a_round_trip() {
         let reread = path.with_file_name("again.json").display().to_string();
         assert_eq!(Case::from_str(&written, &reread).unwrap().hash, case.hash, "{}", path.display());
         // The case that a run keeps needs only the mesh that the run writes, and is the same case.
-        let Some(breakage) = &case.fracture else { continue };
+        let Some(breakage) = &case.breakage else { continue };
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(BreakageSettings::MESH), &breakage.mesh_file).unwrap();
         let name = folder.path().join("case.json").display().to_string();
@@ -163,7 +163,7 @@ fn old_key_names_give_the_same_case_and_a_warning() {
 }
 
 #[test]
-fn hash_sees_values_and_not_layout() {
+fn hash_depends_on_values_and_not_on_layout() {
     let text = template_text();
     let hash = Case::from_str(&text, "a").unwrap().hash;
     assert_eq!(hash.len(), 32);
