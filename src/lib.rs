@@ -19,7 +19,6 @@
 //! | [`output`] | ParaView files, tables, checkpoints, summary, report, comparison |
 //! | [`bench`] | how fast the solver is on this machine |
 //! | [`sweep`] | one case with keys that vary, every combination a run |
-//! | [`book`] | the validation book: what stays of runs, and its pages |
 //! | [`cli`] | one file a subcommand |
 //!
 //! SI units throughout. Axes: x from the wavemaker to the shore, y across the flume, z upwards.
@@ -28,7 +27,6 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod bench;
-pub mod book;
 pub mod case;
 pub mod cli;
 pub mod femdem;

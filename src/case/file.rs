@@ -9,6 +9,7 @@ mod fracture_places;
 mod handover;
 mod numerics;
 mod objects;
+mod reference;
 mod wave_source;
 mod waves;
 
@@ -24,6 +25,7 @@ pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
     Orientation, PlacementFile, PointFile, PoseFile, Shape, StlFile, UnitsFile,
 };
+pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 pub use wave_source::{GivenWaveFile, OpenfoamFile, SwashFile, SwashTableFile, UpFile, VelxFile, WaveSourceFile};
@@ -43,6 +45,11 @@ pub struct CaseFile {
     /// What had to be assumed because no source gives it; listed in the report.
     #[serde(default)]
     pub assumptions: Vec<String>,
+    /// Folder of a `reference.json` with measured displacements, seen from the case file: `breakwater compare` compares
+    /// the run with them.
+    // Not part of the fingerprint: it changes no result.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<String>,
     /// The whole flume: bed, mound and still water.
     pub flume: FlumeFile,
     /// The part of the flume that is filled with particles.

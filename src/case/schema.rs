@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 
-use super::file::{CaseFile, DryFile, FractureFile};
+use super::file::{CaseFile, DryFile, FractureFile, ReferenceFile};
 
 /// JSON schema of [`CaseFile`], indented.
 pub fn schema_text() -> String {
@@ -17,6 +17,11 @@ pub fn dry_schema_text() -> String {
 /// JSON schema of [`FractureFile`], indented.
 pub fn fracture_schema_text() -> String {
     text_of::<FractureFile>()
+}
+
+/// JSON schema of [`ReferenceFile`], indented.
+pub fn reference_schema_text() -> String {
+    text_of::<ReferenceFile>()
 }
 
 fn text_of<T: JsonSchema>() -> String {

@@ -16,6 +16,7 @@ use super::materials::{self, FrictionPair, Material};
 use super::numerics::{self, Fluid, Numerics};
 use super::output::{self, Output};
 use super::parse::parse;
+use super::reference::{self, Reference};
 use super::run::{self, Contact, Stop};
 use super::site::Site;
 use super::thickness;
@@ -70,6 +71,8 @@ pub struct Case {
     pub contact: Contact,
     /// What is done with the hardest impacts.
     pub fracture: Option<Handover>,
+    /// Measured displacements that the run can be compared with.
+    pub reference: Option<Reference>,
     /// Points at which the water is measured.
     pub gauges: Vec<Gauge>,
     /// What is written, and how often.
@@ -97,7 +100,7 @@ impl Case {
 
     /// Keys that may differ between a run and the one at whose checkpoint it begins: units at rest do not feel them.
     /// The duration is none of them, for the wavemaker's motion is prepared up to there.
-    pub const MAY_DIFFER: [&str; 4] = ["title", "assumptions", "friction", "stop.at_rest"];
+    pub const MAY_DIFFER: [&str; 5] = ["title", "assumptions", "reference", "friction", "stop.at_rest"];
 
     /// Ground and limits of the place where the units stand.
     pub fn site(&self) -> Site {
@@ -179,6 +182,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         None => None,
         Some(entry) => Some(validate_fracture(entry, file, units.as_ref(), name, check)?),
     };
+    let reference = file.reference.as_ref().and_then(|path| reference::validate(path, name, check));
     let wave = wave?;
     let relaxation = domain.as_ref().and_then(|domain| domain.relaxation_zone.as_ref());
     zones::validate_wave(relaxation, &wave, wavemaker, check);
@@ -188,7 +192,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         assumptions: file.assumptions.clone(),
         warnings: Vec::new(),
         name: name.to_owned(),
-        hash: fingerprint(&CaseFile { schema: None, ..file.clone() }, &read),
+        hash: fingerprint(&CaseFile { schema: None, reference: None, ..file.clone() }, &read),
         start_hash: fingerprint(&without_what_may_differ(&file), &read),
         text,
         flume: flume?,
@@ -202,6 +206,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         friction,
         contact,
         fracture,
+        reference,
         gauges,
         output,
         stop,
@@ -214,7 +219,8 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
 /// The case without its schema and [`Case::MAY_DIFFER`].
 fn without_what_may_differ(file: &CaseFile) -> CaseFile {
     let stop = StopFile { at_rest: None, ..file.stop.clone() };
-    CaseFile { schema: None, title: String::new(), assumptions: Vec::new(), friction: Vec::new(), stop, ..file.clone() }
+    let (title, assumptions, friction) = (String::new(), Vec::new(), Vec::new());
+    CaseFile { schema: None, title, assumptions, reference: None, friction, stop, ..file.clone() }
 }
 
 /// Impacts are those of units in three dimensions.
@@ -238,8 +244,8 @@ fn validate_fracture(
 }
 
 /// The case as a run keeps it: file, text, and what it has read besides. A wave from other programs' files becomes one
-/// from the file that the run writes beside its case, STL files those that it copies there, and a placement file becomes
-/// poses in the case, so that the folder can be moved and resumed.
+/// from the file that the run writes beside its case, STL files and the reference folder those that it copies there, and a
+/// placement file becomes poses in the case, so that the folder can be moved and resumed.
 fn self_contained(
     file: &CaseFile,
     text: &str,
@@ -253,6 +259,7 @@ fn self_contained(
         kept.wave = WaveFile::File(GivenWaveFile { source, celerity_m_s: given.celerity });
         read = given.rows_text();
     }
+    kept.reference = kept.reference.as_ref().map(|_| Reference::FOLDER.to_owned());
     if let (Some(file), Some(units)) = (&mut kept.units, units) {
         units.make_self_contained(file, &mut read);
     }

@@ -3,7 +3,6 @@
 //! Exit codes: 0 done, 1 the run went wrong, 2 the input is refused (nothing was written).
 
 mod bench;
-mod book;
 mod check;
 mod compare;
 mod devices;
@@ -29,7 +28,7 @@ use crate::{simulation::breakage, sweep::plan::Sweep};
 /// Will this wave move the armour units, and will the units break?
 ///
 /// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` tells what it will cost, `run` sends
-/// the wave over the units, `compare` sets the result beside published measurements.
+/// the wave over the units, `compare` compares the result with measurements.
 #[derive(Parser)]
 #[command(name = "breakwater", version, after_help = EXAMPLES)]
 struct Arguments {
@@ -42,7 +41,7 @@ Examples:
   breakwater check cases/fudo/quick-look.json      what a case holds and what it costs
   breakwater run cases/fudo/quick-look.json        run it; look at runs/quick-look/report.html
   breakwater resume runs/quick-look                go on after an interruption
-  breakwater compare runs/quick-look               beside the Fudo experiment
+  breakwater compare runs/quick-look               compare with measurements
   breakwater sweep cases/fudo/friction-sweep.json  the same with nine coefficients of friction, in one table
   breakwater wave cases/fudo/H4.5-slice.json       the wave alone, in seconds
   breakwater run cases/contact/tilt-tetrapod.json  units without water: a slope test
@@ -61,7 +60,6 @@ enum Command {
     Unit(unit::UnitArguments),
     Wave(wave::WaveArguments),
     Compare(compare::CompareArguments),
-    Book(book::BookArguments),
     Report(report::ReportArguments),
     Init(init::InitArguments),
     Schema(schema::SchemaArguments),
@@ -100,7 +98,6 @@ pub fn main() -> ExitCode {
         Command::Unit(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
         Command::Compare(arguments) => arguments.execute(),
-        Command::Book(arguments) => arguments.execute(),
         Command::Report(arguments) => arguments.execute(),
         Command::Init(arguments) => arguments.execute(),
         Command::Schema(arguments) => arguments.execute(),

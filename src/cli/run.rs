@@ -9,7 +9,7 @@ use super::{
     stem,
 };
 use crate::{
-    case::Case,
+    case::{Case, Reference},
     output::{Summary, progress::readable},
     simulation::{
         dry_test::{self, recorder::DryRecorder},
@@ -202,8 +202,8 @@ pub(super) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Sum
         println!("  mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio);
     }
     println!("report: {}", dir.join("report.html").display());
-    if summary.wave.is_some() && !summary.units.is_empty() {
-        println!("beside the Fudo experiment: breakwater compare {}", dir.display());
+    if Reference::folder_of_run(dir).is_some() {
+        println!("compare with the measurements: breakwater compare {}", dir.display());
     }
     Ok(summary)
 }

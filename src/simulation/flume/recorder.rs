@@ -20,7 +20,7 @@ use super::{
     water_at_impacts::pressure_places,
 };
 use crate::{
-    case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Wave},
+    case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Reference, Wave},
     output::{CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically},
     report::wave_page::write_flume_gauges,
     rigid::{ContactEvent, RecordedContact},
@@ -70,6 +70,11 @@ impl Recorder {
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
         if let Some(handover) = &case.fracture {
             write_atomically(&dir.join(Handover::MESH), &handover.mesh_file)?;
+        }
+        if let Some(reference) = &case.reference {
+            let folder = dir.join(Reference::FOLDER);
+            fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;
+            reference.files.iter().try_for_each(|(name, content)| write_atomically(&folder.join(name), content))?;
         }
         if let Wave::Given(wave) = &case.wave {
             write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;
