@@ -40,10 +40,10 @@ impl Page {
         self.text += &format!("{gap}{words}\n");
     }
 
-    /// Adds a table; numbers are aligned right.
+    /// Adds a table; the first column is aligned left, the others right.
     pub fn table(&mut self, head: &[String], rows: &[Vec<String>]) {
         let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-        let rule = vec!["---:".to_owned(); head.len()];
+        let rule: Vec<String> = (0..head.len()).map(|k| if k == 0 { "---" } else { "---:" }.to_owned()).collect();
         let rows: String = rows.iter().map(|row| line(row)).collect();
         self.add((line(head) + &line(&rule) + &rows).trim_end());
     }

@@ -126,7 +126,7 @@ fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
         if missed.is_empty() { format!("no wave is missed by more than {MISSED_PERCENT} %") } else { joined(&missed) };
     format!(
         "At particle spacings of {} mm the mean displacement deviates from the measured mean {}.\n{}{}.\n\
-         At the finest spacing {} % of the units are damaged; {} % were measured.",
+         At the finest spacing breakwater damages {} % of the units; {} % were measured.",
         joined(&spacings),
         joined(&deviations),
         missed[..1].to_uppercase(),
@@ -143,7 +143,7 @@ fn add_table(page: &mut Page, base: &[&Compared]) {
         "measured [m]",
         "breakwater [m]",
         "deviation [%]",
-        "published code [%]",
+        "published deviation [%]",
         "damaged, measured / breakwater [%]",
     ];
     let row = |result: &&Compared| {
