@@ -1,5 +1,5 @@
-//! The pieces of a step one by one, on one thread, for each instruction set of the processor: `cargo bench`. Whole steps
-//! on all threads are what `breakwater bench` times.
+//! Benchmarks of the stages of an SPH time step on one thread, for each instruction set of the processor: `cargo
+//! bench`. `breakwater bench` measures complete time steps on all threads.
 
 use breakwater::bench::tank::Tank;
 use breakwater::sph::{
@@ -11,7 +11,7 @@ use breakwater::sph::{
 use divan::{Bencher, counter::ItemsCount};
 use glam::DVec2;
 
-/// Particle distance [m] and the cube's edge in particles.
+/// Particle spacing [m], and edge of the cube in particles.
 const DP: f64 = 0.01;
 const EDGE: f64 = 24.0;
 
@@ -24,10 +24,10 @@ fn instruction_sets() -> Vec<InstructionSet> {
     InstructionSet::available()
 }
 
-/// A cube of still water, sorted and listed.
+/// Creates a cube of still water with sorted particles and neighbour lists.
 fn tank(instructions: InstructionSet) -> Tank {
     let side = EDGE * DP;
-    // 2h/dp = 4.16, as case files have it.
+    // 2h/dp = 4.16, the default of case files.
     let mut parameters = Parameters::published(DP, 2.08 * DP, 15.0 * (9.81 * side).sqrt(), 9.81, Some(side));
     parameters.slip = WallSlip::FreeSlip;
     let mut tank = Tank::new(instructions, parameters, [side; 3], &|_| side, &|_, _| DVec2::ZERO, &[]);
@@ -38,8 +38,8 @@ fn tank(instructions: InstructionSet) -> Tank {
     tank
 }
 
-/// Time a piece; what it is counted by are the particles.
-fn piece(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank)) {
+/// Measures a stage; the throughput is in particles.
+fn measure(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank)) {
     let mut tank = tank(instructions);
     let particles = tank.water.len() + tank.boundary.len();
     bencher.counter(ItemsCount::new(particles)).bench_local(|| run(&mut tank));
@@ -47,25 +47,25 @@ fn piece(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mu
 
 #[divan::bench(args = instruction_sets())]
 fn sort(bencher: Bencher, instructions: InstructionSet) {
-    piece(bencher, instructions, |Tank { solver, water, boundary }| solver.sort(water, boundary));
+    measure(bencher, instructions, |Tank { solver, water, boundary }| solver.sort(water, boundary));
 }
 
 #[divan::bench(args = instruction_sets())]
 fn neighbour_lists(bencher: Bencher, instructions: InstructionSet) {
-    piece(bencher, instructions, |Tank { solver, water, boundary }| solver.list(water, boundary));
+    measure(bencher, instructions, |Tank { solver, water, boundary }| solver.list(water, boundary));
 }
 
 #[divan::bench(args = instruction_sets())]
 fn boundary_densities(bencher: Bencher, instructions: InstructionSet) {
-    piece(bencher, instructions, |Tank { solver, boundary, .. }| solver.boundary_densities(boundary));
+    measure(bencher, instructions, |Tank { solver, boundary, .. }| solver.boundary_densities(boundary));
 }
 
 #[divan::bench(args = instruction_sets())]
 fn pair_sums(bencher: Bencher, instructions: InstructionSet) {
-    piece(bencher, instructions, |Tank { solver, .. }| solver.rates());
+    measure(bencher, instructions, |Tank { solver, .. }| solver.rates());
 }
 
-/// The kernel and its gradient, summed over distances.
+/// Sum of the kernel and its gradient over distances.
 struct KernelSum<'a> {
     kernel: &'a Wendland,
     distances: &'a [f32],

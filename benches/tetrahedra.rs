@@ -1,5 +1,5 @@
-//! Steps of a block of tetrahedra on one thread, without joints, with joints everywhere and tied: `cargo bench --bench
-//! tetrahedra`. The block spins and nothing breaks.
+//! Benchmarks of FEMDEM time steps on one thread: without joints, with joints everywhere, and with tied joints.
+//! `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
 
 use breakwater::femdem::{
     cohesive_law::{Cohesion, Range},
@@ -18,7 +18,7 @@ const CONCRETE: Elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisso
 const STRENGTH: Strength =
     Strength { tensile: 3.3e6, cohesion: 16.5e6, friction: 0.577, opening_energy: 50.0, sliding_energy: 1250.0 };
 
-/// Cells along an edge: 16,464, 131,712 and 998,250 tetrahedra.
+/// Number of cells along an edge: 16,464, 131,712 and 998,250 tetrahedra.
 const CELLS: [usize; 3] = [14, 28, 55];
 
 fn main() {
@@ -26,8 +26,8 @@ fn main() {
     divan::main();
 }
 
-fn steps(bencher: Bencher, cells: usize, cohesion: Option<Cohesion>) {
-    let mesh = prepare(block(DVec3::splat(0.3), [cells; 3], Pattern::Diagonal)).expect("a block is a good mesh");
+fn measure_steps(bencher: Bencher, cells: usize, cohesion: Option<Cohesion>) {
+    let mesh = prepare(block(DVec3::splat(0.3), [cells; 3], Pattern::Diagonal)).expect("a block is a valid mesh");
     let count = mesh.mesh.tets.len();
     let body = Body { cohesion, angular_velocity: DVec3::Z * 10.0, ..Body::at_rest(0..count, CONCRETE) };
     let mut world = World::new(Setup::of_mesh(&mesh, vec![body]), 0.9);
@@ -41,15 +41,15 @@ fn cohesion(tied: bool) -> Cohesion {
 
 #[divan::bench(args = CELLS)]
 fn without_joints(bencher: Bencher, cells: usize) {
-    steps(bencher, cells, None);
+    measure_steps(bencher, cells, None);
 }
 
 #[divan::bench(args = CELLS)]
 fn joints_everywhere(bencher: Bencher, cells: usize) {
-    steps(bencher, cells, Some(cohesion(false)));
+    measure_steps(bencher, cells, Some(cohesion(false)));
 }
 
 #[divan::bench(args = CELLS)]
-fn tied(bencher: Bencher, cells: usize) {
-    steps(bencher, cells, Some(cohesion(true)));
+fn tied_joints(bencher: Bencher, cells: usize) {
+    measure_steps(bencher, cells, Some(cohesion(true)));
 }

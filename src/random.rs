@@ -1,21 +1,21 @@
-//! Random numbers from a seed: the same on every machine.
+//! Random numbers from a seed, identical on every machine.
 
 use glam::DQuat;
 use std::f64::consts::TAU;
 
-/// Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators".
+/// Random number generator SplitMix64 (Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators").
 #[derive(Debug, Clone)]
 pub struct SplitMix64 {
     state: u64,
 }
 
 impl SplitMix64 {
-    /// Numbers that follow from the seed.
+    /// Creates the generator with the given seed.
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }
 
-    /// Evenly distributed in 0..1, 53 bits.
+    /// Returns a number uniformly distributed in 0..1, with 53 bits.
     pub fn next_share(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
@@ -25,7 +25,7 @@ impl SplitMix64 {
         (z >> 11) as f64 * (-53f64).exp2()
     }
 
-    /// A rotation, all equally likely (Shoemake 1992).
+    /// Returns a uniformly distributed rotation (Shoemake 1992).
     pub fn next_rotation(&mut self) -> DQuat {
         let [u, v, w] = [0; 3].map(|_| self.next_share());
         let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
@@ -40,7 +40,7 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn generator_gives_the_published_numbers() {
+    fn generator_reproduces_the_published_numbers() {
         // First outputs of SplitMix64 for the seed 1234567 (Steele et al.; Vigna's reference code).
         let mut random = SplitMix64::new(1_234_567);
         let expected = [6_457_827_717_110_365_317u64, 3_203_168_211_198_807_973];
@@ -50,11 +50,11 @@ mod tests {
     }
 
     #[test]
-    fn rotations_favour_no_direction() {
+    fn rotations_have_no_preferred_direction() {
         let mut random = SplitMix64::new(1);
         let count = 20_000;
         let mean = (0..count).map(|_| random.next_rotation() * DVec3::Z).sum::<DVec3>() / f64::from(count);
-        // The mean of n unit vectors is 1/sqrt(n) = 0.007 long; three times that.
+        // The mean of n unit vectors has a length of about 1/sqrt(n) = 0.007; the limit is three times that.
         assert!(mean.length() < 0.021, "{mean}");
     }
 }

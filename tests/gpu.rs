@@ -10,7 +10,7 @@ use std::{path::Path, sync::Arc};
 use breakwater::case::Case;
 use breakwater::simulation::flume::Simulation;
 use breakwater::simulation::flume::checkpoint::{self, Checkpoint};
-use breakwater::simulation::flume::recorder::RecorderState;
+use breakwater::simulation::flume::recorder_state::RecorderState;
 use breakwater::sph::backend::Surfaces;
 use breakwater::sph::device::{Device, DeviceChoice};
 use glam::DVec3;
@@ -56,8 +56,7 @@ fn tank(column: Option<[f64; 2]>) -> Value {
 
 fn steps(simulation: &mut Simulation, count: u32) {
     for _ in 0..count {
-        let dt = simulation.begin_step().unwrap();
-        simulation.finish_step(dt).unwrap();
+        simulation.step().unwrap();
     }
 }
 
@@ -235,11 +234,10 @@ fn walls_an_obstacle_and_two_dimensions_hold_the_water_as_on_the_processor() {
         let [mut gpu, mut cpu] = both(&device, &case(&value), 500);
         for simulation in [&mut gpu, &mut cpu] {
             steps(simulation, 40);
-            simulation.begin_step().unwrap();
-            simulation.fetch().unwrap();
         }
+        let [of_gpu, of_cpu] =
+            [&mut gpu, &mut cpu].map(|simulation| simulation.begin_step().unwrap().powers().unwrap());
         let apart = furthest_apart(&gpu, &cpu);
-        let [of_gpu, of_cpu] = [gpu.powers().unwrap(), cpu.powers().unwrap()];
         println!("{name}: places {apart:.1e} m apart, powers {of_gpu:?}, {of_cpu:?}");
         // Rates to 1e-5 of some 100 m/s2 over 13 ms are 1e-7 m; where particles meet a wall, a hundred times that.
         assert!(apart < 1e-5);
@@ -282,7 +280,7 @@ fn water_astray_is_named() {
         let mut simulation = Simulation::on(&device, case(&tank(None))).unwrap();
         spoil(&mut simulation);
         simulation.load().unwrap();
-        let done = simulation.begin_step().and_then(|dt| simulation.finish_step(dt));
+        let done = simulation.step();
         done.unwrap_err().to_string()
     };
     let message = spoilt(|simulation| simulation.water.velocity[700].x = f64::NAN);

@@ -5,6 +5,7 @@ use std::{path::Path, sync::Arc};
 use breakwater::{
     case::DryCase,
     geometry::{armour_unit::ArmourUnit, stl},
+    output::driver::Control,
     simulation::dry_test::DryRun,
 };
 use glam::DVec3;
@@ -115,7 +116,7 @@ fn a_surface_that_cuts_itself_is_refused_with_the_place() {
     stl::write(&folder.path().join("two.stl"), &vertices, &triangles).unwrap();
     let case = case_of(json!({ "path": "two.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
     let error = outcome(&case, folder.path()).unwrap_err();
-    assert!(error.contains("does not cut itself") && error.contains("units.stl.path"), "{error}");
+    assert!(error.contains("does not intersect itself") && error.contains("units.stl.path"), "{error}");
 }
 
 /// A binary STL file with one to three faults.
@@ -244,7 +245,7 @@ fn a_run_on_terrain_keeps_the_surface_beside_its_case() {
     let parsed = DryCase::from_str(&case.to_string(), &name).unwrap();
     let run = folder.path().join("run");
     std::fs::create_dir(&run).unwrap();
-    breakwater::simulation::dry_test::run::run(Arc::new(parsed.clone()), &run, true).unwrap();
+    breakwater::simulation::dry_test::run::run(Arc::new(parsed.clone()), &run, &Control::quiet()).unwrap();
     let kept = DryCase::load(run.join("case.json")).unwrap();
     assert_eq!(kept.site.terrain, parsed.site.terrain);
     assert_eq!(

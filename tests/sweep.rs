@@ -107,9 +107,9 @@ fn one_value_at_a_time_shows_what_hangs_on_each() {
     let case = fs::read_to_string(out.join("003_x_m=_0.0_0.4_/case.json")).unwrap();
     let case: Value = serde_json::from_str(&case).unwrap();
     assert_eq!((&case["numerics"]["cfl"], &case["numerics"]["viscosity_alpha"]), (&json!(0.1), &Value::Null));
-    let said = "Not as in the case that the sweep varies: numerics.cfl = 0.1 (there not set), \
-                domain.dp_m = 0.04 (there 0.05), domain.x_m = [0.0,0.4] (there [0.0,0.5]).";
-    assert_eq!(case["assumptions"], json!([said]));
+    let added = "Changed from the base case of the sweep: numerics.cfl = 0.1 (base case: not set), \
+                 domain.dp_m = 0.04 (base case: 0.05), domain.x_m = [0.0,0.4] (base case: [0.0,0.5]).";
+    assert_eq!(case["assumptions"], json!([added]));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The block of water that is timed.
+//! The block of water of the benchmark.
 
 use std::time::{Duration, Instant};
 
@@ -11,7 +11,7 @@ use crate::sph::{lanes::InstructionSet, parameters::Parameters, step::Solver, wa
 
 const GRAVITY: f64 = 9.81;
 
-/// Particle distance [m]; the speed does not depend on it.
+/// Particle spacing [m]; it does not affect the speed of the program.
 const DP: f64 = 0.01;
 
 /// A cube of water on a bed between two end walls, periodic across.
@@ -22,12 +22,12 @@ pub struct Block {
 }
 
 impl Block {
-    /// A block of about so many water particles with 2h/dp as given, still or sloshing.
+    /// Returns a block with about `particles` water particles, still or sloshing; `support_per_dp` is 2h/dp.
     pub fn new(instructions: InstructionSet, particles: usize, support_per_dp: f64, moving: bool) -> Self {
         let side = (particles as f64).cbrt().round().max(8.0) * DP;
         let h = 0.5 * support_per_dp * DP;
         let mut parameters = Parameters::published(DP, h, 15.0 * (GRAVITY * side).sqrt(), GRAVITY, Some(side));
-        // As case files have it.
+        // The default of case files.
         parameters.slip = WallSlip::FreeSlip;
         // The lowest mode of the tank: water falls along one wall and rises along the other.
         let speed = if moving { 0.3 * (GRAVITY * side).sqrt() } else { 0.0 };
@@ -41,34 +41,34 @@ impl Block {
         }
     }
 
-    /// Constants of the scheme as cards compute it: with walls that show the water their own velocity.
+    /// Returns the constants of the scheme on a graphics card, which has only the original wall slip.
     #[cfg(feature = "gpu")]
     pub(super) fn parameters_of_cards(&self) -> Parameters {
         Parameters { slip: WallSlip::Original, ..self.tank.solver.parameters }
     }
 
-    /// Water and boundary.
+    /// Returns water and boundary.
     #[cfg(feature = "gpu")]
     pub(super) fn state(&mut self) -> (&mut Water, &mut Boundary) {
         (&mut self.tank.water, &mut self.tank.boundary)
     }
 
-    /// Number of water particles.
+    /// Returns the number of water particles.
     pub fn water_particles(&self) -> usize {
         self.tank.water.len()
     }
 
-    /// The solver.
+    /// Returns the solver.
     pub fn solver(&self) -> &Solver {
         &self.tank.solver
     }
 
-    /// Water and boundary particles.
+    /// Returns the number of water and boundary particles.
     pub fn particles(&self) -> usize {
         self.tank.water.len() + self.tank.boundary.len()
     }
 
-    /// One step; adds the time of each phase.
+    /// Computes one time step; adds the time of each phase to `times`.
     pub fn step(&mut self, times: &mut [Duration; PHASES.len()]) {
         let Tank { solver, water, boundary } = &mut self.tank;
         let mut begin = Instant::now();
@@ -94,13 +94,13 @@ impl Block {
         end_phase(5);
     }
 
-    /// Bytes that a step must at least move: lists and records for two evaluations, and the state of the water, which
-    /// is sorted, predicted and corrected.
+    /// Returns the least memory traffic of a time step [bytes]: lists and records for two evaluations, and the state of
+    /// the water, which is sorted, predicted and corrected.
     pub fn least_traffic(&self) -> f64 {
         2.0 * self.tank.solver.bytes_read() as f64 + 5.0 * self.tank.water.bytes() as f64
     }
 
-    /// Memory of water and boundary [bytes].
+    /// Returns the memory of water and boundary [bytes].
     pub fn state_bytes(&self) -> usize {
         // Position, velocity, vector to the surface, volume, density.
         self.tank.water.bytes() + self.tank.boundary.len() * (3 * size_of::<DVec3>() + 2 * size_of::<f64>())

@@ -1,4 +1,4 @@
-//! The same block of water on a graphics card, beside what the card can do at most.
+//! The benchmark on a graphics card, compared with the measured peaks of the card.
 
 use std::time::{Duration, Instant};
 
@@ -12,26 +12,26 @@ use crate::sph::{
     },
 };
 
-/// The shader of the peaks.
+/// Shader that measures the peaks.
 pub const PEAKS: &str = include_str!("card.wgsl");
 
-/// Operations of a thread of `multiply_and_add`.
+/// Operations per thread of `multiply_and_add`.
 const OPERATIONS: f64 = 2.0 * 16.0 * 1024.0;
 
-/// Threads of the tests: 16 MB an array, or less on a program that stands for a card.
+/// Basic number of threads of the tests, 16 MB per array. Software renderers get fewer.
 const THREADS: usize = 1 << 20;
 
-/// What a card can do at most.
+/// Measured peaks of a graphics card.
 #[derive(Debug, Clone, Copy)]
 pub struct Peaks {
-    /// Single-precision operations a second, a fused multiplication and addition being two.
+    /// Single-precision operations per second; a fused multiply-add counts as two.
     pub flops: f64,
-    /// Bytes a second from and to its memory.
+    /// Memory traffic [bytes/s].
     pub bandwidth: f64,
 }
 
 impl Peaks {
-    /// Measure a card.
+    /// Measures a card.
     ///
     /// # Errors
     /// If the device is lost.
@@ -61,12 +61,12 @@ impl Peaks {
     }
 }
 
-/// Measure whole steps of a block on a card for about `seconds`.
+/// Measures whole time steps of a block on a card for about `seconds`.
 ///
 /// # Errors
-/// If the card has not enough memory or is lost.
+/// If the card has too little memory or is lost.
 pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peaks) -> Result<Measurement, DeviceError> {
-    // A step on the processor counts the neighbours.
+    // One time step on the processor counts the neighbours.
     block.step(&mut [Duration::ZERO; PHASES.len()]);
     let neighbours_mean = block.solver().mean_neighbours();
     let (parameters, grid) = (block.parameters_of_cards(), &block.solver().grid);
@@ -101,7 +101,7 @@ pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peak
         solver.correct(dt, water, boundary);
         end_phase(&mut solver, 5)
     };
-    // The first step compiles the last of the shaders.
+    // The first time step compiles the remaining shaders.
     let mut times = [Duration::ZERO; PHASES.len()];
     step(&mut times)?;
     times = [Duration::ZERO; PHASES.len()];

@@ -1,4 +1,4 @@
-// What a card can do at most (card.rs).
+// Peaks of a graphics card (card.rs).
 
 @group(0) @binding(0) var<storage, read_write> a: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> b: array<vec4<f32>>;
@@ -6,7 +6,7 @@
 
 const ROUNDS = 1024u;
 
-// Four independent chains of four numbers each; 2 x 16 x ROUNDS operations a thread.
+// Four independent chains of four numbers each; 2 x 16 x ROUNDS operations per thread.
 @compute @workgroup_size(64)
 fn multiply_and_add(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
                     @builtin(local_invocation_index) local: u32) {
@@ -23,7 +23,7 @@ fn multiply_and_add(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgr
     a[i] = chains[0] + chains[1] + chains[2] + chains[3];
 }
 
-// Two arrays read and one written.
+// Reads two arrays and writes one.
 @compute @workgroup_size(64)
 fn triad(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
          @builtin(local_invocation_index) local: u32) {

@@ -1,4 +1,4 @@
-//! What the machine can do at most: multiplications and additions, and memory traffic.
+//! Measured peaks of the machine: fused multiply-adds and memory traffic.
 
 use std::{hint::black_box, time::Instant};
 
@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use crate::sph::lanes::{InstructionSet, Lanes, WithLanes};
 
-/// Independent chains of operations, more than the latency of the unit times their number.
+/// Number of independent chains of operations: more than latency times number of arithmetic units.
 const CHAINS: usize = 12;
 
-/// Numbers in each of the three arrays of the traffic test: well beyond the caches of a core.
+/// Numbers in each of the three arrays of the traffic test: much larger than the caches of a core.
 const NUMBERS: usize = 1 << 24;
 
 /// Measured peaks for 1, 2, ... threads.
@@ -20,7 +20,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Measure with one to `threads` threads; takes about a second for each.
+    /// Measures with one to `threads` threads; takes about a second for each number of threads.
     ///
     /// # Errors
     /// If the threads cannot be started.
@@ -34,18 +34,18 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Single-precision operations a second on a number of threads, a fused multiplication and addition being two.
+    /// Returns the single-precision operations per second on a number of threads; a fused multiply-add counts as two.
     pub fn flops(&self, threads: usize) -> f64 {
         self.flops[threads - 1]
     }
 
-    /// Bytes a second from and to memory on a number of threads.
+    /// Returns the memory traffic on a number of threads [bytes/s].
     pub fn bandwidth(&self, threads: usize) -> f64 {
         self.bandwidth[threads - 1]
     }
 }
 
-/// Chains of fused multiplications and additions; returns the number of operations.
+/// Chains of fused multiply-adds; returns the number of operations.
 struct Chains {
     rounds: u32,
 }
@@ -69,16 +69,16 @@ impl WithLanes for Chains {
 }
 
 fn peak_flops(instructions: InstructionSet, threads: usize) -> f64 {
-    let once = |rounds: u32| {
+    let measure = |rounds: u32| {
         let begin = Instant::now();
         let operations: f64 =
             (0..threads).into_par_iter().with_max_len(1).map(|_| instructions.dispatch(Chains { rounds })).sum();
         operations / begin.elapsed().as_secs_f64()
     };
-    best_of(|| once(4_000_000))
+    best_of(|| measure(4_000_000))
 }
 
-/// a = b + s c, counting the two arrays read and the one written.
+/// Measures the traffic of a = b + s c: two arrays read, one written.
 fn peak_bandwidth() -> f64 {
     let (b, c) = (vec![1.0_f32; NUMBERS], vec![2.0_f32; NUMBERS]);
     let mut a = vec![0.0_f32; NUMBERS];

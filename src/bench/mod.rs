@@ -1,4 +1,4 @@
-//! How fast the solver is on this machine: a block of water in a tank, whole steps, phase by phase.
+//! Benchmark of the solver on this machine: whole time steps of a block of water in a tank, phase by phase.
 
 pub mod block;
 #[cfg(feature = "gpu")]
@@ -13,11 +13,11 @@ use serde::Serialize;
 use block::Block;
 use machine::Machine;
 
-/// Phases of a step in their order.
+/// Phases of a time step in their order.
 pub const PHASES: [&str; 6] = ["sort", "list", "boundary densities", "rates", "predict", "correct"];
 
-/// Arithmetic operations of one pair of particles: the terms of equations 1 to 5 and the distance, a fused
-/// multiplication and addition counted as two. What the lanes outside the support do in vain is not counted.
+/// Arithmetic operations per pair of particles: the terms of equations 1 to 5 and the distance. A fused multiply-add
+/// counts as two. SIMD lanes outside the support do not count.
 pub const FLOPS_PER_PAIR: f64 = 47.0;
 
 /// One measurement.
@@ -25,49 +25,49 @@ pub const FLOPS_PER_PAIR: f64 = 47.0;
 pub struct Measurement {
     /// Still or moving water.
     pub water: &'static str,
-    /// Number of threads; 0 on a card.
+    /// Number of threads; 0 on a graphics card.
     pub threads: usize,
-    /// Water and boundary particles together.
+    /// Number of water and boundary particles.
     pub particles: usize,
-    /// The water among them.
+    /// Number of water particles.
     pub water_particles: usize,
     /// Mean number of neighbours of a water particle within the support of the kernel.
     pub neighbours_mean: f64,
-    /// Share of the lanes' work that is on pairs within the support; not a number on a card.
+    /// Share of SIMD lanes that hold pairs within the support [-]; NaN on a graphics card.
     pub useful_lanes: f64,
-    /// Steps measured.
+    /// Number of measured time steps.
     pub steps: u32,
-    /// Evaluations of all particles, per second of whole steps; a step has two. With mDBC that of a boundary particle is its
-    /// density, once a step.
+    /// Evaluations of all particles per second of whole time steps; a time step has two. With mDBC the evaluation of a
+    /// boundary particle is its density, once per time step.
     pub full_evaluations_per_s: f64,
-    /// Those of the water alone, which has rates.
+    /// Evaluations of water particles only, per second.
     pub water_evaluations_per_s: f64,
-    /// Pairs within the support, per second of whole steps.
+    /// Pairs within the support per second of whole time steps.
     pub pairs_per_s: f64,
-    /// Useful operations as a share of the measured peak of the threads.
+    /// Useful operations over the measured peak of the threads [-].
     pub share_of_peak: f64,
-    /// The same during the pair loop alone.
+    /// Useful operations over the measured peak during the pair loop only [-].
     pub share_of_peak_in_rates: f64,
-    /// What lists, records and state must at least move, as a share of the measured bandwidth of the threads.
+    /// Least memory traffic of lists, records and state over the measured bandwidth of the threads [-].
     pub share_of_bandwidth: f64,
-    /// Memory in use by the solver and the state, a particle [bytes].
+    /// Memory of solver and state per particle [bytes].
     pub bytes_per_particle: f64,
-    /// Share of each phase in the step.
+    /// Times of the phases.
     pub phases: Vec<Phase>,
 }
 
 /// Time of a phase.
 #[derive(Debug, Clone, Serialize)]
 pub struct Phase {
-    /// What it does.
+    /// Name of the phase.
     pub name: &'static str,
-    /// Share of the step [-].
+    /// Share of the time step [-].
     pub share: f64,
-    /// Time a particle and step [ns].
+    /// Time per particle and time step [ns].
     pub ns_per_particle: f64,
 }
 
-/// Measure whole steps of a block on a number of threads for about `seconds`.
+/// Measures whole time steps of a block on a number of threads for about `seconds`.
 ///
 /// # Errors
 /// If the threads cannot be started.
@@ -82,7 +82,7 @@ pub fn measure(
 }
 
 fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machine) -> Measurement {
-    // The first step allocates, the second one finds the caches as the others do.
+    // The first time step allocates memory, the second one warms up the caches.
     let mut times = [Duration::ZERO; PHASES.len()];
     block.step(&mut times);
     block.step(&mut times);
@@ -117,7 +117,7 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
     }
 }
 
-/// Times of the phases over a number of steps.
+/// Converts the times of the phases over a number of time steps.
 fn phases_of(times: &[Duration; PHASES.len()], steps: u32, particles: usize) -> Vec<Phase> {
     let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
     let phase = |(name, time): (&&'static str, &Duration)| Phase {

@@ -1,4 +1,4 @@
-//! A tank of water with solver and walls and nothing round them, to be timed and tested.
+//! A minimal tank of water with solver and walls, for benchmarks and tests.
 
 use glam::{DVec2, DVec3};
 
@@ -28,8 +28,8 @@ pub struct Tank {
 }
 
 impl Tank {
-    /// A tank of a length, width and mean depth [m] whose walls are half as high again, with the surface z(x) [m] and
-    /// the velocity v(x, z) [m/s] of the water; `unit` are the particles of its one unit, if there are any.
+    /// Returns a tank of a length, width and mean depth [m]; its walls are 1.5 times as high as the depth.
+    /// `surface` is z(x) [m], `velocity` is v(x, z) [m/s], `unit` are the particles of its only unit, if any.
     pub fn new(
         instructions: InstructionSet,
         parameters: Parameters,

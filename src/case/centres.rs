@@ -1,4 +1,4 @@
-//! Units at places that the case gives one by one, validated.
+//! Validates units that the case places one by one, by their centres.
 
 use super::check::{Checker, show};
 use super::file::{Sides, UnitsFile};
@@ -7,10 +7,10 @@ use super::site::Site;
 use super::unit_shape::UnitShape;
 use super::units::{MOST_UNITS, Placement};
 
-/// A unit may be written this far inside the ground [m]: rounding of the numbers in the file.
+/// Tolerance on the position of a unit [m]: rounding of the numbers in the file.
 const SLACK: f64 = 1e-6;
 
-/// Place the units at the given centres and check that they fit into the domain and beside each other.
+/// Places the units at the given centres. Checks that they fit into the domain and do not overlap.
 pub(super) fn place(
     centres: &[[f64; 3]],
     file: &UnitsFile,
@@ -25,7 +25,7 @@ pub(super) fn place(
         ("first_y_m", file.first_y_m.is_some()),
     ] {
         if written {
-            check.refuse(&format!("units.{key}"), "...", "left out with `centres_m`", "the centres say it all");
+            check.refuse(&format!("units.{key}"), "...", "left out with `centres_m`", "it gives every position");
         }
     }
     if !(1..=MOST_UNITS as usize).contains(&centres.len()) {
@@ -33,7 +33,7 @@ pub(super) fn place(
             "units.centres_m",
             format!("{} centres", centres.len()),
             format!("1 to {MOST_UNITS}"),
-            "leave out `units` for water alone",
+            "leave out `units` for a case without units",
         );
         return Vec::new();
     }
@@ -45,7 +45,7 @@ pub(super) fn place(
         validate_distances(centres, shape, site, check);
     }
     let placement = |(index, [x, y, z]): (usize, &[f64; 3])| {
-        // Half a turn about the vertical leaves a cuboid as it is, and a layer without.
+        // In two dimensions all units are cuboids, which half a turn maps onto themselves.
         let turns = site.sides != Sides::TwoDimensional;
         let azimuth = if turns { azimuth(file.orientation, index as u32) } else { 0.0 };
         Placement::standing(shape, [*x, *y], Some(*z), azimuth, site)
@@ -59,7 +59,7 @@ fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site
     let across = match site.sides {
         Sides::Periodic => [0.0, site.width],
         Sides::Walls => [reach_y, site.width - reach_y],
-        // A unit lies in the layer, wherever it is written.
+        // In two dimensions `planar::lay` moves the unit into the layer.
         Sides::TwoDimensional => [f64::MIN, f64::MAX],
     };
     let along = [site.x[0] + reach_x, site.x[1] - reach_x];
@@ -80,20 +80,20 @@ fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site
 fn validate_distances(centres: &[[f64; 3]], shape: &UnitShape, site: &Site, check: &mut Checker) {
     for (index, a) in centres.iter().enumerate() {
         let overlapped = centres[..index].iter().position(|b| {
-            let mut apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
+            let mut offset = [0, 1, 2].map(|axis| a[axis] - b[axis]);
             match site.sides {
-                Sides::Periodic => apart[1] -= site.width * (apart[1] / site.width).round(),
-                Sides::TwoDimensional => apart[1] = 0.0,
+                Sides::Periodic => offset[1] -= site.width * (offset[1] / site.width).round(),
+                Sides::TwoDimensional => offset[1] = 0.0,
                 Sides::Walls => {}
             }
-            shape.overlaps(apart)
+            shape.overlaps(offset)
         });
         if let Some(other) = overlapped {
             check.refuse(
                 &format!("units.centres_m[{index}]"),
                 format!("[{}, {}, {}]", show(a[0]), show(a[1]), show(a[2])),
                 format!("clear of units.centres_m[{other}]"),
-                "units may touch and not overlap",
+                "units may touch but must not overlap",
             );
         }
     }

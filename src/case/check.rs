@@ -1,8 +1,8 @@
-//! Collects everything that is wrong with a case file, so that the user sees all of it at once.
+//! Collects all errors and warnings of a case file, so that the user sees all of them at once.
 
 use super::error::{CaseError, CaseErrors};
 
-/// Errors and warnings found so far in one file.
+/// Errors and warnings found so far in one case file.
 #[derive(Debug)]
 pub(super) struct Checker {
     file: String,
@@ -15,12 +15,12 @@ impl Checker {
         Self { file: file.to_owned(), errors: Vec::new(), warnings: Vec::new() }
     }
 
-    /// Number of errors so far; compare before and after a section to know whether it is sound.
+    /// Returns the number of errors so far. If it does not grow over a section, the section is valid.
     pub fn count(&self) -> usize {
         self.errors.len()
     }
 
-    /// Note that the value at `path` "must be" `allowed`.
+    /// Adds the error that the value at `path` "must be" `allowed`.
     pub fn refuse(&mut self, path: &str, value: impl ToString, allowed: impl Into<String>, advice: impl Into<String>) {
         self.errors.push(CaseError::Invalid {
             file: self.file.clone(),
@@ -31,7 +31,7 @@ impl Checker {
         });
     }
 
-    /// Check that a number lies within a range; `unit` is empty for a number without one.
+    /// Returns whether a number lies within a range, and adds an error if not; `unit` may be empty.
     pub fn number(&mut self, path: &str, value: f64, range: Range, unit: &str, advice: &str) -> bool {
         let inside = range.contains(value);
         if !inside {
@@ -41,18 +41,18 @@ impl Checker {
         inside
     }
 
-    /// Note something that is allowed and probably not meant.
+    /// Adds a warning about something that is allowed but probably not intended.
     pub fn warn(&mut self, warning: impl Into<String>) {
         self.warnings.push(warning.into());
     }
 
-    /// The errors, if there are any.
+    /// Returns the errors.
     pub fn into_errors(self) -> CaseErrors {
         CaseErrors { errors: self.errors }
     }
 }
 
-/// An interval of allowed numbers, each end open or closed.
+/// An interval of allowed numbers; each end is open or closed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Range {
     low: f64,
@@ -66,7 +66,7 @@ pub(super) fn above(low: f64) -> Range {
     Range { low, low_open: true, high: f64::MAX, high_open: false }
 }
 
-/// Numbers from `low`, itself included.
+/// Numbers of at least `low`.
 pub(super) fn from(low: f64) -> Range {
     Range { low, low_open: false, high: f64::MAX, high_open: false }
 }
@@ -95,10 +95,10 @@ impl Range {
     }
 }
 
-/// A number as a reader would write it.
+/// Formats a number for messages.
 pub(super) fn show(value: f64) -> String {
     if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
-        // Six decimals are more than any case file needs; derived values would otherwise show rounding.
+        // Six decimals are enough for any case file and hide the rounding errors of derived values.
         format!("{}", (value * 1e6).round() / 1e6)
     } else {
         format!("{value:e}")
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_refused_number_names_file_path_value_and_range() {
+    fn error_for_a_number_names_file_path_value_and_range() {
         let mut check = Checker::new("x.json");
         assert!(check.number("a", 0.5, above(0.0).up_to(0.5), "m", ""));
         assert!(!check.number("domain.dp_m", -0.01, above(0.0).up_to(0.5), "m", "write it in metres"));

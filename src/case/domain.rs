@@ -1,4 +1,4 @@
-//! The part of the flume that is filled with particles, validated.
+//! The validated particle domain.
 
 use super::check::{Checker, above, from, show};
 use super::file::{DomainFile, Sides, WaterFile};
@@ -8,41 +8,41 @@ use super::site::Site;
 use super::zones::{self, DampingZone, RelaxationZone};
 use crate::geometry::axis_box::AxisBox;
 
-/// Particles along one direction at most.
+/// Largest number of particles along one direction.
 const MOST_ALONG: f64 = 1e6;
 
 /// The particle domain; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
-    /// Seaward and shoreward end [m].
+    /// x of the seaward and of the shoreward end [m].
     pub x: [f64; 2],
     /// Width across the flume [m].
     pub width: f64,
-    /// What closes the domain across the flume.
+    /// Boundaries at the two sides of the flume.
     pub sides: Sides,
     /// Top of the walls [m].
     pub top_z: f64,
-    /// Lowest ground in the domain [m].
+    /// Lowest ground level in the domain [m].
     pub bottom_z: f64,
-    /// Distance between particles along x and z [m].
+    /// Particle spacing along x and z [m].
     pub dp: f64,
-    /// Distance between particles across the flume [m]: the width divided into `ny` equal parts, nearly `dp`.
+    /// Particle spacing across the flume [m]: `width` / `ny`, close to `dp`.
     pub dy: f64,
-    /// Particles along the flume, rounded.
+    /// Number of particles along the flume, rounded.
     pub nx: usize,
-    /// Particles across the flume.
+    /// Number of particles across the flume.
     pub ny: usize,
-    /// Particles from the lowest ground to the top of the walls, rounded up.
+    /// Number of particles from the lowest ground to the top of the walls, rounded up.
     pub nz: usize,
-    /// Where the water stands at the start.
+    /// Initial water.
     pub water: Water,
-    /// Largest depth of the water at the start [m].
+    /// Largest initial water depth [m].
     pub depth: f64,
-    /// When the particles start, if the flume model runs.
+    /// Start of the particles, if the flume model runs.
     pub start: Start,
-    /// Where the water is slowed down, if anywhere.
+    /// Zone in which the water is slowed down, if any.
     pub damping_zone: Option<DampingZone>,
-    /// Where the water is led to the velocity of the flume model, if anywhere.
+    /// Zone in which the water is driven to the velocity of the flume model, if any.
     pub relaxation_zone: Option<RelaxationZone>,
     /// Fixed boxes in the water.
     pub obstacles: Vec<AxisBox>,
@@ -53,39 +53,39 @@ pub struct Domain {
 pub enum Start {
     /// At this flume time [s].
     At(f64),
-    /// When the velocity at the wavemaker's place reaches this share of its maximum [-].
+    /// When the velocity at the wavemaker reaches this share of its maximum [-].
     AtShare(f64),
 }
 
-/// Where the water stands at the start; SI units.
+/// Initial water; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Water {
     /// Up to the still water level.
     StillLevel,
     /// A block from the bed to a level.
     Block {
-        /// Seaward and shoreward face [m].
+        /// x of the seaward and of the shoreward face [m].
         x: [f64; 2],
-        /// Top [m].
+        /// Level of the top [m].
         top_z: f64,
     },
 }
 
 impl Domain {
-    /// Ground and limits of the place where units stand.
+    /// Returns the ground and the limits of the area where units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
         Site { profile: flume.profile.clone(), terrain: None, x, width, sides, top_z }
     }
 
-    /// Levels z of the rows of the wavemaker [m], from the bed to the top of the walls.
+    /// Returns the levels z of the wavemaker's rows [m], from the bed to the top of the walls.
     pub fn wavemaker_rows(&self, flume: &Flume) -> Vec<f64> {
         let bed = flume.profile.z(self.x[0]);
         (0..).map(|row| bed + (f64::from(row) + 0.5) * self.dp).take_while(|&z| z < self.top_z).collect()
     }
 }
 
-/// Validate the domain; `smoothing_factor` is that of the numerics, as written.
+/// Validates the domain; `smoothing_factor` is `numerics.smoothing_factor`, not yet validated.
 pub(super) fn validate(
     file: &DomainFile,
     flume: Option<&Flume>,
@@ -98,7 +98,7 @@ pub(super) fn validate(
         file.dp_m,
         from(1e-4).up_to(0.5),
         "m",
-        "write the particle distance in metres, e.g. 0.007",
+        "write the particle spacing in metres, e.g. 0.007",
     );
     validate_start(file, check);
     let flume = flume?;
@@ -115,7 +115,7 @@ pub(super) fn validate(
                 "domain.dp_m",
                 show(file.dp_m),
                 format!("at least {:e} m, for {MOST_ALONG:e} particles {name}", length / MOST_ALONG),
-                "write a larger particle distance",
+                "write a larger particle spacing",
             );
         }
     }
@@ -151,7 +151,7 @@ pub(super) fn validate(
 
 fn validate_start(file: &DomainFile, check: &mut Checker) {
     if let Some(start) = file.start_s {
-        check.number("domain.start_s", start, from(0.0).up_to(1e4), "s", "write a flume time, 0 when the wave begins");
+        check.number("domain.start_s", start, from(0.0).up_to(1e4), "s", "write a time of the flume model");
     }
     check.number(
         "domain.start_at_share",
@@ -178,7 +178,7 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
         check.refuse(
             "domain.x_m",
             format!("[{}, {}]", show(file.x_m[0]), show(file.x_m[1])),
-            "rising, with at least 10 particle distances between the two",
+            "increasing, at least 10 particle spacings apart",
             "write the seaward end first",
         );
         return;
@@ -197,7 +197,7 @@ fn validate_extent(file: &DomainFile, flume: &Flume, check: &mut Checker) {
     );
 }
 
-/// Width across the flume [m]: what is written, or one particle distance in two dimensions.
+/// Returns the width across the flume [m]: `width_m`, or one particle spacing in two dimensions.
 fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker) -> Option<f64> {
     let width = match (file.sides, file.width_m) {
         (Sides::TwoDimensional, None) => return Some(file.dp_m),
@@ -206,7 +206,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
                 "domain.width_m",
                 show(width),
                 "left out where `domain.sides` is \"two_dimensional\"",
-                "take the key out, or write \"periodic\" or \"walls\" for a flume of this width",
+                "remove the key, or set `domain.sides` to \"periodic\" or \"walls\"",
             );
             return None;
         }
@@ -225,7 +225,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
         check.refuse(
             "domain.width_m",
             show(width),
-            format!("at least 4h + dp = {} m with periodic sides, or a particle acts on its own image", show(least)),
+            format!("at least 4h + dp = {} m with periodic sides; else a particle acts on its own image", show(least)),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }
@@ -233,16 +233,16 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
         check.refuse(
             "domain.width_m",
             show(width),
-            format!("at least one particle distance, {} m", show(file.dp_m)),
+            format!("at least one particle spacing, {} m", show(file.dp_m)),
             "widen the domain or write a smaller `domain.dp_m`",
         );
     }
     let layers = (width / file.dp_m).round().max(1.0);
     let stretch = width / layers / file.dp_m;
-    // Beyond a few per cent the lattice is visibly not cubic, and the density sum at rest drifts.
+    // Beyond a few per cent the lattice is no longer cubic enough, and the density at rest drifts.
     if (stretch - 1.0).abs() > 0.03 {
         check.warn(format!(
-            "domain.width_m = {} is {:.2} particle distances: the spacing across the flume becomes {:.3} dp",
+            "domain.width_m = {} is {:.2} particle spacings: the spacing across the flume becomes {:.3} dp",
             show(width),
             width / file.dp_m,
             stretch
@@ -265,7 +265,7 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
                 check.refuse(
                     "domain.water.x_m",
                     format!("[{}, {}]", show(x0), show(x1)),
-                    format!("rising and within the domain, {} to {} m", show(file.x_m[0]), show(file.x_m[1])),
+                    format!("increasing and within the domain, {} to {} m", show(file.x_m[0]), show(file.x_m[1])),
                     "write the seaward face of the block first",
                 );
                 return None;
@@ -293,14 +293,14 @@ fn validate_water(file: &DomainFile, flume: &Flume, check: &mut Checker) -> Opti
         check.refuse(
             path,
             show(level),
-            format!("at least one particle distance above the ground of the domain (the depth is {} m)", show(depth)),
-            "raise the water or move the domain to where it is deeper",
+            format!("at least one particle spacing above the ground of the domain (the depth is {} m)", show(depth)),
+            "raise the water level or move the domain to deeper water",
         );
         return None;
     }
     if depth < 10.0 * file.dp_m {
         check.warn(format!(
-            "domain.dp_m = {}: only {:.1} particles over the largest depth, {} m",
+            "domain.dp_m = {}: only {:.1} particle spacings over the largest depth, {} m",
             show(file.dp_m),
             depth / file.dp_m,
             show(depth)

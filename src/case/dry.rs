@@ -1,4 +1,4 @@
-//! A dry case, validated: units on a bed without water.
+//! Validates a dry test: units on a bed without water.
 
 use std::path::Path;
 
@@ -17,44 +17,44 @@ use super::units::{self, Surroundings, Units};
 use super::validate::read;
 use super::{flume, output, terrain};
 
-/// What is done with the units; SI units, angles in radians.
+/// The kind of dry test. SI units, angles in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DryTest {
-    /// They are let go where they are.
+    /// The units are released where they are.
     Settle,
-    /// They are let go after they were lifted.
+    /// The units are lifted, then released.
     Drop,
-    /// The bed is tilted at a rate [rad/s] up to an angle [rad]; a unit faster than `slide_speed` [m/s] slides.
+    /// The bed is tilted at `rate` [rad/s] up to the angle `to` [rad]; a unit faster than `slide_speed` [m/s] slides.
     Tilt { rate: f64, to: f64, slide_speed: f64 },
 }
 
-/// Intervals of what a dry run writes [s]; `None` where none is written.
+/// Output intervals of a dry test [s]; `None` for no output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DryOutput {
-    /// Of the units' surfaces.
+    /// Surfaces of the units.
     pub units_interval: Option<f64>,
-    /// Of motion and energy.
+    /// Motion and energy.
     pub series_interval: f64,
-    /// Of the checkpoints.
+    /// Checkpoints.
     pub checkpoint_interval: Option<f64>,
 }
 
-/// A dry case whose values make sense; SI units throughout.
+/// A validated dry test; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DryCase {
     /// One line that names the case.
     pub title: String,
-    /// What had to be assumed.
+    /// Assumptions listed in the case file.
     pub assumptions: Vec<String>,
-    /// What is allowed and probably not meant.
+    /// Values that are allowed but probably not intended.
     pub warnings: Vec<String>,
     /// Name of the file as given.
     pub name: String,
-    /// 32 hexadecimal digits that stay the same for the same case.
+    /// Fingerprint of the case: 32 hexadecimal digits.
     pub hash: String,
-    /// The case as a run keeps it.
+    /// Case text that is saved with the run.
     pub text: String,
-    /// What is done with the units.
+    /// The test.
     pub test: DryTest,
     /// Ground and walls.
     pub site: Site,
@@ -64,29 +64,29 @@ pub struct DryCase {
     pub units: Units,
     /// Elastic constants; other structs hold indices into this list.
     pub materials: Vec<Material>,
-    /// Contact.
+    /// Contact parameters.
     pub contact: Contact,
-    /// What is done with the hardest impacts.
+    /// Breakage analysis of the hardest impacts, if requested.
     pub fracture: Option<Handover>,
-    /// What is written, and how often.
+    /// Output intervals.
     pub output: DryOutput,
-    /// When the run ends.
+    /// Stop criteria.
     pub stop: Stop,
 }
 
 impl DryCase {
-    /// Whether the text of a case file is that of a dry case.
+    /// Returns whether the text of a case file describes a dry test.
     pub fn is_one(text: &str) -> bool {
         serde_json::from_str::<serde_json::Value>(text).is_ok_and(|value| value.get("dry").is_some())
     }
 
-    /// Read and validate a case file.
+    /// Reads and validates a case file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
         let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 
-    /// Validate the text of a case file; `name` is its name in messages.
+    /// Validates the text of a case file; `name` is its name in messages.
     pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
         let file: DryFile = parse(text, name)?;
         let mut check = Checker::new(name);
@@ -101,7 +101,7 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
     if file.title.trim().is_empty() {
         check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case");
     }
-    check.number("gravity_m_s2", file.gravity_m_s2, above(0.0).up_to(100.0), "m/s2", "9.81 on earth");
+    check.number("gravity_m_s2", file.gravity_m_s2, above(0.0).up_to(100.0), "m/s2", "9.81 on Earth");
     let materials = materials::validate_materials(&file.materials, check);
     let friction = materials::validate_friction(&file.friction, &materials, check);
     let ground_material = materials::find(&materials, &file.flume.material, "flume.material", check);
@@ -143,7 +143,7 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
         placement.centre += DVec3::Z * lift;
     }
     let canonical = DryFile { schema: None, ..kept.clone() };
-    // Writing to memory cannot fail: every key is a string.
+    // Serializing to a string cannot fail: every key is a string.
     let text = if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
     Some(DryCase {
         title: file.title.clone(),
@@ -164,7 +164,7 @@ fn validate(file: &DryFile, text: &str, name: &str, check: &mut Checker) -> Opti
     })
 }
 
-/// Ground, ends and walls.
+/// Validates ground, ends and walls.
 pub(super) fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mut Checker) -> Option<Site> {
     let ground = FlumeFile::dry(file.flume.bed_m.clone(), file.flume.mound.clone());
     let flume = flume::validate(&ground, material, check)?;
@@ -177,9 +177,9 @@ pub(super) fn validate_site(file: &DryFile, name: &str, material: Option<usize>,
     }
     let [x0, x1] = file.domain.x_m;
     check.number("domain.x_m[1]", x1, above(x0).up_to(f64::MAX), "m", "write the seaward end first");
-    check.number("domain.width_m", file.domain.width_m, above(0.0).up_to(1e4), "m", "write the width across");
+    check.number("domain.width_m", file.domain.width_m, above(0.0).up_to(1e4), "m", "write the width across the flume");
     if file.domain.sides == Sides::TwoDimensional {
-        let advice = "units move and turn in three dimensions";
+        let advice = "dry tests are three-dimensional";
         check.refuse("domain.sides", "\"two_dimensional\"", "\"periodic\" or \"walls\"", advice);
     }
     if check.count() > before {
@@ -192,18 +192,18 @@ pub(super) fn validate_site(file: &DryFile, name: &str, material: Option<usize>,
     sound.then_some(Site { profile: flume.profile, terrain, x, width, sides, top_z })
 }
 
-/// The test, and by how much the units are lifted for it [m].
+/// Returns the test and the height by which it lifts the units [m].
 fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTest, f64) {
     match file {
         DryTestFile::Settle {} => (DryTest::Settle, 0.0),
         DryTestFile::Drop(drop) => {
-            check.number("dry.height_m", drop.height_m, above(0.0).up_to(100.0), "m", "write how high they are lifted");
+            check.number("dry.height_m", drop.height_m, above(0.0).up_to(100.0), "m", "write the lift height");
             (DryTest::Drop, drop.height_m)
         }
         DryTestFile::Tilt(tilt) => {
-            let advice = "1 degree a second finds the angle within 0.3 %";
+            let advice = "at 1 degree/s the angle of sliding is found within 0.3 %";
             check.number("dry.rate_deg_s", tilt.rate_deg_s, above(0.0).up_to(90.0), "degrees/s", advice);
-            check.number("dry.to_deg", tilt.to_deg, above(0.0).below(90.0), "degrees", "write the largest slope");
+            check.number("dry.to_deg", tilt.to_deg, above(0.0).below(90.0), "degrees", "write the largest tilt angle");
             let advice = "below this speed a unit counts as at rest";
             check.number("dry.slide_speed_m_s", tilt.slide_speed_m_s, above(0.0).up_to(1.0), "m/s", advice);
             let (rate, to, slide_speed) =

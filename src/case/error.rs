@@ -1,8 +1,8 @@
-//! What can be wrong with a case file, and how it is told to the user.
+//! Errors in case files and their messages.
 
 use std::fmt;
 
-/// One thing that is wrong with a case file.
+/// One error in a case file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CaseError {
     /// The file cannot be read.
@@ -10,7 +10,7 @@ pub enum CaseError {
     Read {
         /// The case file.
         file: String,
-        /// What the operating system says.
+        /// Message of the operating system.
         reason: String,
     },
     /// The file is not JSON.
@@ -22,7 +22,7 @@ pub enum CaseError {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What the parser says.
+        /// Message of the parser.
         problem: String,
     },
     /// A key is unknown or missing, or its value is of the wrong type.
@@ -39,7 +39,7 @@ pub enum CaseError {
         /// What to do.
         advice: String,
     },
-    /// A value has the right type and makes no sense.
+    /// A value has the right type but is not allowed.
     #[error("{file}: {path} = {value}: must be {allowed}; {advice}")]
     Invalid {
         /// The case file.
@@ -55,15 +55,15 @@ pub enum CaseError {
     },
 }
 
-/// Everything that is wrong with a case file; never empty.
+/// All errors in a case file; never empty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseErrors {
-    /// In the order of the file.
+    /// The errors, in the order of validation.
     pub errors: Vec<CaseError>,
 }
 
 impl fmt::Display for CaseErrors {
-    /// One error a line.
+    /// Writes one error per line.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, error) in self.errors.iter().enumerate() {
             if index > 0 {
@@ -83,22 +83,22 @@ impl From<CaseError> for CaseErrors {
     }
 }
 
-/// The candidate nearest to `word` by edit distance, if it is near enough to be a slip of the keyboard.
+/// Returns the candidate with the smallest edit distance to `word`, if it is small enough for a typing error.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // A word longer than any key is no slip, and would cost a long table.
+    // No key is this long; the search would be slow.
     if word.len() > 64 {
         return None;
     }
-    let near = |candidate: &str| 2.max(candidate.len().max(word.len()) / 2);
+    let largest_distance = |candidate: &str| 2.max(candidate.len().max(word.len()) / 2);
     candidates
         .into_iter()
         .map(|candidate| (edit_distance(word, candidate), candidate))
-        .filter(|(distance, candidate)| *distance <= near(candidate))
+        .filter(|(distance, candidate)| *distance <= largest_distance(candidate))
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein's distance: insertions, deletions and replacements that turn `a` into `b`.
+/// Returns the Levenshtein distance: the number of insertions, deletions and replacements that turn `a` into `b`.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slip_of_the_keyboard_finds_its_key() {
+    fn misspelt_key_finds_the_nearest_key() {
         assert_eq!(edit_distance("kitten", "sitting"), 3);
         assert_eq!(nearest("dp", ["x_m", "dp_m", "width_m"]), Some("dp_m"));
         assert_eq!(nearest("hight_m", ["height_m", "mass_kg"]), Some("height_m"));

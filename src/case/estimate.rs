@@ -1,4 +1,4 @@
-//! How large a case is, before any particle is made.
+//! Estimated size of a run, before any particle is created.
 
 use glam::DVec3;
 
@@ -9,35 +9,35 @@ use super::validate::Case;
 use crate::geometry::{axis_box::AxisBox, profile::Profile};
 use crate::sph::time_step::viscous_limit;
 
-/// Memory of one particle with its neighbour lists [bytes].
+/// Memory per particle, with its neighbour lists [bytes].
 const BYTES_PER_PARTICLE: f64 = 600.0;
 
-/// Size of a run, from areas and volumes; good to some ten per cent.
+/// Size of a run, estimated from areas and volumes; within some ten per cent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// Water particles.
+    /// Number of water particles.
     pub fluid: f64,
-    /// Particles in bed, walls and wavemaker.
+    /// Number of particles in bed, walls and wavemaker.
     pub boundary: f64,
-    /// Particles in the armour units.
+    /// Number of particles in the armour units.
     pub units: f64,
     /// Memory [bytes].
     pub bytes: f64,
-    /// Time step from the speed of sound, cfl h / c0, or from the viscosity, if that is less [s].
+    /// Time step [s]: cfl h / c0 from the speed of sound, or the limit from the viscosity if that is smaller.
     pub dt: f64,
-    /// Steps of the whole duration.
+    /// Number of time steps of the whole run.
     pub steps: f64,
 }
 
 impl Estimate {
-    /// All particles.
+    /// Returns the number of all particles.
     pub fn particles(&self) -> f64 {
         self.fluid + self.boundary + self.units
     }
 }
 
 impl Case {
-    /// Ends [m] and level [m] of the water at the start.
+    /// Returns the two ends and the level of the initial water [m].
     pub(super) fn water_at_start(&self) -> ([f64; 2], f64) {
         match self.domain.water {
             Water::StillLevel => (self.domain.x, self.flume.still_level),
@@ -45,7 +45,7 @@ impl Case {
         }
     }
 
-    /// Size of the run.
+    /// Estimates the size of the run.
     pub fn estimate(&self) -> Estimate {
         let domain = &self.domain;
         let profile = &self.flume.profile;
@@ -82,31 +82,31 @@ impl Case {
     }
 }
 
-/// Corner points of the ground between two x, both ends included.
-fn pieces(profile: &Profile, [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
+/// Returns the corner points of the ground between two x, with both ends.
+fn ground_points(profile: &Profile, [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
     let inner = profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
     [[x0, profile.z(x0)]].into_iter().chain(inner).chain([[x1, profile.z(x1)]]).collect()
 }
 
-/// Area between the ground and a level, where the ground is lower [m2].
+/// Returns the area between the ground and a level where the ground is below the level [m2].
 pub(super) fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
-    let piece = |pair: &[[f64; 2]]| {
+    let wet_area = |pair: &[[f64; 2]]| {
         let (a, b) = (level - pair[0][1], level - pair[1][1]);
         let length = pair[1][0] - pair[0][0];
         match (a > 0.0, b > 0.0) {
             (true, true) => 0.5 * (a + b) * length,
-            // Only the wet part of a piece that comes out of the water: a triangle.
+            // The wet part of a segment that crosses the level is a triangle.
             (true, false) => 0.5 * a * length * a / (a - b),
             (false, true) => 0.5 * b * length * b / (b - a),
             (false, false) => 0.0,
         }
     };
-    pieces(profile, x).windows(2).map(piece).sum()
+    ground_points(profile, x).windows(2).map(wet_area).sum()
 }
 
-/// Length of the ground between two x [m].
+/// Returns the length of the ground surface between two x [m].
 fn length_along(profile: &Profile, x: [f64; 2]) -> f64 {
-    pieces(profile, x).windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
+    ground_points(profile, x).windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
 }
 
 #[cfg(test)]
@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn areas_follow_the_ground() {
+    fn areas_and_lengths_follow_the_ground() {
         let bed = Profile::new(vec![[0.0, 0.0], [2.0, 0.0], [4.0, 2.0]]);
         assert!((area_under(&bed, [0.0, 4.0], 1.0) - 2.5).abs() < 1e-12);
         assert!((area_under(&bed, [1.0, 4.0], 3.0) - 7.0).abs() < 1e-12);

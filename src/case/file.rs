@@ -1,7 +1,7 @@
-//! The case file as the user writes it: one struct per JSON object, nothing derived.
+//! The case file as the user writes it: one struct per JSON object, no derived values.
 //!
-//! Keys carry their unit. Unknown keys are refused, so that a misspelt one is never ignored.
-//! `Case` is the validated form that the solvers see.
+//! Keys carry their unit. Unknown keys are refused, so that a misspelt key is never ignored.
+//! `Case` is the validated form that the solvers read. The doc comments become the JSON schema.
 
 mod dry;
 mod fracture;
@@ -33,16 +33,16 @@ pub use waves::{
     FlapFile, IrregularFile, PistonFile, RegularFile, SolitaryFile, SolitaryTheory, WaveFile, WavemakerFile,
 };
 
-/// A breakwater case: a flume, the water in it, the wave and the armour units.
+/// A flume case: the flume, the water, the wave and the armour units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseFile {
-    /// Where the JSON schema lies, for editors (`breakwater schema` prints it). Not used by the solver.
+    /// Path of the JSON schema, for editors (`breakwater schema` prints it). The solver ignores it.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// One line that names the case in reports.
+    /// Name of the case in reports, one line.
     pub title: String,
-    /// What had to be assumed because no source gives it; listed in the report.
+    /// Assumptions: values that no source gives. The report lists them.
     #[serde(default)]
     pub assumptions: Vec<String>,
     /// Folder of a `reference.json` with measured displacements, seen from the case file: `breakwater compare` compares
@@ -50,80 +50,80 @@ pub struct CaseFile {
     // Not part of the fingerprint: it changes no result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
-    /// The whole flume: bed, mound and still water.
+    /// The whole flume: bed, mound and still water level.
     pub flume: FlumeFile,
-    /// The part of the flume that is filled with particles.
+    /// Particle domain: the part of the flume that is filled with particles.
     pub domain: DomainFile,
     /// Water and its artificial compressibility.
     #[serde(default)]
     pub fluid: FluidFile,
-    /// Constants of the SPH scheme.
+    /// Options and constants of the SPH scheme.
     #[serde(default)]
     pub numerics: NumericsFile,
-    /// The wave.
+    /// The wave; left out, the water is still.
     #[serde(default)]
     pub wave: WaveFile,
-    /// What makes the wave in the particles, at the seaward end of the domain.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    /// Wavemaker at the seaward end of the particle domain.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "WavemakerFile::is_default")]
     pub wavemaker: WavemakerFile,
-    /// The armour units; none for a flume with water alone.
+    /// The armour units; leave them out for a flume with water only.
     #[serde(default)]
     pub units: Option<UnitsFile>,
-    /// Elastic constants by material name.
+    /// Materials of units and bed, with their elastic constants.
     #[serde(default)]
     pub materials: Vec<MaterialFile>,
-    /// Friction of each pair of materials that can touch.
+    /// Friction for each pair of materials that can touch.
     #[serde(default)]
     pub friction: Vec<FrictionFile>,
-    /// Contact between units and with the bed.
+    /// Contact between units, and between units and the bed.
     #[serde(default)]
     pub contact: ContactFile,
-    /// What is done with the hardest impacts of the units: are they broken?
-    // Left out where it is not used, so that such cases keep their hash.
+    /// Breakage analysis: re-runs the hardest impacts at prototype scale with breakable units.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fracture: Option<HandoverFile>,
-    /// Points at which the water is measured.
+    /// Gauges: points at which the water is measured.
     #[serde(default)]
     pub gauges: Vec<GaugeFile>,
-    /// What is written, and how often.
+    /// Output files and their intervals.
     #[serde(default)]
     pub output: OutputFile,
     /// When the run ends.
     pub stop: StopFile,
 }
 
-/// Bed, mound and still water of the whole flume; x runs from the wavemaker to the shore, z upwards.
+/// Bed, mound and still water of the whole flume. x points from the wavemaker to the shore, z upwards.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlumeFile {
-    /// Corner points [x, z] of the bed [m], x rising, from the wavemaker to the shore.
+    /// Corner points [x, z] of the bed [m], from the wavemaker to the shore; x must increase.
     pub bed_m: Vec<[f64; 2]>,
-    /// Level of the still water [m], in the z of `bed_m`.
+    /// Still water level [m], in the z of `bed_m`.
     pub still_water_level_m: f64,
     /// A trapezoidal mound on the bed.
     #[serde(default)]
     pub mound: Option<MoundFile>,
-    /// Material of bed and mound, one of `materials`; needed when there are units.
+    /// Material of bed and mound, one of `materials`; required if the case has units.
     #[serde(default)]
     pub material: Option<String>,
-    /// Layers of the flume model, 1 to 8.
+    /// Number of layers of the flume model, 1 to 8.
     #[serde(default = "default_layers")]
     pub layers: u32,
-    /// Cell of the flume model [m].
+    /// Cell size of the flume model [m].
     #[serde(default = "default_cell_m")]
     pub cell_m: f64,
-    /// Manning's n of the bed in the flume model [s m^(-1/3)]: 0.010 glass, 0.013 smooth concrete; without it there is
-    /// no friction.
+    /// Manning's n of the bed in the flume model [s m^(-1/3)]: 0.010 glass, 0.013 smooth concrete. By default the bed
+    /// has no friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub manning_s_m13: Option<f64>,
-    /// What stands at the shoreward end of the flume model.
+    /// Boundary at the shoreward end of the flume model.
     #[serde(default, skip_serializing_if = "RightEndFile::is_wall")]
     pub right_end: RightEndFile,
 }
 
 impl FlumeFile {
-    /// Ground alone, for units without water.
+    /// Returns a flume without water, for dry tests.
     pub(super) fn dry(bed_m: Vec<[f64; 2]>, mound: Option<MoundFile>) -> Self {
         let cell_m = default_cell_m();
         let (layers, right_end) = (default_layers(), RightEndFile::default());
@@ -140,15 +140,15 @@ fn default_cell_m() -> f64 {
     0.05
 }
 
-/// What stands at the shoreward end of the flume model.
+/// Boundary at the shoreward end of the flume model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum RightEndFile {
-    /// A wall; the shore may lie before it.
+    /// A wall. The bed may rise above the water before it.
     Wall {},
-    /// Water that goes on: long waves leave. The bed must end under water.
+    /// An open boundary that long waves leave. The bed must end under water.
     Radiating {},
-    /// A wall behind water in which waves are damped.
+    /// A sponge layer that damps waves, with a wall behind it.
     Sponge(SpongeFile),
 }
 
@@ -159,17 +159,17 @@ impl Default for RightEndFile {
 }
 
 impl RightEndFile {
-    /// The default; not written, so that the fingerprint of a case without this key stays what it was.
+    /// Whether it is the default, which is not written, so that the hash of cases without this key does not change.
     fn is_wall(&self) -> bool {
         matches!(self, Self::Wall {})
     }
 }
 
-/// Water in which waves are damped, in front of the end wall.
+/// Sponge layer in front of the end wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpongeFile {
-    /// Length [m]; two wave lengths take a wave.
+    /// Length [m]; two wavelengths absorb a wave.
     pub length_m: f64,
 }
 
@@ -177,54 +177,55 @@ pub struct SpongeFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MoundFile {
-    /// Middle of the crest [m].
+    /// x of the middle of the crest [m].
     pub centre_x_m: f64,
     /// Width of the crest [m].
     pub crest_width_m: f64,
-    /// Level of the crest [m], in the z of `bed_m`.
+    /// Crest level [m], in the z of `bed_m`.
     pub crest_z_m: f64,
-    /// Horizontal run for one unit of rise, seaward side [-].
+    /// Seaward slope as horizontal run per unit of rise [-]: 2 for a slope of 1:2.
     pub seaward_run_per_rise: f64,
-    /// Horizontal run for one unit of rise, lee side [-].
+    /// Lee slope as horizontal run per unit of rise [-].
     pub lee_run_per_rise: f64,
 }
 
-/// The part of the flume that is filled with particles.
+/// Particle domain: the part of the flume that is filled with particles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DomainFile {
-    /// Seaward and shoreward end [m]. The wavemaker (or a wall) stands at the first, a wall at the second.
+    /// x of the seaward and of the shoreward end [m]. The wavemaker (without a wave, a wall) stands at the seaward end,
+    /// a wall at the shoreward end.
     pub x_m: [f64; 2],
-    /// Width across the flume [m]; left out in two dimensions.
+    /// Width across the flume [m]; leave it out in two dimensions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_m: Option<f64>,
-    /// What closes the domain across the flume.
+    /// Boundaries at the two sides of the flume.
     pub sides: Sides,
-    /// Top of the walls [m]; a particle that rises above it by one wall height has escaped.
+    /// Top of the walls [m]. A particle that rises more than one wall height above it counts as escaped.
     pub top_z_m: f64,
-    /// Distance between particles [m].
+    /// Particle spacing dp [m].
     pub dp_m: f64,
-    /// Where the water stands at the start.
+    /// Initial water.
     #[serde(default)]
     pub water: WaterFile,
-    /// Time of the flume model at which the particles start [s]; without it, when the velocity at the wavemaker's place
-    /// reaches `start_at_share` of its maximum.
+    /// Time of the flume model at which the particles start [s]. By default they start when the velocity at the
+    /// wavemaker reaches `start_at_share` of its maximum.
     #[serde(default)]
     pub start_s: Option<f64>,
-    /// Share of the largest velocity at which the particles start [-].
+    /// Share of the maximum velocity at the wavemaker at which the particles start [-].
     #[serde(default = "default_start_share")]
     pub start_at_share: f64,
-    /// Where the water is slowed down, so that waves do not come back from the end of the domain.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    /// Damping zone: slows the water down, so that the end of the domain reflects no waves.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_zone: Option<DampingZoneFile>,
-    /// Where the water before the wavemaker is led to the velocity of the flume model, so that what comes back from the
-    /// structure is not sent back once more.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    /// Relaxation zone: drives the water at the wavemaker to the velocity of the flume model. Waves that the structure
+    /// reflects are absorbed there instead of being reflected again.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relaxation_zone: Option<RelaxationZoneFile>,
-    /// Fixed boxes in the water.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    /// Obstacles: fixed boxes in the water.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<BoxFile>,
 }
@@ -233,14 +234,14 @@ pub(super) fn default_start_share() -> f64 {
     0.03
 }
 
-/// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows as the square of the distance
-/// from 0 at the seaward end of the zone to `coefficient_per_s` at its shoreward end, and keeps that value beyond.
+/// A zone in which the velocity v of the water decays, dv/dt = -f v. The rate f grows with the square of the distance
+/// from 0 at the seaward end of the zone to `coefficient_per_s` at its shoreward end. It is constant beyond.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DampingZoneFile {
-    /// Seaward and shoreward end of the zone [m].
+    /// x of the seaward and of the shoreward end of the zone [m].
     pub x_m: [f64; 2],
-    /// Rate at the shoreward end [1/s].
+    /// Rate f at the shoreward end [1/s].
     #[serde(default = "default_damping_per_s")]
     pub coefficient_per_s: f64,
 }
@@ -249,20 +250,20 @@ fn default_damping_per_s() -> f64 {
     10.0
 }
 
-/// A zone in which the velocity v of the water goes over to that of the flume model, dv/dt = -f (v - v_flume). The
-/// rate f falls as the square of the distance from `coefficient_per_s` at the wavemaker to 0 at the end of the zone.
+/// A zone in which the velocity v of the water relaxes to the velocity of the flume model, dv/dt = -f (v - v_flume).
+/// The rate f falls with the square of the distance from `coefficient_per_s` at the wavemaker to 0 at the zone's end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RelaxationZoneFile {
-    /// Shoreward end of the zone [m].
+    /// x of the shoreward end of the zone [m].
     pub end_x_m: f64,
-    /// Rate at the wavemaker [1/s].
+    /// Rate f at the wavemaker [1/s].
     #[serde(default = "default_damping_per_s")]
     pub coefficient_per_s: f64,
 }
 
-/// A fixed box along the axes that the water flows round. Where it reaches the bed or an end of the domain it stands
-/// there without a gap.
+/// A fixed box with edges along the axes; water flows around it. A box that touches the bed or an end of the domain
+/// leaves no gap there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxFile {
@@ -272,26 +273,26 @@ pub struct BoxFile {
     pub high_m: [f64; 3],
 }
 
-/// What closes the domain across the flume.
+/// Boundaries at the two sides of the flume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Sides {
-    /// What leaves on one side enters on the other.
+    /// Periodic sides: what leaves on one side enters on the other.
     Periodic,
     /// Solid walls at y = 0 and y = width.
     Walls,
-    /// Nothing changes across the flume: a layer one particle thick, computed in two dimensions. Units are cuboids then,
-    /// which move along x and z and turn about y.
+    /// Two dimensions: one layer of particles, nothing varies across the flume. Units must be cuboids; they move along
+    /// x and z and rotate about y.
     TwoDimensional,
 }
 
-/// Where the water stands at the start.
+/// Initial water.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WaterFile {
-    /// Up to the still water level (and, once the wave has entered, to the level that the flume model gives).
+    /// Up to the still water level. If the wave has already entered, up to the free surface of the flume model.
     StillLevel {},
-    /// A block of water between two x, from the bed to a level: a dam about to break.
+    /// A block of water between two x, from the bed up to a level: a dam break.
     Block(BlockFile),
 }
 
@@ -301,11 +302,11 @@ impl Default for WaterFile {
     }
 }
 
-/// A block of water between two x, from the bed to a level.
+/// A block of water between two x, from the bed up to a level.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockFile {
-    /// Seaward and shoreward face of the block [m].
+    /// x of the seaward and of the shoreward face of the block [m].
     pub x_m: [f64; 2],
     /// Top of the block [m].
     pub top_z_m: f64,
@@ -319,11 +320,11 @@ pub struct FluidFile {
     pub density_kg_m3: f64,
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
-    /// Speed of sound as a multiple of sqrt(g d), d the largest still depth in the domain [-]. Ten keeps the changes of
-    /// density below one per cent as long as the water is slower than a long wave; fifteen keeps the weight of the
-    /// compressed water within a quarter of a per cent.
+    /// Speed of sound as a multiple of sqrt(g d) [-], where d is the largest still water depth in the domain. With 10
+    /// the density varies by less than 1 % as long as the water is slower than a long wave. With 15 the weight of the
+    /// compressed water is right within 0.25 %.
     pub sound_speed_factor: f64,
-    /// Polytropic exponent gamma of Tait's equation [-].
+    /// Exponent gamma of Tait's equation of state [-].
     pub tait_exponent: f64,
 }
 
@@ -333,25 +334,25 @@ impl Default for FluidFile {
     }
 }
 
-/// What is written, and how often.
+/// Output files and their intervals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutputFile {
-    /// Interval of the fluid snapshots [s]; 0 writes none.
+    /// Interval of the fluid snapshots [s]; 0 for none.
     pub fluid_interval_s: f64,
-    /// Interval of the moving surfaces of the units [s]; 0 writes none.
+    /// Interval of the unit surfaces [s]; 0 for none.
     pub units_interval_s: f64,
-    /// Interval of gauges, unit motion, unit forces and energy [s].
+    /// Interval of the tables of gauges, unit motion, unit forces and energy [s].
     pub series_interval_s: f64,
-    /// Interval of the checkpoints in simulated time [s]; 0 writes one at the end only.
+    /// Interval of the checkpoints in simulated time [s]; 0 writes one checkpoint, at the end.
     pub checkpoint_interval_s: f64,
-    /// What the fluid snapshots hold of each water particle besides its place; each at most once. The report draws the
-    /// water only if `velocity` is among them.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    /// Fields of each water particle in the fluid snapshots, besides its position; each at most once. The report draws
+    /// the water only if `velocity` is one of them.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(skip_serializing_if = "is_every_field")]
     pub fluid_fields: Vec<FluidField>,
-    /// Two opposite corners [[x, y, z], [x, y, z]] of a box [m], the lower first: the fluid snapshots hold the water
-    /// particles inside it only.
+    /// Lower and upper corner [[x, y, z], [x, y, z]] of a box [m]: the fluid snapshots contain only the water particles
+    /// inside it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fluid_box_m: Option<[[f64; 3]; 2]>,
 }
@@ -373,25 +374,25 @@ fn is_every_field(fields: &[FluidField]) -> bool {
     fields == FluidField::ALL
 }
 
-/// What a fluid snapshot can hold of each water particle.
+/// Field of a water particle in a fluid snapshot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FluidField {
-    /// Velocity [m/s], three numbers.
+    /// Velocity [m/s], three components.
     Velocity,
     /// Pressure [Pa].
     Pressure,
     /// Density [kg/m3].
     Density,
-    /// Number that the particle keeps throughout the run.
+    /// Number of the particle, constant during the run.
     Id,
 }
 
 impl FluidField {
-    /// All of them, in the order in which they are written by default.
+    /// All fields, in their default order.
     pub const ALL: [Self; 4] = [Self::Velocity, Self::Pressure, Self::Density, Self::Id];
 
-    /// Name in case files and in ParaView.
+    /// Returns the name in case files and in ParaView.
     pub fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
@@ -406,22 +407,22 @@ impl FluidField {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StopFile {
-    /// Simulated time at most [s], counted from the start of the particles.
+    /// Longest simulated time [s], from the start of the particles.
     pub duration_s: f64,
-    /// End earlier when every unit has been at rest for a while.
+    /// Rest criterion: ends the run earlier when all units are at rest.
     #[serde(default)]
     pub at_rest: Option<AtRestFile>,
 }
 
-/// End the run when the units have moved and come to rest.
+/// Rest criterion: the run ends when all units have been at rest for `for_s`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AtRestFile {
-    /// A unit is at rest whose centre and tips are slower than this and have got on by no more than this over `for_s`
-    /// [m/s]; without water, one that was never faster.
+    /// Largest speed of the centre and the tips of a unit at rest [m/s]. In water a unit at rest must also have moved
+    /// by no more than this speed times `for_s`.
     pub speed_m_s: f64,
-    /// For how long all must be at rest [s].
+    /// Time for which all units must be at rest [s].
     pub for_s: f64,
-    /// Not before this simulated time [s], counted from the start of the particles.
+    /// Earliest end of the run [s], from the start of the particles.
     pub not_before_s: f64,
 }

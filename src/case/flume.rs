@@ -1,68 +1,68 @@
-//! Bed, mound and still water of the whole flume, validated.
+//! The validated flume: bed, mound and still water level.
 
 use super::check::{Checker, above, from, show};
 use super::file::{FlumeFile, MoundFile, RightEndFile};
 use crate::geometry::profile::Profile;
 use crate::waves::layered::{Friction, RightEnd};
 
-/// Coordinates beyond this are a slip of the keyboard, not a flume [m].
+/// Largest coordinate [m]; larger values are typing errors.
 const LARGEST_COORDINATE: f64 = 1e5;
-/// Cells of the flume model at most.
+/// Largest number of cells in the flume model.
 const MOST_CELLS: f64 = 200_000.0;
-/// Corner points of a bed at most.
+/// Largest number of corner points of a bed.
 const MOST_BED_POINTS: usize = 100_000;
 
 /// The whole flume; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flume {
-    /// Bed with the mound on it.
+    /// Ground: the bed with the mound.
     pub profile: Profile,
     /// Bed without the mound.
     pub bed: Profile,
-    /// Level of the still water [m].
+    /// Still water level [m].
     pub still_level: f64,
-    /// Mound, if there is one.
+    /// The mound, if any.
     pub mound: Option<Mound>,
     /// Material of bed and mound, an index into `Case::materials`.
     pub material: Option<usize>,
-    /// Layers of the flume model.
+    /// Number of layers of the flume model.
     pub layers: usize,
-    /// Cell of the flume model [m].
+    /// Cell size of the flume model [m].
     pub cell: f64,
     /// Friction of the bed in the flume model.
     pub friction: Friction,
-    /// What stands at the shoreward end of the flume model.
+    /// Boundary at the shoreward end of the flume model.
     pub right_end: RightEnd,
 }
 
 /// A trapezoidal mound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mound {
-    /// Seaward and lee edge of the crest [m].
+    /// x of the seaward and of the lee edge of the crest [m].
     pub crest_x: [f64; 2],
-    /// Level of the crest [m].
+    /// Crest level [m].
     pub crest_z: f64,
 }
 
 impl Flume {
-    /// Seaward and shoreward end of the bed [m].
+    /// Returns x of the seaward and of the shoreward end of the bed [m].
     pub fn ends(&self) -> [f64; 2] {
         let points = self.bed.points();
         [points[0][0], points[points.len() - 1][0]]
     }
 
-    /// Depth of the still water at x, mound included; 0 where the ground is dry [m].
+    /// Returns the still water depth at x above bed and mound [m]; 0 where the ground is dry.
     pub fn still_depth(&self, x: f64) -> f64 {
         (self.still_level - self.profile.z(x)).max(0.0)
     }
 
-    /// Depth of the still water at the wavemaker's end [m].
+    /// Returns the still water depth at the seaward end [m].
     pub fn offshore_depth(&self) -> f64 {
         self.still_level - self.bed.points()[0][1]
     }
 }
 
-/// Validate the flume; `material` is the index of its material, found beforehand.
+/// Validates the flume; `material` is the index of its material.
 pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) -> Option<Flume> {
     let before = check.count();
     validate_bed(&file.bed_m, check);
@@ -71,13 +71,13 @@ pub(super) fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Ch
         file.still_water_level_m,
         from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE),
         "m",
-        "write the level in the z of the bed",
+        "write the level in the z of `flume.bed_m`",
     );
     if let Some(mound) = &file.mound {
         validate_mound_numbers(mound, check);
     }
     if let Some(n) = file.manning_s_m13 {
-        let advice = "0.010 is glass, 0.013 smooth concrete, 0.03 gravel; leave it out for no friction";
+        let advice = "glass has 0.010, smooth concrete 0.013, gravel 0.03; leave it out for no friction";
         check.number("flume.manning_s_m13", n, from(0.0).up_to(0.2), "s m^(-1/3)", advice);
     }
     validate_model(file, check);
@@ -104,10 +104,10 @@ fn validate_model(file: &FlumeFile, check: &mut Checker) {
             "flume.layers",
             file.layers,
             "1 to 8",
-            "2 carry a solitary wave well, 3 a regular wave over a bar",
+            "2 layers are enough for a solitary wave, 3 for regular waves over a bar",
         );
     }
-    let advice = "a twentieth of the depth or of the wave length is enough, e.g. 0.05";
+    let advice = "a twentieth of the depth or of the wavelength is enough, e.g. 0.05";
     let sound = check.number("flume.cell_m", file.cell_m, from(0.005).up_to(0.5), "m", advice);
     if let (true, [Some(first), Some(last)]) = (sound, [file.bed_m.first(), file.bed_m.last()]) {
         let length = last[0] - first[0];
@@ -115,14 +115,14 @@ fn validate_model(file: &FlumeFile, check: &mut Checker) {
             check.refuse(
                 "flume.cell_m",
                 show(file.cell_m),
-                format!("at least {} m, for {MOST_CELLS} cells in the flume", show(length / MOST_CELLS)),
+                format!("at least {} m, for at most {MOST_CELLS} cells in the flume", show(length / MOST_CELLS)),
                 "write a larger cell or shorten `flume.bed_m`",
             );
         }
     }
 }
 
-/// The bed is known to be sound.
+/// Validates the boundary at the shoreward end; the bed must be valid.
 fn validate_right_end(file: &FlumeFile, check: &mut Checker) -> Option<RightEnd> {
     let ([start, _], [end, bed_z]) = (file.bed_m[0], file.bed_m[file.bed_m.len() - 1]);
     match file.right_end {
@@ -139,7 +139,7 @@ fn validate_right_end(file: &FlumeFile, check: &mut Checker) -> Option<RightEnd>
         }
         RightEndFile::Sponge(sponge) => {
             let allowed = above(0.0).below(end - start);
-            let advice = "shorter than the flume; two wave lengths take a wave";
+            let advice = "the sponge must be shorter than the flume; two wavelengths absorb a wave";
             let sound = check.number("flume.right_end.length_m", sponge.length_m, allowed, "m", advice);
             sound.then_some(RightEnd::Sponge { length_m: sponge.length_m })
         }
@@ -155,35 +155,35 @@ fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
             "write the corner points [x, z] from the wavemaker to the shore, e.g. [[0, 0], [19, 0], [55, 1.2]]",
         );
     }
-    let everywhere = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
+    let allowed = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
     for (index, [x, z]) in points.iter().enumerate() {
-        check.number(&format!("flume.bed_m[{index}][0]"), *x, everywhere, "m", "write x in metres");
-        check.number(&format!("flume.bed_m[{index}][1]"), *z, everywhere, "m", "write z in metres");
+        check.number(&format!("flume.bed_m[{index}][0]"), *x, allowed, "m", "write x in metres");
+        check.number(&format!("flume.bed_m[{index}][1]"), *z, allowed, "m", "write z in metres");
     }
     for (index, pair) in points.windows(2).enumerate() {
-        // A piece shorter than a micrometre is a vertical step, which the slope of the bed could not describe.
+        // A segment shorter than a micrometre is a vertical step, whose slope is not defined.
         if pair[1][0] - pair[0][0] < 1e-6 {
             check.refuse(
                 &format!("flume.bed_m[{}][0]", index + 1),
                 show(pair[1][0]),
-                format!("greater than the x before it, {} m", show(pair[0][0])),
-                "let x rise from point to point; write a step as a short steep piece",
+                format!("greater than the x of the previous point, {} m", show(pair[0][0])),
+                "x must increase from point to point; write a step as a short steep segment",
             );
         }
     }
 }
 
 fn validate_mound_numbers(mound: &MoundFile, check: &mut Checker) {
-    let everywhere = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
-    check.number("flume.mound.centre_x_m", mound.centre_x_m, everywhere, "m", "write the middle of the crest");
+    let allowed = from(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE);
+    check.number("flume.mound.centre_x_m", mound.centre_x_m, allowed, "m", "write x of the middle of the crest");
     check.number(
         "flume.mound.crest_width_m",
         mound.crest_width_m,
         above(0.0).up_to(1000.0),
         "m",
-        "write the width of the level part of the mound",
+        "write the width of the horizontal crest",
     );
-    check.number("flume.mound.crest_z_m", mound.crest_z_m, everywhere, "m", "write the level of the crest");
+    check.number("flume.mound.crest_z_m", mound.crest_z_m, allowed, "m", "write z of the crest");
     for (key, run) in
         [("seaward_run_per_rise", mound.seaward_run_per_rise), ("lee_run_per_rise", mound.lee_run_per_rise)]
     {
@@ -192,7 +192,7 @@ fn validate_mound_numbers(mound: &MoundFile, check: &mut Checker) {
             run,
             from(0.01).up_to(100.0),
             "",
-            "a flank 1:2 (2 m along for 1 m up) is written 2",
+            "write 2 for a slope of 1:2 (1 m up over 2 m)",
         );
     }
 }
@@ -211,14 +211,14 @@ fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<
         );
         return None;
     }
-    let inner = points.iter().filter(|p| p[0] > crest_x[0] && p[0] < crest_x[1]).map(|p| p[1]);
-    let highest = inner.fold(bed.z(crest_x[0]).max(bed.z(crest_x[1])), f64::max);
+    let bed_below = points.iter().filter(|p| p[0] > crest_x[0] && p[0] < crest_x[1]).map(|p| p[1]);
+    let highest = bed_below.fold(bed.z(crest_x[0]).max(bed.z(crest_x[1])), f64::max);
     if mound.crest_z_m <= highest {
         check.refuse(
             "flume.mound.crest_z_m",
             show(mound.crest_z_m),
             format!("above the bed under the crest, {} m", show(highest)),
-            "the level is measured in the z of the bed, not from the bed upwards",
+            "write the level in the z of `flume.bed_m`, not the height above the bed",
         );
         return None;
     }
@@ -227,8 +227,8 @@ fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<
         check.refuse(
             "flume.mound.crest_z_m",
             show(mound.crest_z_m),
-            "such that both flanks meet the bed inside the flume",
-            "lower the crest, steepen the flanks or lengthen the bed",
+            "such that both slopes of the mound meet the bed inside the flume",
+            "lower the crest, steepen the slopes or lengthen the bed",
         );
     }
     Some((profile?, Mound { crest_x, crest_z: mound.crest_z_m }))

@@ -1,4 +1,4 @@
-//! A fracture case, validated.
+//! Validates a fracture case.
 
 mod bodies;
 mod boundary;
@@ -21,21 +21,21 @@ use crate::femdem::setup::Setup;
 pub(super) use bodies::validate_concrete;
 pub use places::{Landmark, Plane};
 
-/// Steps of a run at most [-]: more take years.
+/// Largest number of time steps of a run [-]; more would take years.
 const MOST_STEPS: f64 = 1e10;
 
-/// A fracture case whose values make sense; SI units throughout.
+/// A validated fracture case; SI units.
 #[derive(Debug, Clone)]
 pub struct FractureCase {
     /// One line that names the case.
     pub title: String,
-    /// What had to be assumed.
+    /// Assumptions listed in the case file.
     pub assumptions: Vec<String>,
-    /// What is allowed and probably not meant.
+    /// Values that are allowed but probably not intended.
     pub warnings: Vec<String>,
-    /// 32 hexadecimal digits that stay the same for the same case and mesh.
+    /// Fingerprint of case and mesh: 32 hexadecimal digits.
     pub hash: String,
-    /// The case as a run keeps it, beside [`Self::MESH`].
+    /// Case text that is saved with the run, next to [`Self::MESH`].
     pub text: String,
     /// Content of the mesh file.
     pub mesh_file: Vec<u8>,
@@ -43,46 +43,46 @@ pub struct FractureCase {
     pub names: Vec<String>,
     /// The mesh.
     pub mesh: PreparedMesh,
-    /// What the world is made of.
+    /// Bodies, constraints, loads and friction, as the solver uses them.
     pub setup: Setup,
-    /// Share of the longest stable step [-].
+    /// Time step over the longest stable time step [-].
     pub step_share: f64,
     /// Time step [s], if the case gives it.
     pub dt: Option<f64>,
-    /// Places with names.
+    /// Named positions.
     pub landmarks: Vec<Landmark>,
-    /// Plane of the pictures of the stress.
+    /// Cut plane of the stress pictures.
     pub section: Plane,
-    /// Interval of surfaces, cracks and cut plane [s].
+    /// Output interval of surfaces, cracks and cut plane [s].
     pub surfaces_interval: Option<f64>,
-    /// Interval of all tetrahedra [s].
+    /// Output interval of all tetrahedra [s].
     pub tets_interval: Option<f64>,
-    /// Interval of the energy book [s].
+    /// Output interval of the energy balance [s].
     pub energy_interval: f64,
-    /// Interval of the checkpoints [s]; without it none is written.
+    /// Checkpoint interval [s]; `None` for no checkpoints.
     pub checkpoint_interval: Option<f64>,
     /// Simulated time [s].
     pub duration: f64,
 }
 
 impl FractureCase {
-    /// Name of the mesh in a run's folder.
+    /// Name of the mesh file in the run folder.
     pub const MESH: &str = "mesh.msh";
 
-    /// Whether the text of a case file is that of a fracture case.
+    /// Returns whether the text of a case file describes a fracture case.
     pub fn is_one(text: &str) -> bool {
-        // A case with water may hand its impacts over under the same key; it has a domain, too.
+        // Other cases use the same key for the breakage analysis, but they also have a domain.
         serde_json::from_str::<serde_json::Value>(text)
             .is_ok_and(|value| value.get("fracture").is_some() && value.get("domain").is_none())
     }
 
-    /// Read and validate a case file with its mesh.
+    /// Reads and validates a case file and its mesh.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
         let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 
-    /// Validate the text of a case file; `name` is its name in messages, its folder that of the mesh.
+    /// Validates the text of a case file. `name` is its name in messages; the mesh path is relative to its folder.
     pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
         let file: FractureFile = parse(text, name)?;
         let mut check = Checker::new(name);
@@ -109,7 +109,7 @@ fn validate(file: &FractureFile, text: &str, name: &str, check: &mut Checker) ->
     warn_of_coarse_mesh(&setup, &mesh, check);
     let mut kept = file.clone();
     kept.fracture.mesh = FractureCase::MESH.to_owned();
-    // Writing to memory cannot fail: every key is a string.
+    // Serializing to a string cannot fail: every key is a string.
     let kept_text =
         if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
     let section = places::section(file, &setup, &mesh, check);
@@ -144,17 +144,17 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
         method.step_share,
         above(0.0).up_to(1.0),
         "",
-        "0.8 leaves room for large strains",
+        "0.8 leaves a margin for large strains",
     );
     if let Some(penalty) = method.joint_penalty {
-        check.number("fracture.joint_penalty", penalty, from(0.1).up_to(1e4), "", "50 costs 5 % of the stiffness");
+        check.number("fracture.joint_penalty", penalty, from(0.1).up_to(1e4), "", "50 reduces the stiffness by 5 %");
     }
     if let Some(dt) = method.dt_s {
         let shortest = from(file.stop.duration_s.max(0.0) / MOST_STEPS);
-        check.number("fracture.dt_s", dt, shortest.up_to(1.0), "s", "leave it out for the longest stable step");
+        check.number("fracture.dt_s", dt, shortest.up_to(1.0), "s", "leave it out for the longest stable time step");
     }
     for (axis, g) in file.gravity_m_s2.into_iter().enumerate() {
-        check.number(&format!("gravity_m_s2[{axis}]"), g, from(-1e3).up_to(1e3), "m/s2", "[0, 0, -9.8] on earth");
+        check.number(&format!("gravity_m_s2[{axis}]"), g, from(-1e3).up_to(1e3), "m/s2", "[0, 0, -9.8] on Earth");
     }
 }
 
@@ -168,7 +168,7 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
     let bytes = match std::fs::read(&path) {
         Ok(bytes) => bytes,
         Err(error) => {
-            let advice = "paths are seen from the case file; tools/mesh/make.py makes the large meshes";
+            let advice = "paths are relative to the case file; tools/mesh/make.py makes the large meshes";
             check.refuse("fracture.mesh", shown, format!("a file that can be read ({error})"), advice);
             return None;
         }
@@ -176,14 +176,14 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
     match mesh::parse(&bytes, &path, file.fracture.scale) {
         Ok(mesh) => Some((bytes, mesh)),
         Err(error) => {
-            let advice = "docs/cases.md tells what a mesh must be";
-            check.refuse("fracture.mesh", shown, format!("a mesh that can be computed with ({error})"), advice);
+            let advice = "docs/cases.md lists the requirements for a mesh";
+            check.refuse("fracture.mesh", shown, format!("a valid mesh ({error})"), advice);
             None
         }
     }
 }
 
-/// A crack is trusted where elements are no larger than a quarter of the characteristic length.
+/// Warns of elements larger than a quarter of the characteristic length: these do not resolve cracks.
 fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) {
     for (body, quality) in setup.bodies.iter().zip(&mesh.quality) {
         if let Some(warning) = quality.warning() {
@@ -192,24 +192,24 @@ fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) 
         let Some(cohesion) = &body.cohesion else { continue };
         let [opening, sliding] = cohesion.strength.characteristic_lengths(body.elastic.young_modulus).map(|l| 0.25 * l);
         let metres = |length: f64| show((length * 1e4).round() * 1e-4);
-        let edges = format!("{}: edges of {} m on average", quality.body, metres(quality.edge_mean));
+        let edges = format!("{}: mean edge length {} m", quality.body, metres(quality.edge_mean));
         if quality.edge_mean > opening {
             let most = metres(opening);
-            check.warn(format!("{edges}; cracks are resolved by edges of up to {most} m, a quarter of E G_f / f_t^2"));
+            check.warn(format!("{edges}; only edges of up to {most} m, a quarter of E G_f / f_t^2, resolve cracks"));
         }
         if quality.edge_mean > sliding && sliding < 0.5 * opening {
             let most = metres(sliding);
             check.warn(format!(
-                "{edges}; faces that slide are resolved by edges of up to {most} m, a quarter of E G_fII / c^2: what is crushed \
-                 shatters; sliding_energy_j_m2 of concrete is some 25 times fracture_energy_j_m2"
+                "{edges}; only edges of up to {most} m, a quarter of E G_fII / c^2, resolve shear cracks: on this mesh \
+                 crushed zones shatter; for concrete sliding_energy_j_m2 is about 25 times fracture_energy_j_m2"
             ));
         }
         if quality.edge_max > cohesion.longest_edge() {
             check.refuse(
                 "fracture.joint_penalty",
                 show(cohesion.penalty / body.elastic.young_modulus),
-                format!("so large that edges of {} m leave something of G_f", show(quality.edge_max)),
-                "make the mesh finer or the joints stiffer, or tie them",
+                format!("so large that joints with edges of {} m store less than G_f", show(quality.edge_max)),
+                "refine the mesh, raise the joint penalty or use \"joints\": \"tied\"",
             );
         }
     }

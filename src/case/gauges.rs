@@ -1,4 +1,4 @@
-//! Points at which the water is measured, validated.
+//! The validated gauges.
 
 use super::check::{Checker, show};
 use super::domain::Domain;
@@ -6,9 +6,9 @@ use super::file::{GaugeFile, PointFile, Sides, WaveFile};
 use super::flume::Flume;
 use super::wavemaker::Wavemaker;
 
-/// Gauges in one case at most.
+/// Largest number of gauges in a case.
 const MOST_GAUGES: usize = 1000;
-/// Letters in a gauge's name at most; names become file names and table headings.
+/// Largest number of characters in a gauge's name; names become file names and table headings.
 const LONGEST_NAME: usize = 64;
 
 /// A gauge; SI units.
@@ -16,46 +16,46 @@ const LONGEST_NAME: usize = 64;
 pub struct Gauge {
     /// Name, unique and safe as a file name.
     pub name: String,
-    /// What it measures.
+    /// Measured quantity.
     pub quantity: Quantity,
-    /// Place [m]; the z of an elevation gauge is the still water level.
+    /// Position [m]; z of an elevation gauge is the still water level.
     pub at: [f64; 3],
-    /// Whether it moves.
+    /// Motion of the gauge.
     pub motion: Motion,
-    /// Inside the particle domain; outside it only the flume model writes the gauge.
+    /// Whether the gauge is inside the particle domain; outside, only the flume model writes it.
     pub in_domain: bool,
 }
 
 /// How a gauge moves.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Motion {
-    /// Not at all.
+    /// Fixed in space.
     Fixed,
     /// With a unit, counted from 0.
     OnUnit(usize),
-    /// Along a way: times from the start of the particles [s] and displacements [m].
+    /// Along a path: rows of the time from the start of the particles [s] and the displacement [m].
     Way(Vec<[f64; 4]>),
 }
 
 impl Gauge {
-    /// Displacement along its way [m], a time [s] after the start of the particles; nothing for others.
+    /// Returns the displacement along the path [m] at a time after the start of the particles [s]; 0 without a path.
     pub fn displacement(&self, time: f64) -> [f64; 3] {
         let Motion::Way(way) = &self.motion else { return [0.0; 3] };
         let after = way.partition_point(|point| point[0] <= time);
-        let place = |i: usize| [way[i][1], way[i][2], way[i][3]];
+        let row = |i: usize| [way[i][1], way[i][2], way[i][3]];
         if after == 0 || after == way.len() {
-            return place(after.saturating_sub(1));
+            return row(after.saturating_sub(1));
         }
-        let (from, to) = (place(after - 1), place(after));
+        let (from, to) = (row(after - 1), row(after));
         let share = (time - way[after - 1][0]) / (way[after][0] - way[after - 1][0]);
         std::array::from_fn(|k| from[k] + share * (to[k] - from[k]))
     }
 }
 
-/// What a gauge measures.
+/// Quantity that a gauge measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// Surface elevation above the still water [m].
+    /// Elevation of the free surface above the still water level [m].
     Elevation,
     /// Pressure [Pa].
     Pressure,
@@ -63,14 +63,14 @@ pub enum Quantity {
     Velocity,
 }
 
-/// Where an elevation gauge may stand.
+/// Range in which elevation gauges are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
-    /// In the whole flume: its model writes the gauges outside the domain.
+    /// The whole flume: the flume model writes the gauges outside the domain.
     Flume,
-    /// In the domain, there being no wave.
+    /// The domain, because there is no wave.
     DomainWithoutWave,
-    /// In the domain, where the wave is made.
+    /// The domain, because the wave is generated there.
     DomainWithPaddle,
 }
 
@@ -85,7 +85,7 @@ impl Reach {
     }
 }
 
-/// Validate the gauges.
+/// Validates the gauges.
 pub(super) fn validate(
     file: &[GaugeFile],
     flume: Option<&Flume>,
@@ -95,7 +95,7 @@ pub(super) fn validate(
     check: &mut Checker,
 ) -> Vec<Gauge> {
     if file.len() > MOST_GAUGES {
-        check.refuse("gauges", file.len(), format!("at most {MOST_GAUGES} gauges"), "leave out some");
+        check.refuse("gauges", file.len(), format!("at most {MOST_GAUGES} gauges"), "remove some gauges");
         return Vec::new();
     }
     validate_names(file, check);
@@ -117,12 +117,12 @@ pub(super) fn validate(
             }
         };
         let in_domain = at[0] >= domain.x[0] && at[0] <= domain.x[1];
-        gauges.push(Gauge { name: name(gauge).to_owned(), quantity, at, motion, in_domain });
+        gauges.push(Gauge { name: gauge_name(gauge).to_owned(), quantity, at, motion, in_domain });
     }
     gauges
 }
 
-fn name(gauge: &GaugeFile) -> &str {
+fn gauge_name(gauge: &GaugeFile) -> &str {
     match gauge {
         GaugeFile::Elevation(elevation) => &elevation.name,
         GaugeFile::Pressure(point) | GaugeFile::Velocity(point) => &point.name,
@@ -131,45 +131,45 @@ fn name(gauge: &GaugeFile) -> &str {
 
 fn validate_names(file: &[GaugeFile], check: &mut Checker) {
     for (index, gauge) in file.iter().enumerate() {
-        let name = name(gauge);
+        let name = gauge_name(gauge);
         let path = format!("gauges[{index}].name");
-        let safe = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
-        if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(safe) {
+        let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
+        if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(is_allowed) {
             check.refuse(
                 &path,
                 format!("{name:?}"),
-                format!("1 to {LONGEST_NAME} of the letters A-Z a-z 0-9 _ -"),
-                "the name becomes part of a file's name, e.g. \"WG1\"",
+                format!("1 to {LONGEST_NAME} of the characters A-Z a-z 0-9 _ -"),
+                "the name becomes part of a file name, e.g. \"WG1\"",
             );
         }
-        // File names of some systems do not distinguish capitals.
-        if file[..index].iter().any(|other| self::name(other).eq_ignore_ascii_case(name)) {
+        // Some file systems do not distinguish capital letters.
+        if file[..index].iter().any(|other| self::gauge_name(other).eq_ignore_ascii_case(name)) {
             check.refuse(&path, format!("{name:?}"), "different from the names before it", "rename one of the two");
         }
     }
 }
 
-/// Where gauges can stand across the flume [m]: in two dimensions it is all the same.
-fn across(domain: &Domain) -> [f64; 2] {
+/// Returns the range of y for gauges [m]; in two dimensions any y is allowed.
+fn y_range(domain: &Domain) -> [f64; 2] {
     let everywhere = [f64::MIN, f64::MAX];
     if domain.sides == Sides::TwoDimensional { everywhere } else { [0.0, domain.width] }
 }
 
 fn validate_elevation(path: &str, x: f64, y: f64, flume: &Flume, domain: &Domain, reach: Reach, check: &mut Checker) {
-    let (ends, place) = match reach {
+    let (ends, range) = match reach {
         Reach::Flume => (flume.ends(), "the flume"),
         Reach::DomainWithoutWave => (domain.x, "the domain (there is no wave)"),
-        Reach::DomainWithPaddle => (domain.x, "the domain (the wave is made there)"),
+        Reach::DomainWithPaddle => (domain.x, "the domain (the wave is generated there)"),
     };
-    within(&format!("{path}.x_m"), x, ends, place, check);
-    within(&format!("{path}.y_m"), y, across(domain), "the domain's width", check);
+    check_inside(&format!("{path}.x_m"), x, ends, range, check);
+    check_inside(&format!("{path}.y_m"), y, y_range(domain), "the domain's width", check);
 }
 
 fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain, check: &mut Checker) {
     let [x, y, z] = point.at_m;
-    within(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
-    within(&format!("{path}.at_m[1]"), y, across(domain), "the domain's width", check);
-    within(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the water's height", check);
+    check_inside(&format!("{path}.at_m[0]"), x, domain.x, "the domain", check);
+    check_inside(&format!("{path}.at_m[1]"), y, y_range(domain), "the domain's width", check);
+    check_inside(&format!("{path}.at_m[2]"), z, [flume.profile.z(x), domain.top_z], "the walls' height", check);
     if let Some(obstacle) = domain.obstacles.iter().position(|obstacle| obstacle.holds(point.at_m.into())) {
         check.refuse(
             &format!("{path}.at_m"),
@@ -181,13 +181,13 @@ fn validate_point(path: &str, point: &PointFile, flume: &Flume, domain: &Domain,
 }
 
 fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Checker) -> Motion {
-    let rises = point.way.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-    let finite = point.way.iter().flatten().all(|value| value.is_finite());
-    if !(rises && finite) {
+    let is_increasing = point.way.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+    let is_finite = point.way.iter().flatten().all(|value| value.is_finite());
+    if !(is_increasing && is_finite) {
         check.refuse(
             &format!("{path}.way"),
-            format!("{} points", point.way.len()),
-            "points [t, x, y, z] of finite numbers with rising times",
+            format!("{} rows", point.way.len()),
+            "rows [t, x, y, z] of finite numbers with increasing times",
             "write times from the start of the particles [s] and displacements [m]",
         );
     }
@@ -198,10 +198,10 @@ fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Chec
             if unit == 0 || unit as usize > units {
                 let allowed =
                     if units == 0 { "left out: there are no units".to_owned() } else { format!("1 to {units}") };
-                check.refuse(&format!("{path}.on_unit"), unit, allowed, "units are counted from 1, as in the tables");
+                check.refuse(&format!("{path}.on_unit"), unit, allowed, "units are numbered from 1, as in the tables");
             }
             if !point.way.is_empty() {
-                let advice = "a gauge moves with a unit or along a way of its own";
+                let advice = "a gauge moves either with a unit or along a path";
                 check.refuse(&format!("{path}.way"), "given", "left out with `on_unit`", advice);
             }
             Motion::OnUnit((unit as usize).saturating_sub(1))
@@ -209,8 +209,8 @@ fn validate_motion(path: &str, point: &PointFile, units: usize, check: &mut Chec
     }
 }
 
-fn within(path: &str, value: f64, [low, high]: [f64; 2], place: &str, check: &mut Checker) {
+fn check_inside(path: &str, value: f64, [low, high]: [f64; 2], range: &str, check: &mut Checker) {
     if !(value >= low && value <= high) {
-        check.refuse(path, show(value), format!("inside {place}, {} to {} m", show(low), show(high)), "move the gauge");
+        check.refuse(path, show(value), format!("inside {range}, {} to {} m", show(low), show(high)), "move the gauge");
     }
 }

@@ -1,4 +1,4 @@
-//! A wave from another program, read and validated.
+//! A validated wave from another program.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,20 +16,20 @@ use crate::waves::external::{
 };
 use crate::waves::velx::Velx;
 
-/// The file with the rows' velocities in the folder of a run.
+/// Name of the file with the velocities of the wavemaker's rows in a run folder.
 pub const ROWS_FILE: &str = "wave_velx.csv";
 
 /// Velocities of the wavemaker's rows from another program; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenWave {
-    /// Velocities at the levels of the rows.
+    /// Velocities at the levels of the wavemaker's rows.
     pub rows: Arc<Velx>,
-    /// Speed at which the wave travels [m/s], if the rows are to move as water that leaves their place.
+    /// Celerity of the wave [m/s], if the rows follow the moving water.
     pub celerity: Option<f64>,
 }
 
 impl GivenWave {
-    /// The velocities as a `_velx` file.
+    /// Returns the velocities as the text of a `_velx` file.
     pub fn rows_text(&self) -> Vec<u8> {
         let mut text = Vec::new();
         // Writing to memory cannot fail.
@@ -37,13 +37,14 @@ impl GivenWave {
         text
     }
 
-    /// First and last time [s].
+    /// Returns the first and the last time [s].
     pub fn times(&self) -> [f64; 2] {
         [self.rows.times_s[0], self.rows.times_s[self.rows.times_s.len() - 1]]
     }
 }
 
-/// Read the files, seen from the folder of the case file `case_name`, and validate them for the place of the wavemaker.
+/// Reads the files, relative to the folder of the case file `case_name`, and validates them at the wavemaker's
+/// position.
 pub(super) fn validate(
     file: &GivenWaveFile,
     case_name: &str,
@@ -53,8 +54,7 @@ pub(super) fn validate(
     check: &mut Checker,
 ) -> Option<GivenWave> {
     if let Some(celerity) = file.celerity_m_s {
-        // No wave is faster than a solitary one at its breaking height, sqrt(1.8 g d); twice that leaves room for
-        // currents.
+        // The fastest wave is a solitary wave at breaking, sqrt(1.8 g d); the factor 2 allows for currents.
         let fastest = 2.0 * (1.8 * gravity * flume.still_depth(domain.x[0])).sqrt();
         let advice = "a long wave travels at sqrt(g (d + H))";
         check.number("wave.celerity_m_s", celerity, above(0.0).up_to(fastest), "m/s", advice);
@@ -66,7 +66,7 @@ pub(super) fn validate(
         gravity_m_s2: gravity,
         layers: Layers::AtLeastTwo,
     };
-    // Dry land and gravity that pulls the wrong way are refused where they are written.
+    // Other checks refuse dry ground and wrong gravity.
     if place.depth_m() <= 0.0 || gravity.is_nan() || gravity <= 0.0 {
         return None;
     }
@@ -80,7 +80,7 @@ pub(super) fn validate(
             check.refuse(
                 "wave.source",
                 "the files",
-                "the velocity of a wave at the wavemaker's place",
+                "files with the velocity of the wave at the wavemaker",
                 error.to_string(),
             );
             None
@@ -117,8 +117,8 @@ fn read_openfoam(file: &OpenfoamFile, base: &Path, place: &Place) -> Read {
 }
 
 fn read_swash(file: &SwashFile, base: &Path, place: &Place, check: &mut Checker) -> Option<Read> {
-    let level = columns("wave.source.level", &file.level, check);
-    let velocity = columns("wave.source.velocity", &file.velocity, check);
+    let level = parse_columns("wave.source.level", &file.level, check);
+    let velocity = parse_columns("wave.source.velocity", &file.velocity, check);
     let (level, velocity) = (level?, velocity?);
     let [level_path, velocity_path] = [&file.level, &file.velocity].map(|table| base.join(&table.path));
     let tables = Tables {
@@ -129,8 +129,8 @@ fn read_swash(file: &SwashFile, base: &Path, place: &Place, check: &mut Checker)
     Some(swash::read(&tables, place))
 }
 
-/// The columns of a table as they are called in the case file.
-fn columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Option<Vec<Column>> {
+/// Returns the columns of a table that the case file names.
+fn parse_columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Option<Vec<Column>> {
     let mut columns = Vec::with_capacity(table.columns.len());
     for (index, name) in table.columns.iter().enumerate() {
         let layer = name.strip_prefix("velk").and_then(|layer| layer.parse().ok()).filter(|&layer: &usize| layer > 0);
@@ -145,7 +145,7 @@ fn columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Option<Ve
                     &format!("{path}.columns[{index}]"),
                     format!("{name:?}"),
                     "\"tsec\", \"watl\", \"velk1\", \"velk2\" and so on, \"velx\" or \"-\"",
-                    "name the columns in their order; \"-\" is one that is not needed",
+                    "list the columns in order; write \"-\" for a column that is not needed",
                 );
                 return None;
             }
@@ -154,7 +154,7 @@ fn columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Option<Ve
     Some(columns)
 }
 
-/// What a user is told about a wave whose files end too early.
+/// Refuses a start of the particles outside the times of the files.
 pub(super) fn refuse_late_start(wave: &GivenWave, start: f64, check: &mut Checker) {
     let [first, last] = wave.times();
     if !(first..last).contains(&start) {
@@ -162,7 +162,7 @@ pub(super) fn refuse_late_start(wave: &GivenWave, start: f64, check: &mut Checke
             "domain.start_s",
             show(start),
             format!("within the times of the files, {} to {} s", show(first), show(last)),
-            "it is a time of the other program",
+            "write a time of the other program",
         );
     }
 }

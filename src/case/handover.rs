@@ -1,4 +1,4 @@
-//! The hand-over of impacts to the fracture of units, validated.
+//! Validates the breakage analysis: which impacts are re-run at prototype scale, and how.
 
 use std::path::Path;
 
@@ -11,66 +11,66 @@ use crate::case::file::Joints;
 use crate::femdem::mesh;
 use crate::femdem::mesh::UnitMesh;
 
-/// Impacts computed at the same time, at most.
+/// Largest number of impacts computed at the same time.
 const MOST_CORES: usize = 1024;
 
-/// How impacts of a run are handed over; SI units.
+/// Settings of the breakage analysis; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Handover {
-    /// Lengths of the prototype over those of the case [-].
+    /// Prototype length over case length [-].
     pub scale: f64,
-    /// Mesh of a unit, in the size of the case.
+    /// Mesh of one unit, at the size of the case.
     pub mesh: UnitMesh,
-    /// Content of its file.
+    /// Content of the mesh file.
     pub mesh_file: Vec<u8>,
     /// Concrete of the prototype.
     pub material: HandoverMaterialFile,
-    /// What bed and mound are made of, if not of that.
+    /// Material of bed and mound; `None` for the concrete of the units.
     pub base: Option<BaseFile>,
-    /// Coulomb's coefficient [-].
+    /// Friction coefficient [-].
     pub friction: f64,
-    /// How an impact is computed again.
+    /// How an impact is re-run.
     pub way: HandoverWay,
-    /// Which impacts are.
+    /// Which impacts are re-run.
     pub select: Selection,
-    /// How tetrahedra hold together before they crack.
+    /// How tetrahedra are joined before they crack.
     pub joints: Joints,
-    /// Time after the blow in the prototype [s], if the case gives it.
+    /// Time that is simulated after first contact, in the prototype [s]; `None` for the default.
     pub duration: Option<f64>,
-    /// Impacts computed at the same time, if the case says so.
+    /// Number of impacts computed at the same time; `None` for the default.
     pub cores: Option<usize>,
 }
 
-/// Which impacts are handed over.
+/// Which impacts are re-run at prototype scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Selection {
-    /// What makes an impact hard.
+    /// Quantity by which impacts are ranked.
     pub by: Hardness,
-    /// So many at most.
+    /// Largest number of impacts; `None` for all.
     pub worst: Option<usize>,
-    /// Only those with at least this [N, m/s or J].
+    /// Smallest value of the quantity [N, m/s or J].
     pub at_least: f64,
 }
 
 impl Handover {
-    /// Name of the mesh in a run's folder.
+    /// Name of the mesh file in the run folder.
     pub const MESH: &str = "unit_mesh.msh";
 
-    /// The entry of a case that a run keeps.
+    /// Returns the entry for the case file that is saved with the run.
     pub(super) fn entry(file: &HandoverFile) -> HandoverFile {
         HandoverFile { mesh: Self::MESH.to_owned(), ..file.clone() }
     }
 
-    /// E G_f / f_t^2 and E G_fII / c^2 [m].
+    /// Returns the characteristic lengths E G_f / f_t^2 and E G_fII / c^2 [m].
     pub fn characteristic_lengths(&self) -> [f64; 2] {
         self.material.strength.of_material().characteristic_lengths(self.material.young_modulus_pa)
     }
 }
 
-/// Validate the entry; `name` is that of the case file, whose folder the mesh is seen from.
+/// Validates the entry. `name` is the case file; the mesh path is relative to its folder.
 pub(super) fn validate(file: &HandoverFile, shape: &UnitShape, name: &str, check: &mut Checker) -> Option<Handover> {
     let before = check.count();
-    let advice = "50 for a model of 1:50, 1 for units as they are";
+    let advice = "50 for a 1:50 model, 1 for units at prototype scale";
     check.number("fracture.scale", file.scale, from(1e-2).up_to(1e3), "", advice);
     check.number("fracture.friction", file.friction, from(0.0).up_to(10.0), "", "rough concrete has 0.6");
     validate_concrete("fracture.material", &file.material, check);
@@ -81,16 +81,16 @@ pub(super) fn validate(file: &HandoverFile, shape: &UnitShape, name: &str, check
         check.number(&path("poisson_ratio"), base.poisson_ratio, from(0.0).up_to(0.45), "", "rock has 0.25");
     }
     if let Some(duration) = file.duration_s {
-        check.number("fracture.duration_s", duration, above(0.0).up_to(100.0), "s", "leave it out for a blow or three");
+        check.number("fracture.duration_s", duration, above(0.0).up_to(100.0), "s", "leave it out for the default");
     }
     let least = file.select.at_least;
-    check.number("fracture.select.at_least", least, from(0.0).up_to(f64::MAX), "", "0 takes the weakest, too");
+    check.number("fracture.select.at_least", least, from(0.0).up_to(f64::MAX), "", "0 includes the weakest impacts");
     if let Some(cores) = file.cores.filter(|cores| !(1..=MOST_CORES).contains(cores)) {
         let allowed = format!("between 1 and {MOST_CORES}");
-        check.refuse("fracture.cores", cores, allowed, "leave it out for as many as there are threads");
+        check.refuse("fracture.cores", cores, allowed, "leave it out for one impact per thread");
     }
     if file.select.worst == Some(0) {
-        check.refuse("fracture.select.worst", 0, "at least 1", "leave `fracture` out to hand nothing over");
+        check.refuse("fracture.select.worst", 0, "at least 1", "leave out `fracture` to skip the analysis");
     }
     let (mesh_file, mesh) = read_mesh(file, shape, name, check)?;
     if check.count() > before {
@@ -123,14 +123,14 @@ fn read_mesh(file: &HandoverFile, shape: &UnitShape, name: &str, check: &mut Che
     let bytes = match std::fs::read(&path) {
         Ok(bytes) => bytes,
         Err(error) => {
-            let advice = "paths are seen from the case file; tools/mesh/make.py makes meshes of the catalogue units";
+            let advice = "paths are relative to the case file; tools/mesh/make.py makes meshes of the catalogue units";
             return refuse(format!("a file that can be read ({error})"), advice);
         }
     };
     let prepared = match mesh::parse(&bytes, &path, 1.0) {
         Ok(prepared) => prepared,
         Err(error) => {
-            return refuse(format!("a mesh that can be computed with ({error})"), "docs/cases.md has the rules");
+            return refuse(format!("a valid mesh ({error})"), "docs/cases.md lists the requirements for a mesh");
         }
     };
     match UnitMesh::fit(prepared, shape.unit()) {
@@ -141,14 +141,14 @@ fn read_mesh(file: &HandoverFile, shape: &UnitShape, name: &str, check: &mut Che
     }
 }
 
-/// A crack is trusted where elements are no larger than a quarter of the characteristic length.
+/// Warns of elements larger than a quarter of the characteristic length: these do not resolve cracks.
 fn warn_of_coarse_mesh(handover: &Handover, check: &mut Checker) {
     let [opening, _] = handover.characteristic_lengths();
     let edge = handover.mesh.edge() * handover.scale;
     if edge > 0.25 * opening {
         check.warn(format!(
-            "fracture.mesh: edges of {} m at the prototype's size; cracks are resolved by up to {} m, a quarter of \
-             E G_f / f_t^2: whether units crack is told, not how cracks run",
+            "fracture.mesh: mean edge length {} m at prototype scale; only edges of up to {} m, a quarter of \
+             E G_f / f_t^2, resolve cracks: the results show whether units crack, but not how cracks run",
             show((edge * 1e3).round() * 1e-3),
             show((250.0 * opening).round() * 1e-3)
         ));

@@ -1,16 +1,16 @@
-//! Fingerprint of a case: the same for the same case, however the file is laid out.
+//! Fingerprint of a case, independent of the layout of its file.
 
 use serde::Serialize;
 
-/// 32 hexadecimal digits: FNV-1a (128 bits) of the case with every default written out, and of what it reads from other
-/// files. White space and the order of the keys do not matter; `file` comes without its `$schema`.
+/// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with all defaults, and of `read`, the content of its
+/// other files. White space and key order do not matter. `file` must not contain its `$schema`.
 pub(super) fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
-    // The structs fix the order of the keys; writing them to memory cannot fail: every key is a string.
+    // The structs fix the order of the keys. Serializing to a string cannot fail: every key is a string.
     let canonical = serde_json::to_string(file).unwrap_or_default();
     format!("{:032x}", fnv1a_128(canonical.as_bytes().iter().chain(read)))
 }
 
-/// FNV-1a with 128 bits (Fowler, Noll, Vo; draft-eastlake-fnv).
+/// Computes FNV-1a with 128 bits (Fowler, Noll, Vo; draft-eastlake-fnv).
 fn fnv1a_128<'a>(bytes: impl IntoIterator<Item = &'a u8>) -> u128 {
     const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fnv_matches_its_published_vectors() {
+    fn fnv_1a_matches_published_test_vectors() {
         assert_eq!(fnv1a_128(b""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
         assert_eq!(fnv1a_128(b"a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
     }

@@ -1,15 +1,15 @@
-//! Materials and their friction, validated.
+//! Validates materials and their friction.
 
 use super::check::{Checker, above, from, show};
 use super::error::nearest;
 use super::file::{FrictionFile, MaterialFile};
 
-const RESTITUTION_ADVICE: &str = "1 loses nothing in a collision, 0.5 half of the speed";
+const RESTITUTION_ADVICE: &str = "1 keeps the speed in a collision, 0.5 halves it";
 
-/// Materials in one case at most.
+/// Largest number of materials in one case.
 const MOST_MATERIALS: usize = 100;
 
-/// Elastic constants of a material in contact; SI units.
+/// Contact properties of a material; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Name in the case file.
@@ -20,26 +20,26 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// Coefficient of restitution [-].
     pub restitution: f64,
-    /// Measured stiffness of a contact between two bodies of the material [N/m].
+    /// Measured contact stiffness of two bodies of this material [N/m].
     pub contact_stiffness: Option<f64>,
 }
 
-/// Friction of two materials, each an index into `Case::materials`.
+/// Friction between two materials, each an index into `Case::materials`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionPair {
     /// The two materials, the smaller index first.
     pub between: [usize; 2],
-    /// Coulomb's coefficient at rest [-].
+    /// Static friction coefficient [-].
     pub coefficient: f64,
-    /// Coulomb's coefficient while sliding [-].
+    /// Kinetic friction coefficient [-].
     pub kinetic: f64,
     /// Coefficient of rolling resistance [-].
     pub rolling: f64,
-    /// Coefficient of restitution [-]; without it, the smaller one of the materials.
+    /// Coefficient of restitution [-]; `None` for the smaller one of the two materials.
     pub restitution: Option<f64>,
 }
 
-/// Validate the materials; the result has one entry for each in the file, also where an error was found.
+/// Validates the materials. The result has one entry per material in the file, even for those with errors.
 pub(super) fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Material> {
     if file.len() > MOST_MATERIALS {
         check.refuse("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "leave out some");
@@ -58,7 +58,7 @@ pub(super) fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> 
             material.young_modulus_pa,
             from(1e5).up_to(1e12),
             "Pa",
-            "concrete has 3e10; about 1e8 is stiff enough in small-scale models and allows a longer step",
+            "concrete has 3e10; about 1e8 is stiff enough in small-scale models and allows a longer time step",
         );
         check.number(&path("poisson_ratio"), material.poisson_ratio, above(-1.0).below(0.5), "", "concrete has 0.2");
         check.number(&path("restitution"), material.restitution, above(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
@@ -77,7 +77,7 @@ pub(super) fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> 
     file.iter().map(validated).collect()
 }
 
-/// Index of the material called `name`.
+/// Returns the index of the material called `name`.
 pub(super) fn find(materials: &[Material], name: &str, path: &str, check: &mut Checker) -> Option<usize> {
     let found = materials.iter().position(|material| material.name == name);
     if found.is_none() {
@@ -98,14 +98,14 @@ fn list(names: &[&str]) -> String {
     format!("one of {}", quoted.join(", "))
 }
 
-/// Validate the table of friction coefficients.
+/// Validates the table of friction coefficients.
 pub(super) fn validate_friction(
     file: &[FrictionFile],
     materials: &[Material],
     check: &mut Checker,
 ) -> Vec<FrictionPair> {
     let mut pairs: Vec<FrictionPair> = Vec::new();
-    // A table of all pairs of the allowed materials is the longest that makes sense.
+    // At most one entry per pair of materials.
     let most = MOST_MATERIALS * (MOST_MATERIALS + 1) / 2;
     if file.len() > most {
         check.refuse("friction", file.len(), format!("at most {most} pairs"), "write each pair once");
@@ -141,11 +141,11 @@ pub(super) fn validate_friction(
     pairs
 }
 
-/// Validate what a pair has besides its friction at rest; returns its friction while sliding.
+/// Validates the other values of a pair; returns its kinetic friction coefficient.
 fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 {
     let path = |key: &str| format!("friction[{index}].{key}");
     let kinetic = file.kinetic_coefficient.unwrap_or(file.coefficient);
-    let advice = "a body that slides is held no better than one at rest";
+    let advice = "kinetic friction must not exceed static friction";
     check.number(&path("kinetic_coefficient"), kinetic, from(0.0).up_to(file.coefficient.max(0.0)), "", advice);
     if let Some(rolling) = file.rolling_coefficient {
         let advice = "the tangent of the slope at which a ball begins to roll";
@@ -157,7 +157,7 @@ fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 
     kinetic
 }
 
-/// Entry of two materials, if the table has it.
+/// Returns the entry of two materials, if the table has it.
 pub(super) fn pair(pairs: &[FrictionPair], a: usize, b: usize) -> Option<&FrictionPair> {
     pairs.iter().find(|pair| pair.between == [a.min(b), a.max(b)])
 }

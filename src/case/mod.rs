@@ -1,7 +1,7 @@
-//! Case files: as written, validated, and what is wrong with them.
+//! Case files: parsing, validation and error messages.
 //!
-//! Text becomes a [`file::CaseFile`] (keys and types), and that becomes a [`Case`] (values that make sense together).
-//! Solvers read the [`Case`] only.
+//! Parsing turns the text into a [`file::CaseFile`] (keys and types). Validation turns that into a [`Case`] (consistent
+//! values). Solvers read only the [`Case`].
 
 mod centres;
 mod check;

@@ -1,4 +1,4 @@
-//! Water and the constants of the SPH scheme, validated.
+//! The validated water and SPH scheme.
 
 use super::check::{Checker, from, show};
 use super::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
@@ -10,26 +10,26 @@ pub struct Fluid {
     pub rho0: f64,
     /// Gravitational acceleration, positive [m/s2].
     pub gravity: f64,
-    /// Polytropic exponent of Tait's equation [-].
+    /// Exponent of Tait's equation of state [-].
     pub gamma: f64,
-    /// Speed of sound c0 = factor sqrt(g d), d the water's depth in the domain [m/s].
+    /// Speed of sound c0 = factor sqrt(g d), with the largest water depth d in the domain [m/s].
     pub sound_speed: f64,
 }
 
-/// Constants of the SPH scheme; SI units.
+/// Options and constants of the SPH scheme; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numerics {
-    /// Smoothing length h = factor sqrt(3) dp [m]; the kernel reaches 2h.
+    /// Smoothing length h = factor sqrt(3) dp [m]; the kernel radius is 2h.
     pub h: f64,
-    /// How the water resists shear.
+    /// Viscosity model.
     pub viscosity: Viscosity,
-    /// Artificial viscosity [-].
+    /// Coefficient of artificial viscosity [-].
     pub alpha: f64,
     /// Kinematic viscosity [m2/s].
     pub nu: f64,
     /// Kind of density diffusion.
     pub density_diffusion: DensityDiffusion,
-    /// Density diffusion [-].
+    /// Coefficient of density diffusion [-].
     pub delta: f64,
     /// Coefficient of particle shifting [-], 0 for none.
     pub shifting: f64,
@@ -37,19 +37,19 @@ pub struct Numerics {
     pub cfl: f64,
     /// Boundary condition of walls, wavemaker and units.
     pub boundary: Boundary,
-    /// Velocity that boundary particles show to the water.
+    /// Velocity condition at walls.
     pub wall_slip: WallSlip,
-    /// Whether water slides along units too, where it slides along walls.
+    /// Whether free slip holds for units, too.
     pub slip_on_units: bool,
-    /// Whether bed, walls and other units press on units through gaps that hold no water particle.
+    /// Whether the water pressure acts on units through gaps without water particles.
     pub gap_pressure: bool,
-    /// Layers of particles in walls and bed.
+    /// Number of particle layers in walls and bed.
     pub boundary_layers: usize,
     /// Time for which the units are held at the start [s].
     pub hold_units: f64,
 }
 
-/// Validate the water's constants; the speed of sound follows from the depth, see [`Fluid`].
+/// Validates the constants of the water; `depth` [m] gives the speed of sound.
 pub(super) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
     let before = check.count();
     check.number(
@@ -64,14 +64,14 @@ pub(super) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut C
         file.gravity_m_s2,
         from(0.01).up_to(1000.0),
         "m/s2",
-        "write it positive, 9.81 on earth; it acts downwards",
+        "write a positive number, 9.81 on earth; gravity acts downwards",
     );
     check.number(
         "fluid.sound_speed_factor",
         file.sound_speed_factor,
         from(5.0).up_to(200.0),
         "",
-        "10 to 20 keeps the density within about 1 %; a larger one shortens the time step",
+        "10 to 20 keeps density changes below about 1 %; larger values shorten the time step",
     );
     check.number("fluid.tait_exponent", file.tait_exponent, from(1.0).up_to(10.0), "", "water has 7");
     if check.count() > before {
@@ -81,8 +81,8 @@ pub(super) fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut C
     Some(Fluid { rho0: file.density_kg_m3, gravity: file.gravity_m_s2, gamma: file.tait_exponent, sound_speed })
 }
 
-/// Validate the constants of the scheme; `dp` is the particle distance [m], `longest_hold` the time for which
-/// units can be held in this run [s].
+/// Validates the scheme; `dp` is the particle spacing [m], `longest_hold` the longest time for which this run can hold
+/// the units [s].
 pub(super) fn validate_numerics(
     file: &NumericsFile,
     dp: f64,
@@ -114,27 +114,27 @@ pub(super) fn validate_numerics(
     );
     let wall_slip = validate_slip(file, check);
     check.number("numerics.diffusion_delta", file.diffusion_delta, from(0.0).up_to(1.0), "", "0.1 is usual");
-    check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; a larger one is unstable");
+    check.number("numerics.cfl", file.cfl, from(0.001).up_to(0.5), "", "0.2 is usual; larger values are unstable");
     refuse_unstable_diffusion(file, check);
-    warn_of_what_has_no_effect(file, check);
+    warn_of_ignored_constants(file, check);
     if !(1..=10).contains(&file.boundary_layers) {
-        check.refuse("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 cover the kernel's reach");
+        check.refuse("numerics.boundary_layers", file.boundary_layers, "1 to 10", "3 layers cover the kernel radius");
     }
     check.number(
         "numerics.hold_units_s",
         file.hold_units_s,
         from(0.0).up_to(longest_hold),
         "s",
-        "hold the units for a part of the run only, e.g. 0.2",
+        "hold the units only at the start of the run, e.g. 0.2",
     );
     if check.count() > before {
         return None;
     }
     let h = file.smoothing_factor * 3f64.sqrt() * dp;
-    // The outer three tenths of the kernel's reach carry a few per cent of its sum.
+    // The outer 30 % of the kernel radius contribute only a few per cent of the kernel's integral.
     if f64::from(file.boundary_layers) * dp < 0.7 * 2.0 * h {
         check.warn(format!(
-            "numerics.boundary_layers = {}: thinner than the kernel's reach, 2h = {:.3} m",
+            "numerics.boundary_layers = {}: the layers are thinner than the kernel radius, 2h = {:.3} m",
             file.boundary_layers,
             2.0 * h
         ));
@@ -157,62 +157,62 @@ pub(super) fn validate_numerics(
     })
 }
 
-/// What walls show to the water: free slip if nothing is written. The layer at a wall that the viscosity of the scheme
-/// slows down is many times thicker than that of real water, and long waves lose height and speed to it.
+/// Returns the velocity condition at walls. The default with mDBC is free slip: the viscosity of the scheme makes a
+/// boundary layer much thicker than in real water, which takes height and speed from long waves.
 fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     match (file.boundary, file.wall_slip) {
         (Boundary::Mdbc, slip) => slip.unwrap_or(WallSlip::FreeSlip),
         (Boundary::Dbc, None | Some(WallSlip::Original)) => WallSlip::Original,
         (Boundary::Dbc, Some(slip)) => {
             let slip = if slip == WallSlip::NoSlip { "no_slip" } else { "free_slip" };
-            let mend = "set numerics.boundary to \"mdbc\"";
-            check.refuse("numerics.wall_slip", slip, "\"original\" with \"dbc\"", mend);
+            let advice = "set numerics.boundary to \"mdbc\"";
+            check.refuse("numerics.wall_slip", slip, "\"original\" with \"dbc\"", advice);
             WallSlip::Original
         }
     }
 }
 
-/// Density diffusion takes the shortest wave of the particles down at the rate 2 delta h c0 sum_b V_b |G_ab|, at most
-/// 7 delta c0 / h, for the kernel's |G| integrates to 7 / (2 h^2). The step multiplies what decays at a rate lambda by
-/// 1 - z + z^2 / 2 with z = lambda dt: it grows if z > 2, where dt = cfl h / c0.
+/// Refuses unstable density diffusion. The shortest wave of the particles decays at the rate lambda = 2 delta h c0
+/// sum_b V_b |G_ab|, at most 7 delta c0 / h, because the kernel's |G| integrates to 7 / (2 h^2). One time step,
+/// dt = cfl h / c0, multiplies it by 1 - z + z^2 / 2 with z = lambda dt, which is unstable if z > 2.
 fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
-    let most = 2.0 / (7.0 * file.cfl);
-    if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > most {
+    let limit = 2.0 / (7.0 * file.cfl);
+    if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > limit {
         check.refuse(
             "numerics.diffusion_delta",
             file.diffusion_delta,
-            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", show(most), file.cfl),
-            "more is unstable in time; 0.1 is usual",
+            format!("at most 2 / (7 cfl) = {} with numerics.cfl = {}", show(limit), file.cfl),
+            "larger values are unstable; 0.1 is usual",
         );
     }
 }
 
-/// Constants that were changed and that the chosen scheme does not read.
-fn warn_of_what_has_no_effect(file: &NumericsFile, check: &mut Checker) {
-    let usual = NumericsFile::default();
+/// Warns of constants that differ from their defaults but that the chosen scheme ignores.
+fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
+    let defaults = NumericsFile::default();
     let artificial = file.viscosity == Viscosity::Artificial;
-    let slides = file.boundary == Boundary::Mdbc && matches!(file.wall_slip, None | Some(WallSlip::FreeSlip));
+    let has_free_slip = file.boundary == Boundary::Mdbc && matches!(file.wall_slip, None | Some(WallSlip::FreeSlip));
     let no_diffusion = file.density_diffusion == DensityDiffusion::None;
-    let unread = [
-        (!artificial && file.viscosity_alpha != usual.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
+    let ignored = [
+        (!artificial && file.viscosity_alpha != defaults.viscosity_alpha, "viscosity_alpha", "viscosity is laminar"),
         (
-            artificial && file.kinematic_viscosity_m2_s != usual.kinematic_viscosity_m2_s,
+            artificial && file.kinematic_viscosity_m2_s != defaults.kinematic_viscosity_m2_s,
             "kinematic_viscosity_m2_s",
             "viscosity is artificial",
         ),
         (
-            no_diffusion && file.diffusion_delta != usual.diffusion_delta && file.diffusion_delta != 0.0,
+            no_diffusion && file.diffusion_delta != defaults.diffusion_delta && file.diffusion_delta != 0.0,
             "diffusion_delta",
             "density_diffusion is none",
         ),
         (!file.gap_pressure && file.boundary == Boundary::Dbc, "gap_pressure", "boundary is dbc"),
-        (file.slip_on_units && !slides, "slip_on_units", "wall_slip is not free_slip"),
+        (file.slip_on_units && !has_free_slip, "slip_on_units", "wall_slip is not free_slip"),
     ];
-    for (_, key, reason) in unread.iter().filter(|(unread, ..)| *unread) {
+    for (_, key, reason) in ignored.iter().filter(|(is_ignored, ..)| *is_ignored) {
         check.warn(format!("numerics.{key} has no effect: numerics.{reason}"));
     }
     if file.viscosity == Viscosity::Laminar && file.kinematic_viscosity_m2_s == 0.0 {
-        check.warn("numerics.kinematic_viscosity_m2_s = 0: nothing damps the water; it has 1e-6 m2/s");
+        check.warn("numerics.kinematic_viscosity_m2_s = 0: the water has no viscosity; real water has 1e-6 m2/s");
     }
 }
 
@@ -220,7 +220,7 @@ fn warn_of_what_has_no_effect(file: &NumericsFile, check: &mut Checker) {
 mod tests {
     use super::*;
 
-    /// Warnings of a section, and whether it was accepted.
+    /// Validates the changed defaults. Returns whether they are accepted, and the warnings.
     fn warnings(change: impl FnOnce(&mut NumericsFile)) -> (bool, Vec<String>) {
         let mut file = NumericsFile::default();
         change(&mut file);
@@ -230,39 +230,39 @@ mod tests {
     }
 
     #[test]
-    fn constants_without_effect_are_named() {
+    fn ignored_constants_give_a_warning() {
         assert_eq!(warnings(|_| ()), (true, vec![]));
-        let (accepted, of_nu) = warnings(|file| file.kinematic_viscosity_m2_s = 1e-3);
-        assert!(accepted && of_nu[0].starts_with("numerics.kinematic_viscosity_m2_s has no effect"), "{of_nu:?}");
-        let (accepted, of_alpha) = warnings(|file| {
+        let (accepted, found) = warnings(|file| file.kinematic_viscosity_m2_s = 1e-3);
+        assert!(accepted && found[0].starts_with("numerics.kinematic_viscosity_m2_s has no effect"), "{found:?}");
+        let (accepted, found) = warnings(|file| {
             file.viscosity = Viscosity::LaminarSps;
             file.viscosity_alpha = 0.1;
         });
-        assert!(accepted && of_alpha[0].starts_with("numerics.viscosity_alpha has no effect"), "{of_alpha:?}");
-        let (accepted, of_delta) = warnings(|file| {
+        assert!(accepted && found[0].starts_with("numerics.viscosity_alpha has no effect"), "{found:?}");
+        let (accepted, found) = warnings(|file| {
             file.density_diffusion = DensityDiffusion::None;
             file.diffusion_delta = 0.2;
         });
-        assert!(accepted && of_delta[0].starts_with("numerics.diffusion_delta has no effect"), "{of_delta:?}");
-        let (accepted, of_slip) =
+        assert!(accepted && found[0].starts_with("numerics.diffusion_delta has no effect"), "{found:?}");
+        let (accepted, found) =
             warnings(|file| (file.slip_on_units, file.wall_slip) = (true, Some(WallSlip::Original)));
-        assert!(accepted && of_slip[0].starts_with("numerics.slip_on_units has no effect"), "{of_slip:?}");
+        assert!(accepted && found[0].starts_with("numerics.slip_on_units has no effect"), "{found:?}");
         assert_eq!(warnings(|file| file.slip_on_units = true), (true, vec![]));
-        let (accepted, inviscid) = warnings(|file| {
+        let (accepted, found) = warnings(|file| {
             file.viscosity = Viscosity::Laminar;
             file.kinematic_viscosity_m2_s = 0.0;
         });
-        assert!(accepted && inviscid[0].contains("nothing damps the water"), "{inviscid:?}");
+        assert!(accepted && found[0].contains("the water has no viscosity"), "{found:?}");
     }
 
     #[test]
-    fn diffusion_may_be_as_fast_as_the_step_allows() {
+    fn diffusion_is_limited_by_the_time_step() {
         assert!(warnings(|file| (file.diffusion_delta, file.cfl) = (0.57, 0.5)).0);
         assert!(!warnings(|file| (file.diffusion_delta, file.cfl) = (0.58, 0.5)).0);
-        let without = |file: &mut NumericsFile| {
+        let no_diffusion = |file: &mut NumericsFile| {
             file.density_diffusion = DensityDiffusion::None;
             (file.diffusion_delta, file.cfl) = (0.58, 0.5);
         };
-        assert!(warnings(without).0);
+        assert!(warnings(no_diffusion).0);
     }
 }

@@ -1,4 +1,4 @@
-//! Fixed obstacles in the particle domain, validated.
+//! Validates fixed obstacles in the particle domain.
 
 use glam::DVec3;
 
@@ -7,23 +7,22 @@ use super::file::{BoxFile, DomainFile, Sides};
 use super::flume::Flume;
 use crate::geometry::axis_box::AxisBox;
 
-/// Obstacles in one case at most.
+/// Largest number of obstacles in one case.
 const MOST_OBSTACLES: usize = 1000;
 
-/// Thinnest obstacle, in particle distances: with less, the water on one side sees the other side's.
+/// Smallest thickness of an obstacle over dp [-]; through a thinner one, particles on both sides interact.
 const THINNEST: f64 = 3.0;
 
-/// Narrowest gap that water is let into, in particle distances.
+/// Narrowest gap that water can enter, over dp [-].
 const NARROWEST: f64 = 2.0;
 
-/// A length below which two faces are one, in particle distances.
+/// Faces closer than this coincide, over dp [-].
 const FLUSH: f64 = 1e-6;
 
 /// Names of the axes in messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Validate the obstacles; those that stand on the ground or against a wall have no open face there.
-/// `width` [m] is that of the domain.
+/// Validates the obstacles. A face on the ground or against a wall is not open. `width` is the domain width [m].
 pub(super) fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
     if file.obstacles.len() > MOST_OBSTACLES {
         check.refuse(
@@ -44,7 +43,7 @@ pub(super) fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut
                 &path,
                 corners(&obstacle),
                 format!("at least {} m from domain.obstacles[{other}]", show(NARROWEST * file.dp_m)),
-                "no water fits between them: write one box for both, or move one",
+                "no water fits between them: merge them into one box, or move one",
             ),
             None => found.push(obstacle),
         }
@@ -72,7 +71,7 @@ fn validate_one(
     }
     let (mut low, mut high) = (DVec3::from_array(file.low_m), DVec3::from_array(file.high_m));
     if planar {
-        // In two dimensions it goes through the layer, wherever it lies across the flume.
+        // In two dimensions an obstacle crosses the whole layer, whatever its y.
         (low.y, high.y) = (0.0, width);
     }
     let open_ends = [domain.x_m, [0.0, width]];
@@ -87,7 +86,7 @@ fn validate_one(
             path,
             corners(&AxisBox::free(low, high)),
             "across the whole width, or clear of both periodic sides",
-            "what touches one side goes on behind the other: write it in the middle of the width",
+            "an obstacle at one periodic side continues at the other: move it to the middle of the width",
         );
     }
     let (lowest, highest) = flume.profile.extremes_between([low.x, high.x]);
@@ -104,7 +103,7 @@ fn validate_one(
         check.refuse(
             &format!("{path}.high_m[2]"),
             show(high.z),
-            format!("at least {THINNEST} particle distances above the ground, {} m", show(highest + THINNEST * dp)),
+            format!("at least {THINNEST} particle spacings above the ground, {} m", show(highest + THINNEST * dp)),
             "raise the obstacle, or write it as part of `flume.bed_m`",
         );
     }
@@ -112,7 +111,7 @@ fn validate_one(
     (check.count() == before).then_some(AxisBox { low, high, open })
 }
 
-/// One axis of an obstacle: numbers, order, thickness, inside the domain.
+/// Checks one axis of an obstacle: finite numbers, order, thickness, position inside the domain.
 fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2], dp: f64, check: &mut Checker) {
     let name = AXES[axis];
     if !(low.is_finite() && high - low >= (THINNEST - FLUSH) * dp) {
@@ -120,10 +119,10 @@ fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2
             &format!("{path}.high_m[{axis}]"),
             show(high),
             format!(
-                "at least {} m, {THINNEST} particle distances above the {name} of `low_m`",
+                "at least {} m, {THINNEST} particle spacings above the {name} of `low_m`",
                 show(low + THINNEST * dp)
             ),
-            "write the lower corner first, and a box that its particles can fill",
+            "write the lower corner as `low_m`, and make the box thick enough",
         );
     } else if low < ends[0] || high > ends[1] {
         let (key, value) = if low < ends[0] { ("low_m", low) } else { ("high_m", high) };
@@ -136,7 +135,7 @@ fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2
     }
 }
 
-/// An obstacle stands against a wall, or leaves room for water.
+/// Checks that an obstacle touches the ends of the domain or leaves room for water.
 fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut Checker) {
     for (gap, key) in gaps.into_iter().zip(["low_m", "high_m"]) {
         if gap > FLUSH * dp && gap < (NARROWEST - FLUSH) * dp {
@@ -150,7 +149,7 @@ fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut C
     }
 }
 
-/// Distance between two obstacles [m].
+/// Computes the distance between two obstacles [m].
 fn gap(a: &AxisBox, b: &AxisBox) -> f64 {
     (a.low - b.high).max(b.low - a.high).max(DVec3::ZERO).length()
 }

@@ -1,30 +1,30 @@
-//! What is written and how often, validated.
+//! The validated output settings.
 
 use super::check::{Checker, above, from, show};
 use super::domain::Domain;
 use super::file::{FluidField, OutputFile};
 
-/// Steps of one output at most: more would fill a disk with files nobody reads.
+/// Largest number of snapshots or rows of one output in a run.
 const MOST_OUTPUTS: f64 = 1e6;
 
-/// The outputs; SI units, `None` where none is written.
+/// Output settings; SI units. `None` means that the output is not written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     /// Interval of the fluid snapshots [s].
     pub fluid_interval: Option<f64>,
-    /// What the fluid snapshots hold besides the places, each once.
+    /// Fields of the fluid snapshots besides the positions, each once.
     pub fluid_fields: Vec<FluidField>,
-    /// Lower and upper corner of the box whose water the fluid snapshots hold [m]; without it, all water.
+    /// Lower and upper corner of the box of the fluid snapshots [m]; `None` for all water.
     pub fluid_box: Option<[[f64; 3]; 2]>,
-    /// Interval of the units' surfaces [s].
+    /// Interval of the unit surfaces [s].
     pub units_interval: Option<f64>,
-    /// Interval of gauges, motion, forces, energy and diagnostics [s].
+    /// Interval of the tables of gauges, motion, forces, energy and diagnostics [s].
     pub series_interval: f64,
-    /// Interval of the checkpoints [s]; without it one is written at the end.
+    /// Interval of the checkpoints [s]; `None` for one at the end.
     pub checkpoint_interval: Option<f64>,
 }
 
-/// Validate the outputs of a run of `duration` [s].
+/// Validates the output settings of a run of `duration` [s].
 pub(super) fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check: &mut Checker) -> Output {
     let mut interval = |key: &str, value: f64| validate_interval(key, value, duration, check);
     let fluid_interval = interval("fluid_interval_s", file.fluid_interval_s);
@@ -45,21 +45,21 @@ pub(super) fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>
     }
 }
 
-/// Validate an interval in a run of `duration` [s]; `None` is none.
+/// Validates an interval in a run of `duration` [s]. Returns `None` for 0 or an error.
 pub(super) fn validate_interval(key: &str, value: f64, duration: f64, check: &mut Checker) -> Option<f64> {
     if value == 0.0 {
         return None;
     }
     let shortest = (duration / MOST_OUTPUTS).max(0.0);
-    let advice = format!("write the time between two outputs, or 0 for none; a run can write {MOST_OUTPUTS:e} at most");
+    let advice = format!("write the time between two outputs, or 0 for none; a run can write at most {MOST_OUTPUTS:e}");
     check.number(&format!("output.{key}"), value, from(shortest).up_to(1e6), "s", &advice).then_some(value)
 }
 
-/// Validate the interval of the tables, which are always written.
+/// Validates the interval of the tables, which are always written.
 pub(super) fn validate_series_interval(value: f64, duration: f64, check: &mut Checker) {
     let shortest = duration / MOST_OUTPUTS;
     let range = if shortest > 0.0 { from(shortest) } else { above(0.0) };
-    let advice = "the tables need an interval, e.g. 0.01";
+    let advice = "write the time between two rows of the tables, e.g. 0.01";
     check.number("output.series_interval_s", value, range.up_to(1e6), "s", advice);
 }
 
@@ -70,23 +70,23 @@ fn validate_fields(fields: &[FluidField], check: &mut Checker) {
                 &format!("output.fluid_fields[{index}]"),
                 format!("{:?}", field.name()),
                 "different from the fields before it",
-                "leave out one of the two",
+                "remove one of the two",
             );
         }
     }
 }
 
-/// A box that holds no water at any time is not meant: it must have a size, and share some of it with the domain.
+/// Validates the box of the fluid snapshots: it must not be empty and must overlap the domain.
 fn validate_box([low, high]: [[f64; 3]; 2], domain: &Domain, check: &mut Checker) {
     let Domain { x, width, bottom_z, top_z, .. } = *domain;
-    let inside = [("x", x), ("y", [0.0, width]), ("z", [bottom_z, top_z])];
-    for (axis, (name, domain)) in inside.into_iter().enumerate() {
+    let ranges = [("x", x), ("y", [0.0, width]), ("z", [bottom_z, top_z])];
+    for (axis, (name, domain)) in ranges.into_iter().enumerate() {
         if high[axis] <= low[axis] {
             let path = format!("output.fluid_box_m[1][{axis}]");
             let advice = "write the lower corner first, then the upper one";
-            check.refuse(&path, show(high[axis]), format!("> {} m, the {name} before it", show(low[axis])), advice);
+            check.refuse(&path, show(high[axis]), format!("> {} m, the lower {name}", show(low[axis])), advice);
         } else if high[axis] <= domain[0] || low[axis] >= domain[1] {
-            let advice = "place the box where the water is, or leave it out to write all water";
+            let advice = "move the box to the water, or remove it to write all water";
             let value = format!("{name} from {} to {}", show(low[axis]), show(high[axis]));
             let allowed = format!("at least partly inside the domain, {} to {} m", show(domain[0]), show(domain[1]));
             check.refuse("output.fluid_box_m", value, allowed, advice);

@@ -1,4 +1,4 @@
-//! How large the files of a run will be, before any particle is made.
+//! Estimated size of the output files, before any particle is created.
 
 use super::estimate::area_under;
 use super::file::FluidField;
@@ -6,74 +6,74 @@ use super::gauges::Quantity;
 use super::validate::Case;
 use crate::output::columns;
 
-/// A number in a table with its comma [bytes]; measured over the tables of a run, 19.0 to 19.6.
+/// Size of a number in a table with its comma [bytes]; measured in the tables of a run: 19.0 to 19.6.
 const BYTES_PER_NUMBER: f64 = 19.0;
-/// Columns of a unit in `units.csv`, of `energy.csv` and of `diagnostics.csv`.
+/// Number of columns per unit in `units.csv`, in `energy.csv` and in `diagnostics.csv`.
 const UNIT_COLUMNS: f64 = columns::UNITS.len() as f64;
 const ENERGY_COLUMNS: f64 = columns::ENERGY.len() as f64;
 const DIAGNOSTICS_COLUMNS: f64 = columns::DIAGNOSTICS.len() as f64;
-/// A point in a snapshot: three f32 [bytes].
+/// Size of a point in a snapshot: three f32 [bytes].
 const BYTES_PER_POINT: f64 = 12.0;
-/// What a cell costs once a file, for all snapshots alike: its offset and one or three corners, i64 [bytes].
+/// Size of a cell, which a file stores once for all snapshots: its offset and one or three corners, i64 [bytes].
 const BYTES_PER_VERTEX: f64 = 16.0;
 const BYTES_PER_TRIANGLE: f64 = 32.0;
-/// What a VTKHDF file reserves for lists that stay short: five of 16384 i64 [bytes].
+/// Space that a VTKHDF file reserves for short lists: five lists of 16384 i64 [bytes].
 const RESERVED: f64 = 5.0 * 16_384.0 * 8.0;
-/// A vertex of a unit's surface with its velocity and number [bytes].
+/// Size of a vertex of a unit surface with its velocity and number [bytes].
 const BYTES_PER_SURFACE_POINT: f64 = 28.0;
-/// A particle of the water in a checkpoint: place, velocity, density, mass, number [bytes]; of the boundary: density.
+/// Size of a particle in a checkpoint [bytes]. Water: position, velocity, density, mass, number; boundary: density.
 const BYTES_PER_WATER_STATE: f64 = 68.0;
 const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
 
-/// Size of the files of a run [bytes], for its whole duration; good to some ten per cent. The list of contacts and the
-/// report, which are small, are left out.
+/// Size of the files of a complete run [bytes], within some ten per cent. It does not contain the list of contacts and
+/// the report, which are small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputSize {
-    /// `fluid.vtkhdf`, with as much water in the box of the snapshots as at the start.
+    /// `fluid.vtkhdf`, if the water in the box of the snapshots stays as at the start.
     pub fluid: f64,
     /// `units.vtkhdf`.
     pub units: f64,
-    /// Tables.
+    /// All tables.
     pub tables: f64,
-    /// `checkpoint.h5`, of which there is one.
+    /// `checkpoint.h5`; a run has one.
     pub checkpoint: f64,
 }
 
 impl OutputSize {
-    /// All files.
+    /// Returns the size of all files.
     pub fn total(&self) -> f64 {
         self.fluid + self.units + self.tables + self.checkpoint
     }
 }
 
 impl Case {
-    /// Size of the files of the run.
+    /// Estimates the size of the files of the run.
     pub fn output_size(&self) -> OutputSize {
         let (estimate, output) = (self.estimate(), &self.output);
-        // One at the start, one at the end.
-        let times = |interval: Option<f64>| interval.map_or(0.0, |dt| (self.stop.duration / dt).floor() + 2.0);
+        // Two more: one at the start, one at the end.
+        let count = |interval: Option<f64>| interval.map_or(0.0, |dt| (self.stop.duration / dt).floor() + 2.0);
         let bytes_per_particle =
             BYTES_PER_POINT + output.fluid_fields.iter().map(|field| field_bytes(*field)).sum::<f64>();
         let particles = estimate.fluid * self.share_in_box();
-        let fluid = |snapshots: f64| RESERVED + particles * (snapshots * bytes_per_particle + BYTES_PER_VERTEX);
+        let fluid_bytes = |snapshots: f64| RESERVED + particles * (snapshots * bytes_per_particle + BYTES_PER_VERTEX);
         OutputSize {
-            fluid: if output.fluid_interval.is_some() { fluid(times(output.fluid_interval)) } else { 0.0 },
-            units: self.surfaces_bytes(times(output.units_interval)),
-            tables: self.table_bytes(times(Some(output.series_interval))),
+            fluid: if output.fluid_interval.is_some() { fluid_bytes(count(output.fluid_interval)) } else { 0.0 },
+            units: self.surfaces_bytes(count(output.units_interval)),
+            tables: self.table_bytes(count(Some(output.series_interval))),
             checkpoint: BYTES_PER_WATER_STATE * estimate.fluid
                 + BYTES_PER_BOUNDARY_STATE * (estimate.boundary + estimate.units),
         }
     }
 
-    /// Share of the water at the start that lies in the box of the fluid snapshots [-].
+    /// Returns the share of the initial water inside the box of the fluid snapshots [-].
     fn share_in_box(&self) -> f64 {
         let Some([low, high]) = self.output.fluid_box else { return 1.0 };
         let (profile, (x, top)) = (&self.flume.profile, self.water_at_start());
         let overlap = |[a0, a1]: [f64; 2], [b0, b1]: [f64; 2]| [a0.max(b0), a1.min(b1).max(a0.max(b0))];
         let [x0, x1] = overlap(x, [low[0], high[0]]);
         let [y0, y1] = overlap([0.0, self.domain.width], [low[1], high[1]]);
-        let below = |level: f64| if x1 > x0 { area_under(profile, [x0, x1], level.min(top)) } else { 0.0 };
-        let (in_box, all) = (below(high[2]) - below(low[2]), area_under(profile, x, top));
+        let area_below = |level: f64| if x1 > x0 { area_under(profile, [x0, x1], level.min(top)) } else { 0.0 };
+        let (in_box, all) = (area_below(high[2]) - area_below(low[2]), area_under(profile, x, top));
         if all > 0.0 { in_box / all * (y1 - y0) / self.domain.width } else { 0.0 }
     }
 
@@ -81,20 +81,20 @@ impl Case {
         let Some(units) = self.units.as_ref().filter(|_| snapshots > 0.0) else { return 0.0 };
         let solid = units.shape.unit().solid();
         let (vertices, triangles) = (solid.vertices().len() as f64, solid.triangles().len() as f64);
-        let once = BYTES_PER_TRIANGLE * triangles;
-        RESERVED + units.placements.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + once)
+        let stored_once = BYTES_PER_TRIANGLE * triangles;
+        RESERVED + units.placements.len() as f64 * (snapshots * BYTES_PER_SURFACE_POINT * vertices + stored_once)
     }
 
     fn table_bytes(&self, rows: f64) -> f64 {
-        let of_gauge = |quantity: Quantity| if quantity == Quantity::Velocity { 3.0 } else { 1.0 };
-        let gauges = self.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| of_gauge(gauge.quantity));
+        let gauge_columns = |quantity: Quantity| if quantity == Quantity::Velocity { 3.0 } else { 1.0 };
+        let gauges = self.gauges.iter().filter(|gauge| gauge.in_domain).map(|gauge| gauge_columns(gauge.quantity));
         let units = self.units.as_ref().map_or(0, |units| units.placements.len()) as f64;
         let columns = 1.0 + gauges.sum::<f64>() + ENERGY_COLUMNS + DIAGNOSTICS_COLUMNS + UNIT_COLUMNS * units;
         BYTES_PER_NUMBER * rows * columns
     }
 }
 
-/// A field in a snapshot, for each particle [bytes].
+/// Returns the size of a field in a snapshot per particle [bytes].
 fn field_bytes(field: FluidField) -> f64 {
     match field {
         FluidField::Velocity => 12.0,
@@ -106,7 +106,7 @@ fn field_bytes(field: FluidField) -> f64 {
 mod tests {
     use super::*;
 
-    /// A tank of 2 m x 0.4 m x 0.5 m with water of 0.25 m, 25 thousand particles, 1 s.
+    /// A tank of 2 m x 0.4 m x 0.5 m with a water depth of 0.25 m: 25,000 particles, 1 s.
     fn case(output: &str) -> Case {
         let text = format!(
             r#"{{ "title": "tank",
@@ -119,10 +119,10 @@ mod tests {
     }
 
     #[test]
-    fn snapshots_cost_their_fields() {
+    fn snapshot_size_is_the_sum_of_its_fields() {
         let particles = case("").estimate().fluid;
         assert_eq!(particles, 25_000.0);
-        // 12 snapshots of 9 numbers of 4 bytes, cells once.
+        // 12 snapshots with 9 numbers of 4 bytes per particle; cells once.
         assert_eq!(case("").output_size().fluid, RESERVED + particles * (12.0 * 36.0 + 16.0));
         let some = case(r#", "fluid_fields": ["velocity"]"#).output_size();
         assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
@@ -132,13 +132,13 @@ mod tests {
     }
 
     #[test]
-    fn a_box_costs_the_water_in_it() {
+    fn box_limits_the_snapshots_to_the_water_inside() {
         let water = |output: &str| case(output).output_size().fluid - RESERVED;
         let share = |corners: &str| water(&format!(r#", "fluid_box_m": {corners}"#)) / water("");
         assert!((share("[[-1, -1, -1], [9, 9, 9]]") - 1.0).abs() < 1e-12);
-        // A quarter of the length, half of the width, the upper 0.1 of 0.25 m.
+        // A quarter of the length, half of the width, the upper 0.1 m of 0.25 m.
         assert!((share("[[0.5, 0.2, 0.15], [1.0, 0.6, 0.5]]") - 0.25 * 0.5 * 0.4).abs() < 1e-12);
-        // Above the water at the start.
+        // Above the initial water.
         assert_eq!(share("[[0.5, 0.2, 0.3], [1.0, 0.6, 0.5]]"), 0.0);
     }
 }

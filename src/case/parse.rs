@@ -1,4 +1,4 @@
-//! Text to the file as written: syntax, keys and types.
+//! Parses a case file: syntax, keys and types.
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::error::{CaseError, nearest};
 use super::file::{BlockFile, DropFile, ElevationFile, FlapFile, PointFile, RegularFile, SolitaryFile, TiltFile};
 
-/// Read a case as written; `name` is the file's name in messages.
+/// Parses the text of a case file; `name` is the file's name in messages.
 pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, CaseError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = serde_json::Deserializer::from_str(text);
@@ -14,24 +14,24 @@ pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, Ca
     match parsed {
         Ok(file) => match reader.end() {
             Ok(()) => Ok(file),
-            Err(error) => Err(syntax(&error, name)),
+            Err(error) => Err(syntax_error(&error, name)),
         },
         Err(error) => {
             let path = error.path().to_string();
             let inner = error.into_inner();
             if !inner.is_data() {
-                return Err(not_json_or_key(text, path, &inner, name));
+                return Err(syntax_or_key_error(text, path, &inner, name));
             }
-            let (path, problem) = refine(text, &path).unwrap_or_else(|| (path, without_place(&inner)));
+            let (path, problem) = locate_inside_kind(text, &path).unwrap_or_else(|| (path, without_position(&inner)));
             Err(key_error(name, path, inner.line(), &problem))
         }
     }
 }
 
-/// Three things that the parser calls syntax errors are a key's: a number beyond the largest float, something else
-/// where a name in quotes must stand, and the surplus entries of a list of fixed length (the text is then JSON to a
-/// reader who expects nothing).
-fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
+/// Returns a key error for three faults that the parser reports as syntax errors: a number beyond the largest float,
+/// another value where a name in quotes is required, and too many entries in a list of fixed length. In the last two
+/// cases the text itself is valid JSON.
+fn syntax_or_key_error(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
     let key = |problem: &str, advice: &str| CaseError::Key {
         file: name.to_owned(),
         path,
@@ -39,36 +39,36 @@ fn not_json_or_key(text: &str, path: String, error: &serde_json::Error, name: &s
         problem: problem.to_owned(),
         advice: advice.to_owned(),
     };
-    if without_place(error) == "number out of range" {
+    if without_position(error) == "number out of range" {
         key("number too large to be represented", "write a finite number")
     } else if serde_json::from_str::<IgnoredAny>(text).is_err() {
-        syntax(error, name)
-    } else if without_place(error) == "expected value" {
-        key("not one of the names", "write one in quotes; `breakwater schema` lists them")
+        syntax_error(error, name)
+    } else if without_position(error) == "expected value" {
+        key("not one of the allowed names", "write a name in quotes; `breakwater schema` lists the names")
     } else {
-        key("too many entries", "leave out the surplus; `breakwater schema` tells how many there must be")
+        key("too many entries", "remove the surplus entries; `breakwater schema` shows how many are needed")
     }
 }
 
-fn syntax(error: &serde_json::Error, name: &str) -> CaseError {
+fn syntax_error(error: &serde_json::Error, name: &str) -> CaseError {
     CaseError::Syntax {
         file: name.to_owned(),
         line: error.line(),
         column: error.column(),
-        problem: without_place(error),
+        problem: without_position(error),
     }
 }
 
-/// The parser's message without its " at line 3 column 5".
-fn without_place(error: &serde_json::Error) -> String {
+/// Returns the parser's message without its ending " at line 3 column 5".
+fn without_position(error: &serde_json::Error) -> String {
     let message = error.to_string();
-    let place = format!(" at line {} column {}", error.line(), error.column());
-    message.strip_suffix(&place).unwrap_or(&message).to_owned()
+    let position = format!(" at line {} column {}", error.line(), error.column());
+    message.strip_suffix(&position).unwrap_or(&message).to_owned()
 }
 
-/// An object with `kind` is read in two steps, and the parser then knows only the object's path. Read it again, as the
-/// kind it says it is, to name the key inside it.
-fn refine(text: &str, path: &str) -> Option<(String, String)> {
+/// Returns the path of the wrong key inside an object with `kind`, and the problem. The parser reads such objects in
+/// two steps and knows only the object's path, so the object is parsed again as its kind.
+fn locate_inside_kind(text: &str, path: &str) -> Option<(String, String)> {
     let root: Value = serde_json::from_str(text).ok()?;
     let pointer = format!("/{}", path.replace(['.', '['], "/").replace(']', ""));
     let mut object = root.pointer(&pointer)?.as_object()?.clone();
@@ -91,10 +91,10 @@ fn refine(text: &str, path: &str) -> Option<(String, String)> {
 
 fn first_problem<T: DeserializeOwned>(value: Value) -> Option<(String, String)> {
     let error = serde_path_to_error::deserialize::<_, T>(value).err()?;
-    Some((error.path().to_string(), without_place(error.inner())))
+    Some((error.path().to_string(), without_position(error.inner())))
 }
 
-/// Turn the parser's words into a case writer's.
+/// Returns an error whose message uses the terms of case files instead of the parser's.
 fn key_error(name: &str, path: String, line: usize, problem: &str) -> CaseError {
     let path = if path == "." { "top level".to_owned() } else { path };
     let (problem, advice) = reword(problem);
@@ -113,19 +113,16 @@ fn reword(problem: &str) -> (String, String) {
     }
     if let Some(key) = problem.strip_prefix("missing field `") {
         let key = key.trim_end_matches('`');
-        return (
-            format!("the key \"{key}\" is missing"),
-            "add it; `breakwater schema` tells what every key means".to_owned(),
-        );
+        return (format!("the key \"{key}\" is missing"), "add it; `breakwater schema` explains every key".to_owned());
     }
     if let Some(key) = problem.strip_prefix("duplicate field `") {
         return (
             format!("the key \"{}\" is written twice", key.trim_end_matches('`')),
-            "keep one of the two".to_owned(),
+            "remove one of the two".to_owned(),
         );
     }
     let Some((found, expected)) = problem.split_once(", expected ") else {
-        return (problem.to_owned(), "`breakwater schema` tells what every key means".to_owned());
+        return (problem.to_owned(), "`breakwater schema` explains every key".to_owned());
     };
     let found = found.strip_prefix("invalid type: ").unwrap_or(found);
     (format!("wrong type: {found}"), format!("write {}", expected_words(expected)))

@@ -1,4 +1,4 @@
-//! What the placement of an armour layer needs of a case, wet or dry, validated.
+//! Validates the parts of a flume case or dry test that the placing of armour layers needs.
 
 use std::path::Path;
 
@@ -21,15 +21,15 @@ pub struct Armour {
     pub x: [f64; 2],
     /// Number of layers.
     pub layers: u32,
-    /// Units of all layers on an area D_n^2 of the slope [-].
+    /// Number of units in all layers per area D_n^2 of the slope [-].
     pub packing_density: f64,
-    /// How the units are turned.
+    /// Orientation of the units.
     pub orientation: ArmourOrientation,
-    /// Seed of what is random.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Units to be placed, and where.
+/// Armour layers to be placed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacementJob {
     /// Title of the case.
@@ -38,30 +38,30 @@ pub struct PlacementJob {
     pub site: Site,
     /// The units, not yet placed.
     pub units: Units,
-    /// The layers that they are to make.
+    /// The layers.
     pub armour: Armour,
     /// Elastic constants.
     pub materials: Vec<Material>,
-    /// Contact.
+    /// Contact parameters.
     pub contact: Contact,
     /// Acceleration of gravity [m/s2].
     pub gravity: f64,
 }
 
 impl PlacementJob {
-    /// Read a case file, wet or dry, and validate what the placement needs of it.
+    /// Reads a flume case or dry test and validates what the placing needs.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
         let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 
-    /// The same from the text of a case file; `name` is its name in messages.
+    /// Like [`Self::load`], from the text of a case file; `name` is its name in messages.
     pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
         let mut check = Checker::new(name);
         let job = if DryCase::is_one(text) {
-            of_dry(&parse::<DryFile>(text, name)?, name, &mut check)
+            validate_dry_test(&parse::<DryFile>(text, name)?, name, &mut check)
         } else {
-            of_wet(&parse::<CaseFile>(text, name)?, name, &mut check)
+            validate_flume_case(&parse::<CaseFile>(text, name)?, name, &mut check)
         };
         match job {
             Some(job) if check.count() == 0 => Ok(job),
@@ -69,7 +69,7 @@ impl PlacementJob {
         }
     }
 
-    /// Corners of the slope under the layers, both ends included: x and z [m].
+    /// Returns the corners (x, z) of the slope under the layers, including both ends [m].
     pub fn slope(&self) -> Vec<[f64; 2]> {
         let [x0, x1] = self.armour.x;
         let inner = self.site.profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
@@ -77,19 +77,19 @@ impl PlacementJob {
         [end(x0)].into_iter().chain(inner).chain([end(x1)]).collect()
     }
 
-    /// Area of the slope under the layers over D_n^2 [-].
+    /// Returns the slope area under the layers over D_n^2 [-].
     pub fn area(&self) -> f64 {
         let length: f64 = self.slope().windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum();
         length * self.site.width / self.units.shape.nominal_diameter().powi(2)
     }
 
-    /// Units of all layers.
+    /// Returns the number of units in all layers.
     pub fn count(&self) -> usize {
         (self.armour.packing_density * self.area()).round() as usize
     }
 }
 
-fn of_dry(file: &DryFile, name: &str, check: &mut Checker) -> Option<PlacementJob> {
+fn validate_dry_test(file: &DryFile, name: &str, check: &mut Checker) -> Option<PlacementJob> {
     let materials = materials::validate_materials(&file.materials, check);
     let ground = materials::find(&materials, &file.flume.material, "flume.material", check);
     let site = dry::validate_site(file, name, ground, check);
@@ -109,10 +109,10 @@ fn of_dry(file: &DryFile, name: &str, check: &mut Checker) -> Option<PlacementJo
         rounding_share: contact.rounding_share,
         law: contact.law,
     };
-    job(&file.title, &file.units, &around, contact, file.gravity_m_s2, check)
+    validate_job(&file.title, &file.units, &around, contact, file.gravity_m_s2, check)
 }
 
-fn of_wet(file: &CaseFile, name: &str, check: &mut Checker) -> Option<PlacementJob> {
+fn validate_flume_case(file: &CaseFile, name: &str, check: &mut Checker) -> Option<PlacementJob> {
     let materials = materials::validate_materials(&file.materials, check);
     let key = "flume.material";
     let ground = file.flume.material.as_deref().and_then(|name| materials::find(&materials, name, key, check));
@@ -138,10 +138,10 @@ fn of_wet(file: &CaseFile, name: &str, check: &mut Checker) -> Option<PlacementJ
         rounding_share: contact.rounding_share,
         law: contact.law,
     };
-    job(&file.title, units, &around, contact, file.fluid.gravity_m_s2, check)
+    validate_job(&file.title, units, &around, contact, file.fluid.gravity_m_s2, check)
 }
 
-fn job(
+fn validate_job(
     title: &str,
     file: &UnitsFile,
     around: &Surroundings,
@@ -152,7 +152,7 @@ fn job(
     let units = units::validate_unplaced(file, around, check);
     let Some(armour) = &file.armour else {
         let advice = "write \"armour\": { \"x_m\": [from, to], \"packing_density\": 1.04 }";
-        check.refuse("units.armour", "(missing)", "the layers that the units are to make", advice);
+        check.refuse("units.armour", "(missing)", "the armour layers to place", advice);
         return None;
     };
     let armour = validate(armour, around.site?, check)?;
@@ -176,7 +176,7 @@ fn validate(file: &ArmourFile, site: &Site, check: &mut Checker) -> Option<Armou
     if !(1..=10).contains(&file.layers) {
         check.refuse("units.armour.layers", file.layers, "1 to 10", "two layers are usual");
     }
-    let advice = "Tetrapods in two layers 1.04, Dolosse 0.83, cubes 1.17";
+    let advice = "usual for two layers: Tetrapods 1.04, Dolosse 0.83, cubes 1.17";
     check.number("units.armour.packing_density", file.packing_density, above(0.0).up_to(5.0), "", advice);
     let ArmourFile { layers, packing_density, orientation, seed, .. } = *file;
     (check.count() == before).then_some(Armour { x: file.x_m, layers, packing_density, orientation, seed })

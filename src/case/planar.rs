@@ -1,7 +1,7 @@
-//! Units in two dimensions, validated: cuboids that lie across the flume, of which the layer of particles is a slice.
+//! Validates units in two dimensions: cuboids that lie across the flume. The layer of particles is a slice of them.
 //!
-//! They move in the plane of the layer, along x and z, and turn about y. A unit keeps its own width and mass; the water
-//! acts on it with the force on the slice times the number of slices, see [`slices`].
+//! Units move in the plane of the layer, along x and z, and turn about y. A unit keeps its own width and mass. The
+//! water force on a unit is the force on its slice times the number of slices, see [`slices`].
 
 use glam::DQuat;
 
@@ -11,17 +11,17 @@ use super::site::Site;
 use super::unit_shape::{UnitKind, UnitShape};
 use super::units::Placement;
 
-/// The part of a quaternion that turns out of the plane may be this large: six written digits [-].
+/// Largest quaternion component that turns out of the plane [-]: rounding to six written digits.
 const ROUNDING: f64 = 1e-6;
 
-/// Refuse units that do not have the same outline all across the flume, and rows, which lie across it.
+/// Refuses units whose outline changes across the flume, and rows, which lie across it.
 pub(super) fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {
     if !matches!(shape.kind, UnitKind::Cuboid { .. }) {
         check.refuse(
             "units.shape",
             format!("{:?}", file.shape.key()),
             "\"cuboid\" where `domain.sides` is \"two_dimensional\"",
-            "a unit there has the same outline all across the flume: write \"periodic\" or \"walls\" for this one",
+            "in two dimensions the outline must be the same across the flume: write \"periodic\" or \"walls\"",
         );
     }
     if is_row {
@@ -29,14 +29,14 @@ pub(super) fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check:
             "units.centres_m",
             "(missing)",
             "a list of centres where `domain.sides` is \"two_dimensional\"",
-            "a row lies across the flume, and a layer has room for one unit there: write `centres_m` or `poses`",
+            "in two dimensions only one unit fits across the flume: write `centres_m` or `poses` instead of a row",
         );
     }
 }
 
-/// Lay units into the layer, wherever the case has put them across the flume.
+/// Moves the units into the layer, whatever their position across the flume.
 pub(super) fn lay(placements: Vec<Placement>, site: &Site, check: &mut Checker) -> Vec<Placement> {
-    let lay = |(index, Placement { mut centre, rotation }): (usize, Placement)| {
+    let lay_one = |(index, Placement { mut centre, rotation }): (usize, Placement)| {
         centre.y = 0.5 * site.width;
         let out_of_plane = rotation.x.hypot(rotation.z);
         if out_of_plane > ROUNDING {
@@ -49,11 +49,10 @@ pub(super) fn lay(placements: Vec<Placement>, site: &Site, check: &mut Checker) 
         }
         Placement { centre, rotation: DQuat::from_xyzw(0.0, rotation.y, 0.0, rotation.w).normalize() }
     };
-    placements.into_iter().enumerate().map(lay).collect()
+    placements.into_iter().enumerate().map(lay_one).collect()
 }
 
-/// How many slices as thick as the layer of particles a unit is wide [-]; 1 in three dimensions, where the particles
-/// fill the unit.
+/// Returns the width of a unit over the thickness of the particle layer [-]; 1 in three dimensions.
 pub(super) fn slices(shape: &UnitShape, site: &Site) -> f64 {
     match shape.kind {
         UnitKind::Cuboid { edges } if site.sides == Sides::TwoDimensional => edges[1] / site.width,

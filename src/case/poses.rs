@@ -1,4 +1,4 @@
-//! Units at given poses, written in the case or in a placement file, validated.
+//! Validates units at given poses, written in the case or in a placement file.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use super::file::{PlacementFile, PoseFile, Sides, UnitsFile};
 use super::site::Site;
 use super::units::{MOST_UNITS, Placement};
 
-/// The length of a quaternion may differ from 1 by this: seven written digits.
+/// Tolerance on the length of a quaternion [-]: rounding to seven written digits.
 const ROUNDING: f64 = 1e-6;
 
-/// Place the units at the poses of the file or of its placement file, seen from the folder of the case file.
+/// Places the units at the poses of the file or of its placement file, whose path is relative to the case file.
 pub(super) fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut Checker) -> Option<Vec<Placement>> {
     for (key, written) in [
         ("count", file.count.is_some()),
@@ -22,7 +22,7 @@ pub(super) fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut 
         ("centres_m", file.centres_m.is_some()),
     ] {
         if written {
-            check.refuse(&format!("units.{key}"), "...", "left out with poses", "the poses say it all");
+            check.refuse(&format!("units.{key}"), "...", "left out with poses", "poses give every position");
         }
     }
     let (poses, path) = match (&file.poses, &file.placement_file) {
@@ -35,7 +35,7 @@ pub(super) fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut 
         }
     };
     if !(1..=MOST_UNITS as usize).contains(&poses.len()) {
-        let advice = "leave out `units` for water alone";
+        let advice = "leave out `units` for a case without units";
         check.refuse(path, format!("{} poses", poses.len()), format!("1 to {MOST_UNITS}"), advice);
         return None;
     }
@@ -66,10 +66,10 @@ fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile
 fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Placement {
     let (centre, rotation) = (DVec3::from_array(pose.centre_m), DQuat::from_array(pose.quaternion_xyzw));
     let y = match site.sides {
-        // The images of a periodic flume are all one.
+        // All periodic images are the same unit.
         Sides::Periodic => [f64::MIN, f64::MAX],
         Sides::Walls => [0.0, site.width],
-        // A unit lies in the layer, wherever it is written.
+        // `planar::lay` moves the unit into the layer.
         Sides::TwoDimensional => [f64::MIN, f64::MAX],
     };
     let ground = site.profile.z(centre.x);
@@ -85,10 +85,10 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Pl
     }
     let length = rotation.length();
     if (length - 1.0).abs() > ROUNDING || length.is_nan() {
-        let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] is none";
+        let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] is no rotation";
         check.refuse(&format!("{path}.quaternion_xyzw"), format!("of length {}", show(length)), "of length 1", advice);
     }
-    // What is a rotation to the last digit stays as it is, so that a kept case has the same bits.
+    // Do not normalize an exact rotation again, so that a saved case keeps its bits.
     let is_exact = (length - 1.0).abs() < 1e-15;
     Placement { centre, rotation: if is_exact { rotation } else { rotation.normalize() } }
 }

@@ -1,4 +1,4 @@
-//! Units in a row across the flume, validated.
+//! Validates units in a row across the flume.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use super::site::Site;
 use super::unit_shape::{UnitKind, UnitShape};
 use super::units::{MOST_UNITS, Placement};
 
-/// A row as written; SI units.
+/// A row as the case file gives it; SI units.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     count: u32,
@@ -18,7 +18,7 @@ pub(super) struct Row {
     orientation: Orientation,
 }
 
-/// Validate the numbers of a row, each by itself.
+/// Validates each number of a row on its own.
 pub(super) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker) -> Option<Row> {
     let before = check.count();
     for (key, missing) in
@@ -29,7 +29,7 @@ pub(super) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut 
                 &format!("units.{key}"),
                 "(missing)",
                 "given for a row of units",
-                "write `count`, `pitch_m` and `x_m`, or the places one by one as `centres_m`",
+                "write `count`, `pitch_m` and `x_m`, or list the positions of the units as `centres_m`",
             );
         }
     }
@@ -40,20 +40,20 @@ pub(super) fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut 
             _ => above(shape.least_pitch()).up_to(1000.0),
         };
         let advice = match shape.kind {
-            UnitKind::Tetrapod { .. } => "units nearer than 0.75 of their height overlap",
-            UnitKind::Cuboid { .. } => "units nearer than their edge across the flume overlap",
-            _ => "units nearer than their width across the flume may overlap",
+            UnitKind::Tetrapod { .. } => "units closer than 0.75 of their height overlap",
+            UnitKind::Cuboid { .. } => "units closer than their edge across the flume overlap",
+            _ => "units closer than their width across the flume may overlap",
         };
         check.number("units.pitch_m", pitch, range, "m", advice);
     }
     if !(1..=MOST_UNITS).contains(&count) {
-        check.refuse("units.count", count, format!("1 to {MOST_UNITS}"), "leave out `units` for water alone");
+        check.refuse("units.count", count, format!("1 to {MOST_UNITS}"), "leave out `units` for a case without units");
     }
     let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation };
     (check.count() == before).then_some(row)
 }
 
-/// Place the units of the row and check that it fits into the domain.
+/// Places the units of the row and checks that the row fits into the domain.
 pub(super) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> Vec<Placement> {
     let [margin, reach] = shape.reach();
     check.number(
@@ -83,7 +83,7 @@ pub(super) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Check
                 check.refuse(
                     "units.count",
                     row.count,
-                    format!("such that the row, {} m over the outer legs, fits between the walls", show(widest)),
+                    format!("such that the row, {} m wide, fits between the walls", show(widest)),
                     format!("write fewer units, a smaller pitch or a width of more than {} m", show(widest)),
                 );
             } else if first_y < reach || first_y + length > site.width - reach {
@@ -97,33 +97,29 @@ pub(super) fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Check
             }
         }
     }
-    let place = |index: u32| {
+    let place_one = |index: u32| {
         let y = first_y + f64::from(index) * row.pitch;
         Placement::standing(shape, [row.x, y], None, azimuth(row.orientation, index), site)
     };
-    (0..row.count).map(place).collect()
+    (0..row.count).map(place_one).collect()
 }
 
 fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checker) {
     let length = f64::from(row.count) * row.pitch;
-    // Rounding of count * pitch only.
+    // Rounding of count * pitch.
     let slack = 1e-9;
     if length > width + slack || f64::from(row.count) != (width / row.pitch).round() {
         check.refuse(
             "units.count",
             row.count,
-            format!(
-                "such that count x pitch = {} m fills the periodic width, {} m",
-                show(length),
-                show(width)
-            ),
-            "neighbours across the seam must stand at the pitch too: change `units.count`, `units.pitch_m` or `domain.width_m`",
+            format!("such that count x pitch = {} m fills the periodic width, {} m", show(length), show(width)),
+            "the pitch must hold across the periodic sides: change `units.count`, `units.pitch_m` or `domain.width_m`",
         );
         return;
     }
     if length < width - 1e-6 {
         check.warn(format!(
-            "units.pitch_m = {}: neighbours across the periodic seam stand {} m apart",
+            "units.pitch_m = {}: neighbours across the periodic sides are {} m apart",
             show(row.pitch),
             show(width - length + row.pitch)
         ));
@@ -134,7 +130,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
             "units.count",
             row.count,
             "even when the units alternate and the sides are periodic",
-            "add or remove one unit, so that neighbours across the seam are turned too",
+            "add or remove one unit, so that neighbours across the periodic sides alternate too",
         );
     }
     let last = width - (length - row.pitch);
@@ -148,7 +144,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     }
 }
 
-/// Turn of the unit at `index` about the vertical [rad].
+/// Returns the rotation of the unit at `index` about the vertical [rad].
 pub(super) fn azimuth(orientation: Orientation, index: u32) -> f64 {
     let shoreward = match orientation {
         Orientation::Alternating => !index.is_multiple_of(2),

@@ -1,38 +1,38 @@
-//! Contact and the end of the run, validated.
+//! The validated contact settings and stop criteria.
 
 use super::check::{Checker, above, from, show};
 use super::file::{ContactFile, ContactLawName, StopFile};
 
-/// Contact between units and with the bed.
+/// Contact between units, and between units and the bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Rounding radius of a unit's edges as a share of its height [-].
+    /// Rounding radius of a unit's edges over its height [-].
     pub rounding_share: f64,
-    /// Law of the contacts.
+    /// Contact law.
     pub law: ContactLawName,
 }
 
 /// When the run ends; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Simulated time at most [s].
+    /// Longest simulated time [s].
     pub duration: f64,
-    /// End earlier when the units have come to rest.
+    /// Rest criterion, which can end the run earlier.
     pub at_rest: Option<AtRest>,
 }
 
-/// When the units count as come to rest; SI units.
+/// Rest criterion; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtRest {
-    /// A unit that gets on more slowly than this is at rest [m/s].
+    /// Largest speed of a unit at rest [m/s].
     pub speed: f64,
-    /// For how long all must be at rest [s].
+    /// Time for which all units must be at rest [s].
     pub hold: f64,
-    /// Not before this simulated time [s].
+    /// Earliest end of the run [s].
     pub not_before: f64,
 }
 
-/// Validate the contact's constants.
+/// Validates the contact settings.
 pub(super) fn validate_contact(file: &ContactFile, check: &mut Checker) -> Contact {
     check.number(
         "contact.rounding_share",
@@ -44,14 +44,14 @@ pub(super) fn validate_contact(file: &ContactFile, check: &mut Checker) -> Conta
     Contact { rounding_share: file.rounding_share, law: file.law }
 }
 
-/// Validate the end of the run.
+/// Validates the stop criteria.
 pub(super) fn validate_stop(file: &StopFile, has_units: bool, check: &mut Checker) -> Stop {
-    let sound = check.number(
+    let is_duration_valid = check.number(
         "stop.duration_s",
         file.duration_s,
         from(1e-6).up_to(1e4),
         "s",
-        "write the simulated time, counted from the start of the particles",
+        "write the simulated time from the start of the particles",
     );
     if let Some(rest) = &file.at_rest {
         if !has_units {
@@ -64,16 +64,16 @@ pub(super) fn validate_stop(file: &StopFile, has_units: bool, check: &mut Checke
             "m/s",
             "a unit slower than this is at rest, e.g. 0.002",
         );
-        if sound {
+        if is_duration_valid {
             let end = show(file.duration_s);
-            let within = format!("the run ends after {end} s");
-            check.number("stop.at_rest.for_s", rest.for_s, above(0.0).up_to(file.duration_s), "s", &within);
+            let advice = format!("the run ends after {end} s");
+            check.number("stop.at_rest.for_s", rest.for_s, above(0.0).up_to(file.duration_s), "s", &advice);
             check.number(
                 "stop.at_rest.not_before_s",
                 rest.not_before_s,
                 from(0.0).up_to(file.duration_s),
                 "s",
-                &within,
+                &advice,
             );
         }
     }

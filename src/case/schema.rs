@@ -4,28 +4,28 @@ use schemars::JsonSchema;
 
 use super::file::{CaseFile, DryFile, FractureFile, ReferenceFile};
 
-/// JSON schema of [`CaseFile`], indented.
+/// Returns the JSON schema of [`CaseFile`], indented.
 pub fn schema_text() -> String {
-    text_of::<CaseFile>()
+    indented_schema::<CaseFile>()
 }
 
-/// JSON schema of [`DryFile`], indented.
+/// Returns the JSON schema of [`DryFile`], indented.
 pub fn dry_schema_text() -> String {
-    text_of::<DryFile>()
+    indented_schema::<DryFile>()
 }
 
-/// JSON schema of [`FractureFile`], indented.
+/// Returns the JSON schema of [`FractureFile`], indented.
 pub fn fracture_schema_text() -> String {
-    text_of::<FractureFile>()
+    indented_schema::<FractureFile>()
 }
 
-/// JSON schema of [`ReferenceFile`], indented.
+/// Returns the JSON schema of [`ReferenceFile`], indented.
 pub fn reference_schema_text() -> String {
-    text_of::<ReferenceFile>()
+    indented_schema::<ReferenceFile>()
 }
 
-fn text_of<T: JsonSchema>() -> String {
+fn indented_schema<T: JsonSchema>() -> String {
     let schema = schemars::schema_for!(T);
-    // A schema is plain JSON: alternate formatting indents it and cannot fail.
+    // A schema is plain JSON; the alternate format indents it and cannot fail.
     format!("{:#}", schema.as_value())
 }

@@ -1,4 +1,4 @@
-//! A unit from STL files: its surface, and its convex parts from files or by decomposition.
+//! Validates a unit from STL files: its surface, and its convex parts from files or by decomposition.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,20 +11,20 @@ use crate::geometry::polyhedron::Polyhedron;
 use crate::geometry::solid::Solid;
 use crate::geometry::stl;
 
-/// Share of its volume by which the convex parts of a unit may differ from it [-].
+/// Largest volume by which the convex parts may differ from the unit, over the unit's volume [-].
 const LARGEST_ERROR: f64 = 0.05;
 
-/// Convex parts from files at most.
+/// Largest number of files with convex parts.
 const MOST_PARTS: usize = 63;
 
-/// A unit from STL files, with what was read, so that a run can keep it beside its case.
+/// A unit from STL files, with the content of the files, which a run saves next to its case.
 #[derive(Debug, Clone)]
 pub struct StlUnit {
     solid: Arc<Solid>,
     parts: Arc<Vec<Polyhedron>>,
-    /// Share of the unit's volume that parts and surface do not have in common [-].
+    /// Volume that parts and surface do not have in common, over the unit's volume [-].
     pub volume_error: f64,
-    /// Name in the run's folder and content of each file.
+    /// Name in the run folder and content of each file.
     files: Arc<Vec<(String, Vec<u8>)>>,
     scale: f64,
 }
@@ -36,29 +36,29 @@ impl PartialEq for StlUnit {
 }
 
 impl StlUnit {
-    /// Closed surface [m].
+    /// Returns the closed surface [m].
     pub fn solid(&self) -> &Solid {
         &self.solid
     }
 
-    /// Convex parts [m].
+    /// Returns the convex parts [m].
     pub fn parts(&self) -> &[Polyhedron] {
         &self.parts
     }
 
-    /// Name in the run's folder and content of each file.
+    /// Returns the name in the run folder and the content of each file.
     pub fn files(&self) -> &[(String, Vec<u8>)] {
         &self.files
     }
 
-    /// The entry of a case file that lies beside [`Self::files`].
+    /// Returns the entry for a case file in the same folder as [`Self::files`].
     pub fn entry(&self) -> StlFile {
         let names: Vec<String> = self.files.iter().map(|(name, _)| name.clone()).collect();
         StlFile { path: names[0].clone(), scale: self.scale, parts: names[1..].to_vec() }
     }
 }
 
-/// Read the files, seen from the folder of the case file `case_name`, and make sure that the parts fill the surface.
+/// Reads the files and checks that the parts fill the surface. Paths are relative to the case file `case_name`.
 pub(super) fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
     let advice = "1 for a file in metres, 0.001 for one in millimetres";
     if !check.number("units.stl.scale", file.scale, above(0.0).up_to(1000.0), "", advice) {
@@ -81,8 +81,8 @@ pub(super) fn validate(file: &StlFile, rounding_share: f64, case_name: &str, che
         match std::fs::read(&path) {
             Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
                 Ok(solid) => {
-                    if let Some(place) = solid.self_intersection() {
-                        refuse(format!("a surface that does not cut itself: it does near {place} m"));
+                    if let Some(point) = solid.self_intersection() {
+                        refuse(format!("a surface that does not intersect itself; it does so near {point} m"));
                         return None;
                     }
                     files.push((name, bytes));
@@ -106,14 +106,14 @@ pub(super) fn validate(file: &StlFile, rounding_share: f64, case_name: &str, che
         match Polyhedron::hull(part.vertices()) {
             Ok(hull) => parts.push(hull),
             Err(error) => {
-                let advice = "each part is taken as its convex hull";
+                let advice = "each part is replaced by its convex hull";
                 check.refuse(&format!("units.stl.parts[{index}]"), format!("{path:?}"), error.to_string(), advice);
                 return None;
             }
         }
     }
     let found = if parts.is_empty() {
-        // Slivers that the rounding would eat are left out; what is missing then counts as error.
+        // Drop parts that are thinner than the rounding; their volume counts as error.
         let [low, high] = solid.bounds();
         let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
         let mut found = decomposition::decompose(&solid);
@@ -133,7 +133,7 @@ pub(super) fn validate(file: &StlFile, rounding_share: f64, case_name: &str, che
                 100.0 * volume_error
             ),
             format!("parts that differ by at most {} %", show(100.0 * LARGEST_ERROR)),
-            "give the convex parts as STL files of their own in `units.stl.parts`",
+            "give the convex parts as separate STL files in `units.stl.parts`",
         );
         return None;
     }

@@ -1,6 +1,6 @@
-//! The case that `breakwater init` writes to start from.
+//! The example case that `breakwater init` writes.
 
-/// Text of a case that loads as it is and says in its assumptions what to change.
+/// Returns the text of a valid case whose assumptions explain what to change.
 pub fn template_text() -> String {
     include_str!("template.json").to_owned()
 }

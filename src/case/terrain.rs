@@ -1,4 +1,4 @@
-//! A triangle surface to stand on, read from an STL file.
+//! Validates terrain: a triangle surface from an STL file on which units stand.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -8,10 +8,10 @@ use super::file::TerrainFile;
 use crate::geometry::stl;
 use crate::geometry::terrain::Terrain;
 
-/// Triangles at most: a run keeps about a kilobyte for each.
+/// Largest number of triangles; a run needs about a kilobyte of memory for each.
 const MOST_TRIANGLES: usize = 2_000_000;
 
-/// A triangle surface with what was read, so that a run can keep it beside its case.
+/// A triangle surface with the content of its file, which a run saves next to its case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteTerrain {
     /// The surface [m].
@@ -22,16 +22,16 @@ pub struct SiteTerrain {
 }
 
 impl SiteTerrain {
-    /// Name of the file in a run's folder.
+    /// Name of the file in the run folder.
     pub const FILE: &str = "terrain.stl";
 
-    /// The entry of a case file that lies beside [`Self::FILE`].
+    /// Returns the entry for a case file in the same folder as [`Self::FILE`].
     pub(super) fn entry(&self) -> TerrainFile {
         TerrainFile { path: Self::FILE.to_owned(), scale: self.scale }
     }
 }
 
-/// Read the file, seen from the folder of the case file `case_name`.
+/// Reads the file. Its path is relative to the case file `case_name`.
 pub(super) fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Option<SiteTerrain> {
     let advice = "1 for a file in metres, 0.001 for one in millimetres";
     if !check.number("flume.terrain.scale", file.scale, above(0.0).up_to(1000.0), "", advice) {
@@ -45,18 +45,18 @@ pub(super) fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker)
     };
     let content = match std::fs::read(&path) {
         Ok(content) => content,
-        Err(error) => return refuse(format!("a file that can be read ({error})"), "paths are seen from the case file"),
+        Err(error) => return refuse(format!("a file that can be read ({error})"), "paths start at the case file"),
     };
     let surface = match stl::parse_terrain(&content, &path, file.scale) {
         Ok(surface) => surface,
         Err(error) => {
             let advice =
-                "triangles must be counter-clockwise seen from where the units are, and share their edges in pairs";
-            return refuse(format!("a surface to stand on ({error})"), advice);
+                "triangles must be counter-clockwise seen from the units, and at most two triangles may share an edge";
+            return refuse(format!("a valid terrain surface ({error})"), advice);
         }
     };
     if surface.triangles().len() > MOST_TRIANGLES {
-        return refuse(format!("at most {MOST_TRIANGLES} triangles"), "simplify the surface to the size of a leg");
+        return refuse(format!("at most {MOST_TRIANGLES} triangles"), "use triangles of the size of a leg");
     }
     Some(SiteTerrain { surface: Arc::new(surface), content: Arc::new(content), scale: file.scale })
 }

@@ -1,4 +1,4 @@
-//! Shape of the armour units, validated, and the proportions that the placement needs.
+//! Validates the shape of the armour units and provides the proportions that their placement needs.
 
 use std::sync::Arc;
 
@@ -9,10 +9,11 @@ use super::file::{Shape, UnitsFile};
 use super::stl_unit::{self, StlUnit};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
-/// Longest edge of a cuboid over its shortest: the contact's rounding, a share of the height, must fit all edges.
+/// Longest over shortest edge of a cuboid, at most [-]: the contact rounding, a share of the height, must fit all
+/// edges.
 const MOST_SLENDER: f64 = 5.0;
 
-/// Which unit it is; SI units.
+/// Kind and dimensions of a unit; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UnitKind {
     /// Tetrapod of height H standing on three legs [m].
@@ -23,14 +24,14 @@ pub enum UnitKind {
     Dolos { height: f64, waist: f64 },
     /// Core-Loc of size C [m].
     CoreLoc { size: f64 },
-    /// Grooved cube (Antifer block) of its height [m].
+    /// Grooved cube (Antifer block) of a height [m].
     GroovedCube { height: f64 },
     /// A unit from STL files.
     Stl(StlUnit),
 }
 
 impl UnitKind {
-    /// The unit, its edges rounded by a share of its height [-].
+    /// Builds the unit with edges rounded by a share of its height [-].
     ///
     /// # Errors
     /// If lengths, waist or rounding do not make a unit.
@@ -45,7 +46,7 @@ impl UnitKind {
         }
     }
 
-    /// Name as people say it.
+    /// Returns the common name of the unit.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Tetrapod { .. } => "Tetrapod",
@@ -57,24 +58,25 @@ impl UnitKind {
         }
     }
 
-    /// Stability coefficient K_D of Hudson's formula for two layers placed at random on a trunk in breaking waves [-]:
-    /// Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). None where there is no handbook value.
+    /// Returns the stability coefficient K_D of Hudson's formula [-] for two layers, random placement, trunk, breaking
+    /// waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). `None` without a handbook
+    /// value.
     pub fn stability_coefficient(&self) -> Option<f64> {
         match self {
             Self::Tetrapod { .. } => Some(7.0),
             Self::Dolos { .. } => Some(15.8),
             Self::CoreLoc { .. } => Some(16.0),
-            // "Modified cube".
+            // Listed as "modified cube".
             Self::Cuboid { .. } | Self::GroovedCube { .. } => Some(6.5),
             Self::Stl(_) => None,
         }
     }
 }
 
-/// Shape of a unit: what it is, and its surface and parts.
+/// Shape of a unit: its kind, surface and convex parts.
 #[derive(Debug, Clone)]
 pub struct UnitShape {
-    /// Which unit it is.
+    /// Kind and dimensions.
     pub kind: UnitKind,
     unit: Arc<ArmourUnit>,
 }
@@ -86,64 +88,64 @@ impl PartialEq for UnitShape {
 }
 
 impl UnitShape {
-    /// Surface, convex parts, mass properties.
+    /// Returns surface, convex parts and mass properties.
     pub fn unit(&self) -> &Arc<ArmourUnit> {
         &self.unit
     }
 
-    /// Height standing [m].
+    /// Returns the height of the standing unit [m].
     pub fn height(&self) -> f64 {
         self.unit.height()
     }
 
-    /// Volume [m3].
+    /// Returns the volume [m3].
     pub fn volume(&self) -> f64 {
         self.unit.solid().volume_properties().volume
     }
 
-    /// Nominal diameter D_n = V^(1/3) [m].
+    /// Returns the nominal diameter D_n = V^(1/3) [m].
     pub fn nominal_diameter(&self) -> f64 {
         self.volume().cbrt()
     }
 
-    /// Reach from the centre along the flume and across it, standing at azimuth 0 or pi [m].
+    /// Returns the reach from the centre along and across the flume [m], for a unit standing at azimuth 0 or pi.
     pub(super) fn reach(&self) -> [f64; 2] {
         let q = self.unit.standing_rotation(0.0);
         let reach = |axis: usize| self.unit.solid().vertices().iter().map(|v| (q * *v)[axis].abs()).fold(0.0, f64::max);
         [reach(0), reach(1)]
     }
 
-    /// Height of the centre over the foot, standing [m].
+    /// Returns the height of the centre above the foot of the standing unit [m].
     pub(super) fn centre_height(&self) -> f64 {
         self.unit.standing_height_sharp()
     }
 
-    /// Least distance between the centres of two units side by side [m].
+    /// Returns the smallest distance between the centres of two units side by side [m].
     pub(super) fn least_pitch(&self) -> f64 {
         match &self.kind {
-            // Turned by half a circle they reach between each other's legs.
+            // Units turned by half a circle fit between each other's legs.
             UnitKind::Tetrapod { height } => 0.75 * height,
-            // Rounding of the numbers in the file only.
+            // Rounding of the numbers in the file.
             UnitKind::Cuboid { edges } => edges[1] * (1.0 - 1e-9),
             _ => 2.0 * self.reach()[1],
         }
     }
 
-    /// Whether two standing units at this distance from each other overlap; cuboids may touch.
-    pub(super) fn overlaps(&self, apart: [f64; 3]) -> bool {
+    /// Returns whether two standing units at this offset from each other overlap; cuboids may touch.
+    pub(super) fn overlaps(&self, offset: [f64; 3]) -> bool {
         match &self.kind {
             UnitKind::Cuboid { edges } => {
-                apart.iter().zip(edges).all(|(distance, edge)| distance.abs() < edge * (1.0 - 1e-6))
+                offset.iter().zip(edges).all(|(distance, edge)| distance.abs() < edge * (1.0 - 1e-6))
             }
-            _ => apart.iter().map(|d| d * d).sum::<f64>() < self.least_pitch().powi(2),
+            _ => offset.iter().map(|d| d * d).sum::<f64>() < self.least_pitch().powi(2),
         }
     }
 }
 
-/// Validate the lengths that belong to the shape, and make it; `name` is that of the case file.
+/// Validates the dimensions of the shape and builds it; `name` is the case file.
 pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut Checker) -> Option<UnitShape> {
     let before = check.count();
-    only_where_it_belongs(file, check);
+    refuse_keys_of_other_shapes(file, check);
     let kind = match file.shape {
         Shape::Tetrapod => height(file, check).map(|height| UnitKind::Tetrapod { height }),
         Shape::Dolos => {
@@ -164,7 +166,7 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
         Shape::Stl => match &file.stl {
             Some(stl) => stl_unit::validate(stl, rounding_share, name, check).map(UnitKind::Stl),
             None => {
-                check.refuse("units.stl", "(missing)", "the files of the unit", "write \"stl\": { \"path\": ... }");
+                check.refuse("units.stl", "(missing)", "the STL files of the unit", "write \"stl\": { \"path\": ... }");
                 None
             }
         },
@@ -180,7 +182,7 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
             None
         }
         Err(ArmourUnitError::Rounding { share, largest }) => {
-            let advice = "the rounded parts of the unit must not vanish";
+            let advice = "a larger rounding removes parts of the unit";
             let allowed = format!("at most {largest:.4} for this unit");
             check.refuse("contact.rounding_share", show(share), allowed, advice);
             None
@@ -192,22 +194,22 @@ pub(super) fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check:
     }
 }
 
-/// Keys that belong to other shapes.
-fn only_where_it_belongs(file: &UnitsFile, check: &mut Checker) {
+/// Refuses keys that belong to other shapes.
+fn refuse_keys_of_other_shapes(file: &UnitsFile, check: &mut Checker) {
     let shape = file.shape;
-    let mut left_out = |key: &str, written: Option<String>, advice: &str| {
+    let mut refuse = |key: &str, written: Option<String>, advice: &str| {
         if let Some(value) = written {
             check.refuse(&format!("units.{key}"), value, format!("left out with \"{}\"", shape.key()), advice);
         }
     };
     let by_size = shape == Shape::Cuboid;
     let by_height = !by_size && shape != Shape::Stl;
-    let advice = if by_size { "the third edge of `size_m` is the height" } else { "the file has the lengths" };
-    left_out("height_m", file.height_m.filter(|_| !by_height).map(show), advice);
-    left_out("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
-    left_out("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(show), "only a Dolos has a waist");
+    let advice = if by_size { "the third edge of `size_m` is the height" } else { "the STL file gives the dimensions" };
+    refuse("height_m", file.height_m.filter(|_| !by_height).map(show), advice);
+    refuse("size_m", file.size_m.filter(|_| !by_size).map(|_| "[...]".to_owned()), "`size_m` belongs to a cuboid");
+    refuse("waist_ratio", file.waist_ratio.filter(|_| shape != Shape::Dolos).map(show), "only a Dolos has a waist");
     let stl = file.stl.as_ref().filter(|_| shape != Shape::Stl).map(|_| "{ ... }".to_owned());
-    left_out("stl", stl, "write \"shape\": \"stl\" to use the files");
+    refuse("stl", stl, "write \"shape\": \"stl\" to use the files");
 }
 
 fn height(file: &UnitsFile, check: &mut Checker) -> Option<f64> {
@@ -216,13 +218,13 @@ fn height(file: &UnitsFile, check: &mut Checker) -> Option<f64> {
         check.refuse("units.height_m", "(missing)", format!("the height of a {}", file.shape.key()), advice);
         return None;
     };
-    length("units.height_m", height, advice, check).then_some(height)
+    check_length("units.height_m", height, advice, check).then_some(height)
 }
 
 fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
     let before = check.count();
     for (axis, edge) in edges.into_iter().enumerate() {
-        length(&format!("units.size_m[{axis}]"), edge, "write the edge in metres", check);
+        check_length(&format!("units.size_m[{axis}]"), edge, "write the edge in metres", check);
     }
     let (shortest, longest) = edges.iter().fold((f64::MAX, 0.0_f64), |(a, b), e| (a.min(*e), b.max(*e)));
     if check.count() == before && longest > MOST_SLENDER * shortest {
@@ -230,17 +232,17 @@ fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
             "units.size_m",
             format!("{} to {} m", show(shortest), show(longest)),
             format!("edges that differ by a factor of {MOST_SLENDER} at most"),
-            "the rounding of the edges would not fit a slenderer block",
+            "the rounding of the edges does not fit a more slender block",
         );
     }
     (check.count() == before).then_some(UnitKind::Cuboid { edges })
 }
 
-fn length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
+fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bool {
     check.number(path, value, from(0.005).up_to(20.0), "m", advice)
 }
 
-/// Validate the mass of a unit against its volume; without water there is no density to compare with.
+/// Validates the mass of a unit against its volume. `rho0` is the water density; `None` without water.
 pub(super) fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
     let volume = shape.volume();
     let range = above(100.0 * volume).up_to(20_000.0 * volume);

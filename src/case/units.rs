@@ -1,4 +1,4 @@
-//! The armour units, validated.
+//! Validates the armour units.
 
 use glam::{DQuat, DVec3};
 
@@ -10,7 +10,7 @@ use super::unit_shape::{self, UnitKind, UnitShape};
 use super::{centres, planar, poses, row};
 use crate::rigid::Resistance;
 
-/// Units in one case at most.
+/// Largest number of units in one case.
 pub(super) const MOST_UNITS: u32 = 10_000;
 
 /// The armour units; SI units.
@@ -20,34 +20,34 @@ pub struct Units {
     pub shape: UnitShape,
     /// Mass of a unit [kg].
     pub mass: f64,
-    /// Where each unit is at the start: a row from y = 0 upwards, or as the file lists them.
+    /// Initial pose of each unit: in a row by rising y, else in the order of the file.
     pub placements: Vec<Placement>,
-    /// How many slices as thick as the layer of a two-dimensional domain a unit is wide [-]; 1 in three dimensions.
+    /// Width of a unit over the thickness of a two-dimensional domain [-]; 1 in three dimensions.
     pub slices: f64,
-    /// A unit is damaged when it has moved further than this [m].
+    /// A unit is damaged if it moves further than this [m].
     pub damage_distance: f64,
     /// Material of the units, an index into `Case::materials`.
     pub material: usize,
     /// Material of bed and mound, an index into `Case::materials`.
     pub ground_material: usize,
-    /// How unit resists unit.
+    /// Friction and restitution between two units.
     pub on_unit: Resistance,
-    /// How bed, mound and walls resist a unit.
+    /// Friction and restitution between a unit and bed, mound or walls.
     pub on_ground: Resistance,
 }
 
-/// Where a unit is.
+/// Pose of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// Its centre of mass [m].
+    /// Centre of mass [m].
     pub centre: DVec3,
-    /// Rotation from its own axes.
+    /// Rotation from body axes to space axes.
     pub rotation: DQuat,
 }
 
 impl Placement {
-    /// A unit that stands with its axis vertical, on the ground unless the level of its centre is given [m]; azimuth 0
-    /// has a Tetrapod's leg seaward, pi shoreward [rad].
+    /// Returns a unit that stands with its axis vertical, on the ground unless `z` gives the level of its centre [m].
+    /// At azimuth 0 [rad] a Tetrapod has a leg seaward, at pi shoreward.
     pub(super) fn standing(shape: &UnitShape, [x, y]: [f64; 2], z: Option<f64>, azimuth: f64, site: &Site) -> Self {
         let unit = shape.unit();
         let z = z.unwrap_or_else(|| site.level(x, y) + unit.standing_height());
@@ -56,13 +56,13 @@ impl Placement {
 }
 
 impl Units {
-    /// Files that a run needs beside its case: name and content.
+    /// Returns name and content of the files that a run saves next to its case.
     pub fn files(&self) -> &[(String, Vec<u8>)] {
         if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
     }
 
-    /// Change an entry that rests on other files into one that rests on [`Self::files`]; what was read is added to
-    /// `read`, for the fingerprint of the case.
+    /// Makes the entry refer to [`Self::files`] and list all poses, instead of referring to other files.
+    /// Adds the content of the files to `read`, for the fingerprint of the case.
     pub(super) fn make_self_contained(&self, file: &mut UnitsFile, read: &mut Vec<u8>) {
         if let UnitKind::Stl(unit) = &self.shape.kind {
             file.stl = Some(unit.entry());
@@ -76,22 +76,22 @@ impl Units {
     }
 }
 
-/// What the units need to know of the rest of the case.
+/// Parts of the case on which the units depend.
 pub(super) struct Surroundings<'a> {
     /// Name of the case file.
     pub name: &'a str,
-    /// Where they stand.
+    /// Ground and walls.
     pub site: Option<&'a Site>,
-    /// Distance of the water's particles, if there is water [m].
+    /// Particle spacing, if there is water [m].
     pub dp: Option<f64>,
-    /// Obstacles in the water.
+    /// Number of obstacles in the water.
     pub obstacles: usize,
     pub materials: &'a [Material],
     pub friction: &'a [FrictionPair],
     pub ground_material: Option<usize>,
     /// Key of the ground's material.
     pub ground_key: &'a str,
-    /// It is written in the file (perhaps wrongly).
+    /// Whether the file has this key, valid or not.
     pub ground_named: bool,
     /// Density of the water, if there is water [kg/m3].
     pub rho0: Option<f64>,
@@ -99,7 +99,7 @@ pub(super) struct Surroundings<'a> {
     pub law: ContactLawName,
 }
 
-/// Validate the units.
+/// Validates the units and places them.
 pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let unplaced = validate_unplaced(file, around, check);
     let placements = place(file, unplaced.as_ref().map(|units| &units.shape), around, check);
@@ -108,7 +108,7 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
     Some(Units { placements: placements?, slices, ..unplaced })
 }
 
-/// Validate everything but where the units are.
+/// Validates everything except the positions of the units.
 pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let before = check.count();
     let shape = unit_shape::validate(file, around.rounding_share, around.name, check);
@@ -146,7 +146,7 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
     })
 }
 
-/// Where the units are: a row, or as the file says one by one. `None` where that cannot be told.
+/// Places the units in a row or one by one. Returns `None` if errors prevent it.
 fn place(
     file: &UnitsFile,
     shape: Option<&UnitShape>,
@@ -158,7 +158,7 @@ fn place(
         check.refuse(
             "units.armour",
             "{ ... }",
-            "accompanied by a placement",
+            "accompanied by `poses` or a `placement_file`",
             "run `breakwater place` on the case and add the `placement_file` that it writes",
         );
         return None;
@@ -184,7 +184,7 @@ fn place(
     }
     if let Some(dp) = around.dp.filter(|dp| shape.height() < 8.0 * dp) {
         check.warn(format!(
-            "domain.dp_m = {}: {:.1} particles in the height of a unit; below 8 the forces on it are rough",
+            "domain.dp_m = {}: a unit is {:.1} particles high; with fewer than 8 the forces on it are inaccurate",
             show(dp),
             shape.height() / dp
         ));
@@ -216,12 +216,12 @@ fn validate_friction(material: Option<usize>, around: &Surroundings, check: &mut
                 check.refuse(
                     "materials",
                     format!("no `contact_stiffness_n_m` of {:?}", material.name),
-                    "complete under the linear law",
+                    "given for each material with the linear contact law",
                     "add the measured stiffness, or use \"hertz_mindlin\"",
                 );
             }
         }
-        // Two bodies in series, each of which has twice the stiffness of a contact between two of its kind.
+        // Springs in series: each body has twice the stiffness of a contact between two bodies of its material.
         let stiffness = a.contact_stiffness.zip(b.contact_stiffness).map(|(a, b)| 2.0 * a * b / (a + b));
         found.map(|pair| Resistance {
             static_friction: pair.coefficient,

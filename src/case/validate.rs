@@ -25,70 +25,70 @@ use super::wave::{self, Wave};
 use super::wavemaker::{self, Wavemaker};
 use super::zones;
 
-/// A larger case file is no case file [bytes].
+/// Largest case file [bytes].
 const LARGEST_FILE: u64 = 16 << 20;
-/// Particles above which a run is probably not meant.
+/// Number of particles above which `check` warns.
 const MANY_PARTICLES: f64 = 50e6;
-/// Particles at most.
+/// Largest number of particles.
 const MOST_PARTICLES: f64 = 1e9;
 
-/// A case whose values make sense, each alone and together; SI units throughout.
+/// A validated flume case: its values are valid and consistent; SI units throughout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
-    /// One line that names the case in reports.
+    /// Name of the case in reports, one line.
     pub title: String,
-    /// What had to be assumed; listed in the report.
+    /// Assumptions; the report lists them.
     pub assumptions: Vec<String>,
-    /// What is allowed and probably not meant.
+    /// Warnings about values that are allowed but probably not intended.
     pub warnings: Vec<String>,
-    /// Name of the file as given.
+    /// Name of the file, as passed by the user.
     pub name: String,
-    /// 32 hexadecimal digits that stay the same for the same case, whatever the layout of the file.
+    /// Hash of the case, 32 hexadecimal digits, independent of the layout of the file.
     pub hash: String,
-    /// Fingerprint of what decides where a run stands while its units have not moved: all but [`Self::MAY_DIFFER`].
+    /// Hash of all keys but [`Self::MAY_DIFFER`]: they decide the state of a run until its units move.
     pub start_hash: String,
-    /// The file as written, to copy into the run's folder.
+    /// Text of the case file, to copy into the run folder.
     pub text: String,
-    /// Bed, mound and still water of the whole flume.
+    /// Bed, mound and still water level of the whole flume.
     pub flume: Flume,
-    /// The part of the flume that is filled with particles.
+    /// Particle domain: the part of the flume that is filled with particles.
     pub domain: Domain,
     /// Water.
     pub fluid: Fluid,
-    /// Constants of the SPH scheme.
+    /// Options and constants of the SPH scheme.
     pub numerics: Numerics,
     /// The wave.
     pub wave: Wave,
-    /// What makes it in the particles.
+    /// Wavemaker at the seaward end of the domain.
     pub wavemaker: Wavemaker,
     /// The armour units, if any.
     pub units: Option<Units>,
-    /// Elastic constants; other structs hold indices into this list.
+    /// Materials; other structs contain indices into this list.
     pub materials: Vec<Material>,
     /// Friction of each pair of materials in the file.
     pub friction: Vec<FrictionPair>,
-    /// Contact between units and with the bed.
+    /// Contact between units, and between units and the bed.
     pub contact: Contact,
-    /// What is done with the hardest impacts.
+    /// Breakage analysis, if any.
     pub fracture: Option<Handover>,
-    /// Measured displacements that the run can be compared with.
+    /// Measured displacements to compare the run with, if any.
     pub reference: Option<Reference>,
-    /// Points at which the water is measured.
+    /// Gauges: points at which the water is measured.
     pub gauges: Vec<Gauge>,
-    /// What is written, and how often.
+    /// Output files and their intervals.
     pub output: Output,
     /// When the run ends.
     pub stop: Stop,
 }
 
 impl Case {
-    /// Read and validate a case file.
+    /// Reads and validates a case file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
         let (text, name) = read(path.as_ref())?;
         Self::from_str(&text, &name)
     }
 
-    /// Validate the text of a case file; `name` is its name in messages.
+    /// Validates the text of a case file; `name` is its name in messages.
     pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
         let file = parse(text, name)?;
         let mut check = Checker::new(name);
@@ -98,17 +98,17 @@ impl Case {
         }
     }
 
-    /// Keys that may differ between a run and the one at whose checkpoint it begins: units at rest do not feel them.
-    /// The duration is none of them, for the wavemaker's motion is prepared up to there.
+    /// Keys that may differ between a run and the run whose checkpoint it starts from: they do not affect units at
+    /// rest. The duration must not differ, because the wavemaker's motion is prepared for it.
     pub const MAY_DIFFER: [&str; 5] = ["title", "assumptions", "reference", "friction", "stop.at_rest"];
 
-    /// Ground and limits of the place where the units stand.
+    /// Returns the ground and the limits of the area where units stand.
     pub fn site(&self) -> Site {
         self.domain.site(&self.flume)
     }
 }
 
-/// Text and name of a case file.
+/// Reads a case file. Returns its text and its name.
 pub(super) fn read(path: &Path) -> Result<(String, String), CaseError> {
     let file = path.display().to_string();
     match read_text(path) {
@@ -122,15 +122,15 @@ fn read_text(path: &Path) -> Result<String, String> {
     let mut text = String::new();
     let size = file.take(LARGEST_FILE + 1).read_to_string(&mut text).map_err(|error| error.to_string())?;
     if size as u64 > LARGEST_FILE {
-        return Err(format!("larger than {} MiB, which no case file is", LARGEST_FILE >> 20));
+        return Err(format!("larger than {} MiB, the limit for case files", LARGEST_FILE >> 20));
     }
     Ok(text)
 }
 
-/// Validate section by section. A section that rests on an unsound one checks what it can and gives `None`.
+/// Validates section by section. A section that depends on an invalid one checks what it can and returns `None`.
 fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Option<Case> {
     if file.title.trim().is_empty() {
-        check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case; reports show it");
+        check.refuse("title", format!("{:?}", file.title), "a line of text", "name the case; reports show the title");
     }
     let materials = materials::validate_materials(&file.materials, check);
     let friction = materials::validate_friction(&file.friction, &materials, check);
@@ -140,7 +140,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     let domain = domain::validate(&file.domain, flume.as_ref(), file.numerics.smoothing_factor, check);
     let fluid = numerics::validate_fluid(&file.fluid, domain.as_ref().map(|domain| domain.depth), check);
     let stop = run::validate_stop(&file.stop, file.units.is_some(), check);
-    // The holding time has a default: compare it with the duration only where it means something.
+    // The hold time has a default, so compare it with the duration only if there are units.
     let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
     let numerics = numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check);
     let wavemaker = wavemaker::validate(&file.wavemaker, &file.wave, flume.as_ref(), check);
@@ -193,7 +193,7 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
         warnings: Vec::new(),
         name: name.to_owned(),
         hash: fingerprint(&CaseFile { schema: None, reference: None, ..file.clone() }, &read),
-        start_hash: fingerprint(&without_what_may_differ(&file), &read),
+        start_hash: fingerprint(&without_keys_that_may_differ(&file), &read),
         text,
         flume: flume?,
         domain: domain?,
@@ -216,14 +216,14 @@ fn validate(file: &CaseFile, text: &str, name: &str, check: &mut Checker) -> Opt
     Some(case)
 }
 
-/// The case without its schema and [`Case::MAY_DIFFER`].
-fn without_what_may_differ(file: &CaseFile) -> CaseFile {
+/// Returns the case file without its schema and without [`Case::MAY_DIFFER`].
+fn without_keys_that_may_differ(file: &CaseFile) -> CaseFile {
     let stop = StopFile { at_rest: None, ..file.stop.clone() };
     let (title, assumptions, friction) = (String::new(), Vec::new(), Vec::new());
     CaseFile { schema: None, title, assumptions, reference: None, friction, stop, ..file.clone() }
 }
 
-/// Impacts are those of units in three dimensions.
+/// Validates the breakage analysis, which needs units in three dimensions.
 fn validate_fracture(
     entry: &HandoverFile,
     file: &CaseFile,
@@ -232,20 +232,20 @@ fn validate_fracture(
     check: &mut Checker,
 ) -> Option<Handover> {
     let Some(units) = units else {
-        check.refuse("fracture", "{...}", "left out without units", "impacts are those of units");
+        check.refuse("fracture", "{...}", "left out without units", "remove it: only units have impacts");
         return None;
     };
     if file.domain.sides == Sides::TwoDimensional {
-        let advice = "units of a two-dimensional domain are slices";
+        let advice = "remove it: units in a two-dimensional domain cannot break";
         check.refuse("fracture", "{...}", "left out in two dimensions", advice);
         return None;
     }
     handover::validate(entry, &units.shape, name, check)
 }
 
-/// The case as a run keeps it: file, text, and what it has read besides. A wave from other programs' files becomes one
-/// from the file that the run writes beside its case, STL files and the reference folder those that it copies there, and a
-/// placement file becomes poses in the case, so that the folder can be moved and resumed.
+/// Returns the case as a run stores it: file, text, and the bytes read from other files. It refers only to files in the
+/// run folder, so that the folder can be moved and resumed: wave files become one file that the run writes, STL files
+/// and the reference folder become copies, and a placement file becomes poses in the case.
 fn self_contained(
     file: &CaseFile,
     text: &str,
@@ -267,7 +267,7 @@ fn self_contained(
         kept.fracture = kept.fracture.as_ref().map(Handover::entry);
         read.extend(&handover.mesh_file);
     }
-    // Writing to memory cannot fail: every key is a string.
+    // Writing to memory cannot fail, because every key is a string.
     let text = if kept == *file { text.to_owned() } else { serde_json::to_string_pretty(&kept).unwrap_or_default() };
     (kept, text, read)
 }
@@ -279,7 +279,7 @@ fn validate_size(case: &Case, check: &mut Checker) {
             "domain.dp_m",
             show(case.domain.dp),
             format!("large enough for at most {MOST_PARTICLES:e} particles (it would be {particles:.1e})"),
-            "write a larger particle distance or a smaller domain",
+            "write a larger particle spacing or a smaller domain",
         );
     } else if particles > MANY_PARTICLES {
         check.warn(format!("domain.dp_m = {}: about {:.0} million particles", show(case.domain.dp), particles / 1e6));

@@ -1,50 +1,51 @@
-//! Where the water is led to a velocity of its own, validated.
+//! The validated damping zone and relaxation zone.
 
 use super::check::{Checker, above, show};
 use super::file::{DampingZoneFile, RelaxationZoneFile};
 use super::{wave::Wave, wavemaker::Wavemaker};
 
-/// Rate at the end of a zone at most [1/s]: water would stop within a millimetre there, and waves return from a wall.
+/// Largest rate at the end of a zone [1/s]. With it the water stops within a millimetre, which reflects waves like a
+/// wall.
 const LARGEST_COEFFICIENT: f64 = 1000.0;
 
-/// Where the velocity v of the water decays, dv/dt = -f(x) v; SI units.
+/// Zone in which the velocity v of the water decays, dv/dt = -f(x) v; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampingZone {
-    /// Seaward and shoreward end [m].
+    /// x of the seaward and of the shoreward end [m].
     pub x: [f64; 2],
-    /// Rate at the shoreward end [1/s].
+    /// Rate f at the shoreward end [1/s].
     pub coefficient: f64,
 }
 
 impl DampingZone {
-    /// Rate f at x [1/s]: the coefficient times the square of the share of the zone that lies seaward of x; 0 before
-    /// the zone, the coefficient beyond it.
+    /// Returns the rate f at x [1/s]: the coefficient times the square of the share of the zone seaward of x; 0 before
+    /// the zone and the coefficient beyond it.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((x - self.x[0]) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
     }
 }
 
-/// Where the velocity v of the water goes over to that of the flume model, dv/dt = -f(x) (v - v_flume); SI units.
+/// Zone in which the velocity v of the water relaxes to the velocity of the flume model, dv/dt = -f(x) (v - v_flume);
+/// SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelaxationZone {
-    /// Seaward and shoreward end [m].
+    /// x of the seaward and of the shoreward end [m].
     pub x: [f64; 2],
-    /// Rate at the seaward end [1/s].
+    /// Rate f at the seaward end [1/s].
     pub coefficient: f64,
 }
 
 impl RelaxationZone {
-    /// Rate f at x [1/s]: the coefficient times the square of the share of the zone that lies shoreward of x; 0 beyond
-    /// the zone.
+    /// Returns the rate f at x [1/s]: the coefficient times the square of the share of the zone shoreward of x; 0
+    /// beyond.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((self.x[1] - x) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
     }
 }
 
-/// Validate a relaxation zone that begins at the seaward end of a domain between two x [m] and must end before a
-/// damping zone.
+/// Validates a relaxation zone. It begins at the seaward end of the domain and must end before the damping zone.
 pub(super) fn validate_relaxation(
     file: &RelaxationZoneFile,
     domain_x: [f64; 2],
@@ -57,7 +58,7 @@ pub(super) fn validate_relaxation(
         file.end_x_m,
         above(seaward).up_to(shoreward),
         "m",
-        "it begins at the wavemaker; a wavelength is usual",
+        "the zone begins at the wavemaker and is usually one wavelength long",
     );
     check.number(
         "domain.relaxation_zone.coefficient_per_s",
@@ -69,7 +70,7 @@ pub(super) fn validate_relaxation(
     RelaxationZone { x: [seaward, file.end_x_m], coefficient: file.coefficient_per_s }
 }
 
-/// Refuse a relaxation zone where no wave comes from the flume model.
+/// Refuses a relaxation zone if no wave comes from the flume model.
 pub(super) fn validate_wave(zone: Option<&RelaxationZone>, wave: &Wave, wavemaker: Wavemaker, check: &mut Checker) {
     let from_flume = wavemaker.is_ml_piston() && !matches!(wave, Wave::None | Wave::Given(_));
     if zone.is_some() && !from_flume {
@@ -77,20 +78,20 @@ pub(super) fn validate_wave(zone: Option<&RelaxationZone>, wave: &Wave, wavemake
             "domain.relaxation_zone",
             "present",
             "absent, because no wave comes from the flume model",
-            "leave it out, or give a wave that the flume model makes and a wavemaker of kind \"ml_piston\"",
+            "remove it, or use a wave that the flume model carries and the wavemaker \"ml_piston\"",
         );
     }
 }
 
-/// Validate a damping zone in a domain between two x [m].
+/// Validates a damping zone in a domain between two x [m].
 pub(super) fn validate_damping(file: &DampingZoneFile, domain_x: [f64; 2], check: &mut Checker) -> DampingZone {
     let [from, to] = file.x_m;
     if !(from >= domain_x[0] && to <= domain_x[1] && to - from > 0.0) {
         check.refuse(
             "domain.damping_zone.x_m",
             format!("[{}, {}]", show(from), show(to)),
-            format!("rising and within the domain, {} to {} m", show(domain_x[0]), show(domain_x[1])),
-            "write the seaward end first; a wavelength before the shoreward end of the domain is usual",
+            format!("increasing and within the domain, {} to {} m", show(domain_x[0]), show(domain_x[1])),
+            "write the seaward end first; usually the last wavelength of the domain is the zone",
         );
     }
     check.number(
@@ -108,13 +109,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn relaxation_is_strongest_at_the_wavemaker() {
+    fn relaxation_rate_is_largest_at_the_wavemaker() {
         let zone = RelaxationZone { x: [2.0, 4.0], coefficient: 10.0 };
         assert_eq!([1.0, 2.0, 3.0, 4.0, 9.0].map(|x| zone.rate(x)), [10.0, 10.0, 2.5, 0.0, 0.0]);
     }
 
     #[test]
-    fn rate_grows_as_the_square() {
+    fn damping_rate_grows_with_the_square_of_the_distance() {
         let zone = DampingZone { x: [2.0, 4.0], coefficient: 10.0 };
         assert_eq!([1.0, 2.0, 3.0, 4.0, 9.0].map(|x| zone.rate(x)), [0.0, 0.0, 2.5, 10.0, 10.0]);
     }

@@ -4,7 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{AnyCase, Trouble, is_fracture, is_sweep, load_any, placement};
+use super::{
+    Trouble,
+    input::{AnyCase, is_fracture, is_sweep, load_any, placement},
+    run,
+};
 use crate::{
     case::{Case, DryCase, DryTest, Handover, Hardness, Sides, Units, Wave},
     output::progress::readable,
@@ -49,7 +53,7 @@ impl CheckArguments {
                 continue;
             }
             if is_fracture(path) {
-                if let Err(Trouble::Refused(reason) | Trouble::Failed(reason)) = super::fracture::check(path) {
+                if let Err(Trouble::Refused(reason) | Trouble::Failed(reason)) = run::fracture::check(path) {
                     refusals.push(reason);
                 }
                 continue;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Trouble, is_fracture};
+use super::{Trouble, input::is_fracture};
 use crate::report::{fracture::write_fracture_report, run::write_report};
 
 /// Make the report of a finished run anew.

@@ -11,23 +11,25 @@ use clap::{Args, ValueEnum};
 use super::{
     Trouble,
     devices::DeviceArgument,
-    fresh_folder, hand_over,
-    run::{MachineArguments, finish},
-    stem,
+    folder::{fresh_folder, stem},
+    machine::MachineArguments,
+    run::{breakage, flume},
 };
 use crate::{
     case::Case,
     output::Summary,
+    report::sweep::write_sweep_chart,
     simulation::flume::{
         branch::Start,
         checkpoint::Checkpoint,
-        run::{resume, run},
+        run::{RunOptions, resume, run},
     },
     sweep::{
         member::Outcome,
         plan::{Member, Sweep},
         queue::Work,
-        slurm, table,
+        slurm,
+        table::write_table,
     },
 };
 
@@ -99,12 +101,14 @@ impl SweepArguments {
             finished(start, &dir)?;
         }
         self.launch(&work, &program, &sweep.members)?;
-        for path in table::write(&sweep, &dir).map_err(Trouble::failed)? {
-            println!("{}", path.display());
+        let outcomes: Vec<Outcome> = sweep.members.iter().map(|member| member.outcome(&dir)).collect();
+        println!("{}", write_table(&sweep, &outcomes, &dir).map_err(Trouble::failed)?.display());
+        if let Some(chart) = write_sweep_chart(&sweep, &outcomes, &dir).map_err(Trouble::failed)? {
+            println!("{}", chart.display());
         }
-        let finished = |member: &&Member| matches!(member.outcome(&dir), Outcome::Finished(_));
+        let unfinished = |(_, outcome): &(&Member, &Outcome)| !matches!(outcome, Outcome::Finished(_));
         let missing: Vec<&str> =
-            sweep.members.iter().filter(|member| !finished(member)).map(|member| member.name.as_str()).collect();
+            sweep.members.iter().zip(&outcomes).filter(unfinished).map(|(member, _)| member.name.as_str()).collect();
         if missing.is_empty() {
             return Ok(());
         }
@@ -162,9 +166,8 @@ impl SweepArguments {
         let name = sweep.case.display().to_string();
         let case = Arc::new(Case::from_str(&member.text, &name).map_err(Trouble::refused)?);
         let machine = MachineArguments { threads: Some(self.threads as usize), quiet: false };
-        let mut options = machine.prepare()?;
-        options.device = self.device.open(&case, options.quiet)?;
-        options.until = member.until;
+        let control = machine.prepare()?;
+        let options = RunOptions { device: self.device.open(&case, control.quiet)?, control, until: member.until };
         let begun = fs::read_to_string(dir.join("case.json")).is_ok_and(|text| text == member.text);
         let ended = if begun && dir.join(Checkpoint::FILE).exists() {
             resume(case.clone(), &dir, &options)
@@ -182,11 +185,11 @@ impl SweepArguments {
                 }
             }
         };
-        let summary = finish(ended, &dir)?;
+        let summary = flume::finish(ended, &dir)?;
         if member.until.is_some() {
             return Ok(());
         }
-        hand_over::of_run(&case, &summary, &dir, options.quiet)
+        breakage::after_flume_run(&case, &summary, &dir, &options.control)
     }
 }
 

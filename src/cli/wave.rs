@@ -4,11 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, fresh_folder, load, stem};
+use super::{
+    Trouble,
+    folder::{fresh_folder, stem},
+    input::load,
+};
 use crate::{
     case::{Quantity, Wave},
-    output::{OutputError, write_atomically},
-    report::wave_page::{write_flume_gauges, write_flume_piston, write_wave_page},
+    output::{OutputError, write_atomically, write_flume_gauges, write_flume_piston},
+    report::wave_page::write_wave_page,
     simulation::flume::incoming::{ml_piston, particle_start, run_flume},
     waves::external::{
         comparison::Comparison,

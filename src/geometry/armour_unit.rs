@@ -1,7 +1,7 @@
 //! Catalogue of armour units: closed surface, convex parts for contact, mass properties, standing pose.
 //!
-//! Body axes have their origin at the centre of mass. A new shape is one constructor here and one file with its
-//! surface and parts.
+//! Body axes have their origin at the centre of mass. A new shape needs a constructor here and a file with its surface
+//! and parts.
 
 use glam::{DMat3, DQuat, DVec3};
 use thiserror::Error;
@@ -12,17 +12,17 @@ use super::polyhedron::{Polyhedron, PolyhedronError};
 use super::solid::{Solid, SolidError};
 use super::{core_loc, cuboid, dolos, grooved_cube, tetrapod, union};
 
-/// Why a unit cannot be made.
+/// Error when a unit cannot be created.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ArmourUnitError {
     /// A length is not a positive number.
     #[error("height and edges of a unit must be positive, not {0} m")]
     Length(f64),
-    /// The rounding does not fit the shape.
-    #[error("rounding by {share} of the height does not fit the unit: it must lie between 0 and {largest:.4}")]
+    /// The rounding radius does not fit the shape.
+    #[error("rounding radius of {share} of the height does not fit the unit: it must be between 0 and {largest:.4}")]
     Rounding { share: f64, largest: f64 },
     /// The waist ratio of a Dolos is out of range.
-    #[error("the waist ratio of a Dolos must lie between {} and {}, not {waist}", allowed[0], allowed[1])]
+    #[error("the waist ratio of a Dolos must be between {} and {}, not {waist}", allowed[0], allowed[1])]
     Waist { waist: f64, allowed: [f64; 2] },
     /// A block is flat.
     #[error(transparent)]
@@ -32,7 +32,7 @@ pub enum ArmourUnitError {
     Surface(#[from] SolidError),
 }
 
-/// Share of the largest ball in the thinnest block that the rounding may take: beyond it little is left of the core.
+/// Largest rounding radius over the inscribed radius of the thinnest block [-]; beyond it, little of the core remains.
 pub const LARGEST_ROUNDING: f64 = 0.9;
 
 /// Shape of an armour unit.
@@ -42,20 +42,21 @@ pub struct ArmourUnit {
     rounding: f64,
     solid: Solid,
     parts: Vec<ConvexPart>,
-    /// The polyhedra with sharp edges that it is the union of; none for a Tetrapod.
+    /// Sharp-edged polyhedra whose union is the unit; empty for a Tetrapod.
     blocks: Vec<Polyhedron>,
-    /// Whether the surface is that of the blocks.
+    /// Whether the surface is exactly that of the blocks.
     exact: bool,
-    /// Rotation in which it stands on level ground.
+    /// Rotation of the unit standing on level ground.
     standing: DQuat,
-    /// Edges, if it is a cuboid [m].
+    /// Edges of a cuboid [m].
     edges: Option<DVec3>,
 }
 
 impl ArmourUnit {
-    /// Tetrapod of height `height_m` [m] whose contact surface is rounded by `rounding_share` of the height [-].
+    /// Tetrapod of height `height_m` [m]; `rounding_share` is the rounding radius of the contact surface over the
+    /// height [-], here and below.
     pub fn tetrapod(height_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
-        sound_length(height_m)?;
+        check_length(height_m)?;
         let largest = tetrapod::LARGEST_ROUNDING;
         if !(rounding_share > 0.0 && rounding_share <= largest) {
             return Err(ArmourUnitError::Rounding { share: rounding_share, largest });
@@ -74,8 +75,7 @@ impl ArmourUnit {
         })
     }
 
-    /// Cuboid with the edges `edges_m` [m] along its axes, the last one being its height; its contact surface is
-    /// rounded by `rounding_share` of the height [-].
+    /// Cuboid with the edges `edges_m` [m]; the last one is the height.
     pub fn cuboid(edges_m: DVec3, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         if let Some(bad) = edges_m.to_array().into_iter().find(|edge| !(*edge > 0.0 && edge.is_finite())) {
             return Err(ArmourUnitError::Length(bad));
@@ -84,42 +84,41 @@ impl ArmourUnit {
         Ok(Self { edges: Some(edges_m), ..Self::of_blocks(edges_m.z, &[block], rounding_share, DQuat::IDENTITY)? })
     }
 
-    /// Dolos of height `height_m` [m] with the waist ratio `waist` [-], width of the stem over the height, rounded as
-    /// the others.
+    /// Dolos of height `height_m` [m]; `waist` is the waist ratio, the width of the stem over the height [-].
     pub fn dolos(height_m: f64, waist: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let [low, high] = dolos::WAIST_RATIOS;
         if !(low..=high).contains(&waist) {
             return Err(ArmourUnitError::Waist { waist, allowed: dolos::WAIST_RATIOS });
         }
-        Self::of_members(height_m, &dolos::blocks(sound_length(height_m)?, waist)?, rounding_share)
+        Self::of_members(height_m, &dolos::blocks(check_length(height_m)?, waist)?, rounding_share)
     }
 
-    /// Core-Loc of size C `size_m` [m], rounded as the others.
+    /// Core-Loc of size C = `size_m` [m].
     pub fn core_loc(size_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
-        Self::of_members(size_m, &core_loc::blocks(sound_length(size_m)?)?, rounding_share)
+        Self::of_members(size_m, &core_loc::blocks(check_length(size_m)?)?, rounding_share)
     }
 
-    /// Grooved cube (Antifer block) of height `height_m` [m], rounded as the others.
+    /// Grooved cube (Antifer block) of height `height_m` [m].
     pub fn grooved_cube(height_m: f64, rounding_share: f64) -> Result<Self, ArmourUnitError> {
-        let blocks = grooved_cube::blocks(sound_length(height_m)?)?;
+        let blocks = grooved_cube::blocks(check_length(height_m)?)?;
         Self::of_blocks(height_m, &blocks, rounding_share, DQuat::IDENTITY)
     }
 
-    /// A unit with its own surface and convex parts, standing as they are given, rounded as the others.
+    /// Unit with the given surface and convex parts, standing in the given orientation.
     pub fn of_parts(solid: &Solid, parts: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let [low, high] = solid.bounds();
         let unit = Self::of_solid(high.z - low.z, solid.clone(), parts, rounding_share, DQuat::IDENTITY)?;
         Ok(Self { exact: false, ..unit })
     }
 
-    /// A unit of blocks without a foot of its own: it stands on the three of its corners that carry it most safely.
+    /// Unit of blocks that stands on the face of its convex hull with the highest stability against tipping.
     fn of_members(height: f64, blocks: &[Polyhedron], rounding_share: f64) -> Result<Self, ArmourUnitError> {
         let unit = Self::of_blocks(height, blocks, rounding_share, DQuat::IDENTITY)?;
         let standing = standing_rotation(&unit.parts)?;
         Ok(Self { standing, ..unit })
     }
 
-    /// The union of convex blocks.
+    /// Unit whose surface is the union of convex blocks.
     fn of_blocks(
         height: f64,
         blocks: &[Polyhedron],
@@ -152,22 +151,22 @@ impl ArmourUnit {
         }
     }
 
-    /// Whether it is a Tetrapod.
+    /// Whether the unit is a Tetrapod.
     pub fn is_tetrapod(&self) -> bool {
         self.blocks.is_empty()
     }
 
-    /// Whether its surface is exactly that of its cones or blocks; not so if it comes from STL.
+    /// Whether the surface is exactly that of the cones or blocks; false for a unit from STL.
     pub fn is_exact(&self) -> bool {
         self.exact
     }
 
-    /// The unit as a box about its centre of mass, if it is one.
+    /// The box about the centre of mass, if the unit is a cuboid.
     pub fn as_box(&self) -> Option<AxisBox> {
         self.edges.map(|edges| AxisBox::free(-0.5 * edges, 0.5 * edges))
     }
 
-    /// Height standing [m].
+    /// Height of the standing unit [m].
     pub fn height(&self) -> f64 {
         self.height
     }
@@ -187,45 +186,45 @@ impl ArmourUnit {
         &self.parts
     }
 
-    /// The polyhedra with sharp edges that it is the union of, in body axes; none for a Tetrapod.
+    /// Sharp-edged polyhedra whose union is the unit, in body axes; empty for a Tetrapod.
     pub fn blocks(&self) -> &[Polyhedron] {
         &self.blocks
     }
 
-    /// Inertia tensor in body axes for the mass `mass_kg` spread evenly over the volume [kg m2].
+    /// Inertia tensor in body axes for the mass `mass_kg` [kg] at uniform density [kg m2].
     pub fn inertia(&self, mass_kg: f64) -> DMat3 {
         let properties = self.solid.volume_properties();
         properties.inertia * (mass_kg / properties.volume)
     }
 
-    /// Rotation in which the unit stands: a Tetrapod on three legs with the fourth one up, cubes on a face, a Dolos or
-    /// Core-Loc as safely as it can. At azimuth 0 one of a Tetrapod's lower legs points seaward (-x); the azimuth [rad]
-    /// turns the unit counter-clockwise seen from above, so pi points it shoreward.
+    /// Rotation of the standing unit: a Tetrapod on three legs, cubes on a face, a Dolos or Core-Loc in its most stable
+    /// position. At azimuth 0 one lower leg of a Tetrapod points seaward (-x). The azimuth [rad] rotates the unit
+    /// counter-clockwise seen from above, so at pi that leg points shoreward.
     pub fn standing_rotation(&self, azimuth: f64) -> DQuat {
         DQuat::from_rotation_z(azimuth) * self.standing
     }
 
-    /// Height of the centre of mass above a level plane on which the standing unit just rests with its rounded contact
-    /// surface [m].
+    /// Height of the centre of mass above level ground that the rounded contact surface of the standing unit touches
+    /// [m].
     pub fn standing_height(&self) -> f64 {
         let down = self.standing.inverse() * DVec3::NEG_Z;
         self.parts.iter().map(|p| p.support(down).dot(down) + p.rounding()).fold(f64::MIN, f64::max)
     }
 
-    /// Height of the centre of mass above a level plane that the sharp-edged surface touches [m].
+    /// Height of the centre of mass above level ground that the sharp-edged surface touches [m].
     pub fn standing_height_sharp(&self) -> f64 {
         let down = self.standing.inverse() * DVec3::NEG_Z;
         self.solid.vertices().iter().map(|v| v.dot(down)).fold(f64::MIN, f64::max)
     }
 }
 
-/// A length that a unit can have [m].
-fn sound_length(length_m: f64) -> Result<f64, ArmourUnitError> {
+/// Returns the length [m] if it is positive and finite.
+fn check_length(length_m: f64) -> Result<f64, ArmourUnitError> {
     if length_m > 0.0 && length_m.is_finite() { Ok(length_m) } else { Err(ArmourUnitError::Length(length_m)) }
 }
 
-/// Rotation that brings a body down on the face of its hull from which it is hardest to tip: the one with the largest
-/// angle between the vertical and the line from the nearest edge of the face to the centre of mass.
+/// Rotation that places a body on the most stable face of its convex hull: the largest angle between the vertical and
+/// the line from the nearest edge of the face to the centre of mass.
 fn standing_rotation(parts: &[ConvexPart]) -> Result<DQuat, ArmourUnitError> {
     let corners: Vec<DVec3> = parts.iter().flat_map(|part| part.ends(DVec3::Z).collect::<Vec<_>>()).collect();
     let hull = Polyhedron::hull(&corners)?;
@@ -250,39 +249,39 @@ mod tests {
     #[test]
     fn tetrapod_has_the_volume_and_inertia_of_its_dimensions() {
         let properties = unit().solid.volume_properties();
-        // 0.5 %: the polygon of 72 sides takes 0.13 % from each leg's section.
+        // 0.5 %: the polygon of 72 sides reduces each leg's section by 0.13 %.
         assert!((properties.volume / 0.2799 - 1.0).abs() < 0.005, "volume {}", properties.volume);
         assert!(properties.centre.length() < 1e-9, "centre {}", properties.centre);
         let inertia = unit().inertia(1.0);
         for axis in 0..3 {
             assert!((inertia.col(axis)[axis] / 0.0996 - 1.0).abs() < 0.005, "inertia {inertia}");
         }
-        // Tetrahedral symmetry makes the tensor a multiple of the identity, to rounding.
+        // Tetrahedral symmetry: the tensor is a multiple of the identity, except for rounding.
         assert!((inertia - DMat3::IDENTITY * inertia.x_axis.x).abs_diff_eq(DMat3::ZERO, 1e-9));
     }
 
     #[test]
-    fn tetrapod_stands_h_high_and_one_leg_points_seaward() {
+    fn standing_tetrapod_has_height_h_and_one_leg_seaward() {
         let unit = unit();
         let [low, high] = unit.solid.bounds();
         // The dimensions are given to three digits.
         assert!((high.z - low.z - 1.0).abs() < 0.003, "height {}", high.z - low.z);
         assert!(low.x < -0.6 && high.x < 0.6);
-        // Rounding the rim lowers the standing centre by a little, never raises it.
+        // The rounded rim lowers the standing centre slightly.
         assert!(unit.standing_height() < unit.standing_height_sharp());
         assert!(unit.standing_height_sharp() - unit.standing_height() < 0.01);
     }
 
     #[test]
-    fn rounded_parts_fill_the_surface_but_do_not_leave_it() {
+    fn rounded_tetrapod_parts_fill_the_surface_from_inside() {
         let unit = unit();
-        let to_parts = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
-        let rim = unit.solid.vertices().iter().map(|v| to_parts(*v)).fold(0.0, f64::max);
-        // Only the sharp rim sticks out of the parts: less than R (sqrt 2 - 1) = 0.0207 at a right angle, more here.
+        let distance_to = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
+        let rim = unit.solid.vertices().iter().map(|v| distance_to(*v)).fold(0.0, f64::max);
+        // Only the sharp rim protrudes from the parts: R (sqrt 2 - 1) = 0.0207 at a right angle, more here.
         assert!(rim < 0.025, "{rim}");
         for v in unit.solid.vertices() {
-            // The mesh is inscribed in the true cones: its points never lie inside the parts, up to rounding.
-            assert!(to_parts(*v) > -1e-9);
+            // Vertices lie on the true cones, so they never lie inside the parts, except for rounding errors.
+            assert!(distance_to(*v) > -1e-9);
         }
         for (leg, part) in unit.parts.iter().enumerate() {
             let axis = tetrapod::leg_axes()[leg];
@@ -298,14 +297,14 @@ mod tests {
     }
 
     #[test]
-    fn mesh_distance_agrees_with_the_cones_outside() {
+    fn mesh_distance_matches_the_cones_outside() {
         let unit = unit();
         let sharp = tetrapod::parts(1.0, 1e-9);
         for i in 0..500 {
             let (a, b) = (0.7 * i as f64, 0.37 * i as f64);
             let p = DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * (0.7 + 0.001 * i as f64);
             let exact = sharp.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
-            // 3e-4 H: depth of the chord below the circle at 72 points round a leg.
+            // 3e-4 H: depth of the chord below the circle with 72 points around a leg.
             assert!((unit.solid.signed_distance(p) - exact).abs() < 3e-4);
         }
     }
@@ -324,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn cuboid_is_as_large_in_contact_as_its_surface_but_for_its_edges() {
+    fn contact_surface_of_a_cuboid_matches_its_faces() {
         let unit = ArmourUnit::cuboid(DVec3::new(0.1, 0.2, 0.3), 0.05).unwrap();
         let [part] = unit.parts() else { panic!("one part") };
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -341,31 +340,31 @@ mod tests {
     }
 
     #[test]
-    fn dolosse_have_the_volumes_of_their_waist_ratios() {
+    fn dolos_volume_matches_the_published_formula() {
         for waist in [0.32, 0.34, 0.36, 0.38] {
             let unit = ArmourUnit::dolos(1.0, waist, 0.03).unwrap();
             println!("r = {waist}: {} H^3, {}", volume(&unit), dolos::volume_ratio(waist));
-            // 0.5 %: asked for; 0.9 % at the lower end of the fitted formula.
+            // 0.5 % is required; 0.9 % at the lower end of the fitted formula.
             let tolerance = if waist < 0.34 { 0.009 } else { 0.005 };
             assert!((volume(&unit) / dolos::volume_ratio(waist) - 1.0).abs() < tolerance, "{waist} {}", volume(&unit));
         }
-        // The shore protection manual's dimensions: 0.16 H^3 at r = 0.32.
+        // Shore Protection Manual: 0.16 H^3 at r = 0.32.
         assert!((volume(&ArmourUnit::dolos(2.0, 0.32, 0.03).unwrap()) / 8.0 / 0.16 - 1.0).abs() < 0.02);
     }
 
     #[test]
-    fn core_loc_and_grooved_cube_have_their_volumes() {
+    fn core_loc_and_grooved_cube_have_the_published_volumes() {
         let core_loc = volume(&ArmourUnit::core_loc(3.31, 0.03).unwrap());
         println!("Core-Loc {} C^3", core_loc / 3.31f64.powi(3));
         assert!((core_loc / 8.0 - 1.0).abs() < 0.005, "{core_loc}");
         let grooved = volume(&ArmourUnit::grooved_cube(1.0, 0.03).unwrap());
         println!("grooved cube {grooved} H^3");
-        // 0.5 %: the quoted lengths have three digits.
+        // 0.5 %: the published lengths have three digits.
         assert!((grooved - 1.0).abs() < 0.005, "{grooved}");
     }
 
     #[test]
-    fn units_of_blocks_stand_with_their_centre_over_three_corners() {
+    fn standing_units_have_their_centre_inside_the_support_polygon() {
         for unit in [
             ArmourUnit::dolos(1.0, 0.36, 0.03).unwrap(),
             ArmourUnit::core_loc(1.0, 0.03).unwrap(),
@@ -374,10 +373,10 @@ mod tests {
             let q = unit.standing_rotation(0.0);
             let foot = unit.standing_height() - unit.rounding;
             let ends = unit.parts.iter().flat_map(|p| p.ends(DVec3::Z).collect::<Vec<_>>()).map(|c| q * c);
-            // 1e-6: the hull's faces are merged within single precision.
+            // 1e-6: faces of the hull are merged within single precision.
             let down: Vec<DVec3> = ends.filter(|c| c.z < -foot + 1e-6).collect();
             assert!(down.len() >= 3, "{down:?}");
-            // The centre is on the inner side in every direction.
+            // The centre of mass projects inside the support polygon.
             for k in 0..36 {
                 let direction = DQuat::from_rotation_z(f64::from(k) * 0.1745) * DVec3::X;
                 assert!(down.iter().any(|c| c.dot(direction) > 0.0));
@@ -386,25 +385,25 @@ mod tests {
     }
 
     #[test]
-    fn rounded_blocks_fill_the_surface_but_do_not_leave_it() {
+    fn rounded_blocks_fill_the_surface_from_inside() {
         for unit in [ArmourUnit::dolos(1.0, 0.36, 0.03).unwrap(), ArmourUnit::core_loc(1.0, 0.03).unwrap()] {
             for part in &unit.parts {
                 for k in 0..300 {
                     let (a, b) = (0.7 * f64::from(k), 0.37 * f64::from(k));
                     let n = DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos());
-                    // Rounding only.
+                    // Rounding errors only.
                     assert!(unit.solid.signed_distance(part.support(n) + n * part.rounding()) < 1e-9);
                 }
             }
-            let out = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
+            let distance_to = |p: DVec3| unit.parts.iter().map(|part| part.distance(p)).fold(f64::MAX, f64::min);
             // A corner of three faces at about right angles: R (sqrt 3 - 1) = 0.022.
-            let corner = unit.solid.vertices().iter().map(|v| out(*v)).fold(0.0, f64::max);
+            let corner = unit.solid.vertices().iter().map(|v| distance_to(*v)).fold(0.0, f64::max);
             assert!(corner < 0.022, "{corner}");
         }
     }
 
     #[test]
-    fn impossible_units_are_refused() {
+    fn invalid_dimensions_are_rejected() {
         assert!(ArmourUnit::cuboid(DVec3::new(1.0, 0.0, 1.0), 0.05).is_err());
         assert!(ArmourUnit::cuboid(DVec3::new(0.1, 1.0, 1.0), 0.05).unwrap_err().to_string().contains("0.045"));
         assert!(ArmourUnit::dolos(1.0, 0.5, 0.03).unwrap_err().to_string().contains("waist"));

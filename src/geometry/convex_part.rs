@@ -1,7 +1,7 @@
-//! Convex parts of a body for contact: a core with a rounding radius, body = core plus ball.
+//! Convex parts of a body for contact: a core with a rounding radius (Minkowski sum of core and ball).
 //!
-//! A rounded part has one normal at each point of its surface, so that neither depth nor normal of a contact jumps. The
-//! cores have an exact support point and an exact nearest point, in closed form.
+//! A rounded part has a unique normal at each surface point, so overlap and normal of a contact are continuous. The
+//! support function and the nearest point of a core are exact, in closed form.
 
 use std::sync::Arc;
 
@@ -9,25 +9,25 @@ use glam::{DVec2, DVec3};
 
 use super::polyhedron::Polyhedron;
 
-/// Truncated cone about a line through the body's origin; both ends count as part of it.
+/// Solid truncated cone about a line through the body's origin, including its end discs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TruncatedCone {
     /// Unit vector along the axis, from the origin to the tip.
     axis: DVec3,
-    /// Distance from the origin to the lower and the upper disc along the axis [m].
+    /// Distances from the origin to the lower and the upper disc along the axis [m].
     along: [f64; 2],
-    /// Radius of the lower and the upper disc [m].
+    /// Radii of the lower and the upper disc [m].
     radius: [f64; 2],
 }
 
 impl TruncatedCone {
-    /// Cone with discs of `radius` [m] at the distances `along` [m] from the origin.
+    /// Creates the cone with discs of `radius` [m] at the distances `along` [m] from the origin.
     pub fn new(axis: DVec3, along: [f64; 2], radius: [f64; 2]) -> Self {
-        assert!(along[1] > along[0] && radius[0] >= 0.0 && radius[1] >= 0.0, "a truncated cone needs length and radii");
+        assert!(along[1] > along[0] && radius[0] >= 0.0 && radius[1] >= 0.0, "a cone needs a length and radii >= 0");
         Self { axis: axis.normalize(), along, radius }
     }
 
-    /// Point of one end disc (0 lower, 1 upper) furthest in `direction` [m]; its centre if the disc faces that way.
+    /// Support point of an end disc (0 lower, 1 upper) in `direction` [m]; its centre if the disc is normal to it.
     fn disc_support(&self, end: usize, direction: DVec3) -> DVec3 {
         let across = direction - self.axis * self.axis.dot(direction);
         self.axis * self.along[end] + across.normalize_or_zero() * self.radius[end]
@@ -38,7 +38,7 @@ impl TruncatedCone {
         if upper.dot(direction) >= lower.dot(direction) { upper } else { lower }
     }
 
-    /// Nearest point of the solid cone: a two-dimensional problem in (distance along, distance from the axis).
+    /// Nearest point of the solid cone: a two-dimensional problem in (coordinate along the axis, distance from it).
     fn nearest(&self, point: DVec3) -> DVec3 {
         let s = self.axis.dot(point);
         let across = point - self.axis * s;
@@ -51,9 +51,9 @@ impl TruncatedCone {
         }
         let q = DVec2::new(s, rho);
         let candidates = [
-            on_segment(q, DVec2::new(s_0, 0.0), DVec2::new(s_0, r_0)),
-            on_segment(q, DVec2::new(s_0, r_0), DVec2::new(s_1, r_1)),
-            on_segment(q, DVec2::new(s_1, r_1), DVec2::new(s_1, 0.0)),
+            nearest_on_segment(q, DVec2::new(s_0, 0.0), DVec2::new(s_0, r_0)),
+            nearest_on_segment(q, DVec2::new(s_0, r_0), DVec2::new(s_1, r_1)),
+            nearest_on_segment(q, DVec2::new(s_1, r_1), DVec2::new(s_1, 0.0)),
         ];
         let distance = |c: &DVec2| (*c - q).length_squared();
         let nearest =
@@ -62,8 +62,8 @@ impl TruncatedCone {
     }
 }
 
-/// Nearest point of the segment a b.
-fn on_segment(q: DVec2, a: DVec2, b: DVec2) -> DVec2 {
+/// Nearest point of the segment a b to q.
+fn nearest_on_segment(q: DVec2, a: DVec2, b: DVec2) -> DVec2 {
     let ab = b - a;
     let length_squared = ab.length_squared();
     if length_squared == 0.0 {
@@ -83,7 +83,7 @@ pub enum Core {
     Polyhedron(Arc<Polyhedron>),
 }
 
-/// One convex part of a body in body axes, origin at the centre of mass: core plus ball.
+/// A convex part of a body, core plus ball, in body axes with the origin at the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvexPart {
     core: Core,
@@ -101,8 +101,7 @@ impl ConvexPart {
         Self { core: Core::Cone(core), rounding }
     }
 
-    /// Polyhedron whose faces stay where they are and whose edges are rounded by `rounding` [m]; `None` if it is too
-    /// thin for that.
+    /// Polyhedron with its faces unchanged and its edges rounded by `rounding` [m]; `None` if it is too thin.
     pub fn polyhedron(sharp: &Polyhedron, rounding: f64) -> Option<Self> {
         Some(Self { core: Core::Polyhedron(Arc::new(sharp.shrunk(rounding)?)), rounding })
     }
@@ -117,7 +116,7 @@ impl ConvexPart {
         self.rounding
     }
 
-    /// Point of the core furthest in `direction` [m].
+    /// Support point of the core: the point furthest in `direction` [m].
     pub fn support(&self, direction: DVec3) -> DVec3 {
         match &self.core {
             Core::Point(centre) => *centre,
@@ -126,9 +125,8 @@ impl ConvexPart {
         }
     }
 
-    /// Points of the core that can be nearest to a plane whose outward normal is `-direction`: one for each end of the
-    /// part, so that a leg lying on a plane rests on both ends, and all corners of a polyhedron, so that a cube rests on
-    /// four.
+    /// Points of the core that can touch a plane with outward normal `-direction`. A cone has one per end, so a leg
+    /// lying on a plane rests on both ends. A polyhedron has all its corners, so a cube rests on four.
     pub fn ends(&self, direction: DVec3) -> impl Iterator<Item = DVec3> {
         let (ends, count, corners) = match &self.core {
             Core::Point(centre) => ([*centre; 2], 1, &[][..]),
@@ -138,7 +136,7 @@ impl ConvexPart {
         ends.into_iter().take(count).chain(corners.iter().copied())
     }
 
-    /// Nearest point of the core [m]; the point itself if it lies inside.
+    /// Nearest point of the core [m]; `point` itself if it lies inside.
     pub fn nearest(&self, point: DVec3) -> DVec3 {
         match &self.core {
             Core::Point(centre) => *centre,
@@ -147,12 +145,12 @@ impl ConvexPart {
         }
     }
 
-    /// Distance to the surface of the rounded part [m]; negative inside, not below -R.
+    /// Distance to the surface of the rounded part [m]; negative inside, at least -R.
     pub fn distance(&self, point: DVec3) -> f64 {
         (self.nearest(point) - point).length() - self.rounding
     }
 
-    /// Centre [m] and radius [m] of a sphere about the rounded part.
+    /// Centre [m] and radius [m] of a bounding sphere of the rounded part.
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match &self.core {
             Core::Point(centre) => (*centre, self.rounding),
@@ -180,8 +178,7 @@ mod tests {
     #[test]
     fn nearest_point_of_a_cone_satisfies_the_support_condition() {
         let part = ConvexPart::cone(cone(), 0.0);
-        // A point p is nearest to q if it is the support point along q - p (up to the flat faces): no sampled
-        // direction may do better. 1e-12 is rounding.
+        // p is nearest to q if it is a support point along q - p. 1e-12 is rounding.
         for i in 0..200 {
             let (a, b) = (0.7 * i as f64, 0.37 * i as f64);
             let q = DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos()) * 1.2;

@@ -1,8 +1,7 @@
-//! Core-Loc: a member between two others that are parallel to each other and normal to it (Melby & Turk 1997; US patent
-//! 5,441,362).
+//! Core-Loc: a central member between two parallel outer members normal to it (Melby & Turk 1997; US patent 5,441,362).
 //!
-//! Every member is as long as the unit, C, and the unit is as wide. Assumed: the members are 0.362 C wide in their
-//! middle and 0.181 C at their ends, with chamfers in proportion to the width. The chamfer follows from the volume of
+//! Every member has the length C of the unit, and the unit has the width C. Assumed: the members are 0.362 C wide in
+//! the middle and 0.181 C at the ends, with chamfers proportional to the width. The chamfer follows from the volume of
 //! the unit that was tested to failure, 8 m3 at C = 3.31 m: 0.2206 C^3.
 
 use glam::DVec3;
@@ -11,15 +10,15 @@ use super::member::Member;
 use super::polyhedron::{Polyhedron, PolyhedronError};
 use super::section::Section;
 
-/// Width of a member over C in its middle and at its ends [-].
+/// Width of a member over C in the middle and at the ends [-].
 const WIDTH: [f64; 2] = [0.362, 0.181];
-/// What the chamfer takes of each side over the width there [-].
+/// Chamfer leg over the local width [-].
 const CHAMFER: f64 = 0.1146;
 
 /// Volume over C^3 [-].
 pub const VOLUME_RATIO: f64 = 0.2206;
 
-/// The member along x, then the two upright ones at both sides along y, of a Core-Loc of size C [m].
+/// Members of a Core-Loc of size C [m]: the central one along x, then the two upright ones on both sides in y.
 fn members(size_m: f64) -> [Member; 3] {
     let width = WIDTH.map(|w| w * size_m);
     let member = |y: f64, axis: DVec3| Member {
@@ -34,10 +33,10 @@ fn members(size_m: f64) -> [Member; 3] {
     [member(0.0, DVec3::X), member(aside, DVec3::Z), member(-aside, DVec3::Z)]
 }
 
-/// Convex blocks of a Core-Loc of size C [m]: the two parallel members upright at both sides along y, the third along x.
+/// Convex blocks of a Core-Loc of size C [m]: the central member along x, the two upright ones on both sides in y.
 ///
 /// # Errors
-/// If the dimensions leave nothing.
+/// If a block is flat.
 pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
     let mut blocks = Vec::new();
     for member in members(size_m) {
@@ -46,10 +45,10 @@ pub fn blocks(size_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
     Ok(blocks)
 }
 
-/// Sections of a Core-Loc of size C [m] where its members leave the block in the middle.
+/// Critical sections of a Core-Loc of size C [m], where its members leave the central block.
 pub fn sections(size_m: f64) -> Vec<Section> {
     let width = WIDTH[0] * size_m;
-    // Half a diagonal: the upright members have their sections in the same planes.
-    let of = |member: &Member| member.sections(0.5 * width).map(|section| section.reaching(0.75 * width));
-    members(size_m).iter().flat_map(of).collect()
+    // About half a diagonal, because the sections of the upright members lie in the same planes.
+    let sections = |member: &Member| member.sections(0.5 * width).map(|section| section.reaching(0.75 * width));
+    members(size_m).iter().flat_map(sections).collect()
 }

@@ -11,7 +11,7 @@ fn corner(half: DVec3, number: usize) -> DVec3 {
     half * DVec3::new(side(0), side(1), side(2))
 }
 
-/// Surface of a cuboid with the given edges [m] about its centre: vertices [m] and triangles.
+/// Surface of a cuboid with the given edges [m], centred at the origin: vertices [m] and triangles.
 pub fn surface(edges: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let vertices = (0..8).map(|number| corner(0.5 * edges, number)).collect();
     // Corners of each face, counter-clockwise seen from outside: -x, +x, -y, +y, -z, +z.
@@ -20,19 +20,19 @@ pub fn surface(edges: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
-/// A cuboid with the given edges [m] about its centre.
+/// Convex polyhedron of a cuboid with the given edges [m], centred at the origin.
 ///
 /// # Errors
-/// If an edge is nothing beside the others.
+/// If an edge is negligible compared with the others.
 pub fn block(edges: DVec3) -> Result<Polyhedron, PolyhedronError> {
     Polyhedron::hull(&surface(edges).0)
 }
 
-/// Sections through the middle of a cuboid with the given edges [m], across each of its axes, towards both ends.
+/// Sections through the middle of a cuboid with the given edges [m], normal to each axis, towards both ends.
 pub fn sections(edges: DVec3) -> Vec<Section> {
     let across = |axis: usize| [edges[(axis + 1) % 3], edges[(axis + 2) % 3]];
-    let of = |axis: usize| {
+    let sections = |axis: usize| {
         [1.0, -1.0].map(|side| Section::chamfered(DVec3::ZERO, DVec3::AXES[axis] * side, across(axis), 0.0))
     };
-    (0..3).flat_map(of).collect()
+    (0..3).flat_map(sections).collect()
 }

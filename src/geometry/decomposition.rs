@@ -1,4 +1,4 @@
-//! Convex parts of a body: found by parry's approximate decomposition (VHACD, Mamou 2016), and how well they fill it.
+//! Convex parts of a body by parry's approximate decomposition (VHACD, Mamou 2016), and their volume error.
 
 use glam::DVec3;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -6,23 +6,23 @@ use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 use super::polyhedron::Polyhedron;
 use super::solid::Solid;
 
-/// Points along the longest edge of the body at which parts and body are compared.
+/// Number of sample points along the longest edge of the body, for the comparison of parts and body.
 const SAMPLES: f64 = 48.0;
-/// Finest voxels of a decomposition along the longest edge of the body, and the number of parts allowed with them.
+/// Number of voxels along the longest edge of the body, and the largest number of parts, for each attempt.
 const ATTEMPTS: [(u32, u32); 3] = [(48, 16), (96, 32), (128, 60)];
-/// Volume error with which no finer attempt is made [-].
-const GOOD: f64 = 0.02;
+/// Volume error below which no finer attempt is made [-].
+const ACCEPTABLE_ERROR: f64 = 0.02;
 
-/// Convex parts and how they fill the body.
+/// Convex parts of a body and their volume error.
 #[derive(Debug, Clone)]
 pub struct Decomposition {
     /// Convex parts [m].
     pub parts: Vec<Polyhedron>,
-    /// Volume that belongs to the body or to the parts and not to both, over that of the body [-].
+    /// Volume of the symmetric difference of body and parts over that of the body [-].
     pub volume_error: f64,
 }
 
-/// Parts of a body; the first attempt that is good, or the best.
+/// Decomposes a body into convex parts; returns the first attempt with a small volume error, or the best one.
 pub fn decompose(solid: &Solid) -> Decomposition {
     if let Ok(hull) = Polyhedron::hull(solid.vertices()) {
         let whole = measure(solid, vec![hull]);
@@ -40,14 +40,14 @@ pub fn decompose(solid: &Solid) -> Decomposition {
         if found.volume_error < best.volume_error {
             best = found;
         }
-        if best.volume_error < GOOD {
+        if best.volume_error < ACCEPTABLE_ERROR {
             break;
         }
     }
     best
 }
 
-/// Compare parts with the body at the points of a lattice.
+/// Computes the volume error of parts at the points of a lattice.
 pub fn measure(solid: &Solid, parts: Vec<Polyhedron>) -> Decomposition {
     let [low, high] = solid.bounds();
     let step = (high - low).max_element() / SAMPLES;
@@ -56,7 +56,7 @@ pub fn measure(solid: &Solid, parts: Vec<Polyhedron>) -> Decomposition {
     for i in 0..count.x {
         for j in 0..count.y {
             for k in 0..count.z {
-                // Off the lattice of round numbers, on which faces like to lie.
+                // Offset, because faces often lie at round coordinates.
                 let point = low + step * (DVec3::new(i.into(), j.into(), k.into()) - DVec3::new(0.47, 0.53, 0.49));
                 let in_body = solid.signed_distance(point) < 0.0;
                 let in_parts = parts.iter().any(|part| part.least_distance(point) < 0.0);
@@ -75,24 +75,24 @@ mod tests {
     use crate::geometry::{cuboid, dolos};
 
     #[test]
-    fn a_convex_body_is_its_own_part() {
+    fn convex_body_is_a_single_part() {
         let (vertices, triangles) = cuboid::surface(DVec3::new(1.0, 2.0, 3.0));
         let found = decompose(&Solid::new(vertices, triangles).unwrap());
         assert_eq!((found.parts.len(), found.volume_error), (1, 0.0));
     }
 
     #[test]
-    fn given_parts_that_fill_the_body_have_no_error() {
+    fn exact_parts_have_no_volume_error() {
         let unit = ArmourUnit::dolos(1.0, 0.36, 0.03).unwrap();
         let found = measure(unit.solid(), dolos::blocks(1.0, 0.36).unwrap());
-        // The surface is made of these parts; a few sample points may lie on it.
+        // The surface is the union of these parts; a few sample points may lie on it.
         assert!(found.volume_error < 1e-3, "{}", found.volume_error);
         let found = measure(unit.solid(), dolos::blocks(1.0, 0.36).unwrap()[1..].to_vec());
         assert!(found.volume_error > 0.1, "{}", found.volume_error);
     }
 
     #[test]
-    fn a_decomposition_tells_its_error() {
+    fn dolos_is_decomposed_with_a_bounded_volume_error() {
         let unit = ArmourUnit::dolos(1.0, 0.34, 0.03).unwrap();
         let found = decompose(unit.solid());
         println!("{} parts, {:.2} % of the volume", found.parts.len(), 100.0 * found.volume_error);

@@ -1,10 +1,10 @@
-//! Dolos: two flukes at right angles to each other at the ends of a stem (Merrifield 1974).
+//! Dolos: a stem with two flukes at its ends, at right angles to each other (Merrifield 1974).
 //!
-//! Dimensions after Burcharth et al. (1992), over the height H, which is the length of a fluke and of the unit along its
-//! stem: width of the stem and of the flukes in their middle r (the waist ratio), width at the fluke's ends 0.20,
-//! chamfers of 0.056 at the fluke's ends and along the stem. Assumed: the chamfers of the flukes grow with their width.
-//! The volume then is that of the published formula, 0.675 r^1.285 H^3, within 0.5 % from r = 0.34 to 0.38 (0.9 % at
-//! 0.32; see the tests of the armour unit). The haunches of some designs, where stem and fluke meet, are left out.
+//! Dimensions after Burcharth et al. (1992), relative to the height H: the length of a fluke, and of the unit along its
+//! stem. The stem and the middle of the flukes have the width r (the waist ratio), the fluke ends the width 0.20. The
+//! chamfers are 0.056 at the fluke ends and along the stem. Assumed: chamfers of the flukes are proportional to their
+//! width. The volume agrees with the published formula, 0.675 r^1.285 H^3, within 0.5 % from r = 0.34 to 0.38 (0.9 % at
+//! 0.32; see the tests of `armour_unit`). Haunches between stem and fluke, as in some designs, are neglected.
 
 use glam::DVec3;
 
@@ -14,18 +14,18 @@ use super::section::Section;
 
 /// Width of a fluke at its ends over the height [-].
 const END_WIDTH: f64 = 0.20;
-/// What the chamfers take of each side, at the ends of the flukes and along the stem, over the height [-].
+/// Chamfer leg at the fluke ends and along the stem over the height [-].
 const CHAMFER: f64 = 0.056;
 
-/// Waist ratios of which the dimensions have been published.
+/// Range of waist ratios with published dimensions [-].
 pub const WAIST_RATIOS: [f64; 2] = [0.30, 0.40];
 
-/// Volume over H^3 of a waist ratio r: 0.675 r^1.285 (Burcharth et al. 1992) [-].
+/// Volume over H^3 for the waist ratio r: 0.675 r^1.285 (Burcharth et al. 1992) [-].
 pub fn volume_ratio(waist: f64) -> f64 {
     0.675 * waist.powf(1.285)
 }
 
-/// Stem along x, the fluke at -x upright, that at +x across, of a Dolos of height H [m].
+/// Members of a Dolos of height H [m]: the stem along x, the upright fluke at -x, the fluke along y at +x.
 fn members(height_m: f64, waist: f64) -> [Member; 3] {
     let [half, width] = [0.5 * height_m, waist * height_m];
     let stem = Member {
@@ -47,10 +47,10 @@ fn members(height_m: f64, waist: f64) -> [Member; 3] {
     [stem, fluke(-1.0, DVec3::Z), fluke(1.0, DVec3::Y)]
 }
 
-/// Convex blocks of a Dolos of height H [m] with its stem along x, the fluke at -x upright, that at +x across.
+/// Convex blocks of a Dolos of height H [m]: the stem along x, the upright fluke at -x, the fluke along y at +x.
 ///
 /// # Errors
-/// If the dimensions leave nothing.
+/// If a block is flat.
 pub fn blocks(height_m: f64, waist: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
     let mut blocks = Vec::new();
     for member in members(height_m, waist) {
@@ -59,7 +59,7 @@ pub fn blocks(height_m: f64, waist: f64) -> Result<Vec<Polyhedron>, PolyhedronEr
     Ok(blocks)
 }
 
-/// Sections of a Dolos of height H [m]: of the stem where it meets the flukes, and of the flukes where they leave it.
+/// Critical sections of a Dolos of height H [m]: stem and flukes where they join.
 pub fn sections(height_m: f64, waist: f64) -> Vec<Section> {
     let [stem, flukes @ ..] = members(height_m, waist);
     let width = waist * height_m;

@@ -1,4 +1,4 @@
-//! Gmsh geometry of an armour unit, for tetrahedral meshes: true cones and plane faces, not triangles.
+//! Gmsh geometry of an armour unit for tetrahedral meshes: exact cones and plane faces instead of triangles.
 
 use std::fmt::Write;
 
@@ -6,8 +6,8 @@ use super::armour_unit::ArmourUnit;
 use super::polyhedron::Polyhedron;
 use super::tetrapod;
 
-/// Text of a `.geo` file for the OpenCASCADE kernel of Gmsh 4: the unit in body axes [m] as one volume, elements about
-/// `size` [m] long. `None` for a unit whose exact shape is not known, one from STL.
+/// Returns a `.geo` file for the OpenCASCADE kernel of Gmsh 4: the unit in body axes [m] as one volume, with mesh size
+/// `size` [m]. `None` for a unit from STL, whose exact shape is unknown.
 pub fn geometry(unit: &ArmourUnit, size: f64) -> Option<String> {
     let mut text = String::from("// Armour unit about its centre of mass, lengths in metres. Mesh: gmsh -3 FILE\n");
     text.push_str("SetFactory(\"OpenCASCADE\");\n");
@@ -27,18 +27,18 @@ pub fn geometry(unit: &ArmourUnit, size: f64) -> Option<String> {
     Some(text)
 }
 
-/// The legs of a Tetrapod as cones from its centre to the tips; returns how many.
+/// Writes the legs of a Tetrapod as cones from its centre to the tips; returns their number.
 fn cones(height: f64, text: &mut String) -> usize {
     let ([base, tip], length) = tetrapod::cone(height);
     for (index, axis) in tetrapod::leg_axes().iter().enumerate() {
-        let way = *axis * length;
-        let _ = writeln!(text, "Cone({}) = {{0, 0, 0, {}, {}, {}, {base}, {tip}}};", index + 1, way.x, way.y, way.z);
+        let leg = *axis * length;
+        let _ = writeln!(text, "Cone({}) = {{0, 0, 0, {}, {}, {}, {base}, {tip}}};", index + 1, leg.x, leg.y, leg.z);
     }
     tetrapod::leg_axes().len()
 }
 
-/// Polyhedra by their corners, edges and faces; returns how many. All loops come before the first surface, because
-/// OpenCASCADE gives the outline of a surface a number of its own, the next that is free.
+/// Writes polyhedra by their corners, edges and faces; returns their number. All loops precede the first surface,
+/// because OpenCASCADE assigns the next free number to the outline of a surface.
 fn polyhedra(blocks: &[Polyhedron], text: &mut String) -> usize {
     let (mut points, mut lines, mut faces) = (0, 0, 0);
     let (mut surfaces, mut volumes) = (String::new(), String::new());
@@ -58,7 +58,7 @@ fn polyhedra(blocks: &[Polyhedron], text: &mut String) -> usize {
         for face in block.faces() {
             faces += 1;
             let next = face.ring.iter().cycle().skip(1);
-            let sides: Vec<String> = face.ring.iter().zip(next).map(|(a, b)| side(block, first_line, *a, *b)).collect();
+            let sides: Vec<String> = face.ring.iter().zip(next).map(|(a, b)| line(block, first_line, *a, *b)).collect();
             let _ = writeln!(text, "Curve Loop({faces}) = {{{}}};", sides.join(", "));
             let _ = writeln!(surfaces, "Plane Surface({faces}) = {{{faces}}};");
         }
@@ -71,8 +71,8 @@ fn polyhedra(blocks: &[Polyhedron], text: &mut String) -> usize {
     blocks.len()
 }
 
-/// Number of the line from corner `a` to corner `b`, negative if it runs the other way.
-fn side(block: &Polyhedron, first_line: usize, a: usize, b: usize) -> String {
+/// Number of the line from corner `a` to corner `b`, negative if the line has the opposite direction.
+fn line(block: &Polyhedron, first_line: usize, a: usize, b: usize) -> String {
     let forward = block.edges().iter().position(|edge| edge.ends == [a, b]);
     let backward = block.edges().iter().position(|edge| edge.ends == [b, a]);
     match (forward, backward) {
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_side_of_every_face_is_a_line() {
+    fn polyhedron_faces_refer_to_existing_lines() {
         for unit in [ArmourUnit::dolos(1.0, 0.34, 0.03).unwrap(), ArmourUnit::grooved_cube(1.0, 0.03).unwrap()] {
             let text = geometry(&unit, 0.1).unwrap();
             assert!(!text.contains("{0,") && !text.contains(", 0}") && !text.contains(" 0,"), "{text}");

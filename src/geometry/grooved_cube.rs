@@ -1,9 +1,9 @@
-//! Grooved cube (Antifer block): a slightly tapered cube with a groove down the middle of each side.
+//! Grooved cube (Antifer block): a slightly tapered cube with a vertical groove in the middle of each side.
 //!
-//! Assumed, over its height: 1.086 wide at the foot, 1.005 at the top, grooves of radius 0.12, the proportions usually
-//! quoted for Antifer blocks (after Frens 2007, over the cube root of the volume there). They fit each other: the volume
-//! is 1.003 H^3. A half-round groove is not the hollow of convex blocks; here it is a rectangular one of the same width
-//! and section.
+//! Assumed, relative to the height: width 1.086 at the foot and 1.005 at the top, grooves of radius 0.12. These are the
+//! usual proportions of Antifer blocks (Frens 2007, relative to the cube root of the volume). They are consistent: the
+//! volume is 1.003 H^3. Convex blocks cannot form a half-round groove; a rectangular one of the same width and
+//! sectional area replaces it.
 
 use std::f64::consts::PI;
 
@@ -15,14 +15,14 @@ use super::polyhedron::{Polyhedron, PolyhedronError};
 const WIDTH: [f64; 2] = [1.086, 1.005];
 /// Half of the width of a groove over the height [-].
 const GROOVE: f64 = 0.12;
-/// Depth of a rectangular groove with the section of a half-round one over the height [-].
+/// Depth over the height of a rectangular groove with the sectional area of a half-round one [-].
 const DEPTH: f64 = 0.25 * PI * GROOVE;
 
-/// Convex blocks of a grooved cube of the given height [m] about the middle of its height: the kernel between the
-/// grooves and the four corners beside them.
+/// Convex blocks of a grooved cube of the given height [m], centred at mid-height: the core between the grooves and the
+/// four corner blocks.
 ///
 /// # Errors
-/// If the dimensions leave nothing.
+/// If a block is flat.
 pub fn blocks(height_m: f64) -> Result<Vec<Polyhedron>, PolyhedronError> {
     let half = WIDTH.map(|w| 0.5 * w * height_m);
     let (groove, depth) = (GROOVE * height_m, DEPTH * height_m);

@@ -1,4 +1,4 @@
-//! Half-spaces, and cutting polygons and bodies with their planes.
+//! Half-spaces; their planes cut polygons and polyhedra.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Through a point [m], with an outward normal of any length.
+    /// Half-space whose plane passes through a point [m]; the outward normal may have any length.
     pub fn through(point: DVec3, normal: DVec3) -> Self {
         let normal = normal.normalize();
         Self { normal, offset: normal.dot(point) }
@@ -43,7 +43,7 @@ pub(super) fn cube(half: f64) -> Vec<(HalfSpace, Vec<DVec3>)> {
     faces
 }
 
-/// Keep what lies behind a plane, and close the cut with a face.
+/// Keeps the part of a polyhedron behind a plane and closes the cut with a face.
 pub(super) fn cut(faces: &mut Vec<(HalfSpace, Vec<DVec3>)>, plane: &HalfSpace, tolerance: f64) {
     let mut rim: Vec<DVec3> = Vec::new();
     for (_, ring) in faces.iter_mut() {
@@ -68,9 +68,9 @@ pub(super) fn cut(faces: &mut Vec<(HalfSpace, Vec<DVec3>)>, plane: &HalfSpace, t
     }
 }
 
-/// The parts of a convex polygon behind and before a plane; points within the tolerance [m] belong to both.
+/// Parts of a convex polygon behind and in front of a plane; points within the tolerance [m] belong to both.
 pub(super) fn split(ring: &[DVec3], plane: &HalfSpace, tolerance: f64) -> [Vec<DVec3>; 2] {
-    let (mut behind, mut before) = (Vec::new(), Vec::new());
+    let (mut behind, mut in_front) = (Vec::new(), Vec::new());
     for (index, &a) in ring.iter().enumerate() {
         let b = ring[(index + 1) % ring.len()];
         let (d_a, d_b) = (plane.distance(a), plane.distance(b));
@@ -78,19 +78,19 @@ pub(super) fn split(ring: &[DVec3], plane: &HalfSpace, tolerance: f64) -> [Vec<D
             behind.push(a);
         }
         if d_a >= -tolerance {
-            before.push(a);
+            in_front.push(a);
         }
         if (d_a > tolerance && d_b < -tolerance) || (d_a < -tolerance && d_b > tolerance) {
             let crossing = a.lerp(b, d_a / (d_a - d_b));
             behind.push(crossing);
-            before.push(crossing);
+            in_front.push(crossing);
         }
     }
-    let solid = |part: Vec<DVec3>, side: f64| {
+    let drop_degenerate = |part: Vec<DVec3>, side: f64| {
         let counts = part.iter().any(|p| plane.distance(*p) * side > tolerance);
         if counts || side < 0.0 && part.len() == ring.len() { part } else { Vec::new() }
     };
-    [solid(behind, -1.0), solid(before, 1.0)]
+    [drop_degenerate(behind, -1.0), drop_degenerate(in_front, 1.0)]
 }
 
 #[cfg(test)]
@@ -98,13 +98,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_polygon_is_split_and_what_lies_in_the_plane_counts_behind() {
+    fn polygon_is_split_and_coplanar_polygon_counts_as_behind() {
         let square = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
         let plane = HalfSpace::through(DVec3::X * 0.25, DVec3::X * 7.0);
-        let [behind, before] = split(&square, &plane, 1e-9);
-        assert_eq!((behind.len(), before.len()), (4, 4));
-        assert!(behind.iter().all(|p| p.x <= 0.25) && before.iter().all(|p| p.x >= 0.25));
-        let [behind, before] = split(&square, &HalfSpace::through(DVec3::ZERO, DVec3::Z), 1e-9);
-        assert_eq!((behind.len(), before.len()), (4, 0));
+        let [behind, in_front] = split(&square, &plane, 1e-9);
+        assert_eq!((behind.len(), in_front.len()), (4, 4));
+        assert!(behind.iter().all(|p| p.x <= 0.25) && in_front.iter().all(|p| p.x >= 0.25));
+        let [behind, in_front] = split(&square, &HalfSpace::through(DVec3::ZERO, DVec3::Z), 1e-9);
+        assert_eq!((behind.len(), in_front.len()), (4, 0));
     }
 }

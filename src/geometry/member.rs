@@ -1,62 +1,62 @@
-//! A member of a Dolos or Core-Loc: a bar with chamfered edges that tapers from its middle to both ends.
+//! A member of a Dolos or Core-Loc: a bar with chamfered edges, tapered from the middle to both ends.
 
 use glam::{DVec2, DVec3};
 
 use super::polyhedron::{Polyhedron, PolyhedronError};
 use super::section::Section;
 
-/// A bar about its middle.
+/// A bar, symmetric about its middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Member {
-    /// Its middle [m].
+    /// Middle of the bar [m].
     pub centre: DVec3,
-    /// Unit vector along it.
+    /// Unit vector along the bar.
     pub axis: DVec3,
-    /// Unit vector across it, normal to a pair of its faces.
+    /// Unit vector across the bar, normal to a pair of faces.
     pub across: DVec3,
-    /// Half of its length [m].
+    /// Half of the length [m].
     pub half_length: f64,
     /// Width between faces in the middle and at the ends [m].
     pub width: [f64; 2],
-    /// What the chamfer takes of each side of the square section, in the middle and at the ends [m].
+    /// Chamfer leg of the square section in the middle and at the ends [m].
     pub chamfer: [f64; 2],
 }
 
 impl Member {
-    /// Its two halves; one if it does not taper.
+    /// Convex blocks: the two halves of the bar, or a single block if it is not tapered.
     ///
     /// # Errors
-    /// If widths or length are such that nothing is left.
+    /// If a block is flat.
     pub fn blocks(&self) -> Result<Vec<Polyhedron>, PolyhedronError> {
         let [middle, end] = [0, 1].map(|k| octagon(self.width[k], self.chamfer[k]));
-        let at = |section: &[DVec2; 8], s: f64| section.map(|p| self.place(p, s)).to_vec();
+        let ring = |section: &[DVec2; 8], s: f64| section.map(|p| self.point(p, s)).to_vec();
         let l = self.half_length;
         if self.width[0] == self.width[1] && self.chamfer[0] == self.chamfer[1] {
-            return Ok(vec![Polyhedron::between(&at(&end, -l), &at(&end, l))?]);
+            return Ok(vec![Polyhedron::between(&ring(&end, -l), &ring(&end, l))?]);
         }
         Ok(vec![
-            Polyhedron::between(&at(&middle, 0.0), &at(&end, l))?,
-            Polyhedron::between(&at(&end, -l), &at(&middle, 0.0))?,
+            Polyhedron::between(&ring(&middle, 0.0), &ring(&end, l))?,
+            Polyhedron::between(&ring(&end, -l), &ring(&middle, 0.0))?,
         ])
     }
 
-    /// Its sections at a distance [m] from its middle, one towards each end.
+    /// Sections at a distance [m] from the middle, one towards each end.
     pub fn sections(&self, distance: f64) -> [Section; 2] {
         let share = distance / self.half_length;
-        let at = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * share;
-        let (width, chamfer) = (at(self.width), at(self.chamfer));
+        let interpolate = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * share;
+        let (width, chamfer) = (interpolate(self.width), interpolate(self.chamfer));
         [1.0, -1.0].map(|side| {
             let outwards = self.axis * side;
             Section::chamfered(self.centre + outwards * distance, outwards, [width; 2], chamfer)
         })
     }
 
-    fn place(&self, section: DVec2, along: f64) -> DVec3 {
+    fn point(&self, section: DVec2, along: f64) -> DVec3 {
         self.centre + self.across * section.x + self.axis.cross(self.across) * section.y + self.axis * along
     }
 }
 
-/// Square of the given width with its corners cut.
+/// Square section of the given width [m] with chamfered corners.
 fn octagon(width: f64, chamfer: f64) -> [DVec2; 8] {
     let (w, s) = (0.5 * width, 0.5 * width - chamfer);
     [[w, -s], [w, s], [s, w], [-s, w], [-w, s], [-w, -s], [-s, -w], [s, -w]].map(DVec2::from_array)
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_frusta_have_the_volume_of_the_prismatoid() {
+    fn halves_of_a_tapered_member_have_the_frustum_volume() {
         let member = Member {
             centre: DVec3::ONE,
             axis: DVec3::Z,
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_prism_is_one_block() {
+    fn untapered_member_is_one_block() {
         let member = Member {
             centre: DVec3::ZERO,
             axis: DVec3::X,

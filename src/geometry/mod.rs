@@ -1,4 +1,4 @@
-//! Geometry: bed profile, closed surfaces, convex parts, triangle surfaces to stand on, armour units, STL.
+//! Geometry: bed profile, closed surfaces, convex parts, triangle surfaces of the ground, armour units, STL files.
 
 pub mod armour_unit;
 pub mod axis_box;

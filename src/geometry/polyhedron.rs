@@ -1,8 +1,7 @@
-//! Convex polyhedra: from planes, from points, made smaller for rounding; nearest and furthest points.
+//! Convex polyhedra from planes or as convex hulls; shrinking for rounding; nearest and support points.
 //!
-//! A polyhedron is cut out of a large box, plane by plane. Armour units with plane faces are unions of them
-//! ([`super::union`]), and their contact is that of the polyhedra, each made smaller and rounded
-//! ([`super::convex_part`]).
+//! A polyhedron is cut from a large cube, plane by plane. Armour units with plane faces are unions of convex polyhedra
+//! ([`super::union`]). For contact, each polyhedron is shrunk and rounded ([`super::convex_part`]).
 
 use glam::DVec3;
 use parry3d_f64::transformation::try_convex_hull;
@@ -10,38 +9,38 @@ use thiserror::Error;
 
 use super::half_space::{HalfSpace, cube, cut};
 
-/// Why points do not span a body.
+/// Error when points do not span a usable convex body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PolyhedronError {
-    /// Points in one plane, on one line or in one place, or not numbers.
-    #[error("{0} points do not span a convex body: they lie in one plane, or are no numbers")]
+    /// The points are coplanar, collinear, coincident or not finite.
+    #[error("{0} points do not span a convex body: they are fewer than 4, lie in one plane or are not finite")]
     Flat(usize),
-    /// A body so round that its faces would take long to find.
-    #[error("the convex hull has more than {MOST_FACES} faces: a coarser surface is needed")]
+    /// The body has too many faces.
+    #[error("the convex hull has more than {MOST_FACES} faces: use a coarser surface")]
     TooRound,
 }
 
-/// Faces of a hull at most: contact takes as many corners and edges together, and finding them takes the square of it.
+/// Largest number of faces of a hull: contact allows about as many corners plus edges, and the search is quadratic.
 const MOST_FACES: usize = 1000;
 
-/// Corners nearer to each other than this share of the size of a polyhedron are one.
+/// Distance below which two corners are merged, relative to the size of the polyhedron [-].
 const SAME: f64 = 1e-9;
 
 /// A plane face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
-    /// Its plane.
+    /// Plane of the face.
     pub plane: HalfSpace,
-    /// Numbers of its corners, counter-clockwise seen from outside.
+    /// Indices of the corners, counter-clockwise seen from outside.
     pub ring: Vec<usize>,
 }
 
 /// An edge between two faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Numbers of its corners.
+    /// Indices of the two corners.
     pub ends: [usize; 2],
-    /// Outward normals of its faces.
+    /// Outward normals of the two faces.
     pub normals: [DVec3; 2],
 }
 
@@ -56,20 +55,19 @@ pub struct Polyhedron {
 }
 
 impl Polyhedron {
-    /// What the half-spaces have in common inside the cube of half-edge `bound` [m] about the origin; `None` if that is
-    /// nothing or flat.
+    /// Intersection of the half-spaces with the cube of half-edge `bound` [m] about 0; `None` if it is empty or flat.
     pub fn from_planes(planes: &[HalfSpace], bound: f64) -> Option<Self> {
         let mut faces = cube(bound);
         for plane in planes {
             cut(&mut faces, plane, SAME * bound);
         }
-        Self::of_faces(faces)
+        Self::weld(faces)
     }
 
     /// Convex hull of points [m].
     ///
     /// # Errors
-    /// If they do not span a body, or one with too many faces.
+    /// If the points do not span a body, or the hull has too many faces.
     pub fn hull(points: &[DVec3]) -> Result<Self, PolyhedronError> {
         let flat = || PolyhedronError::Flat(points.len());
         if points.len() < 4 || points.iter().any(|p| !p.is_finite()) {
@@ -80,7 +78,7 @@ impl Polyhedron {
         if size.is_nan() || size <= 0.0 {
             return Err(flat());
         }
-        // About the origin and of size 1, as the tolerances of the hull like it.
+        // Centred and scaled to size 1, as the tolerances of the hull require.
         let scaled: Vec<DVec3> = points.iter().map(|p| (*p - middle) / size).collect();
         let (corners, triangles) = try_convex_hull(&scaled).map_err(|_| flat())?;
         let mut planes: Vec<HalfSpace> = Vec::new();
@@ -88,7 +86,7 @@ impl Polyhedron {
             let normal = (b - a).cross(c - a);
             if normal.length() > SAME {
                 let normal = normal.normalize();
-                // All points lie behind a face, whatever the rounding of its own corners.
+                // The plane bounds all points, despite rounding errors of its own corners.
                 let offset = scaled.iter().map(|p| normal.dot(*p)).fold(f64::MIN, f64::max);
                 let plane = HalfSpace { normal, offset };
                 if !planes.iter().any(|p| same_plane(p, &plane)) {
@@ -108,20 +106,20 @@ impl Polyhedron {
             },
             ring: face.ring,
         });
-        Ok(Self::of(corners, planes.collect()))
+        Ok(Self::with_edges(corners, planes.collect()))
     }
 
-    /// Between two polygons in space with as many corners, each counter-clockwise seen from the side of the second.
+    /// Convex hull of two polygons in space.
     ///
     /// # Errors
-    /// If they do not span a body.
+    /// If the polygons do not span a body.
     pub fn between(lower: &[DVec3], upper: &[DVec3]) -> Result<Self, PolyhedronError> {
         let points: Vec<DVec3> = lower.iter().chain(upper).copied().collect();
         Self::hull(&points)
     }
 
-    /// Weld the corners of faces.
-    fn of_faces(faces: Vec<(HalfSpace, Vec<DVec3>)>) -> Option<Self> {
+    /// Merges the corners of faces; `None` if fewer than four faces remain.
+    fn weld(faces: Vec<(HalfSpace, Vec<DVec3>)>) -> Option<Self> {
         let extent = faces.iter().flat_map(|(_, ring)| ring).map(|p| p.abs().max_element()).fold(0.0, f64::max);
         let mut corners: Vec<DVec3> = Vec::new();
         let mut welded = Vec::new();
@@ -141,15 +139,15 @@ impl Polyhedron {
                 welded.push(Face { plane, ring: indices });
             }
         }
-        (welded.len() >= 4).then(|| Self::of(corners, welded))
+        (welded.len() >= 4).then(|| Self::with_edges(corners, welded))
     }
 
-    fn of(corners: Vec<DVec3>, faces: Vec<Face>) -> Self {
+    fn with_edges(corners: Vec<DVec3>, faces: Vec<Face>) -> Self {
         let mut edges: Vec<Edge> = Vec::new();
         for (number, face) in faces.iter().enumerate() {
-            for (a, b) in around(&face.ring) {
-                let runs_back = |f: &&Face| around(&f.ring).any(|pair| pair == (b, a));
-                if let Some(other) = faces[number + 1..].iter().find(runs_back) {
+            for (a, b) in pairs_around(&face.ring) {
+                let has_reverse_edge = |f: &&Face| pairs_around(&f.ring).any(|pair| pair == (b, a));
+                if let Some(other) = faces[number + 1..].iter().find(has_reverse_edge) {
                     edges.push(Edge { ends: [a, b], normals: [face.plane.normal, other.plane.normal] });
                 }
             }
@@ -175,18 +173,18 @@ impl Polyhedron {
         &self.edges
     }
 
-    /// Centre and radius of a sphere about it [m].
+    /// Centre and radius of a bounding sphere [m].
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         (self.centre, self.radius)
     }
 
-    /// The corner furthest in `direction` [m].
+    /// Support point: the corner furthest in `direction` [m].
     pub fn support(&self, direction: DVec3) -> DVec3 {
         let further = |best: DVec3, c: &DVec3| if c.dot(direction) > best.dot(direction) { *c } else { best };
         self.corners.iter().fold(self.corners[0], further)
     }
 
-    /// At least the distance of a point [m]; exact over a face, negative inside.
+    /// Lower bound of the distance of a point [m]; exact over a face, negative inside.
     pub fn least_distance(&self, point: DVec3) -> f64 {
         self.faces.iter().map(|face| face.plane.distance(point)).fold(f64::MIN, f64::max)
     }
@@ -204,12 +202,12 @@ impl Polyhedron {
         best.1
     }
 
-    /// Nearest point of a face to a point in front of it.
+    /// Nearest point of a face to a point in front of the face.
     fn nearest_on(&self, face: &Face, point: DVec3) -> DVec3 {
         let foot = point - face.plane.normal * face.plane.distance(point);
         let mut best = (f64::MAX, foot);
         let mut inside = true;
-        for (a, b) in around(&face.ring) {
+        for (a, b) in pairs_around(&face.ring) {
             let (a, b) = (self.corners[a], self.corners[b]);
             let along = b - a;
             if face.plane.normal.cross(along).dot(foot - a) >= 0.0 {
@@ -237,7 +235,7 @@ impl Polyhedron {
         self.faces.iter().map(fan).sum()
     }
 
-    /// Every face moved inwards by `distance` [m]; `None` if nothing is left.
+    /// Returns the polyhedron with every face moved inwards by `distance` [m]; `None` if nothing is left.
     pub fn shrunk(&self, distance: f64) -> Option<Self> {
         let inwards = |face: &Face| {
             let offset = face.plane.offset - face.plane.normal.dot(self.centre) - distance;
@@ -250,7 +248,7 @@ impl Polyhedron {
     /// Radius of the largest ball inside [m].
     pub fn inner_radius(&self) -> f64 {
         let (mut low, mut high) = (0.0, self.radius);
-        // 20 halvings: 1e-6 of the radius about it.
+        // 20 bisections: 1e-6 of the bounding radius.
         for _ in 0..20 {
             let middle = 0.5 * (low + high);
             if self.shrunk(middle).is_some() {
@@ -262,23 +260,23 @@ impl Polyhedron {
         low
     }
 
-    /// Moved by `shift` [m].
+    /// Returns the polyhedron moved by `shift` [m].
     pub fn translated(&self, shift: DVec3) -> Self {
         let corners = self.corners.iter().map(|c| *c + shift).collect();
         let moved = |face: &Face| {
             let offset = face.plane.offset + face.plane.normal.dot(shift);
             Face { plane: HalfSpace { offset, ..face.plane }, ring: face.ring.clone() }
         };
-        Self::of(corners, self.faces.iter().map(moved).collect())
+        Self::with_edges(corners, self.faces.iter().map(moved).collect())
     }
 }
 
-/// Consecutive pairs round a ring.
-fn around(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
+/// Consecutive pairs of a closed ring.
+fn pairs_around(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }
 
-/// Whether two planes differ by rounding only, for bodies of size 1.
+/// Whether two planes of a body of size 1 differ only by rounding errors.
 fn same_plane(a: &HalfSpace, b: &HalfSpace) -> bool {
     // 1e-6: single-precision coordinates of an STL file.
     a.normal.distance_squared(b.normal) < 1e-12 && (a.offset - b.offset).abs() < 1e-6
@@ -294,16 +292,16 @@ mod tests {
     }
 
     #[test]
-    fn the_hull_of_eight_corners_is_a_cube() {
+    fn hull_of_eight_corners_is_a_cube() {
         let cube = unit_cube();
         assert_eq!((cube.corners().len(), cube.faces().len(), cube.edges().len()), (8, 6, 12));
-        // Rounding only, here and below.
+        // Rounding errors only, here and below.
         assert!((cube.volume() - 1.0).abs() < 1e-12);
         assert_eq!(cube.support(DVec3::new(1.0, -1.0, 2.0)).round(), DVec3::new(1.0, 0.0, 1.0));
     }
 
     #[test]
-    fn points_inside_and_twice_do_not_matter() {
+    fn hull_ignores_interior_and_duplicate_points() {
         let mut points = unit_cube().corners().to_vec();
         points.extend([DVec3::splat(0.3), DVec3::new(0.5, 0.5, 1.0), points[3], points[3] + 1e-12]);
         let hull = Polyhedron::hull(&points).unwrap();
@@ -311,14 +309,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_flat_is_refused() {
+    fn flat_point_sets_are_rejected() {
         assert!(Polyhedron::hull(&[DVec3::ZERO; 9]).is_err());
         assert!(Polyhedron::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y]).is_err());
         assert!(Polyhedron::hull(&[DVec3::NAN; 4]).is_err());
     }
 
     #[test]
-    fn what_is_too_round_is_refused_at_once() {
+    fn hulls_with_too_many_faces_are_rejected() {
         let point = |k: u32| {
             let (a, b) = (2.4 * f64::from(k), (1.0 - 2.0 * (f64::from(k) + 0.5) / 20_000.0).acos());
             DVec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos())
@@ -328,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frustum_has_its_volume_and_shrinks_to_one_with_parallel_faces() {
+    fn frustum_has_its_volume_and_shrinks_with_parallel_faces() {
         let square = |half: f64, z: f64| {
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(half * x, half * y, z))
         };
@@ -338,7 +336,7 @@ mod tests {
         let smaller = frustum.shrunk(0.1).unwrap();
         assert_eq!(smaller.corners().len(), 8);
         for corner in smaller.corners() {
-            // Each lies at the distance of three faces.
+            // Each corner lies at this distance from three faces.
             let at = frustum.faces().iter().filter(|f| (f.plane.distance(*corner) + 0.1).abs() < 1e-9).count();
             assert_eq!(at, 3);
         }
@@ -346,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_point_satisfies_the_support_condition() {
+    fn nearest_point_satisfies_the_support_condition() {
         let body = unit_cube().shrunk(0.1).unwrap();
         for i in 0..300 {
             let (a, b) = (0.7 * f64::from(i), 0.37 * f64::from(i));
@@ -360,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn every_edge_has_two_faces() {
+    fn edges_are_normal_to_both_face_normals() {
         for body in [unit_cube(), unit_cube().shrunk(0.2).unwrap().translated(DVec3::X)] {
             for edge in body.edges() {
                 let [a, b] = edge.ends.map(|end| body.corners()[end]);

@@ -1,23 +1,23 @@
-//! Bed and mound as one polyline z(x), the same across the flume.
+//! Bed and mound as a polyline z(x), uniform across the flume.
 
-/// A bed profile: corner points with rising x, straight in between, level beyond the ends.
+/// A bed profile: points with increasing x, linear in between, level beyond the ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     points: Vec<[f64; 2]>,
 }
 
 impl Profile {
-    /// Profile through `points` [x, z] in metres.
+    /// Creates the profile through `points` [x, z] in metres.
     ///
     /// # Panics
-    /// If there are fewer than two points or x does not rise strictly: the case validation has checked both.
+    /// If there are fewer than two points or x does not increase strictly; case validation has checked both.
     pub fn new(points: Vec<[f64; 2]>) -> Self {
-        assert!(points.len() >= 2, "a profile needs two points");
-        assert!(points.windows(2).all(|w| w[1][0] > w[0][0]), "x of a profile must rise");
+        assert!(points.len() >= 2, "a profile needs at least two points");
+        assert!(points.windows(2).all(|w| w[1][0] > w[0][0]), "x of a profile must increase");
         Self { points }
     }
 
-    /// Corner points [x, z] in metres.
+    /// Points [x, z] in metres.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
@@ -37,7 +37,7 @@ impl Profile {
         z0 + (z1 - z0) * (x - x0) / (x1 - x0)
     }
 
-    /// Slope dz/dx at x, that of the piece to the right at a corner [-].
+    /// Slope dz/dx at x [-]; at a profile point, the slope of the segment to the right.
     pub fn slope(&self, x: f64) -> f64 {
         let points = &self.points;
         let last = points.len() - 1;
@@ -49,9 +49,9 @@ impl Profile {
         (z1 - z0) / (x1 - x0)
     }
 
-    /// The same bed with a trapezoidal mound on it: crest between `crest_x` [m] at level `crest_z` [m], flanks of the
-    /// given horizontal run per unit of rise, down to the bed. `None` if the crest lies below the bed or a flank does
-    /// not meet the bed inside the profile.
+    /// Returns the bed with a trapezoidal mound: crest between `crest_x` [m] at level `crest_z` [m], slopes with the
+    /// given horizontal run per unit of rise. `None` if the crest lies below the bed, or a slope does not meet the bed
+    /// inside the profile.
     pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<Self> {
         if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
             return None;
@@ -64,10 +64,10 @@ impl Profile {
         Some(Self::new(points))
     }
 
-    /// Where the line from (x, z) with the signed run per unit of fall meets the bed.
+    /// Point where the line from (x, z) with the signed run per unit of fall meets the bed.
     fn flank_meets_bed(&self, x: f64, z: f64, run: f64) -> Option<[f64; 2]> {
         let crossing = |[xa, za]: [f64; 2], [xb, zb]: [f64; 2]| {
-            // Height of the flank above the bed, linear along the piece.
+            // Height of the slope above the bed, linear along the segment.
             let above = |px: f64, pz: f64| z - (px - x) / run - pz;
             let (a, b) = (above(xa, za), above(xb, zb));
             let outside = |px: f64| (px - x) * run.signum() < 0.0;
@@ -83,7 +83,7 @@ impl Profile {
         hits.first().copied()
     }
 
-    /// Lowest and highest level between two x [m]: the extremes of a polyline are among its corners and ends.
+    /// Lowest and highest level between two x [m].
     pub fn extremes_between(&self, [x0, x1]: [f64; 2]) -> (f64, f64) {
         let corners = self.points().iter().filter(|p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
         let levels = corners.chain([self.z(x0), self.z(x1)]);
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn level_and_slope_follow_the_corner_points() {
+    fn level_and_slope_are_linear_between_points() {
         let bed = Profile::new(vec![[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]]);
         assert_eq!(bed.z(10.0), 0.0);
         assert!((bed.z(39.0) - 20.0 / 30.0).abs() < 1e-12);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn mound_flanks_reach_the_sloping_bed() {
+    fn mound_slopes_meet_the_sloping_bed() {
         let bed = Profile::new(vec![[0.0, 0.0], [19.0, 0.0], [55.0, 1.2]]);
         let with = bed.with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
         assert_eq!(with.z(39.0), 0.717);

@@ -1,4 +1,4 @@
-//! Sections at which armour units break, for estimates of their stress by the theory of bars.
+//! Critical sections of armour units, for stress estimates by beam theory.
 
 use std::f64::consts::PI;
 
@@ -7,46 +7,46 @@ use glam::DVec3;
 /// A plane section through a member of a unit, in body axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// Its centre [m].
+    /// Centre of the section [m].
     pub centre: DVec3,
-    /// Unit normal towards the end of the member: what lies there hangs on the section.
+    /// Unit normal towards the end of the member: the section carries the loads on that side.
     pub outwards: DVec3,
     /// Area A [m2].
     pub area: f64,
     /// Section modulus W [m3].
     pub modulus: f64,
-    /// What hangs on it lies within this distance of the line along `outwards` through its centre [m].
+    /// The carried side lies within this distance of the line along `outwards` through the centre [m].
     pub reach: f64,
 }
 
 impl Section {
-    /// Of a round bar with the given radius [m].
+    /// Section of a round bar with the given radius [m].
     pub fn round(centre: DVec3, outwards: DVec3, radius: f64) -> Self {
         let (area, modulus) = (PI * radius * radius, 0.25 * PI * radius.powi(3));
         Self { centre, outwards, area, modulus, reach: f64::INFINITY }
     }
 
-    /// Of a bar with a rectangle of the given sides [m] whose corners are cut by triangles with the legs `chamfer` [m].
-    /// Its modulus is that of bending about the axis along which the section is longer.
+    /// Rectangular section with the given sides [m] and chamfers of leg `chamfer` [m].
+    /// The modulus is for bending about the axis parallel to the longer side.
     pub fn chamfered(centre: DVec3, outwards: DVec3, sides: [f64; 2], chamfer: f64) -> Self {
         let [height, width] = [sides[0].min(sides[1]), sides[0].max(sides[1])];
         let area = height * width - 2.0 * chamfer * chamfer;
-        // Second moment of the rectangle less that of the four triangles about the middle.
+        // Second moment of the rectangle, minus that of the four corner triangles about the middle.
         let arm = 0.5 * height - chamfer / 3.0;
         let triangles = 4.0 * (chamfer.powi(4) / 36.0 + 0.5 * chamfer * chamfer * arm * arm);
         let moment = width * height.powi(3) / 12.0 - triangles;
         Self { centre, outwards, area, modulus: moment / (0.5 * height), reach: f64::INFINITY }
     }
 
-    /// The same of a bar of which nothing lies further from its axis than this [m].
+    /// Returns the section with the given reach [m].
     pub fn reaching(self, reach: f64) -> Self {
         Self { reach, ..self }
     }
 
-    /// Nominal stress [Pa] of a force [N] at a place [m] on what hangs on the section: |N| / A + |M| / W; none if the place
-    /// is elsewhere. Bending of a rectangle about an oblique axis gives up to 41 % more at its corner.
-    pub fn stress(&self, place: DVec3, force: DVec3) -> Option<f64> {
-        let arm = place - self.centre;
+    /// Nominal stress |N| / A + |M| / W [Pa] of a force [N] at a point [m]; `None` if the section does not carry that
+    /// point. Bending of a rectangle about an oblique axis gives up to 41 % more at its corner.
+    pub fn stress(&self, point: DVec3, force: DVec3) -> Option<f64> {
+        let arm = point - self.centre;
         let along = arm.dot(self.outwards);
         if along <= 0.0 || (arm - self.outwards * along).length() > self.reach {
             return None;
@@ -62,24 +62,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cantilever_has_the_stress_of_the_theory_of_bars() {
+    fn cantilever_has_the_stress_of_beam_theory() {
         let [b, l, f] = [0.2, 1.0, 3e3];
         let root = Section::chamfered(DVec3::ZERO, DVec3::X, [b, b], 0.0);
         let bent = root.stress(DVec3::X * l, DVec3::Z * f).unwrap();
-        // 6 F l / b^3, and F / b^2 along the axis; rounding.
+        // 6 F l / b^3, and F / b^2 along the axis; 1e-12 is rounding.
         assert!((bent / (6.0 * f * l / b.powi(3)) - 1.0).abs() < 1e-12);
         let pulled = root.stress(DVec3::X * l, DVec3::X * f).unwrap();
         assert!((pulled / (f / (b * b)) - 1.0).abs() < 1e-12);
         assert_eq!(root.stress(DVec3::NEG_X, DVec3::Z), None);
-        // Of the bar beside it.
+        // A point of the adjacent bar.
         assert_eq!(root.reaching(b).stress(DVec3::new(l, 2.0 * b, 0.0), DVec3::Z), None);
     }
 
     #[test]
-    fn a_square_with_its_corners_cut_to_the_middles_is_a_square_on_its_corner() {
+    fn fully_chamfered_square_equals_a_square_rotated_by_45_degrees() {
         let b = 0.2;
         let cut = Section::chamfered(DVec3::ZERO, DVec3::X, [b, b], 0.5 * b);
-        // Side b / sqrt 2: the second moment of a square is the same about any axis, side^4 / 12.
+        // Side b / sqrt 2; the second moment of a square is side^4 / 12 about any axis.
         let side = b / 2f64.sqrt();
         assert!((cut.area / (side * side) - 1.0).abs() < 1e-12);
         assert!((cut.modulus / (side.powi(4) / 12.0 / (0.5 * b)) - 1.0).abs() < 1e-12);

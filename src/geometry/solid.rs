@@ -1,8 +1,8 @@
-//! A body bounded by a closed triangle surface: inside, distance, volume, inertia.
+//! A body bounded by a closed triangle surface: signed distance, volume, inertia tensor.
 //!
-//! Distances come from parry's oriented triangle mesh, whose pseudo-normals give the right side at edges and vertices
-//! (Baerentzen & Aanaes 2005). Volume and inertia are exact for the polyhedron: sums over the tetrahedra between a
-//! reference point and each triangle (Tonon 2004).
+//! Distances come from parry's oriented triangle mesh; its pseudo-normals give the correct sign at edges and vertices
+//! (Baerentzen & Aanaes 2005). Volume and inertia are exact: sums over the tetrahedra between a reference point and
+//! each triangle (Tonon 2004).
 
 use std::collections::HashMap;
 
@@ -14,14 +14,14 @@ use parry3d_f64::query::{PointQuery, intersection_test};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use thiserror::Error;
 
-/// Why a triangle surface does not bound a body.
+/// Error when a triangle surface does not bound a body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SolidError {
     /// Fewer than four triangles.
-    #[error("the surface has {0} triangles; a closed one needs at least 4")]
+    #[error("the surface has {0} triangles; a closed surface needs at least 4")]
     TooFewTriangles(usize),
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {vertex}, but there are only {count} vertices")]
+    /// A triangle refers to a vertex that does not exist.
+    #[error("triangle {triangle} refers to vertex {vertex}, but the surface has only {count} vertices")]
     NoSuchVertex { triangle: usize, vertex: u32, count: usize },
     /// A coordinate is not a finite number.
     #[error("vertex {0} has a coordinate that is not a finite number")]
@@ -29,34 +29,34 @@ pub enum SolidError {
     /// A triangle uses a vertex twice.
     #[error("triangle {0} uses the same vertex twice")]
     Degenerate(usize),
-    /// An edge without a partner: a hole.
+    /// An edge belongs to one triangle only: the surface has a hole.
     #[error(
         "the surface is not closed: the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) belongs to one triangle \
-         only ({open} such edges in all)", a.x, a.y, a.z, b.x, b.y, b.z
+         only ({open} such edges in total)", a.x, a.y, a.z, b.x, b.y, b.z
     )]
     Open { a: DVec3, b: DVec3, open: usize },
-    /// An edge that two triangles run through in the same sense, or more than two share.
+    /// Two triangles traverse an edge in the same direction, or more than two share it.
     #[error(
-        "the triangles at the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) are turned against each other, or \
-         more than two meet there", a.x, a.y, a.z, b.x, b.y, b.z
+        "the triangles at the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) have opposite orientations, or \
+         more than two share the edge", a.x, a.y, a.z, b.x, b.y, b.z
     )]
     NotOriented { a: DVec3, b: DVec3 },
-    /// The surface encloses nothing, or its triangles all face inwards.
+    /// The surface encloses no volume, or its triangles face inwards.
     #[error("the surface encloses {0:.3e} m3: its triangles must be counter-clockwise seen from outside")]
     InsideOut(f64),
-    /// parry refused the mesh.
-    #[error("the surface cannot be used: {0}")]
+    /// parry rejected the mesh.
+    #[error("the mesh library parry rejected the surface: {0}")]
     Mesh(String),
 }
 
-/// Volume, centre and inertia of a body of unit density.
+/// Volume, centroid and inertia tensor of a body of unit density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VolumeProperties {
     /// Volume [m3].
     pub volume: f64,
-    /// Centre of the volume [m].
+    /// Centroid [m].
     pub centre: DVec3,
-    /// Inertia tensor about the centre for a density of 1 kg/m3 [kg m2].
+    /// Inertia tensor about the centroid for a density of 1 kg/m3 [kg m2].
     pub inertia: DMat3,
 }
 
@@ -77,7 +77,7 @@ impl std::fmt::Debug for Solid {
 }
 
 impl Solid {
-    /// Body inside the given surface [m]; triangles counter-clockwise seen from outside.
+    /// Creates the body inside the given surface [m]; triangles counter-clockwise seen from outside.
     pub fn new(vertices: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, SolidError> {
         check_closed(&vertices, &triangles)?;
         let properties = volume_properties(&vertices, &triangles);
@@ -89,7 +89,7 @@ impl Solid {
         Ok(Self { mesh, properties })
     }
 
-    /// Corner points of the surface [m].
+    /// Vertices of the surface [m].
     pub fn vertices(&self) -> &[DVec3] {
         self.mesh.vertices()
     }
@@ -99,38 +99,38 @@ impl Solid {
         self.mesh.indices()
     }
 
-    /// A place [m] where two triangles without a common corner meet, if the surface cuts or touches itself.
+    /// A point [m] where the surface intersects or touches itself: two triangles without a common vertex meet there.
     pub fn self_intersection(&self) -> Option<DVec3> {
         let triangle = |index: usize| self.mesh.triangle(index as u32);
         let boxes: Vec<Aabb> = (0..self.triangles().len()).map(|index| triangle(index).local_aabb()).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        let cuts = |a: usize, b: usize| {
+        let intersects = |a: usize, b: usize| {
             let [one, other] = [a, b].map(|index| self.triangles()[index]);
             if one.iter().any(|corner| other.contains(corner)) {
                 return false;
             }
-            // Shapes of one frame; triangles are supported, so that the test cannot fail.
+            // Both triangles are in the same axes. parry supports triangles, so the test cannot fail.
             let here = Pose::IDENTITY;
             intersection_test(&here, &triangle(a), &here, &triangle(b)).is_ok_and(|found| found.intersecting)
         };
         (0..boxes.len()).find_map(|a| {
             let near = tree.intersect_aabb(&boxes[a]).map(|b| b as usize);
-            near.filter(|b| *b > a).find(|b| cuts(a, *b)).map(|_| triangle(a).center())
+            near.filter(|b| *b > a).find(|b| intersects(a, *b)).map(|_| triangle(a).center())
         })
     }
 
-    /// Volume, centre and inertia for unit density.
+    /// Volume, centroid and inertia tensor for unit density.
     pub fn volume_properties(&self) -> VolumeProperties {
         self.properties
     }
 
-    /// Smallest and largest corner of the box along the axes [m].
+    /// Lower and upper corner of the axis-aligned bounding box [m].
     pub fn bounds(&self) -> [DVec3; 2] {
         let bounds = self.mesh.local_aabb();
         [bounds.mins, bounds.maxs]
     }
 
-    /// Nearest point of the surface [m] and the signed distance to it [m], negative inside.
+    /// Nearest point of the surface [m] and signed distance to it [m], negative inside.
     pub fn project(&self, point: DVec3) -> (DVec3, f64) {
         let projection = self.mesh.project_local_point(point, false);
         let distance = (projection.point - point).length();
@@ -142,13 +142,13 @@ impl Solid {
         self.project(point).1
     }
 
-    /// The same body with every vertex moved by `shift` [m].
+    /// Returns the body moved by `shift` [m].
     pub fn translated(&self, shift: DVec3) -> Result<Self, SolidError> {
         Self::new(self.vertices().iter().map(|v| *v + shift).collect(), self.triangles().to_vec())
     }
 }
 
-/// Every edge must be run through once in each sense.
+/// Checks that every edge is traversed once in each direction.
 fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidError> {
     if triangles.len() < 4 {
         return Err(SolidError::TooFewTriangles(triangles.len()));
@@ -170,7 +170,7 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
         }
     }
     let ends = |edge: &[u32; 2]| (vertices[edge[0] as usize], vertices[edge[1] as usize]);
-    // Smallest offending edge, so that the message is the same on every run.
+    // The smallest offending edge, so that the message is reproducible.
     if let Some((edge, _)) = edges.iter().filter(|(_, count)| **count > 1).min() {
         let (a, b) = ends(edge);
         return Err(SolidError::NotOriented { a, b });
@@ -186,7 +186,7 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
     }
 }
 
-/// Volume, centre and inertia of the polyhedron by signed tetrahedra (o, a, b, c) from a point o near the middle.
+/// Volume, centroid and inertia tensor by signed tetrahedra (o, a, b, c) from a point o near the middle.
 ///
 /// Volume of a tetrahedron V = a.(b x c)/6; second moments
 /// int x x^T dV = V/20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c, with o as the origin.
@@ -233,11 +233,11 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn box_has_its_textbook_properties() {
+    fn box_has_textbook_volume_centroid_and_inertia() {
         let (vertices, triangles) = cuboid(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 4.0, 6.0));
         let solid = Solid::new(vertices, triangles).unwrap();
         let p = solid.volume_properties();
-        // Exact integration: only rounding remains.
+        // Exact integration: rounding errors only.
         assert!((p.volume - 6.0).abs() < 1e-12);
         assert!((p.centre - DVec3::new(1.5, 3.0, 4.5)).length() < 1e-12);
         let textbook = DVec3::new(4.0 + 9.0, 1.0 + 9.0, 1.0 + 4.0) * 6.0 / 12.0;
@@ -256,7 +256,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn holes_and_inside_out_surfaces_are_refused() {
+    fn open_and_inside_out_surfaces_are_rejected() {
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
         let hole = Solid::new(vertices.clone(), triangles[1..].to_vec()).unwrap_err();
         assert!(hole.to_string().contains("not closed"), "{hole}");

@@ -1,4 +1,4 @@
-//! STL surfaces: reading ASCII and binary files, writing binary ones.
+//! STL surfaces: reads ASCII and binary files, writes binary files.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -11,38 +11,38 @@ use thiserror::Error;
 use super::solid::{Solid, SolidError};
 use super::terrain::{Terrain, TerrainError};
 
-/// Why an STL file could not be read or written.
+/// Error while reading or writing an STL file.
 #[derive(Debug, Error)]
 pub enum StlError {
     /// The file cannot be opened, read or written.
     #[error("{path}: {source}")]
     Io { path: PathBuf, source: std::io::Error },
     /// The file is not a complete STL file.
-    #[error("{path}: not a readable STL file: {reason}")]
+    #[error("{path} is not a readable STL file: {reason}")]
     Format { path: PathBuf, reason: String },
-    /// The surface in the file does not bound a body.
+    /// The surface does not bound a body.
     #[error("{path}: {source}")]
     Surface { path: PathBuf, source: SolidError },
-    /// Units cannot stand on the surface in the file.
+    /// The surface cannot serve as ground.
     #[error("{path}: {source}")]
     Terrain { path: PathBuf, source: TerrainError },
 }
 
-/// Body inside the surface in an STL file, ASCII or binary, its lengths multiplied by `scale` (0.001 for a file in mm).
+/// Reads the body from an ASCII or binary STL file; lengths are multiplied by `scale` (0.001 for a file in mm).
 pub fn read(path: &Path, scale: f64) -> Result<Solid, StlError> {
     let bytes = fs::read(path).map_err(|source| StlError::Io { path: path.to_owned(), source })?;
     parse(&bytes, path, scale)
 }
 
-/// The same from the file's content; `path` is its name in messages.
+/// Reads the body from the content of an STL file; `path` is its name in messages.
 ///
-/// Corner points with the same coordinates become one vertex; triangles that use one twice are left out.
+/// Corner points with equal coordinates become one vertex. Triangles that use a vertex twice are left out.
 pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<Solid, StlError> {
     let (vertices, triangles) = facets(bytes, path, scale)?;
     Solid::new(vertices, triangles).map_err(|source| StlError::Surface { path: path.to_owned(), source })
 }
 
-/// The surface in a file's content as one to stand on, open or closed.
+/// Reads an open or closed ground surface from the content of an STL file.
 pub fn parse_terrain(bytes: &[u8], path: &Path, scale: f64) -> Result<Terrain, StlError> {
     let (vertices, triangles) = facets(bytes, path, scale)?;
     Terrain::new(vertices, triangles).map_err(|source| StlError::Terrain { path: path.to_owned(), source })
@@ -60,7 +60,7 @@ fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
     for (index, facet) in facets.enumerate() {
         let facet = facet.map_err(|e| format(format!("triangle {index}: {e}")))?;
         let corners = facet.vertices.map(|v| {
-            // Adding zero turns -0 into +0, which has other bits.
+            // Adding zero changes -0 to +0, which differs in its bits.
             let [x, y, z] = v.0.map(|c| c + 0.0);
             *known.entry([x.to_bits(), y.to_bits(), z.to_bits()]).or_insert_with(|| {
                 vertices.push(scale * DVec3::new(x.into(), y.into(), z.into()));
@@ -75,8 +75,7 @@ fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
     Ok((vertices, triangles))
 }
 
-/// Writes a surface as binary STL: to a temporary name beside it first, then renamed, so that a file under the final
-/// name is always complete.
+/// Writes a surface as binary STL. It writes to a temporary file and renames it, so the final file is always complete.
 pub fn write(path: &Path, vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), StlError> {
     let io = |source| StlError::Io { path: path.to_owned(), source };
     let mut name = path.file_name().unwrap_or_default().to_owned();
@@ -89,7 +88,7 @@ pub fn write(path: &Path, vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<
     fs::rename(&temporary, path).map_err(io)
 }
 
-/// 80 bytes of header, the count, then normal, corners and an attribute of two bytes for each triangle.
+/// Writes 80 bytes of header, the count, then normal, corners and a two-byte attribute of each triangle.
 fn write_facets(out: &mut impl Write, vertices: &[DVec3], triangles: &[[u32; 3]]) -> std::io::Result<()> {
     out.write_all(&[0; 80])?;
     let count = u32::try_from(triangles.len()).map_err(std::io::Error::other)?;
@@ -114,21 +113,21 @@ mod tests {
     use crate::geometry::solid::tests::cuboid;
 
     #[test]
-    fn a_written_unit_reads_back() {
+    fn written_unit_is_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tetrapod.stl");
         let unit = ArmourUnit::tetrapod(0.077, 0.05).unwrap();
         write(&path, unit.solid().vertices(), unit.solid().triangles()).unwrap();
         let back = read(&path, 1.0).unwrap();
         assert_eq!(back.triangles().len(), unit.solid().triangles().len());
-        // Coordinates are stored with 24 bits, 6e-8 of their size.
+        // Coordinates are stored with 24 bits, 6e-8 of their value.
         let ratio = back.volume_properties().volume / unit.solid().volume_properties().volume;
         assert!((ratio - 1.0).abs() < 1e-6);
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file is gone");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file was not removed");
     }
 
     #[test]
-    fn ascii_in_millimetres_is_scaled() {
+    fn ascii_file_in_millimetres_is_scaled() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("box.stl");
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::new(10.0, 20.0, 30.0));
@@ -143,12 +142,12 @@ mod tests {
         text.push_str("endsolid box\n");
         std::fs::write(&path, text).unwrap();
         let volume = read(&path, 1e-3).unwrap().volume_properties().volume;
-        // Rounding of the sum only.
+        // Rounding errors of the sum only.
         assert!((volume / 6e-6 - 1.0).abs() < 1e-9);
     }
 
     #[test]
-    fn broken_files_give_errors_that_name_them() {
+    fn errors_name_the_broken_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("broken.stl");
         let unit = ArmourUnit::tetrapod(0.077, 0.05).unwrap();

@@ -1,8 +1,7 @@
-//! A fixed triangle surface that units can touch: rock, a survey, a model of a mound; open or closed.
+//! A fixed triangle surface for contact with units: rock, a survey, a model of a mound; open or closed.
 //!
-//! What a convex body can be nearest to, one by one: the inside of a triangle, an edge over which the surface bends away
-//! from its normals, a corner. Edges of flat and hollow places are never nearest, and are left out; so are the borders'
-//! neighbours on the side that has no triangle.
+//! The surface is a set of elements that can be nearest to a convex body: triangles, convex edges (ridges) and corners.
+//! Edges in flat or concave areas are never nearest and are left out. Border edges have one triangle only.
 
 use std::collections::HashMap;
 
@@ -11,37 +10,37 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use thiserror::Error;
 
-/// Why triangles do not make a surface that can be stood upon.
+/// Error when triangles do not form a usable surface.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TerrainError {
-    /// There is no triangle.
+    /// The surface is empty.
     #[error("the surface has no triangles")]
     Empty,
     /// A coordinate is not a finite number.
     #[error("corner {0} has a coordinate that is not a finite number")]
     NotFinite(usize),
-    /// A triangle without area.
-    #[error("triangle {triangle} near ({:.6}, {:.6}, {:.6}) has no area", at.x, at.y, at.z)]
+    /// A triangle has no area.
+    #[error("triangle {triangle} near ({:.6}, {:.6}, {:.6}) m has no area", at.x, at.y, at.z)]
     Sliver { triangle: usize, at: DVec3 },
-    /// An edge that two triangles run through in the same sense, or more than two share.
+    /// Two triangles traverse an edge in the same direction, or more than two share it.
     #[error(
-        "the triangles at the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) are turned against each other, or \
-         more than two meet there", a.x, a.y, a.z, b.x, b.y, b.z
+        "the triangles at the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) have opposite orientations, or \
+         more than two share the edge", a.x, a.y, a.z, b.x, b.y, b.z
     )]
     NotOriented { a: DVec3, b: DVec3 },
 }
 
-/// A triangle, counter-clockwise seen from where the units are.
+/// A triangle, counter-clockwise seen from the units' side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
-    /// Its corners [m].
+    /// Corners [m].
     pub corners: [DVec3; 3],
-    /// Towards the units.
+    /// Unit normal towards the units.
     pub normal: DVec3,
 }
 
 impl Face {
-    /// Whether the foot of `point` on the plane lies in the triangle, or not further than `slack` [m] outside.
+    /// Whether the foot point of `point` lies in the triangle, or at most `slack` [m] outside.
     pub fn has_foot_of(&self, point: DVec3, slack: f64) -> bool {
         (0..3).all(|k| {
             let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
@@ -50,30 +49,30 @@ impl Face {
     }
 }
 
-/// An edge over which the surface bends away, or its border.
+/// A convex edge or a border edge of the surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ridge {
-    /// Its ends [m].
+    /// Ends [m].
     pub ends: [DVec3; 2],
-    /// Unit vectors from it into its one or two triangles, square to it.
+    /// Unit vectors normal to the edge that point into its one or two triangles.
     pub into: Vec<DVec3>,
 }
 
-/// A corner of which at least one edge bends away.
+/// A corner of at least one ridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Corner {
-    /// Its place [m].
+    /// Position [m].
     pub at: DVec3,
-    /// Unit vectors along the edges that leave it.
+    /// Unit vectors along all edges from the corner.
     pub along: Vec<DVec3>,
 }
 
-/// What a body can be nearest to.
+/// An element of the surface that can be nearest to a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Place {
-    /// The inside of a triangle.
+    /// The interior of a triangle.
     Face(Face),
-    /// The inside of an edge.
+    /// The interior of an edge.
     Ridge(Ridge),
     /// A corner.
     Corner(Corner),
@@ -89,11 +88,11 @@ impl Place {
     }
 }
 
-/// Sine of the angle below which two triangles are one plane [-].
+/// Sine of the angle below which two triangles count as one plane [-].
 const STRAIGHT: f64 = 1e-6;
 
-/// Square of the area over the fourth power of the longest edge below which a triangle is a line [-]: the 24 bits of a
-/// binary file place a corner to 6e-8 of its distance.
+/// Square of twice the area over the fourth power of the longest edge below which a triangle counts as a line [-]. The
+/// 24 bits of a binary file resolve a coordinate to 6e-8 of its value.
 const LINE: f64 = 1e-14;
 
 /// A fixed triangle surface.
@@ -118,11 +117,11 @@ impl PartialEq for Terrain {
 }
 
 impl Terrain {
-    /// Surface of the given triangles [m], counter-clockwise seen from where the units are.
+    /// Creates the surface of the given triangles [m], counter-clockwise seen from the units' side.
     ///
     /// # Errors
-    /// If there are none, a coordinate is not finite, a triangle has no area, or neighbours are turned against each
-    /// other.
+    /// If there is no triangle, a coordinate is not finite, a triangle has no area, or neighbouring triangles have
+    /// opposite orientations.
     pub fn new(vertices: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, TerrainError> {
         if triangles.is_empty() {
             return Err(TerrainError::Empty);
@@ -130,10 +129,10 @@ impl Terrain {
         if let Some(bad) = vertices.iter().position(|v| !v.is_finite()) {
             return Err(TerrainError::NotFinite(bad));
         }
-        let at = |triangle: &[u32; 3]| triangle.map(|v| vertices[v as usize]);
+        let corners_of = |triangle: &[u32; 3]| triangle.map(|v| vertices[v as usize]);
         let mut faces = Vec::with_capacity(triangles.len());
         for (index, triangle) in triangles.iter().enumerate() {
-            let corners @ [a, b, c] = at(triangle);
+            let corners @ [a, b, c] = corners_of(triangle);
             let across = (b - a).cross(c - a);
             let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
             if across.length_squared() <= LINE * longest * longest {
@@ -155,31 +154,31 @@ impl Terrain {
         Ok(Self { vertices, triangles, places, tree })
     }
 
-    /// Corner points [m].
+    /// Vertices [m].
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
     }
 
-    /// Triangles, counter-clockwise seen from where the units are.
+    /// Triangles, counter-clockwise seen from the units' side.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Smallest and largest corner of the box along the axes [m].
+    /// Lower and upper corner of the axis-aligned bounding box [m].
     pub fn bounds(&self) -> [DVec3; 2] {
         let root = self.tree.root_aabb();
         [root.mins, root.maxs]
     }
 
-    /// Places whose boxes come nearer than `radius` [m] to `centre`, with their numbers, in no order.
+    /// Elements whose bounding boxes are nearer than `radius` [m] to `centre`, with their numbers, unordered.
     pub fn near(&self, centre: DVec3, radius: f64) -> impl Iterator<Item = (u32, &Place)> {
         let about = Aabb::new(centre - DVec3::splat(radius), centre + DVec3::splat(radius));
-        // The box lives as long as the iterator: what is found is gathered.
+        // Collected, because the tree's iterator borrows the local box.
         let found: Vec<u32> = self.tree.intersect_aabb(&about).collect();
         found.into_iter().map(|number| (number, &self.places[number as usize]))
     }
 
-    /// Height of the highest triangle above or below (x, y) [m]; `None` beside the surface.
+    /// Level of the highest triangle at (x, y) [m]; `None` outside the surface.
     pub fn level(&self, x: f64, y: f64) -> Option<f64> {
         let [low, high] = self.bounds();
         let column = Aabb::new(DVec3::new(x, y, low.z), DVec3::new(x, y, high.z));
@@ -196,7 +195,7 @@ impl Terrain {
     }
 }
 
-/// The one or two triangles of every edge, by its lower and its higher corner, in the order of the corners.
+/// The one or two triangles of every edge, keyed and sorted by its lower and higher vertex.
 type Edges = Vec<([u32; 2], Vec<usize>)>;
 
 fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainError> {
@@ -207,7 +206,7 @@ fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainErr
             let (edge, sense) = if p < q { ([p, q], 0) } else { ([q, p], 1) };
             let side = &mut sides.entry(edge).or_default()[sense];
             if side.replace(index).is_some() {
-                // The first one, so that the message is the same on every run.
+                // The smallest one, so that the message is reproducible.
                 wrong = Some(wrong.map_or(edge, |known| known.min(edge)));
             }
         }
@@ -221,35 +220,35 @@ fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainErr
     Ok(edges)
 }
 
-/// Edges over which the surface bends away, and borders, with their corners.
+/// Convex edges and border edges, with their vertices.
 fn ridges(vertices: &[DVec3], triangles: &[[u32; 3]], faces: &[Face], edges: &Edges) -> Vec<([u32; 2], Ridge)> {
     let ridge = |(edge, sides): &([u32; 2], Vec<usize>)| {
         let ends = edge.map(|v| vertices[v as usize]);
         let along = (ends[1] - ends[0]).normalize();
         let into = |side: &usize| {
-            // The third corner is the one that is not of the edge.
+            // The corner opposite the edge.
             let third = triangles[*side].into_iter().find(|v| !edge.contains(v)).unwrap_or(edge[0]);
-            let way = vertices[third as usize] - ends[0];
-            (way - along * way.dot(along)).normalize()
+            let direction = vertices[third as usize] - ends[0];
+            (direction - along * direction.dot(along)).normalize()
         };
         let into: Vec<DVec3> = sides.iter().map(into).collect();
-        // Seen from one triangle the other one falls away behind its plane.
-        let bends_away = sides.len() == 1 || faces[sides[0]].normal.dot(into[1]) < -STRAIGHT;
-        bends_away.then_some((*edge, Ridge { ends, into }))
+        // Convex: the second triangle lies behind the plane of the first.
+        let is_convex = sides.len() == 1 || faces[sides[0]].normal.dot(into[1]) < -STRAIGHT;
+        is_convex.then_some((*edge, Ridge { ends, into }))
     };
     edges.iter().filter_map(ridge).collect()
 }
 
-/// Corners at the ends of ridges, with all edges that leave them.
+/// Corners at the ends of ridges, with the directions of all their edges.
 fn corners(vertices: &[DVec3], edges: &Edges, ridges: &[([u32; 2], Ridge)]) -> Vec<Corner> {
     let mut sharp = vec![false; vertices.len()];
     ridges.iter().flat_map(|(edge, _)| edge).for_each(|v| sharp[*v as usize] = true);
     let mut along: Vec<Vec<DVec3>> = vec![Vec::new(); vertices.len()];
     for ([a, b], _) in edges {
         let [a, b] = [*a as usize, *b as usize];
-        let way = (vertices[b] - vertices[a]).normalize();
-        along[a].push(way);
-        along[b].push(-way);
+        let direction = (vertices[b] - vertices[a]).normalize();
+        along[a].push(direction);
+        along[b].push(-direction);
     }
     let corner = |(v, along): (usize, Vec<DVec3>)| sharp[v].then(|| Corner { at: vertices[v], along });
     along.into_iter().enumerate().filter_map(corner).collect()
@@ -260,7 +259,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::geometry::solid::tests::cuboid;
 
-    /// A profile in x drawn out from y = -1 to 1, two triangles a strip.
+    /// A profile in x, extruded from y = -1 to 1, with two triangles per strip.
     pub(crate) fn drawn_out(points: &[[f64; 2]]) -> Terrain {
         let at = |i: usize, y: f64| DVec3::new(points[i][0], y, points[i][1]);
         let vertices = (0..points.len()).flat_map(|i| [at(i, -1.0), at(i, 1.0)]).collect();
@@ -279,26 +278,26 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_box_has_twelve_edges_that_bend_away_and_eight_corners() {
+    fn box_has_twelve_ridges_and_eight_corners() {
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
-        // The six diagonals lie in planes.
+        // The six diagonals lie in flat faces.
         assert_eq!(count(&Terrain::new(vertices.clone(), triangles.clone()).unwrap()), [12, 12, 8]);
         let inside_out = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
-        // A room: no edge is nearer than the walls.
+        // A room seen from inside: all edges are concave.
         assert_eq!(count(&Terrain::new(vertices, inside_out).unwrap()), [12, 0, 0]);
     }
 
     #[test]
-    fn an_open_surface_ends_in_ridges_and_its_valleys_have_none() {
-        // A roof has its ridge and six border edges, a trough the border only.
+    fn borders_are_ridges_and_valleys_are_not() {
+        // A roof has its ridge and six border edges, a trough only the border edges.
         assert_eq!(count(&drawn_out(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])), [4, 7, 6]);
         assert_eq!(count(&drawn_out(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]])), [4, 6, 6]);
     }
 
     #[test]
-    fn the_level_is_that_of_the_highest_triangle() {
+    fn level_is_that_of_the_highest_triangle() {
         let roof = drawn_out(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]);
-        // Rounding.
+        // Rounding errors.
         assert!((roof.level(0.25, 0.3).unwrap() - 0.75).abs() < 1e-15);
         assert_eq!(roof.level(0.25, 1.3), None);
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
@@ -306,7 +305,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_cannot_be_stood_upon_is_refused_with_its_place() {
+    fn invalid_surfaces_are_rejected() {
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
         assert_eq!(Terrain::new(vertices.clone(), Vec::new()), Err(TerrainError::Empty));
         let mut turned = triangles.clone();

@@ -1,9 +1,9 @@
 //! Tetrapod: four truncated cones on the axes of a tetrahedron (Danel & Greslou 1962).
 //!
-//! With each cone prolonged to the centre, the union is star-shaped about the centre: the surface is
-//! r(u) = max over the legs of the distance at which the ray along u leaves the cone. Two legs meet where u is equally
-//! far from both axes, in a plane through the centre, so each leg's share of the surface can be meshed on its own,
-//! tip disc and rim and crease exactly, and the shares joined at the creases.
+//! With each cone extended to the centre, the union is star-shaped about the centre. Its surface is r(u) = max over the
+//! legs of the distance at which the ray along u leaves the cone. Two legs meet where u is equally far from both axes,
+//! in a plane through the centre. Each leg is therefore meshed separately, with exact tip disc, rim and crease, and the
+//! legs are joined at the creases.
 
 use std::f64::consts::TAU;
 
@@ -20,39 +20,39 @@ const BASE_RADIUS: f64 = 0.235;
 const LEG_LENGTH: f64 = 0.477;
 /// Distance from the centre to the tip over the height H [-].
 const CENTRE_TO_TIP: f64 = 0.644;
-/// Points round a leg: a multiple of 6, so that the corners where three legs meet are among them. The polygon's area
-/// is 1 - (2 pi / 72)^2 / 6 = 99.87 % of the circle's.
+/// Points around a leg: a multiple of 6, so that they include the corners where three legs meet. The polygon's area is
+/// 1 - (2 pi / 72)^2 / 6 = 99.87 % of the circle's.
 const AROUND: usize = 72;
 /// Rows of points from rim to crease.
 const ROWS: usize = 6;
 
-/// Axes of the four legs: unit vectors to the corners of a tetrahedron, the first one up, the second one towards -x.
+/// Axes of the four legs: unit vectors to the corners of a tetrahedron, the first upwards, the second towards -x.
 pub fn leg_axes() -> [DVec3; 4] {
     let (lower, flat) = (-1.0 / 3.0, (8.0f64 / 9.0).sqrt());
-    let around = |angle: f64| DVec3::new(-flat * angle.cos(), -flat * angle.sin(), lower);
-    [DVec3::Z, around(0.0), around(TAU / 3.0), around(2.0 * TAU / 3.0)]
+    let lower_axis = |angle: f64| DVec3::new(-flat * angle.cos(), -flat * angle.sin(), lower);
+    [DVec3::Z, lower_axis(0.0), lower_axis(TAU / 3.0), lower_axis(2.0 * TAU / 3.0)]
 }
 
-/// Radii [m] of a leg's cone at the centre and at the tip, and its length from one to the other [m].
+/// Radii [m] of a leg's cone at the centre and at the tip, and the length between them [m].
 pub fn cone(height_m: f64) -> ([f64; 2], f64) {
     ([centre_radius() * height_m, TIP_RADIUS * height_m], CENTRE_TO_TIP * height_m)
 }
 
-/// Sections at the roots of the legs of a Tetrapod of height H [m].
+/// Critical sections of a Tetrapod of height H [m], at the roots of the legs.
 pub fn sections(height_m: f64) -> Vec<Section> {
-    let at = |axis: DVec3| {
+    let root_section = |axis: DVec3| {
         let root = (CENTRE_TO_TIP - LEG_LENGTH) * height_m;
         Section::round(axis * root, axis, BASE_RADIUS * height_m)
     };
-    leg_axes().map(at).to_vec()
+    leg_axes().map(root_section).to_vec()
 }
 
-/// Decrease of the leg's radius per unit of length, tan of the half-angle [-].
+/// Decrease of a leg's radius per unit of length, the tangent of the half-angle [-].
 fn taper() -> f64 {
     (BASE_RADIUS - TIP_RADIUS) / LEG_LENGTH
 }
 
-/// Radius of the prolonged cone at the centre over H [-].
+/// Radius of the extended cone at the centre over H [-].
 fn centre_radius() -> f64 {
     TIP_RADIUS + CENTRE_TO_TIP * taper()
 }
@@ -65,7 +65,7 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut creases: Vec<u32> = Vec::new();
     for (leg, &axis) in axes.iter().enumerate() {
         let other = axes[(leg + 1) % 4];
-        // Direction of azimuth 0: the plane that also holds another leg, a mirror plane of the crease.
+        // Azimuth 0 lies in the plane of another leg, a mirror plane of the crease.
         let e1 = (other - axis * axis.dot(other)).normalize();
         let e2 = axis.cross(e1);
         let mut rings: Vec<Vec<u32>> = vec![Vec::new(); ROWS + 1];
@@ -73,11 +73,11 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
             let angle = TAU * k as f64 / AROUND as f64;
             let out = e1 * angle.cos() + e2 * angle.sin();
             let rim = axis * CENTRE_TO_TIP + out * TIP_RADIUS;
-            let end = crease(&axes, leg, out);
+            let end = crease_point(&axes, leg, out);
             for (row, ring) in rings.iter_mut().enumerate() {
                 let point = height_m * rim.lerp(end, row as f64 / ROWS as f64);
                 ring.push(if row == ROWS {
-                    joined(point, height_m, &mut vertices, &mut creases)
+                    crease_vertex(point, height_m, &mut vertices, &mut creases)
                 } else {
                     vertices.push(point);
                     (vertices.len() - 1) as u32
@@ -99,10 +99,10 @@ pub fn surface(height_m: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
-/// Where the line on the cone of `leg` in the plane of `out` meets the nearest crease, over H.
+/// Point over H where the generatrix of the cone of `leg` in the direction `out` meets the nearest crease [-].
 ///
-/// On the cone p = s a + (r_0 - s t) n; equally far from the axis b when p.(a - b) = 0, which is linear in s.
-fn crease(axes: &[DVec3; 4], leg: usize, out: DVec3) -> DVec3 {
+/// On the cone p = s a + (r_0 - s t) n; p is equally far from the axis b when p.(a - b) = 0, which is linear in s.
+fn crease_point(axes: &[DVec3; 4], leg: usize, out: DVec3) -> DVec3 {
     let a = axes[leg];
     let (r_0, t) = (centre_radius(), taper());
     let s = axes
@@ -117,9 +117,9 @@ fn crease(axes: &[DVec3; 4], leg: usize, out: DVec3) -> DVec3 {
     a * s + out * (r_0 - s * t)
 }
 
-/// Index of the crease point at `point`, the one of a neighbouring leg if it has been made already.
-fn joined(point: DVec3, height_m: f64, vertices: &mut Vec<DVec3>, creases: &mut Vec<u32>) -> u32 {
-    // Crease points of one leg lie 0.02 H apart; those of two legs agree to rounding.
+/// Index of the crease vertex at `point`; reuses the vertex of a neighbouring leg.
+fn crease_vertex(point: DVec3, height_m: f64, vertices: &mut Vec<DVec3>, creases: &mut Vec<u32>) -> u32 {
+    // Crease points of one leg are 0.02 H apart; those of two legs agree within rounding errors.
     let near = |v: &&u32| (vertices[**v as usize] - point).length() < 1e-6 * height_m;
     if let Some(&found) = creases.iter().find(near) {
         return found;
@@ -130,14 +130,14 @@ fn joined(point: DVec3, height_m: f64, vertices: &mut Vec<DVec3>, creases: &mut 
     index
 }
 
-/// Largest rounding radius over H for which the cores keep their surface out to the creases [-].
+/// Largest rounding radius over H for which the rounded cores reach the creases [-].
 pub const LARGEST_ROUNDING: f64 = 0.07;
 
-/// Convex parts, one a leg: each cone shrunk by `rounding_m` [m] on side and tip, so that core plus ball touches both
-/// from inside. The core begins one radius above the centre, below the lowest crease point (0.088 H).
+/// Convex parts, one per leg: each cone is shrunk by `rounding_m` [m] at side and tip, so that core plus ball touches
+/// both from inside. The core starts one radius above the centre, below the lowest crease point (0.088 H).
 pub fn parts(height_m: f64, rounding_m: f64) -> Vec<ConvexPart> {
     let (t, length) = (taper(), CENTRE_TO_TIP * height_m);
-    // A line shifted inwards by R lies R / cos(half-angle) lower, measured across the axis.
+    // A line shifted inwards by R is R / cos(half-angle) lower, measured normal to the axis.
     let lowered = rounding_m * (1.0 + t * t).sqrt();
     let radius_at = |s: f64| centre_radius() * height_m - s * t - lowered;
     let (start, end) = (rounding_m, length - rounding_m);

@@ -1,15 +1,15 @@
 //! Closed surface of the union of convex polyhedra that overlap or share faces.
 //!
-//! Of each face stays what lies in no other block: the face is split along the planes of each block, and the piece
-//! inside is left out. Where two blocks have a face in common plane, the first one keeps it. Corners of the pieces that
-//! lie on edges of others become corners of those as well, so that every edge has exactly two triangles.
+//! The part of each face outside all other blocks is kept: the planes of each block split the face, and the inner piece
+//! is dropped. Where faces of two blocks coincide, the first block keeps it. A corner that lies on the edge of another
+//! piece is inserted there, so every edge has exactly two triangles.
 
 use glam::DVec3;
 
 use super::half_space::split;
 use super::polyhedron::Polyhedron;
 
-/// Points nearer to each other, or to a plane, than this share of the size are there.
+/// Distance below which points coincide with each other or with a plane, relative to the size [-].
 const TOLERANCE: f64 = 1e-9;
 
 /// Vertices [m] and triangles, counter-clockwise seen from outside, of the union of `blocks`.
@@ -33,8 +33,8 @@ pub fn surface(blocks: &[Polyhedron]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     triangulate(&pieces, 10.0 * tolerance)
 }
 
-/// The parts of a polygon with the given normal that lie outside a block; those in the plane of a face of the block that
-/// looks the same way only if `keeps_common`.
+/// Parts of a polygon with the given normal that lie outside a block. A part that coincides with a face of the block
+/// with the same orientation is kept only if `keeps_common`.
 fn outside(ring: &[DVec3], normal: DVec3, block: &Polyhedron, keeps_common: bool, tolerance: f64) -> Vec<Vec<DVec3>> {
     let (mut parts, mut rest, mut common) = (Vec::new(), ring.to_vec(), false);
     for face in block.faces() {
@@ -48,7 +48,7 @@ fn outside(ring: &[DVec3], normal: DVec3, block: &Polyhedron, keeps_common: bool
         }
         rest = behind;
         if rest.len() < 3 {
-            // Nothing lies inside: the polygon needs no splitting.
+            // No part lies inside: the polygon stays whole.
             return vec![ring.to_vec()];
         }
     }
@@ -58,7 +58,7 @@ fn outside(ring: &[DVec3], normal: DVec3, block: &Polyhedron, keeps_common: bool
     parts
 }
 
-/// Weld the corners of polygons and cut them into triangles.
+/// Merges the corners of polygons and splits the polygons into triangles.
 fn triangulate(pieces: &[Vec<DVec3>], tolerance: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut vertices: Vec<DVec3> = Vec::new();
     let mut weld = |point: DVec3| {
@@ -78,7 +78,7 @@ fn triangulate(pieces: &[Vec<DVec3>], tolerance: f64) -> (Vec<DVec3>, Vec<[u32; 
         if whole.len() == ring.len() {
             triangles.extend(whole[1..].windows(2).map(|pair| [whole[0] as u32, pair[0] as u32, pair[1] as u32]));
         } else {
-            // Points on the edges make a fan from a corner fold: it starts in the middle.
+            // With points on the edges, a fan from a corner would be degenerate, so the fan starts in the middle.
             vertices.push(ring.iter().map(|&v| corners[v]).sum::<DVec3>() / ring.len() as f64);
             let middle = (vertices.len() - 1) as u32;
             let next = whole.iter().cycle().skip(1);
@@ -88,7 +88,7 @@ fn triangulate(pieces: &[Vec<DVec3>], tolerance: f64) -> (Vec<DVec3>, Vec<[u32; 
     (vertices, triangles)
 }
 
-/// A ring with all vertices that lie on its edges, each once.
+/// The ring with all vertices that lie on its edges, each once.
 fn with_points_on_edges(ring: &[usize], vertices: &[DVec3], tolerance: f64) -> Vec<usize> {
     let mut whole: Vec<usize> = Vec::new();
     for (index, &a) in ring.iter().enumerate() {
@@ -129,11 +129,11 @@ mod tests {
     }
 
     #[test]
-    fn overlap_counts_once() {
+    fn overlapping_volume_counts_once() {
         // 1e-12 is rounding, here and below.
         let blocks = [block([0.0; 3], [2.0, 1.0, 1.0]), block([0.5, 0.5, -1.0], [1.5, 3.0, 0.5])];
         assert!((volume(&blocks) - (2.0 + 3.75 - 0.25)).abs() < 1e-12);
-        // A cross: every face is split.
+        // Three crossing bars: every long face is split.
         let cross = [
             block([-3.0, -1.0, -1.0], [3.0, 1.0, 1.0]),
             block([-1.0, -3.0, -1.0], [1.0, 3.0, 1.0]),
@@ -143,8 +143,8 @@ mod tests {
     }
 
     #[test]
-    fn common_faces_count_once() {
-        // Side by side with a face in common, and one that stands in the other's plane.
+    fn common_faces_are_removed() {
+        // A common face, a smaller block on top, and coplanar faces.
         let side_by_side = [block([0.0; 3], [1.0; 3]), block([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])];
         assert!((volume(&side_by_side) - 2.0).abs() < 1e-12);
         let on_top = [block([0.0; 3], [1.0; 3]), block([0.25, 0.25, 1.0], [0.5, 0.5, 2.0])];
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn slanted_blocks_make_a_closed_surface() {
+    fn union_of_rotated_blocks_is_closed() {
         let tilted = |angle: f64| {
             let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, angle, 0.7 * angle, 0.3);
             let points: Vec<DVec3> =
@@ -164,7 +164,7 @@ mod tests {
         for angle in [0.0, 0.4, 0.9, 1.3, 2.1] {
             let two = [tilted(angle), tilted(angle + 1.0)];
             let whole = volume(&two);
-            // The overlap, from the planes of both.
+            // The overlap is the intersection of all half-spaces.
             let planes: Vec<_> = two.iter().flat_map(|b| b.faces().iter().map(|f| f.plane)).collect();
             let overlap = Polyhedron::from_planes(&planes, 10.0).unwrap().volume();
             assert!((whole - (8.0 - overlap)).abs() < 1e-9, "{angle}: {whole} {overlap}");

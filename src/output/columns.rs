@@ -160,3 +160,25 @@ pub fn pressure(name: &str) -> String {
 pub fn velocity(name: &str) -> [String; 3] {
     ["u", "v", "w"].map(|c| format!("{name}_{c}_m_s"))
 }
+
+/// A row of the contacts; `offset` leads from their clock to that of the table [s].
+pub fn contact_row(event: &crate::rigid::ContactEvent, offset: f64) -> [f64; 15] {
+    let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
+    [
+        event.start + offset,
+        event.end + offset,
+        f64::from(event.body + 1),
+        event.partner_unit().map_or(0.0, |unit| f64::from(unit + 1)),
+        x,
+        y,
+        z,
+        event.approach_normal,
+        event.approach_tangential,
+        event.peak_force,
+        glam::DVec3::from_array(event.impulse).length(),
+        bx,
+        by,
+        bz,
+        event.rebound,
+    ]
+}

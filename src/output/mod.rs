@@ -16,8 +16,10 @@
 
 mod atomic;
 pub mod columns;
+pub mod driver;
 mod error;
 mod execution;
+mod flume_tables;
 mod impacts;
 pub mod progress;
 mod series;
@@ -31,8 +33,9 @@ mod writer;
 pub use atomic::write_atomically;
 pub use error::OutputError;
 pub use execution::Execution;
+pub use flume_tables::{write_flume_gauges, write_flume_piston};
 pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
-pub use series::CsvSeries;
+pub use series::{CsvSeries, is_due};
 pub use summary::{
     BreakageSummary, ContactSummary, EnergySummary, GaugeSummary, ParticleCounts, Stopped, Summary, TimeStepSummary,
     UnitSummary, WaveSummary,

@@ -121,6 +121,12 @@ fn push_number(text: &mut String, value: f64) {
     };
 }
 
+/// Whether an output that was written `count` times at an interval [s] is due.
+pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
+    // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
+    interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::Table;

@@ -5,7 +5,6 @@ use std::{fmt, path::Path};
 use serde::{Deserialize, Serialize};
 
 use super::{Execution, OutputError, write_atomically};
-use crate::simulation::breakage::results::Breakage;
 
 /// `summary.json`: damage and displacements first, then what they rest on.
 ///
@@ -140,13 +139,6 @@ pub struct BreakageSummary {
     pub broken_ratio: f64,
 }
 
-impl From<&Breakage> for BreakageSummary {
-    fn from(breakage: &Breakage) -> Self {
-        let Breakage { scale, damaged_ratio, broken_ratio, .. } = *breakage;
-        Self { scale, damaged_ratio, broken_ratio }
-    }
-}
-
 /// The wave of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct WaveSummary {
@@ -230,6 +222,8 @@ pub enum Stopped {
     Duration,
     /// The units had come to rest.
     AtRest,
+    /// A tilt test: all units slide, or the slope is the steepest of the test.
+    TestOver,
 }
 
 impl fmt::Display for Stopped {
@@ -237,6 +231,7 @@ impl fmt::Display for Stopped {
         out.write_str(match self {
             Self::Duration => "time of the case over",
             Self::AtRest => "units at rest",
+            Self::TestOver => "test over",
         })
     }
 }

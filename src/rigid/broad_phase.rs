@@ -1,24 +1,24 @@
-//! Which bodies are near each other, by the tree of boxes that rapier's broad phase is made of.
+//! Broad phase: pairs of bodies near each other, found with the bounding volume tree of rapier's broad phase.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
-/// Two bodies near each other; `image` is the number of widths by which the second is shifted.
+/// Two bodies near each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BodyPair {
-    /// Number of the one with the lower number.
+    /// Index of the first body, the lower one.
     pub first: usize,
-    /// Number of the other one, or of the same.
+    /// Index of the second body; equal to `first` for a body and its own image.
     pub second: usize,
-    /// Widths of the flume from its place to where it is near the first.
+    /// Number of flume widths by which the second body is shifted to be near the first.
     pub image: i32,
 }
 
-/// Pairs of bodies whose centres are nearer than `near` [m], sorted; `period` is the width [m] of a periodic flume, in
-/// which a body also meets the images of others and of itself.
+/// Sorted pairs of bodies whose centres are nearer than `near` [m]. `period` is the width [m] of a periodic flume, in
+/// which a body can also touch images of other bodies and of itself.
 pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
-    // In which image of the flume a body is, and its place in the first one.
+    // Number of the image that a body is in, and its position in image 0.
     let image = |x: &DVec3| period.map_or(0.0, |width| (x.y / width).floor());
     let wrapped: Vec<(DVec3, i32)> = position
         .iter()
@@ -27,11 +27,11 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
             (*x - DVec3::Y * (image * period.unwrap_or(0.0)), image as i32)
         })
         .collect();
-    // Half of the distance about each; 1e-6 more, lest rounding lose a pair.
+    // Half of the distance around each centre, plus 1e-6, so that rounding loses no pair.
     let half = DVec3::splat(0.5 * near * (1.0 + 1e-6));
     let boxes: Vec<Aabb> = wrapped.iter().map(|(x, _)| Aabb::new(*x - half, *x + half)).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-    // A body may be near several images in a narrow flume.
+    // In a narrow flume a body can be near several images.
     let shifts = period.map_or(0, |width| (near / width).ceil().min(f64::from(MOST_IMAGES)) as i32);
     let mut pairs = Vec::new();
     for (first, (x, own)) in wrapped.iter().enumerate() {
@@ -40,7 +40,7 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
             let about = Aabb::new(*x + to_image - half, *x + to_image + half);
             for second in tree.intersect_aabb(&about).map(|leaf| leaf as usize).filter(|second| *second >= first) {
                 let image = own - wrapped[second].1 - shift;
-                // A body meets its own image once, on the left; the other side is the same contact.
+                // A body and its own image count once; the image on the other side is the same contact.
                 let counts = first != second || image > 0;
                 let apart = position[second] + DVec3::Y * (f64::from(image) * period.unwrap_or(0.0)) - position[first];
                 if counts && apart.length_squared() < near * near {
@@ -53,7 +53,7 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
     pairs
 }
 
-/// The pairs of one body, whose centre is nearer than `near` [m] to that of a body with a lower number.
+/// Pairs of one body with bodies of lower index whose centres are nearer than `near` [m].
 pub fn pairs_with(body: usize, position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
     let mut pairs = Vec::new();
     for (first, x) in position[..body].iter().enumerate() {
@@ -70,20 +70,20 @@ pub fn pairs_with(body: usize, position: &[DVec3], near: f64, period: Option<f64
     pairs
 }
 
-/// Images to each side that a body can meet at most.
+/// Largest number of images on each side that a body can touch.
 const MOST_IMAGES: u32 = 8;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Places in a box of 1 m, anywhere across the flume.
+    /// Positions scattered in x and z within 1 m, and in y over 4 m.
     fn scattered(count: u32) -> Vec<DVec3> {
         let share = |i: u32, k: f64| (f64::from(i) * k).fract();
         (0..count).map(|i| DVec3::new(share(i, 0.618), 4.0 * share(i, 0.414) - 2.0, share(i, 0.732))).collect()
     }
 
-    fn by_hand(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
+    fn brute_force(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
         let mut pairs = Vec::new();
         for first in 0..position.len() {
             for second in first..position.len() {
@@ -101,10 +101,10 @@ mod tests {
     }
 
     #[test]
-    fn all_pairs_are_found_and_no_others() {
+    fn pairs_match_a_brute_force_search() {
         let position = scattered(150);
         for (near, period) in [(0.2, None), (0.2, Some(1.0)), (0.7, Some(0.5)), (0.9, Some(0.4))] {
-            assert_eq!(pairs(&position, near, period), by_hand(&position, near, period), "{near} {period:?}");
+            assert_eq!(pairs(&position, near, period), brute_force(&position, near, period), "{near} {period:?}");
         }
         assert_eq!(pairs(&[], 1.0, Some(1.0)), []);
         assert_eq!(pairs(&[DVec3::ZERO], 1.0, None), []);

@@ -1,8 +1,8 @@
-//! Where bodies touch: each other, their images across periodic sides, the ground and walls.
+//! Contact points of bodies with each other, with periodic images, with the ground and with walls.
 //!
-//! Pairs of bodies come from their bounding spheres, pairs of parts from the distances of their cores. The list of near
-//! parts is kept until bodies have moved by its margin; in between, only those are looked at. All places are sorted by
-//! a key, so that sums over them have one order whatever the search did.
+//! Bounding spheres give the pairs of bodies, distances of cores the pairs of parts. The list of near parts is reused
+//! until bodies have moved by its margin. Contact points are sorted by key, so sums over them always have the same
+//! order.
 
 use std::sync::Arc;
 
@@ -21,54 +21,54 @@ use super::terrain_contact;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::terrain::Terrain;
 
-/// Bodies, and pairs of parts, of one task of the thread pool: some tens of microseconds of work.
+/// Number of bodies, and of pairs of parts, per task of the thread pool: some tens of microseconds of work.
 const BODIES: usize = 64;
 const PAIRS: usize = 24;
 
-/// What a part of a body touches.
+/// The contact partner of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Feature {
-    /// A part of another body (or of the same one), shifted by `image` widths across the flume. `part` is its number
-    /// times 1024, and that of its corner or edge, or 1023 for the whole.
+    /// A part of another body (or of the same one), shifted by `image` flume widths. `part` is 1024 times the number of
+    /// the part, plus the number of its corner or edge, or 1023 for the whole part.
     Unit { body: u32, image: i32, part: u16 },
-    /// The ground: strip k is place 2 k, the convex corner after it 2 k + 1.
+    /// The ground: `place` is 2 k for strip k and 2 k + 1 for the convex corner after it.
     Ground { place: u32, end: u16 },
-    /// A triangle surface: place is the number of the triangle, ridge or corner.
+    /// A triangle surface: `place` is the number of the triangle, ridge or corner.
     Terrain { place: u32, end: u16 },
     /// A wall: 0 at y = 0, 1 at y = width, 2 seaward, 3 shoreward.
     Wall { wall: u8, end: u16 },
 }
 
-/// Name of a contact: body, part and what they touch.
+/// Identity of a contact: body, part and contact partner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct ContactKey {
     /// Number of the body from 0.
     pub body: u32,
-    /// Number of its part from 0; against another unit, as [`Feature::Unit`] counts.
+    /// Number of its part from 0; against another unit, encoded as in [`Feature::Unit`].
     pub part: u16,
-    /// What it touches.
+    /// Contact partner.
     pub feature: Feature,
 }
 
-/// A place where two surfaces are near or overlap.
+/// A contact point: two surfaces overlap or are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// Its name.
+    /// Identity of the contact.
     pub key: ContactKey,
     /// Middle of the overlap [m], at the first body.
     pub point: DVec3,
     /// Normal from the partner into the first body.
     pub normal: DVec3,
-    /// Overlap d [m]; negative while there is a gap.
+    /// Overlap d [m]; negative for a gap.
     pub overlap: f64,
-    /// Shift of the partner's image [m].
+    /// Shift of the partner's periodic image [m].
     pub shift: DVec3,
-    /// Point of the partner's core, in its own axes [m]; of what is fixed, the foot on its surface.
+    /// Nearest point of the partner's core, in the partner's axes [m]; for a fixed surface, the foot point on it.
     pub core: DVec3,
 }
 
-/// Parts of two bodies near each other.
+/// Two parts of different bodies that are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartPair {
     bodies: BodyPair,
@@ -78,14 +78,14 @@ pub struct PartPair {
 }
 
 impl PartPair {
-    /// Name of the contact of two features of the parts.
+    /// Identity of the contact between two features of the parts.
     fn key(&self, features: [u16; 2]) -> ContactKey {
         let [part, partner] = [0, 1].map(|k| self.parts[k] as u16 * (WHOLE + 1) + features[k]);
         let BodyPair { first, second, image } = self.bodies;
         ContactKey { body: first as u32, part, feature: Feature::Unit { body: second as u32, image, part: partner } }
     }
 
-    /// Whether the parts can be near each other if the surface of each body may have travelled so far [m].
+    /// Whether the parts can be near each other after each body's surface has travelled at most the given distance [m].
     pub fn can_be_near(&self, travelled: &[f64]) -> bool {
         self.gap <= travelled[self.bodies.first] + travelled[self.bodies.second]
     }
@@ -100,7 +100,7 @@ pub struct Placements<'a> {
     pub position: &'a [DVec3],
 }
 
-/// The surfaces that can touch.
+/// All surfaces that can be in contact.
 #[derive(Debug, Clone)]
 pub struct Surfaces {
     parts: Vec<ConvexPart>,
@@ -112,7 +112,7 @@ pub struct Surfaces {
 }
 
 impl Surfaces {
-    /// Surfaces of a world.
+    /// Creates the surfaces of a world.
     pub fn new(setup: &RigidSetup) -> Self {
         let wall = |index, origin, normal| PlaneWall { index, origin, normal };
         let mut walls = Vec::new();
@@ -137,7 +137,7 @@ impl Surfaces {
         self.period
     }
 
-    /// Places where one body touches the ground, a wall, or the others of the given pairs.
+    /// Contact points of one body with the ground, the walls and the bodies of the given pairs.
     pub fn touches_of(
         &self,
         body: usize,
@@ -155,25 +155,25 @@ impl Surfaces {
         Ok(touches)
     }
 
-    /// Radius of the sphere about the centre of mass that holds a body [m].
+    /// Radius of the sphere about the centre of mass that encloses a body [m].
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Pairs of parts of different bodies that are nearer than `margin` [m], in the order of their numbers.
+    /// Pairs of parts of different bodies that are nearer than `margin` [m], ordered by their numbers.
     pub fn near_parts(&self, placements: Placements<'_>, margin: f64) -> Vec<PartPair> {
         let bodies = broad_phase::pairs(placements.position, 2.0 * self.reach + margin, self.period);
-        let near = in_pieces(&bodies, PAIRS, |pair, out| {
+        let near = map_chunks(&bodies, PAIRS, |pair, out| {
             self.near_parts_of(pair, placements, margin, out);
             Ok(())
         });
-        // Nothing can fail here.
+        // The search cannot fail.
         near.unwrap_or_default()
     }
 
-    /// Parts of two bodies that are nearer than `margin` [m].
+    /// Appends the pairs of parts of two bodies that are nearer than `margin` [m].
     fn near_parts_of(&self, pair: &BodyPair, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
-        let [(q_a, x_a), (q_b, x_b)] = self.placed(pair, placements);
+        let [(q_a, x_a), (q_b, x_b)] = self.poses(pair, placements);
         for (i, part_a) in self.parts.iter().enumerate() {
             let (centre_a, reach_a) = part_a.bounding_sphere();
             let centre_a = q_a * centre_a + x_a;
@@ -194,19 +194,19 @@ impl Surfaces {
         }
     }
 
-    /// Rotation and place of both bodies of a pair, the second in the image that is near the first.
-    fn placed(&self, pair: &BodyPair, placements: Placements<'_>) -> [(DQuat, DVec3); 2] {
+    /// Rotation and position of both bodies of a pair; the second at the image near the first.
+    fn poses(&self, pair: &BodyPair, placements: Placements<'_>) -> [(DQuat, DVec3); 2] {
         let Placements { rotation, position } = placements;
         let shift = self.shift(pair);
         [(rotation[pair.first], position[pair.first]), (rotation[pair.second], position[pair.second] + shift)]
     }
 
-    /// Way to the image of the second body that is near the first [m].
+    /// Shift of the second body to its image near the first [m].
     fn shift(&self, pair: &BodyPair) -> DVec3 {
         DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0))
     }
 
-    /// All places of the given parts, the ground and walls that are nearer than the bodies' margins [m], sorted by key.
+    /// Contact points of the given pairs, the ground and the walls within the bodies' margins [m], sorted by key.
     pub fn touches(
         &self,
         pairs: &[PartPair],
@@ -217,8 +217,8 @@ impl Surfaces {
     ) -> Result<Vec<Touch>, RigidError> {
         let bodies: Vec<usize> = (0..placements.position.len()).collect();
         let fixed =
-            in_pieces(&bodies, BODIES, |body, out| self.fixed_touches(*body, placements, margins[*body], time, out));
-        let mutual = in_pieces(pairs, PAIRS, |pair, out| {
+            map_chunks(&bodies, BODIES, |body, out| self.fixed_touches(*body, placements, margins[*body], time, out));
+        let mutual = map_chunks(pairs, PAIRS, |pair, out| {
             let margin = margins[pair.bodies.first] + margins[pair.bodies.second];
             self.part_touches(pair, placements, before, margin, time, out)
         });
@@ -228,7 +228,7 @@ impl Surfaces {
         Ok(touches)
     }
 
-    /// Places where a body is near the ground or a wall.
+    /// Appends the contact points of a body with the ground and the walls.
     fn fixed_touches(
         &self,
         body: usize,
@@ -258,7 +258,7 @@ impl Surfaces {
         Ok(())
     }
 
-    /// Places where two parts are near each other.
+    /// Appends the contact points of two parts.
     fn part_touches(
         &self,
         pair: &PartPair,
@@ -269,62 +269,62 @@ impl Surfaces {
         touches: &mut Vec<Touch>,
     ) -> Result<(), RigidError> {
         let PartPair { bodies, parts, .. } = pair;
-        let [place_a, place_b] = self.placed(bodies, placements);
+        let [pose_a, pose_b] = self.poses(bodies, placements);
         let [part_a, part_b] = parts.map(|part| &self.parts[part]);
         let roundings = [part_a.rounding(), part_b.rounding()];
         let reach = roundings[0] + roundings[1] + margin;
         let shift = self.shift(bodies);
         let mut add = |near: Near| {
             let touch = unit_touch(pair, near, roundings, shift, time)?;
-            let core = place_b.0.inverse() * (near.points[1] - place_b.1);
+            let core = pose_b.0.inverse() * (near.points[1] - pose_b.1);
             touches.push(Touch { core, ..touch });
             Ok(())
         };
         if let (Some(core_a), Some(core_b)) = (part_a.as_polyhedron(), part_b.as_polyhedron()) {
             let rounding = 0.5 * (roundings[0] + roundings[1]);
-            let places = polyhedron_contact::near_places((core_a, place_a), (core_b, place_b), rounding, reach);
+            let places = polyhedron_contact::near_places((core_a, pose_a), (core_b, pose_b), rounding, reach);
             return places.into_iter().try_for_each(add);
         }
         let key = pair.key([WHOLE; 2]);
-        let memory = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
-        let near_before = memory.and_then(|core| gap::nearest_from(part_a, place_a, part_b, place_b, core, reach));
-        match near_before.unwrap_or_else(|| gap::nearest(part_a, place_a, part_b, place_b, reach)) {
+        let last_core = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
+        let near_last = last_core.and_then(|core| gap::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
+        match near_last.unwrap_or_else(|| gap::nearest(part_a, pose_a, part_b, pose_b, reach)) {
             Nearest::Apart => Ok(()),
-            // No distance is left then.
-            Nearest::Overlap => add(Near { features: [WHOLE; 2], points: [place_a.1; 2], bent: 0.0 }),
+            // Equal points: the distance is zero.
+            Nearest::Overlap => add(Near { features: [WHOLE; 2], points: [pose_a.1; 2], bent: 0.0 }),
             Nearest::Points(p_a, p_b) => add(Near { features: [WHOLE; 2], points: [p_a, p_b], bent: 0.0 }),
         }
     }
 }
 
-/// What `find` adds for each item, in the order of the items; pieces of `length` items are tasks of the thread pool.
-fn in_pieces<T: Sync, U: Send>(
+/// Collects the output of `find` in the order of the items. Each chunk of `length` items is a task of the thread pool.
+fn map_chunks<T: Sync, U: Send>(
     items: &[T],
     length: usize,
     find: impl Fn(&T, &mut Vec<U>) -> Result<(), RigidError> + Sync,
 ) -> Result<Vec<U>, RigidError> {
-    let piece = |items: &[T]| {
+    let find_in_chunk = |items: &[T]| {
         let mut found = Vec::new();
         items.iter().try_for_each(|item| find(item, &mut found)).map(|()| found)
     };
     if items.len() <= length {
-        return piece(items);
+        return find_in_chunk(items);
     }
-    let pieces: Vec<_> = items.par_chunks(length).map(piece).collect();
+    let chunks: Vec<_> = items.par_chunks(length).map(find_in_chunk).collect();
     let mut all = Vec::new();
-    for piece in pieces {
-        all.extend(piece?);
+    for chunk in chunks {
+        all.extend(chunk?);
     }
     Ok(all)
 }
 
-/// Touch of parts of two units with their rounding radii [m].
+/// Creates the contact point of parts of two units with the given rounding radii [m].
 fn unit_touch(pair: &PartPair, near: Near, roundings: [f64; 2], shift: DVec3, time: f64) -> Result<Touch, RigidError> {
     let Near { features, points: [p_a, p_b], bent } = near;
     let distance = (p_a - p_b).length();
     let sum = roundings[0] + roundings[1];
     let overlap = sum - distance;
-    // The cores meet at the full sum; short of it gap and normal are still known.
+    // The cores meet at the full sum; below it, gap and normal are defined.
     let allowed = 0.75 * sum;
     if overlap > allowed {
         let BodyPair { first, second, .. } = pair.bodies;
@@ -342,7 +342,7 @@ fn unit_touch(pair: &PartPair, near: Near, roundings: [f64; 2], shift: DVec3, ti
     })
 }
 
-/// Touch of a part with the ground or a wall.
+/// Creates the contact point of a part with the ground or a wall.
 fn fixed_touch(
     body: usize,
     index: usize,

@@ -2,16 +2,16 @@
 //!
 //! | law | normal | tangential |
 //! | --- | --- | --- |
-//! | Hertz-Mindlin (default) | [`super::hertz_mindlin`] | spring that remembers how far the surfaces were shifted |
-//! | linear | [`super::linear`], measured stiffness | the same |
-//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one step only, nothing below 0.1 mm/s |
+//! | Hertz-Mindlin (default) | [`super::hertz_mindlin`] | spring with history: stores the tangential displacement |
+//! | linear | [`super::linear`], measured stiffness | spring with history |
+//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of a single substep, zero below 0.1 mm/s |
 //!
-//! |F_t| <= mu F_n; F_n < 0 makes both zero. mu is mu_s at rest and goes over to mu_k as the surfaces slide:
+//! |F_t| <= mu F_n; both forces are zero where F_n < 0. mu changes from mu_s at rest to mu_k during sliding:
 //! mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2). Rolling resistance is a spring with a limit (Ai et al. 2011):
 //! |M| <= mu_r R F_n.
 //!
-//! `chrono4` is what Mitsui et al. (2023) ran: Chrono 4.0 gives contacts between meshes one radius and does not keep the
-//! tangential spring, so that units creep at any load. It is there to reproduce the paper.
+//! `chrono4` reproduces Mitsui et al. (2023). Chrono 4.0 uses one radius for all contacts between meshes and does not
+//! store the tangential spring, so units creep at any load.
 
 use glam::DVec3;
 
@@ -19,12 +19,12 @@ use super::hertz_mindlin::{self, Material};
 use super::linear;
 use super::setup::{ContactModel, Resistance};
 
-/// Sliding speed v_c at which friction goes over from rest to motion [m/s]: five times what a unit at rest in water
-/// trembles with (0.2 mm/s), and far below the speeds at which units move.
-const CHANGE_OVER: f64 = 1e-3;
+/// Sliding speed v_c of the transition from static to kinetic friction [m/s]. It is five times the fluctuation of a
+/// unit at rest in water (0.2 mm/s), and far below the speeds of moving units.
+const TRANSITION_SPEED: f64 = 1e-3;
 /// Radius of every contact under `chrono4` [m].
 const CHRONO_RADIUS: f64 = 0.1;
-/// Tangential speed below which `chrono4` has no friction [m/s].
+/// Tangential speed below which friction is zero under `chrono4` [m/s].
 const CHRONO_LEAST_SPEED: f64 = 1e-4;
 
 /// Stiffness of a contact.
@@ -32,11 +32,11 @@ const CHRONO_LEAST_SPEED: f64 = 1e-4;
 enum Stiffness {
     /// Effective moduli E* and G* [Pa], effective radius R [m].
     Hertz { e_star: f64, g_star: f64, radius: f64 },
-    /// Constants [N/m].
+    /// Constant stiffnesses [N/m].
     Linear { normal: f64, tangential: f64 },
 }
 
-/// Constants of the contact of one pair of surfaces.
+/// Contact law of one pair of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLaw {
     stiffness: Stiffness,
@@ -47,37 +47,37 @@ pub struct ContactLaw {
     mass: f64,
     /// Effective radius R of the surfaces [m].
     radius: f64,
-    /// Whether the tangential spring outlives a step.
+    /// Whether the tangential spring persists over substeps.
     remembers: bool,
 }
 
-/// What a contact does in one evaluation.
+/// Forces of a contact in one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     /// Normal force F_n [N], never negative.
     pub normal: f64,
-    /// Tangential force on the body whose velocity was given [N].
+    /// Tangential force on the body whose velocity was passed [N].
     pub tangential: DVec3,
-    /// Tangential spring after the limit was applied [m].
+    /// Tangential spring after the friction limit [m].
     pub spring: DVec3,
-    /// Whether the limit was reached.
+    /// Whether the friction limit was reached.
     pub sliding: bool,
 }
 
 /// Rolling resistance of a contact in one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rolling {
-    /// Torque on the body whose angular velocity was given [N m].
+    /// Torque on the body whose angular velocity was passed [N m].
     pub torque: DVec3,
-    /// Rolling spring after the limit was applied [rad].
+    /// Rolling spring after the limit [rad].
     pub spring: DVec3,
     /// Whether the limit was reached.
     pub rolling: bool,
 }
 
 impl ContactLaw {
-    /// Law of two materials with the effective mass [kg] and radius [m] of the pair; the smaller restitution of the two
-    /// counts unless the pair has its own.
+    /// Creates the law of two materials with the effective mass [kg] and radius [m] of the pair. Without a restitution
+    /// of the pair, the smaller restitution of the two materials applies.
     pub fn new(
         model: ContactModel,
         a: &Material,
@@ -104,12 +104,12 @@ impl ContactLaw {
         Self { stiffness, beta, resistance, mass, radius, remembers: model != ContactModel::Chrono4 }
     }
 
-    /// Whether the tangential spring outlives a step.
+    /// Whether the tangential spring persists over substeps.
     pub fn remembers(&self) -> bool {
         self.remembers
     }
 
-    /// dF_n/dd at the given overlap [N/m].
+    /// Normal stiffness dF_n/dd at the given overlap [N/m].
     pub fn normal_stiffness(&self, overlap: f64) -> f64 {
         match self.stiffness {
             Stiffness::Hertz { e_star, radius, .. } => hertz_mindlin::normal_stiffness(e_star, radius, overlap),
@@ -154,7 +154,7 @@ impl ContactLaw {
         if self.remembers { 0.5 * self.tangential_stiffness(overlap) * spring.length_squared() } else { 0.0 }
     }
 
-    /// Largest overlap of an elastic impact at a speed [m/s].
+    /// Largest overlap [m] of an elastic impact at a speed [m/s].
     pub fn impact_overlap(&self, speed: f64) -> f64 {
         match self.stiffness {
             Stiffness::Hertz { e_star, radius, .. } => hertz_mindlin::impact_overlap(e_star, radius, self.mass, speed),
@@ -162,13 +162,13 @@ impl ContactLaw {
         }
     }
 
-    /// mu at a sliding speed [m/s].
+    /// Friction coefficient mu at a sliding speed [m/s].
     fn friction(&self, speed: f64) -> f64 {
         let Resistance { static_friction, kinetic_friction, .. } = self.resistance;
-        kinetic_friction + (static_friction - kinetic_friction) * (-(speed / CHANGE_OVER).powi(2)).exp()
+        kinetic_friction + (static_friction - kinetic_friction) * (-(speed / TRANSITION_SPEED).powi(2)).exp()
     }
 
-    /// Forces for an overlap d > 0, normal velocity v_n (positive when parting), tangential velocity and spring.
+    /// Computes the forces for an overlap d > 0, normal velocity v_n (positive on separation), v_t and spring.
     pub fn respond(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> Response {
         let s_n = self.normal_stiffness(overlap);
         let s_t = self.tangential_stiffness(overlap);
@@ -186,13 +186,13 @@ impl ContactLaw {
         if size <= limit {
             return Response { normal, tangential: -trial, spring, sliding: false };
         }
-        // Spring and dashpot slip alike: a spring that took over the dashpot's part would store what nobody gave.
+        // Spring and dashpot are reduced alike; a spring that took over the dashpot force would create energy.
         let held = limit / size;
         Response { normal, tangential: -trial * held, spring: spring * held, sliding: true }
     }
 
-    /// Rolling resistance under the normal force F_n [N] for an angular velocity [rad/s] and rolling spring [rad], both
-    /// across the normal: k_r = R^2 S_t, c_r = R^2 g_t. `None` if there is none.
+    /// Computes the rolling resistance under the normal force F_n [N]; the angular velocity [rad/s] and rolling spring
+    /// [rad] are normal to the contact normal. k_r = R^2 S_t, c_r = R^2 g_t. `None` if the coefficient is zero.
     pub fn roll(&self, overlap: f64, normal: f64, omega: DVec3, spring: DVec3) -> Option<Rolling> {
         if self.resistance.rolling == 0.0 {
             return None;
@@ -208,7 +208,7 @@ impl ContactLaw {
         Some(Rolling { torque: -trial * held, spring: spring * held, rolling: true })
     }
 
-    /// k_r [N m/rad].
+    /// Rolling stiffness k_r = R^2 S_t [N m/rad].
     pub fn rolling_stiffness(&self, overlap: f64) -> f64 {
         self.radius * self.radius * self.tangential_stiffness(overlap)
     }
@@ -220,7 +220,7 @@ mod tests {
 
     use super::*;
 
-    /// Mass on a fixed plane, R 20 mm, E 1 GPa, nu 0.25, rho 2650 kg/m3.
+    /// Ball on a fixed plane, R 20 mm, E 1 GPa, nu 0.25, rho 2650 kg/m3.
     fn law(model: ContactModel, e: f64) -> ContactLaw {
         let material = Material { young_modulus: 1e9, poisson_ratio: 0.25, restitution: e };
         let resistance = Resistance { rolling: 0.1, stiffness: Some(1e6), ..0.5.into() };
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn force_is_hertz_and_its_energy_is_its_integral() {
+    fn hertz_energy_is_the_integral_of_the_force() {
         let law = law(ContactModel::HertzMindlin, 1.0);
         let Stiffness::Hertz { e_star, g_star, radius } = law.stiffness else { panic!("Hertz") };
         assert!((e_star - 1e9 / (2.0 * (1.0 - 0.0625))).abs() < 1.0);
@@ -237,18 +237,18 @@ mod tests {
         let d = 261.3e-6;
         assert!((law.elastic_force(d) / (k * d.powf(1.5)) - 1.0).abs() < 1e-12);
         assert!((law.normal_energy(d) / (0.4 * k * d.powf(2.5)) - 1.0).abs() < 1e-12);
-        // Reference figures are given to four digits.
+        // The reference value has four digits.
         assert!((law.elastic_force(law.impact_overlap(1.0)) / 424.8 - 1.0).abs() < 1e-3);
     }
 
     #[test]
-    fn a_linear_impact_stores_its_kinetic_energy() {
+    fn linear_impact_stores_its_kinetic_energy() {
         let law = law(ContactModel::Linear, 1.0);
         assert!((law.normal_energy(law.impact_overlap(2.0)) / (2.0 * law.mass) - 1.0).abs() < 1e-12);
     }
 
     #[test]
-    fn tangential_force_holds_up_to_the_limit_and_the_spring_follows() {
+    fn tangential_force_and_spring_are_limited_by_friction() {
         for model in [ContactModel::HertzMindlin, ContactModel::Linear] {
             let law = law(model, 1.0);
             let d = 1e-4;
@@ -263,18 +263,18 @@ mod tests {
     }
 
     #[test]
-    fn friction_goes_over_from_rest_to_motion() {
+    fn friction_changes_from_static_to_kinetic() {
         let law = ContactLaw {
             resistance: Resistance { static_friction: 0.6, kinetic_friction: 0.4, ..0.0.into() },
             ..law(ContactModel::HertzMindlin, 1.0)
         };
         assert_eq!(law.friction(0.0), 0.6);
         assert!((law.friction(0.01) - 0.4).abs() < 1e-12);
-        assert!((law.friction(CHANGE_OVER) - (0.4 + 0.2 / std::f64::consts::E)).abs() < 1e-12);
+        assert!((law.friction(TRANSITION_SPEED) - (0.4 + 0.2 / std::f64::consts::E)).abs() < 1e-12);
     }
 
     #[test]
-    fn a_contact_never_pulls() {
+    fn contact_force_is_never_tensile() {
         for model in [ContactModel::HertzMindlin, ContactModel::Linear, ContactModel::Chrono4] {
             let response = law(model, 0.3).respond(1e-6, 10.0, DVec3::X, DVec3::X * 1e-6);
             assert_eq!((response.normal, response.tangential, response.spring), (0.0, DVec3::ZERO, DVec3::ZERO));
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn chrono_has_no_friction_at_rest() {
+    fn chrono4_has_no_friction_at_rest() {
         let law = law(ContactModel::Chrono4, 0.5);
         assert_eq!(law.respond(1e-4, 0.0, DVec3::X * 0.9e-4, DVec3::ZERO).tangential, DVec3::ZERO);
         assert!(law.respond(1e-4, 0.0, DVec3::X * 0.1, DVec3::X * 1e-6).tangential.x < 0.0);
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn rolling_resistance_holds_up_to_its_limit() {
+    fn rolling_resistance_is_limited() {
         let law = law(ContactModel::HertzMindlin, 0.5);
         let k = law.rolling_stiffness(1e-4);
         let limit = 0.1 * 0.02 * 100.0;

@@ -1,54 +1,54 @@
-//! Record of contacts: when they began and ended, how fast the surfaces met, how hard they were pressed.
+//! Contact events: start, end, approach velocity and peak force of each contact.
 
 use serde::{Deserialize, Serialize};
 
 use super::contact::Feature;
 use super::motion::BodyState;
 
-/// A contact that has ended, or what is known of it so far.
+/// A contact that has ended, or its record so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactEvent {
-    /// Contacts of the world are counted in the order in which they begin, from 0.
+    /// Number of the contact from 0, in the order of the starts.
     pub number: u64,
-    /// First overlap [s].
+    /// Time of the first overlap [s].
     pub start: f64,
-    /// End of the overlap [s].
+    /// Time of the end of the overlap [s].
     pub end: f64,
     /// Number of the body from 0.
     pub body: u32,
-    /// What it touched.
+    /// Contact partner.
     pub partner: Feature,
-    /// Where it began [m].
+    /// Contact point at the start [m].
     pub point: [f64; 3],
-    /// The same in the body's axes, from its centre of mass [m].
+    /// Contact point at the start in the body's axes, relative to its centre of mass [m].
     pub point_in_body: [f64; 3],
-    /// Unit vector at the start from the partner into the body: that is where the body is pushed.
+    /// Contact normal at the start, from the partner into the body: the direction of the normal force on the body.
     pub normal: [f64; 3],
-    /// Body at the start, before any force of this contact has acted on it.
+    /// State of the body at the start, before any force of this contact.
     pub before: BodyState,
-    /// The partner then, in the image that the body touched; none for bed and walls.
+    /// State of the partner at the start, at the image that the body touched; none for the bed and walls.
     pub partner_before: Option<BodyState>,
     /// Normal velocity at the start [m/s], positive when approaching.
     pub approach_normal: f64,
     /// Tangential velocity at the start [m/s].
     pub approach_tangential: f64,
     /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2 with the mass of the unit, or half of it between
-    /// two units; 0 when they did not approach.
+    /// two units; 0 without approach.
     pub approach_energy: f64,
-    /// Normal velocity at the last moment in contact [m/s], positive when parting.
+    /// Normal velocity at the end of the contact [m/s], positive when separating.
     pub rebound: f64,
     /// Largest force [N].
     pub peak_force: f64,
-    /// That force on the body, as a vector [N].
+    /// Largest force on the body as a vector [N].
     pub peak: [f64; 3],
-    /// When it acted [s].
+    /// Time of the largest force [s].
     pub peak_time: f64,
     /// Integral of the force on the body [N s].
     pub impulse: [f64; 3],
 }
 
 impl ContactEvent {
-    /// The other body, counted from 0; none for bed and walls.
+    /// Number of the other body from 0; none for the bed and walls.
     pub fn partner_unit(&self) -> Option<u32> {
         match self.partner {
             Feature::Unit { body, .. } => Some(body),
@@ -56,27 +56,27 @@ impl ContactEvent {
         }
     }
 
-    /// The same on another clock, which shows `offset` [s] more.
+    /// Returns the event with all times shifted by `offset` [s].
     pub fn on_clock(&self, offset: f64) -> Self {
         let Self { start, end, peak_time, .. } = *self;
         Self { start: start + offset, end: end + offset, peak_time: peak_time + offset, ..*self }
     }
 }
 
-/// Most ended contacts kept until they are taken; the weaker half is dropped beyond that.
+/// Largest number of ended contacts kept until they are taken; beyond it, the weaker half is dropped.
 pub const MOST_EVENTS: usize = 20_000;
 
-/// Ended contacts that nobody has taken yet.
+/// Ended contacts that have not been taken yet.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EventLog {
-    /// In the order of their ends.
+    /// Ended contacts, ordered by end time.
     pub ended: Vec<ContactEvent>,
-    /// How many were dropped since the start.
+    /// Number of contacts dropped since the start.
     pub dropped: u64,
 }
 
 impl EventLog {
-    /// Keeps an ended contact; when full, drops the half with the smaller peak forces.
+    /// Adds an ended contact; when the log is full, drops the half with the smaller peak forces.
     pub fn push(&mut self, event: ContactEvent) {
         self.ended.push(event);
         if self.ended.len() > MOST_EVENTS {
@@ -89,7 +89,7 @@ impl EventLog {
     }
 }
 
-/// A contact of the unit 0 with the wall at y = 0.
+/// A contact of unit 0 with the wall at y = 0.
 #[cfg(test)]
 pub(crate) fn event_for_tests() -> ContactEvent {
     let before = BodyState::at_rest(glam::DVec3::new(1.0, 2.0, 3.0), glam::DQuat::from_rotation_z(1.0));
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_log_stays_bounded_and_keeps_the_hardest() {
+    fn event_log_stays_bounded_and_keeps_the_hardest_contacts() {
         let mut log = EventLog::default();
         for i in 0..3 * MOST_EVENTS {
             log.push(ContactEvent { peak_force: (i % 1000) as f64, ..event_for_tests() });

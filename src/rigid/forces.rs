@@ -1,4 +1,4 @@
-//! Forces of all contacts at one instant, with the tangential history and the energy book.
+//! Forces of all contacts at one instant, with the tangential history and the energy balance.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -10,30 +10,30 @@ use super::motion::{BodyState, Load};
 use super::record::{Beginning, ContactBook, Push};
 use super::setup::RigidSetup;
 
-/// Energy of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping - load_work keeps
-/// its value up to the error of time stepping and the coupling of tangential stiffness and overlap.
+/// Energy balance of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
+/// load_work is constant, except for time-stepping errors and the coupling of tangential stiffness and overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// Of translation and rotation.
+    /// Kinetic energy of translation and rotation.
     pub kinetic: f64,
-    /// In gravity, zero at the origin.
+    /// Potential energy in gravity, zero at the origin.
     pub potential: f64,
-    /// Stored in contacts.
+    /// Elastic energy stored in contacts.
     pub elastic: f64,
-    /// Turned into heat by sliding since the start.
+    /// Energy dissipated by friction since the start.
     pub friction: f64,
-    /// Turned into heat by the dashpots since the start.
+    /// Energy dissipated by the dashpots since the start.
     pub damping: f64,
-    /// Work of the given loads since the start.
+    /// Work of the external loads since the start.
     pub load_work: f64,
 }
 
-/// A contact that exists, with its memory.
+/// An active contact with its history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Its name.
+    /// Identity of the contact.
     pub key: ContactKey,
-    /// Normal of the last evaluation.
+    /// Contact normal at the last evaluation.
     pub normal: DVec3,
     /// Tangential spring d_t [m].
     pub spring: DVec3,
@@ -41,38 +41,37 @@ pub struct Contact {
     pub roll: DVec3,
     /// Overlap [m].
     pub overlap: f64,
-    /// Overlap at which it counts as begun [m]; what a triangle surface has at the start does not count.
+    /// Overlap at which the contact force starts [m]: the initial overlap on a triangle surface is subtracted.
     pub sunk: f64,
-    /// Point of the partner's core that was nearest, in its own axes [m]: where the next search begins.
+    /// Nearest point of the partner's core, in the partner's axes [m]: start of the next search.
     pub core: DVec3,
     /// Force on the first body [N].
     pub force: DVec3,
-    /// What the dashpot gives to its normal part [N].
+    /// Dashpot part of the normal force [N].
     pub dashpot: f64,
-    /// Energy stored in overlap, tangential and rolling spring [J].
+    /// Energy stored in the normal, tangential and rolling springs [J].
     pub elastic: [f64; 3],
 }
 
 impl Contact {
-    /// The same contact with its springs gone: it is not pressed in deeper than it began.
+    /// Returns the same contact with unloaded springs, for an overlap that does not exceed the initial one.
     fn idle(self, touch: &Touch, step: Step) -> Self {
         let Self { key, sunk, .. } = self;
-        Self { key, sunk, ..Self::begun(touch, step) }
+        Self { key, sunk, ..Self::started(touch, step) }
     }
 
-    /// The same contact now; at another place, it is pressed in no deeper than it was.
-    fn moved_on_to(self, touch: &Touch) -> Self {
+    /// Returns the contact at its new position; the effective overlap stays the same on another element of a surface.
+    fn continued_as(self, touch: &Touch) -> Self {
         let stays = self.key == touch.key || !matches!(touch.key.feature, Feature::Terrain { .. });
         let sunk = if stays { self.sunk } else { (touch.overlap - (self.overlap - self.sunk)).max(0.0) };
         Self { key: touch.key, sunk, ..self }
     }
 
-    /// A contact that has just begun.
+    /// Creates a contact that has just started.
     ///
-    /// On a triangle surface a part can come to lie over another ridge while it is pressed into its neighbours, and then
-    /// starts there with an overlap. That does not count, lest energy come from nothing; an overlap that the bodies
-    /// were given at the start of the world does.
-    fn begun(touch: &Touch, step: Step) -> Self {
+    /// On a triangle surface, a part in contact with neighbouring elements can reach another ridge with an overlap.
+    /// This overlap is subtracted, because it would create energy. An overlap at the start of the world counts.
+    fn started(touch: &Touch, step: Step) -> Self {
         let on_terrain = matches!(touch.key.feature, Feature::Terrain { .. });
         let sunk = if on_terrain && step.dt > 0.0 { touch.overlap } else { 0.0 };
         Self {
@@ -93,20 +92,20 @@ impl Contact {
 /// Velocities of all bodies at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Velocities<'a> {
-    /// Of the centres of mass [m/s].
+    /// Velocities of the centres of mass [m/s].
     pub linear: &'a [DVec3],
-    /// Angular, world axes [rad/s].
+    /// Angular velocities, world axes [rad/s].
     pub angular: &'a [DVec3],
 }
 
 impl Velocities<'_> {
-    /// Velocity of the material point of `body` at the arm r from its centre of mass [m/s].
+    /// Velocity [m/s] of the material point of `body` at the lever arm r [m] from its centre of mass.
     fn at(&self, body: usize, arm: DVec3) -> DVec3 {
         self.linear[body] + self.angular[body].cross(arm)
     }
 }
 
-/// Laws of the pairs of surfaces.
+/// Contact laws of all pairs of surfaces.
 #[derive(Debug, Clone, Copy)]
 pub struct Laws {
     unit: ContactLaw,
@@ -117,30 +116,30 @@ pub struct Laws {
     least_radius: f64,
 }
 
-/// One evaluation of all contacts.
+/// Result of one evaluation of all contacts.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluation {
-    /// Sum over the contacts of each body.
+    /// Total contact load on each body.
     pub loads: Vec<Load>,
-    /// Contacts that exist, sorted by key.
+    /// Active contacts, sorted by key.
     pub contacts: Vec<Contact>,
-    /// Square of the largest angular frequency that a body can have on its contacts [1/s2].
+    /// Square of the largest angular frequency of a body on its contacts, an upper bound [1/s2].
     pub frequency_squared: f64,
 }
 
-/// Step over which an evaluation carries the history on.
+/// Substep over which an evaluation advances the contact history.
 #[derive(Debug, Clone, Copy)]
 pub struct Step {
-    /// Its length [s]; 0 for the first evaluation.
+    /// Length of the substep [s]; 0 for the first evaluation.
     pub dt: f64,
-    /// Time at its end [s].
+    /// Time at the end of the substep [s].
     pub time: f64,
-    /// Time for which the step length found here may be used [s]: what will touch within it counts.
+    /// Time for which the resulting substep length may be used [s]; contacts that may start within it count.
     pub horizon: f64,
 }
 
 impl Laws {
-    /// Laws of a world; radius R for a plane, R/2 for two equal roundings.
+    /// Creates the contact laws of a world: effective radius R against a plane, R/2 for two equal rounding radii.
     pub fn new(setup: &RigidSetup) -> Self {
         let RigidSetup { friction, model, material, wall_material, .. } = setup;
         let mass = setup.shape.mass;
@@ -153,13 +152,13 @@ impl Laws {
             wall: fixed(wall_material, friction.unit_wall),
             mass,
             least_radius: radius,
-            // Of a symmetric positive tensor: the smallest eigenvalue is at least det / (trace / 2)^2.
+            // The smallest eigenvalue of a symmetric positive tensor is at least det / (trace / 2)^2.
             least_inertia: setup.shape.inertia.determinant()
                 / (0.5 * (0..3).map(|i| setup.shape.inertia.col(i)[i]).sum::<f64>()).powi(2),
         }
     }
 
-    fn of(&self, feature: Feature) -> &ContactLaw {
+    fn law_of(&self, feature: Feature) -> &ContactLaw {
         match feature {
             Feature::Unit { .. } => &self.unit,
             Feature::Ground { .. } | Feature::Terrain { .. } => &self.ground,
@@ -167,8 +166,8 @@ impl Laws {
         }
     }
 
-    /// Forces at the given places; `before` holds the contacts of the previous evaluation and `book` their records, `now`
-    /// the velocities at this instant, `over` those over the step (they move the tangential springs and do the work).
+    /// Computes the forces at the contact points. `before` are the previous contacts and `book` their records. `now`
+    /// are the current velocities; `over`, the mean velocities of the substep, stretch the springs and do the work.
     #[allow(clippy::too_many_arguments)]
     pub fn evaluate(
         &self,
@@ -190,7 +189,7 @@ impl Laws {
         out.contacts.reserve(touches.len());
         energy.elastic = 0.0;
         for touch in touches {
-            let law = self.of(touch.key.feature);
+            let law = self.law_of(touch.key.feature);
             let a = touch.key.body as usize;
             let b = if let Feature::Unit { body, .. } = touch.key.feature { Some(body as usize) } else { None };
             let arm_a = touch.point - position[a];
@@ -204,21 +203,21 @@ impl Laws {
             if -touch.overlap <= closing * step.horizon {
                 let expected = touch.overlap.max(law.impact_overlap(closing));
                 let s_n = law.normal_stiffness(expected);
-                let share = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
-                // Two bodies on one spring: the frequency is that of twice the stiffness (Gershgorin's bound).
-                stiffness[a] += if b.is_some() { 2.0 } else { 1.0 } * share(arm_a);
+                let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
+                // Two bodies on one spring: twice the stiffness bounds the frequency (Gershgorin).
+                stiffness[a] += if b.is_some() { 2.0 } else { 1.0 } * stiffness_at(arm_a);
                 if let Some(b) = b {
-                    stiffness[b] += 2.0 * share(arm_b);
+                    stiffness[b] += 2.0 * stiffness_at(arm_b);
                 }
             }
             if touch.overlap <= 0.0 {
                 continue;
             }
 
-            let memory = find(before, &mut used, touches, touch, self.least_radius);
-            let known = memory.is_some();
-            let mut contact = memory.map_or_else(|| Contact::begun(touch, step), |i| before[i].moved_on_to(touch));
-            let mut record = memory.and_then(|index| records[index].take()).unwrap_or_else(|| {
+            let previous = find(before, &mut used, touches, touch, self.least_radius);
+            let known = previous.is_some();
+            let mut contact = previous.map_or_else(|| Contact::started(touch, step), |i| before[i].continued_as(touch));
+            let mut record = previous.and_then(|index| records[index].take()).unwrap_or_else(|| {
                 let state = |body: usize, shift: DVec3| BodyState {
                     position: position[body] + shift,
                     rotation: rotation[body],
@@ -230,7 +229,7 @@ impl Laws {
                 book.begin(touch, Beginning { time: step.time, body, partner, v_n, v_t, mass })
             });
             let moved = if known { v_t_over * step.dt } else { DVec3::ZERO };
-            let kept = if law.remembers() { turned(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
+            let kept = if law.remembers() { rotate(contact.spring, contact.normal, touch.normal) } else { DVec3::ZERO };
             contact.sunk = contact.sunk.min(touch.overlap);
             let overlap = touch.overlap - contact.sunk;
             if overlap <= 0.0 {
@@ -250,13 +249,13 @@ impl Laws {
                 out.loads[b].torque -= arm_b.cross(force);
             }
 
-            let across = |v: Velocities<'_>| {
+            let tangential_spin = |v: Velocities<'_>| {
                 let omega = v.angular[a] - b.map_or(DVec3::ZERO, |b| v.angular[b]);
                 omega - touch.normal * omega.dot(touch.normal)
             };
-            let (omega, omega_over) = (across(now), across(over));
+            let (omega, omega_over) = (tangential_spin(now), tangential_spin(over));
             let rolled = if known { omega_over * step.dt } else { DVec3::ZERO };
-            let roll = turned(contact.roll, contact.normal, touch.normal) + rolled;
+            let roll = rotate(contact.roll, contact.normal, touch.normal) + rolled;
             let rolling = law.roll(overlap, response.normal, omega, roll);
             let mut rolling_energy = 0.0;
             if let Some(rolling) = rolling {
@@ -271,7 +270,7 @@ impl Laws {
             }
 
             let stored = [law.normal_energy(overlap), law.tangential_energy(overlap, response.spring), rolling_energy];
-            // The bodies felt the mean of the forces at both ends of the step.
+            // The mean of the forces at both ends of the substep acted on the bodies.
             let dashpot = response.normal - law.elastic_force(overlap);
             let damped = -0.5 * (contact.dashpot + dashpot) * v_n_over * step.dt;
             let gained = stored[0] + stored[1] - contact.elastic[0] - contact.elastic[1];
@@ -294,7 +293,7 @@ impl Laws {
         for (old, record) in before.iter().zip(records).filter_map(|(old, record)| Some((old, record?))) {
             energy.friction += old.elastic[1] + old.elastic[2];
             if let Feature::Terrain { .. } = old.key.feature {
-                // A part can leave a ridge while it is pressed into it.
+                // A part can leave a ridge while it still overlaps it.
                 energy.damping += old.elastic[0];
             }
             book.end(record, old.force, step);
@@ -304,8 +303,8 @@ impl Laws {
     }
 }
 
-/// Where the memory of a contact is: its own, or that of the same part at the neighbouring place of the ground, which it
-/// has left.
+/// Index of the previous contact that continues as `touch`: the same contact, or that of the same part on a
+/// neighbouring ground element that it has just left.
 fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch, least_radius: f64) -> Option<usize> {
     let key = touch.key;
     let index = before.binary_search_by_key(&key, |c| c.key).ok().or_else(|| {
@@ -314,17 +313,17 @@ fn find(before: &[Contact], used: &mut [bool], touches: &[Touch], touch: &Touch,
         let left = |(c, used): (&Contact, &bool)| {
             let same_part = (c.key.body, c.key.part) == (key.body, key.part);
             let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
-            // Places meet without a step: a foot that has moved on is near where it was.
-            next.then(|| c.core.distance(touch.core)).filter(|way| *way < least_radius)
+            // Ground elements join continuously, so a foot point that changes element moves only a short distance.
+            next.then(|| c.core.distance(touch.core)).filter(|path| *path < least_radius)
         };
-        let ways = before.iter().zip(used.iter()).map(left).enumerate();
-        ways.filter_map(|(index, way)| Some((index, way?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+        let paths = before.iter().zip(used.iter()).map(left).enumerate();
+        paths.filter_map(|(index, p)| Some((index, p?))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     })?;
     used[index] = true;
     Some(index)
 }
 
-/// Whether a part can go from one place of the ground to the other in a step.
+/// Whether a part can move from one ground element to the other within a substep.
 fn are_neighbours(old: Feature, new: Feature) -> bool {
     match (old, new) {
         (Feature::Ground { place: old, .. }, Feature::Ground { place: new, .. }) => old.abs_diff(new) <= 1,
@@ -333,12 +332,12 @@ fn are_neighbours(old: Feature, new: Feature) -> bool {
     }
 }
 
-/// The tangential spring turned with the contact's normal; its length stays.
-fn turned(spring: DVec3, old_normal: DVec3, normal: DVec3) -> DVec3 {
+/// Rotates a tangential spring with the contact normal and keeps its length.
+fn rotate(spring: DVec3, old_normal: DVec3, normal: DVec3) -> DVec3 {
     if old_normal == normal || spring == DVec3::ZERO {
         return spring;
     }
-    let turned = DQuat::from_rotation_arc(old_normal, normal) * spring;
-    let flat = turned - normal * turned.dot(normal);
-    flat.normalize_or_zero() * spring.length()
+    let rotated = DQuat::from_rotation_arc(old_normal, normal) * spring;
+    let tangential = rotated - normal * rotated.dot(normal);
+    tangential.normalize_or_zero() * spring.length()
 }

@@ -1,8 +1,8 @@
 //! Nearest points of the cores of two rounded parts.
 //!
-//! parry's GJK gives the nearest points of two convex cores to a relative accuracy of about 5e-8 in distance, but its
-//! direction then is good to the root of that only. A few alternating projections with the closed-form nearest points
-//! of the cores make the direction exact, so that a contact at rest sees the same normal in every step.
+//! parry's GJK gives the distance of two convex cores to a relative accuracy of about 5e-8, but the direction only to
+//! the square root of that. A few alternating projections onto the cores, in closed form, make the direction exact. A
+//! contact at rest then has the same normal in every substep.
 
 use glam::{DQuat, DVec3};
 use parry3d_f64::math::Pose;
@@ -11,7 +11,7 @@ use parry3d_f64::shape::SupportMap;
 
 use crate::geometry::convex_part::ConvexPart;
 
-/// A part seen by GJK: its core.
+/// Support function of a part's core for GJK.
 struct CoreMap<'a>(&'a ConvexPart);
 
 impl SupportMap for CoreMap<'_> {
@@ -20,21 +20,21 @@ impl SupportMap for CoreMap<'_> {
     }
 }
 
-/// Where two cores are nearest.
+/// Nearest points of two cores.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Nearest {
-    /// Further apart than asked for.
+    /// The cores are further apart than the given reach.
     Apart,
     /// Nearest points of the first and the second core, world axes [m].
     Points(DVec3, DVec3),
-    /// The cores themselves overlap.
+    /// The cores overlap.
     Overlap,
 }
 
 /// Placement of a body: rotation and centre of mass.
 pub type Placement = (DQuat, DVec3);
 
-/// Nearest points of the cores of two parts whose distance is at most `reach` [m].
+/// Computes the nearest points of the cores of two parts if their distance is at most `reach` [m].
 pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b): Placement, reach: f64) -> Nearest {
     // In the axes of the first body.
     let back = q_a.inverse();
@@ -47,17 +47,17 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
     let p_b = match gjk::closest_points(&relative, &map_a, &map_b, reach, true, &mut simplex) {
         GJKResult::ClosestPoints(_, p_b, _) => p_b,
         GJKResult::Intersection => return Nearest::Overlap,
-        // Either far apart, or out of iterations, which is reported with the direction X: start from the middle then.
+        // The direction X means that GJK ran out of iterations: start from the middle of the first core.
         GJKResult::NoIntersection(direction) if direction == DVec3::X => on_b(a.bounding_sphere().0),
         GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => return Nearest::Apart,
     };
-    let (_, points) = polished(a, on_b, p_b);
-    placed(points, (q_a, x_a), reach)
+    let (_, points) = refine_by_projections(a, on_b, p_b);
+    to_world(points, (q_a, x_a), reach)
 }
 
-/// The same from a point [m] of the second core, in its own axes, that was nearest a moment ago: projections alone find
-/// the nearest points of two convex bodies, and mostly need few steps from there. `None` if they need too many, which
-/// happens where two legs lie along each other.
+/// Computes the nearest points from `start`, the last nearest point of the second core in its own axes [m]. From there,
+/// projections alone mostly converge in a few iterations. `None` if they do not converge, which happens where two legs
+/// are nearly parallel.
 pub fn nearest_from(
     a: &ConvexPart,
     (q_a, x_a): Placement,
@@ -69,13 +69,13 @@ pub fn nearest_from(
     let back = q_a.inverse();
     let relative = Pose::from_parts(back * (x_b - x_a), back * q_b);
     let on_b = |p: DVec3| relative.transform_point(b.nearest(relative.inverse_transform_point(p)));
-    let (converged, points) = polished(a, on_b, relative.transform_point(start));
-    converged.then(|| placed(points, (q_a, x_a), reach))
+    let (converged, points) = refine_by_projections(a, on_b, relative.transform_point(start));
+    converged.then(|| to_world(points, (q_a, x_a), reach))
 }
 
-/// Alternating projections between two cores, in the axes of the first, from a point of the second: whether they have
-/// converged, and the points.
-fn polished(a: &ConvexPart, on_b: impl Fn(DVec3) -> DVec3, mut p_b: DVec3) -> (bool, [DVec3; 2]) {
+/// Alternating projections between two cores, in the axes of the first, starting at a point of the second. Returns
+/// whether they have converged, and the nearest points.
+fn refine_by_projections(a: &ConvexPart, on_b: impl Fn(DVec3) -> DVec3, mut p_b: DVec3) -> (bool, [DVec3; 2]) {
     let mut p_a = a.nearest(p_b);
     let mut step = DVec3::ZERO;
     for k in 0..POLISH {
@@ -87,16 +87,16 @@ fn polished(a: &ConvexPart, on_b: impl Fn(DVec3) -> DVec3, mut p_b: DVec3) -> (b
         if step.length_squared() < 1e-28 {
             return (true, [a.nearest(p_b), p_b]);
         }
-        // The steps shrink by one ratio once the fast directions have settled: every third one goes to their limit.
+        // The steps finally shrink by a constant ratio: every third step extrapolates to the limit of this series.
         let ratio = step.dot(last) / last.length_squared().max(f64::MIN_POSITIVE);
-        let goes_on = k % 3 == 2 && ratio > 0.0 && ratio < STEADY;
-        p_a = a.nearest(if goes_on { p_b + step * (ratio / (1.0 - ratio)) } else { p_b });
+        let extrapolates = k % 3 == 2 && ratio > 0.0 && ratio < MAX_RATIO;
+        p_a = a.nearest(if extrapolates { p_b + step * (ratio / (1.0 - ratio)) } else { p_b });
     }
     (false, [p_a, p_b])
 }
 
-/// Nearest points in the axes of the first body as places in the world.
-fn placed([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Nearest {
+/// Transforms the nearest points from the axes of the first body to world axes.
+fn to_world([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Nearest {
     let distance = (p_b - p_a).length();
     if distance > reach {
         return Nearest::Apart;
@@ -107,11 +107,11 @@ fn placed([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Nearest 
     Nearest::Points(q_a * p_a + x_a, q_a * p_b + x_a)
 }
 
-/// Alternating projections at most: each one shrinks the error by the ratio of the rounding to the radii, a few tens
-/// per cent; 60 are reached only where two sides lie flush and any of the points will do.
+/// Largest number of alternating projections. Each one reduces the error by the ratio of the rounding to the radii, a
+/// few tens of per cent. 60 are reached only where two sides are parallel and any nearest point will do.
 const POLISH: usize = 60;
-/// Ratio of two steps from which on they have no limit to go to [-].
-const STEADY: f64 = 0.95;
+/// Largest ratio of two consecutive steps with which the limit is extrapolated [-].
+const MAX_RATIO: f64 = 0.95;
 
 #[cfg(test)]
 mod tests {
@@ -119,7 +119,7 @@ mod tests {
     use crate::geometry::armour_unit::ArmourUnit;
 
     #[test]
-    fn two_balls() {
+    fn nearest_points_of_two_balls_are_their_centres() {
         let ball = ConvexPart::ball(DVec3::ZERO, 0.1);
         let at = |x: f64| (DQuat::IDENTITY, DVec3::X * x);
         assert_eq!(nearest(&ball, at(0.0), &ball, at(0.5), 1.0), Nearest::Points(DVec3::ZERO, DVec3::X * 0.5));
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn distance_of_two_legs_is_smooth_and_certified() {
+    fn nearest_points_of_two_legs_satisfy_the_support_condition() {
         let unit = ArmourUnit::tetrapod(1.0, 0.05).unwrap();
         let (a, b) = (&unit.parts()[0], &unit.parts()[1]);
         for i in 0..400 {
@@ -140,7 +140,7 @@ mod tests {
                 continue;
             };
             let n = (p_b - p_a).normalize();
-            // No point of either core lies beyond the planes through the nearest points: that proves them nearest.
+            // No point of either core lies beyond the planes through the nearest points, which proves them nearest.
             // 1e-9 of the height is a thousandth of the overlap at rest.
             assert!(a.support(n).dot(n) - p_a.dot(n) < 1e-9, "{i}");
             let on_b = turn * b.support(turn.inverse() * -n) + shift;

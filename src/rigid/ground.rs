@@ -1,9 +1,9 @@
-//! Distance from rounded parts to the ground (a profile z(x), the same for all y) and to plane walls.
+//! Distance from rounded parts to the ground (a profile z(x), uniform in y) and to plane walls.
 //!
-//! The ground is a chain of strips. A part touches a strip where the foot of its lowest point falls between the strip's
-//! ends; a convex corner where the direction from the corner's line to the part lies between the two normals. The two
-//! cases join without a step, and never hold at once for the same point, so that no seam counts twice. In a concave
-//! corner both strips count.
+//! The ground is a chain of strips. A part touches a strip if the foot point of its lowest point lies between the
+//! strip's ends. It touches a convex corner if the direction from the corner line to the part lies between the two
+//! normals. The two cases join continuously and exclude each other, so no seam counts twice. In a concave corner both
+//! strips count.
 
 use glam::{DQuat, DVec3};
 
@@ -11,10 +11,10 @@ use super::contact::Feature;
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
 
-/// A plane piece of the ground.
+/// A plane strip of the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Strip {
-    /// Ends along x [m].
+    /// Range along x [m].
     x: [f64; 2],
     /// A point of the plane [m].
     origin: DVec3,
@@ -29,12 +29,12 @@ pub struct GroundSurface {
     strips: Vec<Strip>,
 }
 
-/// A place where a part is near a fixed surface.
+/// A point where a part is near a fixed surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// What it is near to.
+    /// Element of the fixed surface.
     pub feature: Feature,
-    /// Point of the core [m].
+    /// Nearest point of the core [m].
     pub core: DVec3,
     /// Normal from the surface into the body.
     pub normal: DVec3,
@@ -43,7 +43,7 @@ pub struct Approach {
 }
 
 impl GroundSurface {
-    /// Strips of a profile, level beyond its ends.
+    /// Creates the strips of a profile, level beyond its ends.
     pub fn new(profile: &Profile) -> Self {
         let points = profile.points();
         let last = points[points.len() - 1];
@@ -57,7 +57,7 @@ impl GroundSurface {
         Self { profile: profile.clone(), strips }
     }
 
-    /// Appends the places where a part of a body at (rotation, position) is nearer than `reach` [m] to the ground.
+    /// Appends the points where a part of a body at (rotation, position) is nearer than `reach` [m] to the ground.
     pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
         let (centre, radius) = part.bounding_sphere();
         let centre = rotation * centre + position;
@@ -82,7 +82,7 @@ impl GroundSurface {
         }
     }
 
-    /// Places where the ends of a part are near to strip k.
+    /// Approaches of the ends of a part to strip k.
     fn strip_approaches<'a>(
         &'a self,
         k: usize,
@@ -97,25 +97,25 @@ impl GroundSurface {
             let distance = (core - strip.origin).dot(strip.normal);
             let foot = core.x - distance * strip.normal.x;
             let above = distance > 0.0 || core.z < self.profile.z(core.x);
-            // Widened by rounding, so that no foot falls between two strips; `keep` drops what then counts twice.
-            let inside = (strip.x[0] - SAME_PLACE..strip.x[1] + SAME_PLACE).contains(&foot);
+            // Widened by the rounding error, so that no foot point falls between two strips; `keep` drops duplicates.
+            let inside = (strip.x[0] - SAME_POINT..strip.x[1] + SAME_POINT).contains(&foot);
             let feature = Feature::Ground { place: 2 * k as u32, end: end as u16 };
             (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
         })
     }
 }
 
-/// Feet nearer than this are one place [m].
-const SAME_PLACE: f64 = 1e-12;
-/// Sine of the angle below which two strips are one plane [-].
+/// Distance below which two foot points are the same [m].
+const SAME_POINT: f64 = 1e-12;
+/// Sine of the angle below which two strips count as one plane [-].
 const STRAIGHT: f64 = 1e-6;
 
-/// Appends an approach unless one of this part (those after `from`) is at the same place with the same normal: on the
+/// Appends an approach unless an earlier one of this part (index `from` on) has the same foot point and normal. On the
 /// seam of two strips, the nearer one counts.
 pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
     let foot = |a: &Approach| a.core - a.normal * a.distance;
     let same = |old: &&mut Approach| {
-        // 1e-6 m: where the two planes of an angle below STRAIGHT part by less than a picometre.
+        // 1e-6 m: within it, two planes at an angle below STRAIGHT differ by less than a picometre.
         foot(old).distance_squared(foot(&new)) < 1e-12 && old.normal.cross(new.normal).length() < STRAIGHT
     };
     match out[from..].iter_mut().find(same) {
@@ -125,7 +125,7 @@ pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
     }
 }
 
-/// Nearest point of a part to the line of the convex corner between two strips, if the corner is what it is nearest to.
+/// Approach of a part to the convex corner between two strips, if the corner is the nearest element.
 fn corner_approach(
     k: usize,
     left: &Strip,
@@ -158,8 +158,8 @@ fn corner_approach(
     })
 }
 
-/// Where a part of a body at (rotation, position) is nearest to the segment from a to b: share of the way from a to b
-/// [-], and point of the core [m]. `None` if that is further than `reach` [m].
+/// Finds where a part of a body at (rotation, position) is nearest to the segment from a to b. Returns the fraction of
+/// the segment [-] and the point of the core [m]; `None` beyond `reach` [m].
 pub(super) fn nearest_to_segment(
     part: &ConvexPart,
     rotation: DQuat,
@@ -170,26 +170,26 @@ pub(super) fn nearest_to_segment(
     let back = rotation.inverse();
     let length = a.distance(b);
     let [mut low, mut high] = [0.0, 1.0];
-    // 50 halvings of less than a metre: 1e-15 m.
+    // 50 bisections of less than a metre: 1e-15 m.
     for _ in 0..50 {
         let middle: f64 = 0.5 * (low + high);
         let on_segment = a.lerp(b, middle);
         let core = rotation * part.nearest(back * (on_segment - position)) + position;
-        // The distance to the part falls by no more than the way along the segment.
+        // The distance to the part decreases by at most the distance along the segment.
         if on_segment.distance(core) - 0.5 * (high - low) * length > reach {
             return None;
         }
-        // It is convex; its slope has the sign of what lies past the nearest point.
+        // The distance is convex along the segment; the sign of its slope tells on which side the nearest point lies.
         if (core - on_segment).dot(b - a) > 0.0 { low = middle } else { high = middle }
     }
-    let share = 0.5 * (low + high);
-    Some((share, rotation * part.nearest(back * (a.lerp(b, share) - position)) + position))
+    let fraction = 0.5 * (low + high);
+    Some((fraction, rotation * part.nearest(back * (a.lerp(b, fraction) - position)) + position))
 }
 
 /// A plane wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneWall {
-    /// Number among the walls of the domain.
+    /// Number of the wall.
     pub index: u8,
     /// A point of the plane [m].
     pub origin: DVec3,
@@ -198,7 +198,7 @@ pub struct PlaneWall {
 }
 
 impl PlaneWall {
-    /// Appends the places where a part is nearer than `reach` [m] to the wall.
+    /// Appends the points where a part is nearer than `reach` [m] to the wall.
     pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
         for (end, point) in part.ends(rotation.inverse() * -self.normal).enumerate() {
             let core = rotation * point + position;
@@ -228,11 +228,11 @@ mod tests {
     }
 
     #[test]
-    fn a_point_passing_a_convex_corner_has_one_distance_without_a_step() {
+    fn distance_is_unique_and_continuous_at_a_convex_corner() {
         let surface = trapezoid();
         let (mut before, mut turned) = (0.1, 0.0);
         for i in 0..=4000 {
-            // A path 0.1 above the crest that goes on level past the lee edge.
+            // A level path 0.1 above the crest and past the lee edge.
             let at = DVec3::new(0.8 + 1e-4 * f64::from(i), 0.3, 1.1);
             let found = near(&surface, at);
             if found.is_empty() {
@@ -240,7 +240,7 @@ mod tests {
                 break;
             }
             assert_eq!(found.len(), 1, "{at}");
-            // The distance changes by less than the path, 1e-4 a step, and the normal by 1e-4 / 0.1 rad.
+            // Per step, the distance changes by less than the path, 1e-4, and the normal by 1e-4 / 0.1 rad.
             assert!((found[0].distance - before).abs() < 1.01e-4);
             let angle = found[0].normal.x.atan2(found[0].normal.z);
             assert!((angle - turned).abs() < 1.1e-3);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn concave_corners_touch_twice_and_straight_seams_once() {
+    fn concave_corners_are_touched_twice_and_straight_seams_once() {
         let valley = GroundSurface::new(&Profile::new(vec![[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
         assert_eq!(near(&valley, DVec3::new(0.0, 0.0, 0.2)).len(), 2);
         let straight = GroundSurface::new(&Profile::new(vec![[-1.0, -0.5], [0.0, 0.0], [1.0, 0.5]]));
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_far_flank_of_a_mound_is_not_touched_from_behind() {
+    fn far_flank_of_a_mound_is_not_touched_from_behind() {
         let found = near(&trapezoid(), DVec3::new(-1.6, 0.0, 0.75));
         assert!(found.iter().all(|a| a.distance > 0.0));
         assert_eq!(found.len(), 1);

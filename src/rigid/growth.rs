@@ -1,4 +1,4 @@
-//! Bodies that join a world later: what a place holds, and adding one there.
+//! Adding bodies to a running world: the overlap at a position, and the new body.
 
 use glam::{DQuat, DVec3};
 
@@ -8,8 +8,8 @@ use super::motion::{BodyState, Load};
 use super::world::{RigidWorld, UNSEEN};
 
 impl RigidWorld {
-    /// Deepest overlap [m] that a further body at this place would have with bodies, ground and walls; 0 if it is free,
-    /// infinite if it would be too deep for the contact to tell.
+    /// Largest overlap [m] that a new body at this position would have with bodies, ground and walls. 0 if the position
+    /// is free; infinite if the overlap exceeds the range of the contact law.
     pub fn overlap_at(&self, position: DVec3, rotation: DQuat) -> f64 {
         let number = self.position.len();
         let mut positions = self.position.clone();
@@ -24,7 +24,7 @@ impl RigidWorld {
         }
     }
 
-    /// Adds a body; it takes part from the next [`advance`](Self::advance) on.
+    /// Adds a body; it moves from the next [`advance`](Self::advance) on.
     pub fn add(&mut self, body: BodyState) {
         let rotation = body.rotation.normalize();
         let inertia = self.inverse_inertia.inverse();
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_tells_how_deep_a_body_would_be() {
+    fn overlap_of_a_new_body_is_exact() {
         for (sides, beside) in [(Sides::Open, 0.5), (Sides::Periodic { width: 0.6 }, 0.5 - 3.0 * 0.6)] {
             let world = world(sides);
             let at = |x: f64, y: f64, z: f64| world.overlap_at(DVec3::new(x, y, z), DQuat::IDENTITY);
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn an_added_body_falls_and_comes_to_rest_on_the_other() {
+    fn added_body_comes_to_rest_on_another() {
         let mut world = world(Sides::Open);
         world.add(BodyState::at_rest(DVec3::new(0.0, 0.5, 0.32), DQuat::IDENTITY));
         for _ in 0..2000 {

@@ -1,16 +1,16 @@
-//! Stiffness and damping of Hertz and Mindlin (Sunday et al. 2020; Mitsui et al. 2023, equations 10 and 11).
+//! Stiffness and damping of the Hertz-Mindlin law (Sunday et al. 2020; Mitsui et al. 2023, equations 10 and 11).
 //!
-//! F_n = (2/3) S_n d - g_n v_n and F_t = S_t d_t + g_t v_t; d overlap [m], v_n normal velocity [m/s] (positive when the
-//! bodies part), d_t tangential spring [m], v_t tangential velocity [m/s]. Their limits are those of
-//! [`super::contact_law`].
+//! F_n = (2/3) S_n d - g_n v_n and F_t = S_t d_t + g_t v_t, with overlap d [m], normal velocity v_n [m/s] (positive
+//! when the bodies separate), tangential spring d_t [m] and tangential velocity v_t [m/s]. [`super::contact_law`]
+//! limits both forces.
 //!
-//! The damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e for a contact that may pull at its
-//! end. Here it may not, and that formula would give 0.55 for e = 0.5. [`damping_factor`] inverts the restitution of
-//! the law as it is used, so that what comes out is what was put in.
+//! Damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the contact may be in tension at its
+//! end. Here tension is cut off, and that formula would give 0.55 for e = 0.5. [`damping_factor`] therefore inverts the
+//! restitution of the law as it is used.
 
 use std::f64::consts::PI;
 
-/// Elastic constants of a material in contact.
+/// Elastic constants and restitution of a material in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Young's modulus E [Pa].
@@ -21,68 +21,68 @@ pub struct Material {
     pub restitution: f64,
 }
 
-/// 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2 [1/Pa], returned as E* [Pa].
+/// Effective Young's modulus E* [Pa]: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
 pub fn effective_young_modulus(a: &Material, b: &Material) -> f64 {
     let compliance = |m: &Material| (1.0 - m.poisson_ratio.powi(2)) / m.young_modulus;
     1.0 / (compliance(a) + compliance(b))
 }
 
-/// 1/G* = 2 (2 - nu_1)(1 + nu_1)/E_1 + 2 (2 - nu_2)(1 + nu_2)/E_2 [1/Pa], returned as G* [Pa].
+/// Effective shear modulus G* [Pa]: 1/G* = 2 (2 - nu_1)(1 + nu_1)/E_1 + 2 (2 - nu_2)(1 + nu_2)/E_2.
 pub fn effective_shear_modulus(a: &Material, b: &Material) -> f64 {
     let compliance = |m: &Material| 2.0 * (2.0 - m.poisson_ratio) * (1.0 + m.poisson_ratio) / m.young_modulus;
     1.0 / (compliance(a) + compliance(b))
 }
 
-/// S_n = 2 E* sqrt(R d) [N/m].
+/// Normal stiffness S_n = 2 E* sqrt(R d) [N/m].
 pub fn normal_stiffness(e_star: f64, radius: f64, overlap: f64) -> f64 {
     2.0 * e_star * (radius * overlap).sqrt()
 }
 
-/// S_t = 8 G* sqrt(R d) [N/m].
+/// Tangential stiffness S_t = 8 G* sqrt(R d) [N/m].
 pub fn tangential_stiffness(g_star: f64, radius: f64, overlap: f64) -> f64 {
     8.0 * g_star * (radius * overlap).sqrt()
 }
 
-/// g = 2 sqrt(5/6) |beta| sqrt(S m*) [N s/m].
+/// Damping coefficient g = 2 sqrt(5/6) |beta| sqrt(S m*) [N s/m].
 pub fn damping(beta: f64, stiffness: f64, mass: f64) -> f64 {
     2.0 * (5.0f64 / 6.0).sqrt() * beta * (stiffness * mass).sqrt()
 }
 
-/// Largest overlap of an elastic impact at speed v: d = (15 m* v^2 / (16 E* sqrt R))^(2/5) [m].
+/// Largest overlap of an elastic impact at speed v [m/s]: d = (15 m* v^2 / (16 E* sqrt R))^(2/5) [m].
 pub fn impact_overlap(e_star: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     (15.0 * mass * speed * speed / (16.0 * e_star * radius.sqrt())).powf(0.4)
 }
 
-/// |beta| of Sunday et al.: -ln e / sqrt(ln^2 e + pi^2) [-].
+/// Damping factor |beta| of Sunday et al., with tension: -ln e / sqrt(ln^2 e + pi^2) [-].
 pub fn damping_factor_with_pull(e: f64) -> f64 {
     -e.ln() / (e.ln().powi(2) + PI * PI).sqrt()
 }
 
-/// |beta| for which an impact whose force ends when it would begin to pull has the restitution `e` [-].
+/// Damping factor |beta| for which an impact without tensile force has the restitution `e` [-].
 pub fn damping_factor(e: f64) -> f64 {
     damping_factor_of(e, |x, v, beta| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v)
 }
 
-/// |beta| with which a law x'' = a(x, x', beta) of x >= 0, in units of the impact, has the restitution `e` [-].
+/// Damping factor |beta| for which x'' = a(x, x', beta), x >= 0, in units of the impact, has the restitution `e` [-].
 pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    // 4 is past the damping at which 2 % of the speed is left; a smaller restitution than that cannot be told apart.
+    // At 4 less than 2 % of the speed is left; smaller restitutions are not distinguished.
     let (mut low, mut high) = (0.0, 4.0);
-    // 40 halvings: 4e-12.
+    // 40 bisections: 4e-12.
     for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if restitution_without_pull(|x, v| acceleration(x, v, middle)) > e { low = middle } else { high = middle }
+        let mid = 0.5 * (low + high);
+        if tensionless_restitution(|x, v| acceleration(x, v, mid)) > e { low = mid } else { high = mid }
     }
     0.5 * (low + high)
 }
 
-/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, up to the time at which the force vanishes: the law in units of
-/// the impact, in which it does not depend on mass, stiffness or speed.
-fn restitution_without_pull(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
+/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force vanishes. In these units of the
+/// impact the law does not depend on mass, stiffness or speed.
+fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
     let acceleration = |x: f64, v: f64| acceleration(x.max(0.0), v);
-    // A contact lasts about 3.2; the step is refined by the fourth-order method far below the 1e-4 that matters.
+    // A contact lasts about 3.2; with this step the fourth-order error is far below the required 1e-4.
     let h = 2e-3;
     let (mut x, mut v) = (0.0, 1.0);
     loop {
@@ -95,7 +95,7 @@ fn restitution_without_pull(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
         if v < 0.0 && (x <= 0.0 || acceleration(x, v) >= 0.0) {
             return -v;
         }
-        // Overdamped: the body creeps back and no speed is left.
+        // Overdamped: the body creeps back without speed.
         if v.abs() < 1e-4 && acceleration(x, v).abs() < 1e-4 {
             return 0.0;
         }
@@ -107,10 +107,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn without_pull_the_closed_form_gives_too_much() {
-        let back = |beta: f64| restitution_without_pull(|x, v| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v);
+    fn closed_form_damping_overestimates_tensionless_restitution() {
+        let back = |beta: f64| tensionless_restitution(|x, v| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v);
         for e in [0.1, 0.3, 0.5, 0.8, 0.95] {
-            // 1e-4: a tenth of what the impact tests ask for.
+            // 1e-4: a tenth of the tolerance of the impact tests.
             assert!((back(damping_factor(e)) - e).abs() < 1e-4);
             assert!(back(damping_factor_with_pull(e)) > e);
             assert!(damping_factor(e) > damping_factor_with_pull(e));

@@ -1,35 +1,35 @@
-//! Force of a contact against time in bounded memory.
+//! Contact force against time in bounded memory.
 //!
-//! The force is kept as bins, each with its impulse. When they are too many, neighbours are merged, those first whose
-//! merging changes the force least in the sense of least squares: int (f - f_merged)^2 dt =
-//! |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2) for the mean forces f and durations d of the two. Impulses add up, so the
-//! impulse stays what it was.
+//! The force is stored in bins, each with its impulse. When there are too many bins, neighbouring bins are merged. The
+//! pair with the smallest least-squares change of the force is merged first: int (f - f_merged)^2 dt =
+//! |f_1 - f_2|^2 d_1 d_2 / (d_1 + d_2), with mean forces f and durations d of the two bins. Impulses add up, so merging
+//! conserves the total impulse.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Most bins that a history keeps.
+/// Largest number of bins after merging.
 pub const KEPT: usize = 64;
 
-/// Bins at which it is brought back to those.
+/// Number of bins that triggers merging.
 const GROWN: usize = 128;
 
-/// A force that differs from that of the last bin by less than this share of the peak joins it: a body at rest does not
-/// fill the history. A line of bins cannot show less.
+/// A force joins the last bin if it differs from it by less than this fraction of the peak [-]. A body at rest
+/// therefore does not fill the history.
 const SAME: f64 = 1e-3;
 
-/// The bin of the peak takes in a neighbour only as long as it keeps this share of the peak.
+/// The bin with the peak is merged only if it keeps at least this fraction of the peak [-].
 const PEAK_KEPT: f64 = 0.98;
 
-/// A piece of a force history.
+/// A bin of a force history.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[f64; 5]", into = "[f64; 5]")]
 pub struct ForceSample {
-    /// Its start [s].
+    /// Start time [s].
     pub start: f64,
-    /// Its length [s].
+    /// Duration [s].
     pub duration: f64,
-    /// Integral of the force over it [N s].
+    /// Integral of the force over the bin [N s].
     pub impulse: DVec3,
 }
 
@@ -39,18 +39,18 @@ impl ForceSample {
         self.impulse / self.duration
     }
 
-    /// Whether its mean force differs from another one by at most `tolerance` [N].
+    /// Whether the mean force differs from `force` by at most `tolerance` [N].
     fn is_about(&self, force: DVec3, tolerance: f64) -> bool {
         (force * self.duration - self.impulse).length_squared() <= (tolerance * self.duration).powi(2)
     }
 
-    /// The sample and its successor as one.
+    /// Returns this sample merged with its successor.
     fn with(&self, next: &Self) -> Self {
         let duration = self.duration + next.duration;
         Self { start: self.start, duration, impulse: self.impulse + next.impulse }
     }
 
-    /// What merging with the successor changes [N2 s].
+    /// Least-squares change of the force when merged with the successor [N2 s].
     fn cost(&self, next: &Self) -> f64 {
         let shared = self.duration * next.duration / (self.duration + next.duration);
         (self.force() - next.force()).length_squared() * shared
@@ -73,27 +73,27 @@ impl From<ForceSample> for [f64; 5] {
 /// Force on a body against time.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ForceHistory {
-    /// One after the other without gaps.
+    /// In time order, without gaps.
     samples: Vec<ForceSample>,
-    /// Largest mean force of a step [N].
+    /// Largest mean force of a substep [N].
     peak: f64,
-    /// Bin that holds it.
+    /// Index of the bin with the peak.
     peak_bin: usize,
 }
 
 impl ForceHistory {
-    /// The history so far, without gaps, in the order of time; at most 128 samples, 64 after [`Self::shorten`].
+    /// The history so far in time order, without gaps: at most 128 samples, 64 after [`Self::shorten`].
     pub fn samples(&self) -> &[ForceSample] {
         &self.samples
     }
 
-    /// Adds a step from `start` of length `duration` [s] with its mean force [N].
+    /// Adds a substep that begins at `start` [s] and lasts `duration` [s], with its mean force [N].
     pub fn add(&mut self, start: f64, duration: f64, force: DVec3) {
         if duration <= 0.0 {
             return;
         }
         let new = ForceSample { start, duration, impulse: force * duration };
-        // Every contact comes here in every substep: no roots and divisions.
+        // Called for every contact in every substep, so roots and divisions are avoided.
         let largest = force.length_squared() > self.peak * self.peak;
         if largest {
             self.peak = force.length();
@@ -110,7 +110,7 @@ impl ForceHistory {
         }
     }
 
-    /// Merges neighbours until at most [`KEPT`] are left.
+    /// Merges neighbouring bins until at most [`KEPT`] are left.
     pub fn shorten(&mut self) {
         let mut costs: Vec<f64> = (1..self.samples.len()).map(|next| self.cost(next)).collect();
         while self.samples.len() > KEPT {
@@ -122,14 +122,14 @@ impl ForceHistory {
             if self.peak_bin > cheapest {
                 self.peak_bin -= 1;
             }
-            // Also beside the bin of the peak, which may have become another one.
+            // Also updates the costs next to the peak bin, whose index may have changed.
             for next in cheapest.max(1)..=(cheapest + 1).min(self.samples.len() - 1) {
                 costs[next - 1] = self.cost(next);
             }
         }
     }
 
-    /// What merging the sample `next` with the one before it changes [N2 s]; infinite if the peak would be lost.
+    /// Cost of merging sample `next` with its predecessor [N2 s]; infinite if the peak would be lost.
     fn cost(&self, next: usize) -> f64 {
         let [before, after] = [&self.samples[next - 1], &self.samples[next]];
         let holds_peak = self.peak_bin == next || self.peak_bin + 1 == next;
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Half a sine of 1 ms and 1000 N between stretches of 5 s with some newtons.
+    /// A half-sine of 1 ms and 1000 N between two 5 s intervals with a few newtons.
     fn force(time: f64) -> DVec3 {
         let weak = DVec3::new(0.1 * (3.0 * time).sin(), 0.0, 2.0 + (40.0 * time).sin());
         let phase = (time - 5.0) / 1e-3;
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spike_between_long_weak_stretches_keeps_impulse_peak_and_shape() {
+    fn short_spike_keeps_impulse_peak_and_shape() {
         let (mut history, mut impulse) = (ForceHistory::default(), DVec3::ZERO);
         let dt = 2e-5;
         for step in 0..500_000 {
@@ -168,11 +168,11 @@ mod tests {
         let samples = history.samples();
         assert!(samples.len() <= KEPT);
         let kept: DVec3 = samples.iter().map(|s| s.impulse).sum();
-        // Rounding of half a million sums.
+        // Rounding errors of half a million additions.
         assert!((kept - impulse).length() < 1e-9 * impulse.length(), "{kept} {impulse}");
         let hardest = samples.iter().map(|s| s.force().length()).fold(0.0, f64::max);
         assert!((PEAK_KEPT * 1000.0..1004.0).contains(&hardest), "{hardest}");
-        // The spike is followed within a twentieth of its height; the bins are some 30 us long.
+        // The spike is reproduced within a twentieth of its height; its bins are about 30 us long.
         let spike = samples.iter().filter(|s| s.start > 4.9999 && s.start + s.duration < 5.0011);
         let (mut count, mut error) = (0, 0.0_f64);
         for sample in spike {
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_force_takes_one_sample() {
+    fn constant_force_uses_one_sample() {
         let mut history = ForceHistory::default();
         for step in 0..10_000 {
             history.add(1e-3 * f64::from(step), 1e-3, DVec3::Z);

@@ -1,6 +1,6 @@
-//! The impacts of each unit that a fracture computation may want to take over: the hardest and the fastest.
+//! The impacts of each unit that the breakage analysis may re-run: those of the largest force and energy.
 //!
-//! An impact takes about 0.5 kB and its history at most 2.5 kB, so a unit takes at most 48 kB however long the run is.
+//! An impact needs about 0.5 kB and its history at most 2.5 kB, so a unit needs at most 48 kB for any run length.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 use super::event::ContactEvent;
 use super::history::ForceHistory;
 
-/// Impacts kept for a unit because of their peak force.
+/// Number of impacts kept per unit for their peak force.
 pub const HARDEST: usize = 12;
 
-/// Impacts kept for a unit besides those because of their energy of approach.
+/// Number of further impacts kept per unit for their approach energy.
 pub const MOST_ENERGETIC: usize = 4;
 
-/// A contact with the history of its force.
+/// A contact with its force history.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RecordedContact {
     /// The contact.
@@ -24,7 +24,7 @@ pub struct RecordedContact {
     pub history: ForceHistory,
 }
 
-/// Rank of an impact: more of `value` [N or J] goes first, and of two alike the earlier one.
+/// Rank of an impact: the larger `value` [N or J] comes first; of equal values, the earlier impact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Rank {
     value: f64,
@@ -37,9 +37,9 @@ impl Rank {
     }
 }
 
-/// The impacts of one unit, the first in rank first.
+/// The impacts of one unit in the order of their ranks.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-struct OfUnit {
+struct UnitRanks {
     by_force: Vec<Rank>,
     by_energy: Vec<Rank>,
 }
@@ -48,13 +48,13 @@ struct OfUnit {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ImpactLog {
     impacts: BTreeMap<u64, RecordedContact>,
-    units: Vec<OfUnit>,
+    units: Vec<UnitRanks>,
 }
 
-/// Puts `new` where it belongs if there is room or something of lower rank, which is returned.
+/// Inserts `new` into the ranked list; returns the lowest rank if the list exceeds `room`.
 fn rank_in(list: &mut Vec<Rank>, room: usize, new: Rank) -> Option<Rank> {
-    let place = list.iter().position(|old| new.is_before(old)).unwrap_or(list.len());
-    list.insert(place, new);
+    let index = list.iter().position(|old| new.is_before(old)).unwrap_or(list.len());
+    list.insert(index, new);
     if list.len() > room { list.pop() } else { None }
 }
 
@@ -62,7 +62,7 @@ fn has_room(list: &[Rank], room: usize, new: Rank) -> bool {
     list.len() < room || list.last().is_some_and(|last| new.is_before(last))
 }
 
-/// Units that take part in a contact.
+/// Units involved in a contact.
 fn units_of(event: &ContactEvent) -> impl Iterator<Item = usize> + use<> {
     let partner = event.partner_unit().filter(|partner| *partner != event.body);
     [Some(event.body), partner].into_iter().flatten().map(|unit| unit as usize)
@@ -73,31 +73,31 @@ fn ranks(event: &ContactEvent) -> [Rank; 2] {
 }
 
 impl ImpactLog {
-    /// The impacts kept, in the order in which they began.
+    /// The kept impacts in the order of their starts.
     pub fn impacts(&self) -> impl Iterator<Item = &RecordedContact> {
         self.impacts.values()
     }
 
-    /// The impacts kept, the hardest first.
+    /// The kept impacts, hardest first.
     pub fn into_hardest_first(self) -> Vec<RecordedContact> {
         let mut impacts: Vec<RecordedContact> = self.impacts.into_values().collect();
-        // The sort is stable: of two alike the earlier one goes first.
+        // The sort is stable: of equal impacts the earlier one comes first.
         impacts.sort_by(|a, b| b.event.peak_force.total_cmp(&a.event.peak_force));
         impacts
     }
 
-    /// Whether an impact would be kept as it is now.
+    /// Whether an impact would be kept with its current force and energy.
     pub fn would_keep(&self, event: &ContactEvent) -> bool {
         let [force, energy] = ranks(event);
-        let of = |unit: usize| {
+        let keeps = |unit: usize| {
             self.units.get(unit).is_none_or(|unit| {
                 has_room(&unit.by_force, HARDEST, force) || has_room(&unit.by_energy, MOST_ENERGETIC, energy)
             })
         };
-        event.peak_force > 0.0 && units_of(event).any(of)
+        event.peak_force > 0.0 && units_of(event).any(keeps)
     }
 
-    /// Takes in a contact that has ended, if it is among the hardest of one of its units.
+    /// Adds an ended contact if it is among the hardest impacts of one of its units.
     pub fn take(&mut self, mut contact: RecordedContact) {
         if !self.would_keep(&contact.event) {
             return;
@@ -106,26 +106,26 @@ impl ImpactLog {
         let event = contact.event;
         self.impacts.insert(event.number, contact);
         let out: Vec<u64> = units_of(&event).filter_map(|unit| self.rank(unit, &event)).collect();
-        out.into_iter().for_each(|number| self.let_go(number));
+        out.into_iter().for_each(|number| self.drop_if_unranked(number));
     }
 
-    /// Ranks an impact among those of a unit; the number of the one that has to leave its list.
+    /// Ranks an impact among those of a unit; returns the number of the impact that leaves the lists.
     fn rank(&mut self, unit: usize, event: &ContactEvent) -> Option<u64> {
         if self.units.len() <= unit {
-            self.units.resize_with(unit + 1, OfUnit::default);
+            self.units.resize_with(unit + 1, UnitRanks::default);
         }
         let [force, _] = ranks(event);
         let lists = &mut self.units[unit];
-        // What is no longer among the hardest may still be among the most energetic.
+        // An impact that leaves the hardest may still be among the most energetic.
         let weaker = rank_in(&mut lists.by_force, HARDEST, force)?;
         let [_, energy] = ranks(&self.impacts[&weaker.number].event);
         rank_in(&mut lists.by_energy, MOST_ENERGETIC, energy).map(|out| out.number)
     }
 
-    /// Drops an impact that no unit ranks any more.
-    fn let_go(&mut self, number: u64) {
+    /// Drops an impact that is in no unit's ranking.
+    fn drop_if_unranked(&mut self, number: u64) {
         let ranked = |unit: usize| {
-            let OfUnit { by_force, by_energy } = &self.units[unit];
+            let UnitRanks { by_force, by_energy } = &self.units[unit];
             by_force.iter().chain(by_energy).any(|rank| rank.number == number)
         };
         let no_longer = self.impacts.get(&number).is_some_and(|impact| !units_of(&impact.event).any(ranked));
@@ -141,7 +141,7 @@ mod tests {
     use crate::rigid::Feature;
     use crate::rigid::event::event_for_tests;
 
-    /// Contact of unit `number % 3` with the next one or a wall; forces and energies are spread like random numbers.
+    /// Contact of unit `number % 3` with the next unit or a wall; forces and energies are quasi-random.
     fn contact(number: u64) -> RecordedContact {
         let spread = |factor: f64| (number as f64 * factor).fract();
         let body = (number % 3) as u32;
@@ -154,7 +154,7 @@ mod tests {
         RecordedContact { event, history: ForceHistory::default() }
     }
 
-    /// What of all contacts the log should keep, found with all of them at hand.
+    /// Numbers of the contacts that the log should keep, found from the full list.
     fn expected(contacts: &[RecordedContact]) -> Vec<u64> {
         let mut kept: Vec<u64> = Vec::new();
         for unit in 0..3 {
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn the_log_keeps_the_hardest_and_the_fastest_of_each_unit_and_nothing_else() {
+    fn impact_log_keeps_exactly_the_hardest_and_most_energetic_of_each_unit() {
         let mut log = ImpactLog::default();
         let contacts: Vec<RecordedContact> = (0..2000).map(contact).collect();
         for (count, contact) in contacts.iter().enumerate() {

@@ -1,21 +1,20 @@
-//! Linear springs and dashpots, for stiffnesses that have been measured: F_n = k_n d - c_n v_n, F_t = k_t d_t + c_t v_t.
+//! Linear springs and dashpots for measured stiffnesses: F_n = k_n d - c_n v_n, F_t = k_t d_t + c_t v_t.
 //!
-//! k_t / k_n = 2 (1 - nu)/(2 - nu), the ratio of tangential to normal stiffness of Mindlin (1949).
+//! k_t / k_n = 2 (1 - nu)/(2 - nu), Mindlin's (1949) ratio of tangential to normal stiffness.
 
 use super::hertz_mindlin::damping_factor_of;
 
-/// k_t / k_n of two materials with the mean Poisson's ratio nu [-].
+/// Stiffness ratio k_t / k_n of two materials with mean Poisson's ratio nu [-].
 pub fn stiffness_ratio(nu: f64) -> f64 {
     2.0 * (1.0 - nu) / (2.0 - nu)
 }
 
-/// |beta| of c = 2 |beta| sqrt(k m*) for which an impact whose force ends when it would begin to pull has the
-/// restitution `e` [-].
+/// Damping factor |beta| for which an impact without tensile force has the restitution `e` [-].
 pub fn damping_factor(e: f64) -> f64 {
     damping_factor_of(e, |x, v, beta| -x - 2.0 * beta * v)
 }
 
-/// c = 2 |beta| sqrt(k m*) [N s/m].
+/// Damping coefficient c = 2 |beta| sqrt(k m*) [N s/m].
 pub fn damping(beta: f64, stiffness: f64, mass: f64) -> f64 {
     2.0 * beta * (stiffness * mass).sqrt()
 }
@@ -25,13 +24,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn damping_has_the_closed_form_of_schwager_and_poschel() {
-        // Without pull an underdamped impact ends at phase pi - atan(2 b sqrt(1 - b^2)/(2 b^2 - 1)) for b > 1/sqrt 2, and
-        // e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))) for b below (Schwager & Poschel 2007).
+    fn damping_matches_the_closed_form_of_schwager_and_poschel() {
+        // Without tension an underdamped impact ends at phase pi - atan(2 b sqrt(1 - b^2)/(2 b^2 - 1)) for b > 1/sqrt
+        // 2. Below: e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))) (Schwager & Poschel 2007).
         for b in [0.05f64, 0.2, 0.5, 0.7] {
             let root = (1.0 - b * b).sqrt();
             let e = (-b / root * (std::f64::consts::PI - (2.0 * b * root).atan2(1.0 - 2.0 * b * b))).exp();
-            // 1e-4: see the restitution of Hertz.
+            // 1e-4: as in the Hertz restitution test.
             assert!((damping_factor(e) - b).abs() < 1e-4, "{b} {e} {}", damping_factor(e));
         }
         assert_eq!(damping_factor(1.0), 0.0);

@@ -1,27 +1,27 @@
 //! Rigid armour units and their contact.
 //!
-//! Contact with Coulomb friction, Hertz-Mindlin by default (Sunday et al. 2020), between rounded convex parts, the
-//! ground (the bed profile, the same across the flume, and a triangle surface) and walls.
+//! Rounded convex parts touch each other, the ground (bed profile and triangle surface) and walls. The contact law
+//! includes Coulomb friction; the default is Hertz-Mindlin (Sunday et al. 2020).
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | `contact_law` | the contact law, a pure function |
-//! | `hertz_mindlin`, `linear` | its stiffness and damping |
-//! | `broad_phase` | which bodies are near each other |
-//! | `gap` | distance of two rounded parts |
-//! | `polyhedron_contact` | where two rounded polyhedra are near each other |
+//! | `contact_law` | the contact law of a pair of surfaces, a pure function |
+//! | `hertz_mindlin`, `linear` | stiffness and damping of the contact laws |
+//! | `broad_phase` | pairs of bodies near each other |
+//! | `gap` | distance between two rounded parts |
+//! | `polyhedron_contact` | contact points of two rounded polyhedra |
 //! | `ground` | distance to the bed profile and to walls |
 //! | `terrain_contact` | distance to a triangle surface |
-//! | `contact` | touching places of all bodies |
-//! | `forces` | forces of all contacts, their history and energy |
+//! | `contact` | contact points of all bodies |
+//! | `forces` | contact forces, contact history and energy balance |
 //! | `event` | start, peak and end of each contact |
-//! | `history` | the force of a contact against time |
-//! | `record` | what is recorded of the contacts while they last |
+//! | `history` | contact force against time |
+//! | `record` | records of active contacts |
 //! | `impact_log` | the hardest impacts of each unit |
 //! | `motion` | motion of a rigid body |
-//! | `setup` | what a world is made of |
-//! | `world` | substeps: the entry to this module |
-//! | `growth` | bodies that join later |
+//! | `setup` | input of a rigid world |
+//! | `world` | time stepping by substeps; the entry point of this module |
+//! | `growth` | adding bodies during a run |
 //! | `snapshot` | state for checkpoints |
 
 mod broad_phase;

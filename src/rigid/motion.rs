@@ -1,16 +1,16 @@
 //! Motion of a rigid body between two evaluations of its forces.
 //!
-//! The body's angular momentum L in world axes is the state; the rotation follows
+//! The state variable is the angular momentum L in world axes. The rotation follows
 //! dq/dt = (1/2) omega q, omega = R I^-1 R^T L,
-//! by the classical fourth-order Runge-Kutta method. Free spin therefore keeps L to the last bit. rapier's integrator
-//! corrects the angular velocity by an explicit gyroscopic term and keeps only the length of L: for a free asymmetric
+//! integrated by the classical fourth-order Runge-Kutta method. Free spin therefore conserves L exactly.
+//! rapier's integrator has an explicit gyroscopic term and conserves only the magnitude of L. For a free asymmetric
 //! body with inertia (1, 2, 3) at 10 rad/s and steps of 0.1 ms, the direction of L drifts by 1e-5 of its length within
-//! a second (see the test), so the poses are integrated here and rapier serves as the reference in the test only.
+//! a second (see the test). rapier therefore serves as a reference in the test only.
 
 use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Place and motion of a body.
+/// Position and motion of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "BodyNumbers", into = "BodyNumbers")]
 pub struct BodyState {
@@ -25,13 +25,13 @@ pub struct BodyState {
 }
 
 impl BodyState {
-    /// A body at rest.
+    /// Returns the state of a body at rest.
     pub fn at_rest(position: DVec3, rotation: DQuat) -> Self {
         Self { position, rotation, velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO }
     }
 }
 
-/// A body's state as it is written down.
+/// Serialized form of a body's state.
 #[derive(Serialize, Deserialize)]
 struct BodyNumbers {
     position: [f64; 3],
@@ -72,12 +72,12 @@ pub struct Load {
     pub torque: DVec3,
 }
 
-/// L = R I R^T omega [kg m2/s].
+/// Angular momentum L = R I R^T omega [kg m2/s].
 pub fn angular_momentum(rotation: DQuat, inertia: &DMat3, angular_velocity: DVec3) -> DVec3 {
     rotation * (*inertia * (rotation.inverse() * angular_velocity))
 }
 
-/// omega = R I^-1 R^T L [rad/s].
+/// Angular velocity omega = R I^-1 R^T L [rad/s].
 pub fn angular_velocity(rotation: DQuat, inverse_inertia: &DMat3, angular_momentum: DVec3) -> DVec3 {
     rotation * (*inverse_inertia * (rotation.inverse() * angular_momentum))
 }
@@ -85,7 +85,7 @@ pub fn angular_velocity(rotation: DQuat, inverse_inertia: &DMat3, angular_moment
 /// Rotation after a time `dt` [s] at constant angular momentum.
 pub fn rotated(rotation: DQuat, inverse_inertia: &DMat3, angular_momentum: DVec3, dt: f64) -> DQuat {
     let rate = |q: DQuat| {
-        // The stages leave the unit sphere by their own error; only the direction of q counts as a rotation.
+        // The intermediate stages are not exactly unit quaternions.
         let w = angular_velocity(q.normalize(), inverse_inertia, angular_momentum);
         DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * q * 0.5
     };
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn free_spin_keeps_momentum_and_energy_and_flips_in_the_analytic_time() {
+    fn free_spin_conserves_momentum_and_energy_and_flips_at_the_analytic_period() {
         let (inertia, inverse) = (inertia(), inertia().inverse());
         let momentum = angular_momentum(DQuat::IDENTITY, &inertia, SPIN);
         let energy = |q| 0.5 * momentum.dot(angular_velocity(q, &inverse, momentum));
@@ -125,9 +125,9 @@ mod tests {
             }
         }
         let back = angular_momentum(q, &inertia, angular_velocity(q, &inverse, momentum));
-        // Rounding of two rotations.
+        // Rounding error of two rotations.
         assert!((back - momentum).length() / momentum.length() < 1e-12);
-        // Fourth order at 0.01 rad a step over 200 rad.
+        // Fourth order, 0.01 rad per step over 200 rad.
         assert!((energy(q) / start - 1.0).abs() < 1e-7, "{}", energy(q) / start - 1.0);
         let periods: Vec<f64> = flips.windows(2).map(|w| w[1] - w[0]).collect();
         // Half of the period of Euler's equations is 2 K(k) / p; the flip is sampled every 1 ms.
@@ -135,9 +135,9 @@ mod tests {
         assert!(periods.iter().all(|p| (p / expected - 1.0).abs() < 3e-3), "{periods:?} {expected}");
     }
 
-    /// Time between two flips of a body with inertia (1, 2, 3) spun about its middle axis: 2 K(k)/p with
+    /// Time between two flips of a body with inertia (1, 2, 3) rotating about its middle axis: 2 K(k)/p with
     /// p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3), k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E I_1))
-    /// for L^2 > 2 E I_2, K by the arithmetic-geometric mean; the roles of 1 and 3 change otherwise.
+    /// for L^2 > 2 E I_2; otherwise 1 and 3 are swapped. K is computed by the arithmetic-geometric mean.
     fn flip_time(w: DVec3) -> f64 {
         let i = DVec3::new(1.0, 2.0, 3.0);
         let (two_e, l2) = ((i * w * w).element_sum(), (i * i * w * w).element_sum());
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn rapier_does_not_keep_the_angular_momentum_of_a_free_spin() {
+    fn rapier_does_not_conserve_angular_momentum_of_a_free_spin() {
         use rapier3d_f64::prelude::*;
         let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
         let properties = MassProperties::new(DVec3::ZERO, 1.0, DVec3::new(1.0, 2.0, 3.0));
@@ -188,7 +188,7 @@ mod tests {
         }
         let error = (momentum(&bodies) - before).length() / before.length();
         println!("rapier: angular momentum off by {error:.1e} after 1 s");
-        // The reason for integrating here: 1e-9 is what a free spin has to keep.
-        assert!(error > 1e-9, "rapier keeps the angular momentum to {error:.1e}: use its integrator");
+        // 1e-9 is required of a free spin; if rapier met it, its integrator could be used.
+        assert!(error > 1e-9, "rapier conserves the angular momentum to {error:.1e}: use its integrator");
     }
 }

@@ -1,57 +1,56 @@
-//! Where two rounded polyhedra are near each other.
+//! Contact points of two rounded polyhedra.
 //!
-//! Two polyhedra that lie flush touch in an area, of which one pair of nearest points is an arbitrary one. What bears is
-//! the polygon that their faces share: its corners are corners of one over a face of the other, and places where
-//! two edges cross. Each of these is a place of contact here. The corners' distances are exact and change smoothly;
-//! where a crossing comes to the end of an edge, the edge is taken to be bent back with the rounding's radius, so that
-//! the crossing fades as the corner takes over.
+//! Two polyhedra with parallel faces in contact share a contact patch, so a single pair of nearest points is arbitrary.
+//! The patch is a polygon. Its corners are corners of one body over a face of the other, and crossings of two edges.
+//! Each of them is a contact point. The distances of corners are exact and change smoothly. Near the end of an edge,
+//! the edge is assumed to bend back with the rounding radius: the crossing fades out while the corner takes over.
 
 use glam::DVec3;
 
 use super::gap::Placement;
 use crate::geometry::polyhedron::Polyhedron;
 
-/// Corners and edges of a polyhedron at most: their numbers share those from 0 to [`WHOLE`].
+/// Largest number of corners plus edges of a polyhedron: they are numbered from 0, below [`WHOLE`].
 pub const MOST_FEATURES: usize = WHOLE as usize - 1;
-/// Corners are numbered from 0, edges after them; this is the whole polyhedron.
+/// Feature number of the whole polyhedron; corners are numbered from 0, followed by the edges.
 pub const WHOLE: u16 = 1023;
 
-/// Square of the sine below which two edges are parallel: 0.6 degrees, at which the corners still bear [-].
+/// Squared sine of the angle below which two edges count as parallel [-]: 0.6 degrees; the corners carry the load then.
 const PARALLEL: f64 = 1e-4;
-/// A crossing counts if the other edge lies outside both faces of an edge, but for this sine [-].
+/// Tolerance, as a sine, for the condition that the other edge lies outside both faces of an edge [-].
 const BEHIND: f64 = 0.2;
 
-/// A place where two bodies are near each other.
+/// A point where two bodies are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Near {
-    /// Corner, edge or whole of the first and of the second body.
+    /// Feature (corner, edge or whole) of the first and of the second body.
     pub features: [u16; 2],
     /// Nearest points of the cores, world axes [m].
     pub points: [DVec3; 2],
-    /// How far the surfaces are bent back here [m].
+    /// Distance by which the bent edges reduce the overlap here [m].
     pub bent: f64,
 }
 
-/// Places where two polyhedra rounded by `rounding` [m] are nearer than `reach` [m], cores measured; a place without
-/// distance means that the cores overlap.
+/// Points where the cores of two polyhedra, rounded by `rounding` [m], are nearer than `reach` [m]. A distance of zero
+/// means that the cores overlap.
 pub fn near_places(
     (a, (q_a, x_a)): (&Polyhedron, Placement),
     (b, (q_b, x_b)): (&Polyhedron, Placement),
     rounding: f64,
     reach: f64,
 ) -> Vec<Near> {
-    // Each in the axes of the other.
+    // Corners of each body in the axes of the other.
     let (back_a, back_b) = (q_a.inverse(), q_b.inverse());
     let a_at_b: Vec<DVec3> = a.corners().iter().map(|c| back_b * (q_a * *c + x_a - x_b)).collect();
     let b_at_a: Vec<DVec3> = b.corners().iter().map(|c| back_a * (q_b * *c + x_b - x_a)).collect();
-    if apart(a, &b_at_a, reach) || apart(b, &a_at_b, reach) {
+    if are_apart(a, &b_at_a, reach) || are_apart(b, &a_at_b, reach) {
         return Vec::new();
     }
     let (from_a, from_b) = (|p: DVec3| q_a * p + x_a, |p: DVec3| q_b * p + x_b);
-    let mut places = Vec::new();
+    let mut found = Vec::new();
     let mut keep = |near: Near| {
         if near.points[0].distance_squared(near.points[1]) < reach * reach {
-            places.push(near);
+            found.push(near);
         }
     };
     for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
@@ -77,11 +76,11 @@ pub fn near_places(
             }
         }
     }
-    places
+    found
 }
 
-/// Whether a face of the first body tells that the corners of the second are further away than `reach` [m].
-fn apart(body: &Polyhedron, corners: &[DVec3], reach: f64) -> bool {
+/// Whether a face of the first body separates the corners of the second by more than `reach` [m].
+fn are_apart(body: &Polyhedron, corners: &[DVec3], reach: f64) -> bool {
     body.faces().iter().any(|face| corners.iter().all(|corner| face.plane.distance(*corner) > reach))
 }
 
@@ -98,15 +97,15 @@ impl EdgeAt {
     }
 }
 
-/// Nearest points of two edges that cross nearer than `reach` [m], and how far they are bent back there [m], if each lies
-/// on the outer side of the other.
+/// Nearest points of two edges that cross within `reach` [m], and the reduction of their overlap by bending [m]. `None`
+/// unless each edge lies on the outer side of the other.
 fn crossing(a: &EdgeAt, b: &EdgeAt, rounding: f64, reach: f64) -> Option<([DVec3; 2], f64)> {
     let ([a_0, a_1], [b_0, b_1]) = (a.ends, b.ends);
     let (length_a, length_b) = (a_0.distance(a_1), b_0.distance(b_1));
     let (u, v) = ((a_1 - a_0) / length_a, (b_1 - b_0) / length_b);
     let (between, cosine) = (a_0 - b_0, u.dot(v));
     let sine_squared = 1.0 - cosine * cosine;
-    // The distance of the lines, times the sine.
+    // Compares the distance of the lines, multiplied by the sine.
     if sine_squared < PARALLEL || between.dot(u.cross(v)).powi(2) > reach * reach * sine_squared {
         return None;
     }
@@ -147,36 +146,36 @@ mod tests {
     }
 
     #[test]
-    fn boxes_that_lie_flush_touch_at_the_corners_of_the_common_face() {
-        let places = above(0.3, 1.0, 0.0);
-        // Two corners of each are over the other's face; the others are 0.3 away. Edges that only meet are bent back.
-        let bear = places.iter().filter(|near| near.bent == 0.0);
-        assert_eq!(bear.clone().count(), 4);
-        for near in bear {
+    fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
+        let points = above(0.3, 1.0, 0.0);
+        // Two corners of each box lie over the other's face; the others are 0.3 away. Edges that only meet bend back.
+        let bearing = points.iter().filter(|near| near.bent == 0.0);
+        assert_eq!(bearing.clone().count(), 4);
+        for near in bearing {
             assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12);
         }
     }
 
     #[test]
-    fn turned_boxes_touch_where_their_edges_cross() {
-        let places = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
-        // The square over the square turned by an eighth: an octagon, no corner of one over the other.
-        let crossings = places.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
-        assert_eq!((crossings.count(), places.len()), (8, 8));
-        for near in places {
+    fn rotated_boxes_touch_where_their_edges_cross() {
+        let points = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
+        // Two squares rotated by 45 degrees share an octagon; no corner of one lies over the other.
+        let crossings = points.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
+        assert_eq!((crossings.count(), points.len()), (8, 8));
+        for near in points {
             assert!((near.points[1] - near.points[0] - DVec3::Z * 0.1).length() < 1e-12 && near.bent == 0.0);
         }
     }
 
     #[test]
-    fn a_crossing_fades_before_it_leaves_an_edge() {
+    fn edge_crossing_fades_out_at_the_end_of_an_edge() {
         let edge_up = DQuat::from_rotation_x(0.25 * std::f64::consts::PI);
         for shift in [0.0, 0.3, 0.41, 0.4499] {
             let lower = (edge_up, DVec3::ZERO);
             let across = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
             let upper = (across * edge_up, DVec3::new(shift, 0.0, 0.9 * 2f64.sqrt() + 0.1));
-            let places = near_places((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
-            let near = places.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
+            let points = near_places((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
+            let near = points.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
             let past = (shift - 0.4f64).max(0.0);
             assert!((near.bent - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.bent);
         }

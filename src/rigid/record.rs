@@ -1,4 +1,4 @@
-//! What is recorded of contacts while they last, and what is kept when they end.
+//! Records of active contacts, and what is kept of them when they end.
 
 use glam::DVec3;
 
@@ -9,52 +9,52 @@ use super::history::ForceHistory;
 use super::impact_log::{ImpactLog, RecordedContact};
 use super::motion::BodyState;
 
-/// The record of all contacts of a world.
+/// Records of all contacts of a world.
 #[derive(Debug, Clone, Default)]
 pub struct ContactBook {
-    /// Of the contacts that exist, in their order.
-    #[allow(clippy::vec_box, reason = "records go from list to list in every substep; a pointer is all that moves")]
+    /// Records of the active contacts, in the order of the contacts.
+    #[allow(clippy::vec_box, reason = "records move between lists in every substep; boxed, only a pointer moves")]
     pub running: Vec<Box<RecordedContact>>,
-    /// Those that have ended and were not taken yet.
+    /// Ended contacts that have not been taken yet.
     pub ended: EventLog,
-    /// The hardest of them.
+    /// The hardest ended contacts.
     pub impacts: ImpactLog,
-    /// How many have begun.
+    /// Number of contacts started so far.
     pub begun: u64,
 }
 
-/// The bodies of a contact at its start.
+/// State of the bodies at the start of a contact.
 #[derive(Debug, Clone, Copy)]
 pub struct Beginning {
     /// Time [s].
     pub time: f64,
-    /// The body.
+    /// First body.
     pub body: BodyState,
-    /// Its partner, in the image that it touches.
+    /// Partner, at the periodic image that the body touches.
     pub partner: Option<BodyState>,
     /// Normal velocity [m/s], negative when approaching.
     pub v_n: f64,
     /// Tangential velocity [m/s].
     pub v_t: DVec3,
-    /// Mass that the contact feels [kg].
+    /// Effective mass of the contact [kg].
     pub mass: f64,
 }
 
-/// Force of a contact over a step.
+/// Contact force over a substep.
 #[derive(Debug, Clone, Copy)]
 pub struct Push {
-    /// The step.
+    /// The substep.
     pub step: Step,
-    /// Force at its start [N].
+    /// Force at the start of the substep [N].
     pub before: DVec3,
-    /// Force at its end [N].
+    /// Force at the end of the substep [N].
     pub now: DVec3,
-    /// Normal velocity at its end [m/s].
+    /// Normal velocity at the end of the substep [m/s].
     pub v_n: f64,
 }
 
 impl ContactBook {
-    /// A record for a contact that begins.
+    /// Creates the record of a contact that starts.
     pub fn begin(&mut self, touch: &Touch, at: Beginning) -> Box<RecordedContact> {
         let number = self.begun;
         self.begun += 1;
@@ -82,14 +82,14 @@ impl ContactBook {
         Box::new(RecordedContact { event, history: ForceHistory::default() })
     }
 
-    /// Takes in a contact that has ended in a step; `before` is the force [N] that it had at the step's start.
+    /// Stores a contact that has ended in a substep; `before` is its force [N] at the start of the substep.
     pub fn end(&mut self, mut contact: Box<RecordedContact>, before: DVec3, step: Step) {
-        contact.push(before, DVec3::ZERO, step);
+        contact.add_force(before, DVec3::ZERO, step);
         self.ended.push(contact.event);
         self.impacts.take(*contact);
     }
 
-    /// The log with the contacts that still exist.
+    /// Returns the impact log including the active contacts.
     pub fn impacts_so_far(&self) -> ImpactLog {
         let mut log = self.impacts.clone();
         self.running.iter().for_each(|contact| log.take((**contact).clone()));
@@ -98,10 +98,10 @@ impl ContactBook {
 }
 
 impl RecordedContact {
-    /// Adds a step at whose end the contact exists.
+    /// Adds a substep at whose end the contact is still active.
     pub fn add(&mut self, push: Push) {
         let Push { step, before, now, v_n } = push;
-        self.push(before, now, step);
+        self.add_force(before, now, step);
         let event = &mut self.event;
         if now.length_squared() > event.peak_force * event.peak_force {
             event.peak_force = now.length();
@@ -112,8 +112,8 @@ impl RecordedContact {
         event.rebound = v_n;
     }
 
-    /// The body felt the mean of the forces at both ends of the step.
-    fn push(&mut self, before: DVec3, now: DVec3, step: Step) {
+    /// Adds the mean of the forces at both ends of a substep to impulse and history.
+    fn add_force(&mut self, before: DVec3, now: DVec3, step: Step) {
         let Step { dt, time, .. } = step;
         let force = 0.5 * (before + now);
         self.event.impulse = (DVec3::from_array(self.event.impulse) + force * dt).to_array();

@@ -1,4 +1,4 @@
-//! State of the rigid bodies for checkpoints: a world restored from it goes on with the same bits.
+//! State of the rigid bodies for checkpoints. A restored world continues bit-identically.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -12,8 +12,8 @@ use super::motion::Load;
 use super::record::ContactBook;
 use super::world::{RigidWorld, UNSEEN};
 
-/// State of all bodies and contacts. Angular momentum and the contact forces of the last instant are kept as they are:
-/// recomputing them would give other last bits.
+/// State of all bodies and contacts. Angular momentum and current contact forces are stored, because recomputing them
+/// would change their last bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigidSnapshot {
     time_s: f64,
@@ -34,7 +34,7 @@ struct BodySnapshot {
     rotation: [f64; 4],
     velocity: [f64; 3],
     angular_momentum: [f64; 3],
-    /// Force and torque of the contacts at this instant, and their mean over the last advance.
+    /// Force and torque of the contacts now, and their mean over the last `advance`.
     contact_now: [[f64; 3]; 2],
     contact_mean: [[f64; 3]; 2],
 }
@@ -54,24 +54,24 @@ struct ContactSnapshot {
     record: RecordedContact,
 }
 
-fn pack(load: &Load) -> [[f64; 3]; 2] {
+fn to_arrays(load: &Load) -> [[f64; 3]; 2] {
     [load.force.to_array(), load.torque.to_array()]
 }
 
-fn unpack([force, torque]: [[f64; 3]; 2]) -> Load {
+fn from_arrays([force, torque]: [[f64; 3]; 2]) -> Load {
     Load { force: DVec3::from_array(force), torque: DVec3::from_array(torque) }
 }
 
 impl RigidWorld {
-    /// State to go on from later.
+    /// Returns the state for a restart.
     pub fn snapshot(&self) -> RigidSnapshot {
         let body = |b: usize| BodySnapshot {
             position: self.position[b].to_array(),
             rotation: self.rotation[b].to_array(),
             velocity: self.velocity[b].to_array(),
             angular_momentum: self.angular_momentum[b].to_array(),
-            contact_now: pack(&self.contact_now[b]),
-            contact_mean: pack(&self.contact_mean[b]),
+            contact_now: to_arrays(&self.contact_now[b]),
+            contact_mean: to_arrays(&self.contact_mean[b]),
         };
         let contact = |(c, record): (&Contact, &RecordedContact)| ContactSnapshot {
             key: c.key,
@@ -99,7 +99,7 @@ impl RigidWorld {
         }
     }
 
-    /// Goes back to a snapshot of a world with the same setup.
+    /// Restores the state from a snapshot of a world with the same setup.
     pub fn restore(&mut self, snapshot: &RigidSnapshot) -> Result<(), RigidError> {
         if snapshot.bodies.len() != self.position.len() {
             return Err(RigidError::Snapshot { snapshot: snapshot.bodies.len(), world: self.position.len() });
@@ -109,8 +109,8 @@ impl RigidWorld {
             self.rotation[b] = DQuat::from_array(body.rotation);
             self.velocity[b] = DVec3::from_array(body.velocity);
             self.angular_momentum[b] = DVec3::from_array(body.angular_momentum);
-            self.contact_now[b] = unpack(body.contact_now);
-            self.contact_mean[b] = unpack(body.contact_mean);
+            self.contact_now[b] = from_arrays(body.contact_now);
+            self.contact_mean[b] = from_arrays(body.contact_mean);
         }
         let contact = |c: &ContactSnapshot| Contact {
             key: c.key,

@@ -1,9 +1,9 @@
-//! Where rounded parts are near a triangle surface.
+//! Contact points of rounded parts with a triangle surface.
 //!
-//! As with the strips of the ground: the ends of a part touch a triangle where their feet lie in it; the part touches a
-//! ridge or a corner where that is what it is nearest to, which the directions into the neighbouring triangles tell. One
-//! end that stands before two triangles of a flat valley touches the nearer one only: the potential of the contact is
-//! then the larger of two, and its force has no step, however fine the triangles are.
+//! As with the strips of the ground, an end of a part touches a triangle if its foot point lies in the triangle. The
+//! part touches a ridge or a corner if that is its nearest element, judged by the directions into the neighbouring
+//! triangles. In a flat valley, an end in front of two triangles touches only the nearer one. The contact potential is
+//! then the larger of the two, and the force is continuous, however fine the triangles are.
 
 use glam::{DQuat, DVec3};
 
@@ -12,23 +12,23 @@ use super::ground::{Approach, keep, nearest_to_segment};
 use crate::geometry::convex_part::ConvexPart;
 use crate::geometry::terrain::{Corner, Face, Place, Ridge, Terrain};
 
-/// Feet so far outside of a triangle still count [m], so that none falls between two; [`keep`] drops what then counts
-/// twice.
+/// Distance by which a foot point may lie outside a triangle [m], so that none falls between two triangles; [`keep`]
+/// drops duplicates.
 const SAME_PLACE: f64 = 1e-12;
 
-/// Share of the rounding by which a core may be behind a triangle and still counts as gone through it [-]. A unit moves
-/// by far less in a step; what is further behind stands under another triangle of a thin body.
+/// Fraction of the rounding radius by which a core in contact with a triangle may lie behind it [-]. A unit moves far
+/// less in a substep; a core further behind belongs to another triangle of a thin body.
 const BEHIND: f64 = 0.25;
 
-/// Cosine of the angle between two triangles below which they are a valley with two walls, each of which is touched
-/// [-]: from 0.2 rad on, the second wall is first touched 0.02 of the rounding later than the first. Who is pressed in
-/// deeper meets it with an overlap, which does not count.
+/// Cosine of the angle between two triangles below which both sides of a valley are touched [-]. From 0.2 rad on, the
+/// second contact starts 0.02 of the rounding radius later than the first. A part with a larger overlap starts the
+/// second contact with an initial overlap, which is subtracted.
 const VALLEY: f64 = 0.98;
 
-/// Share of a ridge at its ends that belongs to the corners there [-]: where a search that tends to an end stops.
-const AT_AN_END: f64 = 1e-14;
+/// Fraction of a ridge at each end that belongs to the corner there [-]: the resolution of the bisection.
+const RIDGE_END: f64 = 1e-14;
 
-/// A part of a body in place.
+/// A part of a body with its pose.
 #[derive(Clone, Copy)]
 struct Placed<'a> {
     part: &'a ConvexPart,
@@ -36,7 +36,7 @@ struct Placed<'a> {
     position: DVec3,
 }
 
-/// Appends the places where a part of a body at (rotation, position) is nearer than `reach` [m] to the terrain.
+/// Appends the points where a part of a body at (rotation, position) is nearer than `reach` [m] to the terrain.
 pub fn approaches(
     terrain: &Terrain,
     part: &ConvexPart,
@@ -50,22 +50,22 @@ pub fn approaches(
     let placed = Placed { part, rotation, position };
     let from = out.len();
     let mut near: Vec<(u32, &Place)> = terrain.near(centre, radius + reach).collect();
-    // Triangles, ridges, corners, each in the order of their numbers.
+    // Numbers ascend from triangles to ridges to corners.
     near.sort_unstable_by_key(|(number, _)| *number);
-    for (place, what) in near {
-        match what {
+    for (place, element) in near {
+        match element {
             Place::Face(face) => {
                 if (centre - face.corners[0]).dot(face.normal).abs() < radius + reach {
-                    placed.ends_over(face, place, reach).for_each(|approach| keep_nearer(out, from, approach));
+                    placed.approaches_to_face(face, place, reach).for_each(|approach| keep_nearer(out, from, approach));
                 }
             }
             Place::Ridge(ridge) => {
-                if let Some(approach) = placed.over_ridge(ridge, place, reach) {
+                if let Some(approach) = placed.approach_to_ridge(ridge, place, reach) {
                     keep(out, from, approach);
                 }
             }
             Place::Corner(corner) => {
-                if let Some(approach) = placed.over_corner(corner, place, reach) {
+                if let Some(approach) = placed.approach_to_corner(corner, place, reach) {
                     keep(out, from, approach);
                 }
             }
@@ -73,7 +73,7 @@ pub fn approaches(
     }
 }
 
-/// Appends a place before a triangle, unless the same end is nearer to one that is nearly in its plane.
+/// Appends an approach to a triangle, unless the same end is nearer to another triangle in almost the same plane.
 fn keep_nearer(out: &mut Vec<Approach>, from: usize, new: Approach) {
     let end = |approach: &Approach| match approach.feature {
         Feature::Terrain { end, .. } => Some(end),
@@ -87,8 +87,8 @@ fn keep_nearer(out: &mut Vec<Approach>, from: usize, new: Approach) {
 }
 
 impl<'a> Placed<'a> {
-    /// Places where the ends of the part stand before a triangle.
-    fn ends_over(self, face: &'a Face, place: u32, reach: f64) -> impl Iterator<Item = Approach> + 'a {
+    /// Approaches of the ends of the part to a triangle.
+    fn approaches_to_face(self, face: &'a Face, place: u32, reach: f64) -> impl Iterator<Item = Approach> + 'a {
         let ends = self.part.ends(self.rotation.inverse() * -face.normal).enumerate();
         let behind = -BEHIND * self.part.rounding();
         ends.filter_map(move |(end, point)| {
@@ -104,18 +104,18 @@ impl<'a> Placed<'a> {
         })
     }
 
-    /// The place where the part is nearest to a ridge, if it is not nearer to a triangle or a corner beside it.
-    fn over_ridge(self, ridge: &Ridge, place: u32, reach: f64) -> Option<Approach> {
+    /// Approach of the part to a ridge, if no adjacent triangle or corner is nearer.
+    fn approach_to_ridge(self, ridge: &Ridge, place: u32, reach: f64) -> Option<Approach> {
         let [a, b] = ridge.ends;
         let (share, core) = nearest_to_segment(self.part, self.rotation, self.position, ridge.ends, reach)?;
         let across = core - a.lerp(b, share);
         let within =
-            (AT_AN_END..1.0 - AT_AN_END).contains(&share) && ridge.into.iter().all(|into| across.dot(*into) < 0.0);
+            (RIDGE_END..1.0 - RIDGE_END).contains(&share) && ridge.into.iter().all(|into| across.dot(*into) < 0.0);
         within.then(|| self.approach(across, core, place, reach)).flatten()
     }
 
-    /// The place where the part is nearest to a corner, if it is not nearer to something beside it.
-    fn over_corner(self, corner: &Corner, place: u32, reach: f64) -> Option<Approach> {
+    /// Approach of the part to a corner, if no adjacent ridge or triangle is nearer.
+    fn approach_to_corner(self, corner: &Corner, place: u32, reach: f64) -> Option<Approach> {
         let core =
             self.rotation * self.part.nearest(self.rotation.inverse() * (corner.at - self.position)) + self.position;
         let across = core - corner.at;
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_has_the_distance_of_a_box_wherever_it_is() {
+    fn distance_of_a_ball_to_a_box_is_exact() {
         let terrain = unit_box();
         for i in 0..4000 {
             let share = |k: f64| (f64::from(i) * k).fract();
@@ -167,14 +167,14 @@ mod tests {
             }
             let found = near(&terrain, &ball(), DQuat::IDENTITY, at);
             assert_eq!(found.len(), 1, "{at}: {found:?}");
-            // Rounding.
+            // Rounding errors.
             assert!((found[0].distance - outside).abs() < 1e-12);
             assert!((found[0].core - found[0].normal * outside - at.clamp(DVec3::ZERO, DVec3::ONE)).length() < 1e-12);
         }
     }
 
     #[test]
-    fn a_leg_over_a_drawn_out_profile_stands_as_on_the_profile() {
+    fn extruded_profile_gives_the_distances_of_the_profile() {
         let points = [[-3.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [3.0, 0.0]];
         let (terrain, ground) = (drawn_out(&points), GroundSurface::new(&Profile::new(points.to_vec())));
         let leg = ConvexPart::cone(
@@ -193,7 +193,7 @@ mod tests {
             }
             let found = near(&terrain, &leg, rotation, at);
             let deepest = |all: &[Approach]| all.iter().map(|a| a.distance).fold(f64::MAX, f64::min);
-            // The halvings along an edge of two metres.
+            // Resolution of the bisection along an edge of two metres.
             assert!((deepest(&found) - deepest(&expected)).abs() < 1e-9, "{at}: {found:?} {expected:?}");
             compared += 1;
         }
@@ -201,17 +201,17 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_over_a_fine_valley_touches_once_and_in_a_steep_one_twice() {
+    fn ball_touches_a_fine_valley_once_and_a_steep_valley_twice() {
         let arc: Vec<[f64; 2]> = (-20..=20).map(|i| 0.05 * f64::from(i)).map(|a| [a.sin(), 1.0 - a.cos()]).collect();
         let bowl = drawn_out(&arc);
         let mut before = 0.25;
         for i in 0..2000 {
-            // A path 0.25 above the bottom of the trough.
+            // A path 0.25 from the surface of the trough.
             let angle = -0.9 + 9e-4 * f64::from(i);
             let at = DVec3::new(0.75 * angle.sin(), 0.1, 1.0 - 0.75 * angle.cos());
             let found = near(&bowl, &ball(), DQuat::IDENTITY, at);
             assert_eq!(found.len(), 1, "{at}: {found:?}");
-            // Within the sagitta of an arc of 0.05 rad, and without steps: 6.75e-4 m of way, 0.025 rad to the normal.
+            // Within the sagitta of a 0.05 rad arc, and continuous: 6.75e-4 m of path, at most 0.025 rad to the normal.
             assert!((found[0].distance - 0.25).abs() < 4e-4);
             assert!(i == 0 || (found[0].distance - before).abs() < 2e-5);
             before = found[0].distance;
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cube_stands_on_four_corners_and_the_underside_of_a_plate_does_not_count() {
+    fn cube_rests_on_four_corners_and_ignores_the_underside_of_a_plate() {
         let (vertices, triangles) = cuboid(DVec3::new(-1.0, -1.0, -0.05), DVec3::new(1.0, 1.0, 0.0));
         let plate = Terrain::new(vertices, triangles).unwrap();
         let (corners, _) = cuboid(DVec3::splat(-0.1), DVec3::splat(0.1));

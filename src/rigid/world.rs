@@ -1,7 +1,7 @@
-//! The rigid bodies of a run: substeps of the velocity Verlet scheme.
+//! The rigid bodies of a run, advanced in substeps by the velocity Verlet scheme.
 //!
-//! Half a kick, a drift, the contacts at the new places, half a kick. Dashpots need the velocity at the end of the step
-//! before it is known; it is extrapolated with the old acceleration, which keeps the second order.
+//! A substep is half a kick, a drift, the contact forces at the new positions, and half a kick. Dashpots need the
+//! velocity at the end of the substep. It is extrapolated with the old acceleration, which keeps second order.
 
 use std::f64::consts::TAU;
 
@@ -16,18 +16,18 @@ use super::motion::{self, BodyState, Load};
 use super::record::ContactBook;
 use super::setup::{RigidSetup, Sides};
 
-/// Steps in the shortest period of a body on its contacts. At 80 the restitution of an impact is right to 1e-3 (see
-/// the tests); an impact lasts about two thirds of this period.
+/// Substeps per shortest oscillation period of a body on its contacts. With 80 the restitution of an impact is accurate
+/// to 1e-3 (see the tests); an impact lasts about two thirds of this period.
 const STEPS_PER_PERIOD: f64 = 80.0;
 
-/// Longest substep [s]: what comes nearer than this time at twice the speed is looked for, so that nothing is jumped
-/// into.
+/// Longest substep [s]. The search includes everything that a body can reach within this time at twice its speed, so no
+/// contact starts with a large overlap.
 const LONGEST_SUBSTEP: f64 = 1e-3;
 
-/// A path is taken for so much longer than it is, because a body turns a little faster at one end of a step [-].
-const ROUNDING: f64 = 1.01;
+/// Safety factor on the travelled distance [-], because a body may rotate slightly faster at one end of a substep.
+const PATH_SAFETY: f64 = 1.01;
 
-/// No pairs of parts are known yet.
+/// Value of `seen` that forces a new search for pairs of parts.
 pub(super) const UNSEEN: f64 = f64::NEG_INFINITY;
 
 /// Rigid bodies with their contacts.
@@ -40,7 +40,7 @@ pub struct RigidWorld {
     pub(super) inverse_inertia: DMat3,
     pub(super) rounding: f64,
     pub(super) gravity: DVec3,
-    /// Bodies move along x and z and turn about y only.
+    /// Two-dimensional motion: bodies translate along x and z and rotate about y only.
     in_layer: bool,
     // State.
     pub(super) time: f64,
@@ -53,25 +53,25 @@ pub struct RigidWorld {
     pub(super) frequency_squared: f64,
     pub(super) energy: Energy,
     pub(super) book: ContactBook,
-    // What callers see.
+    // Results for callers.
     pub(super) states: Vec<BodyState>,
     pub(super) contact_mean: Vec<Load>,
     pub(super) substeps: u64,
     // Workspace.
     angular_velocity: Vec<DVec3>,
     pairs: Vec<PartPair>,
-    /// Those of them that may be near now.
+    /// Pairs that may be near each other now.
     near: Vec<PartPair>,
-    /// Distance up to which all pairs of parts came into the list [m].
+    /// Search distance with which the pair list was built [m].
     pub(super) seen: f64,
-    /// What the surface of each body can have travelled since then [m].
+    /// Upper bound of the distance that each body's surface has travelled since then [m].
     pub(super) path: Vec<f64>,
-    /// What it can travel within the horizon, at twice its speed [m].
+    /// Distance that each body's surface can travel within the horizon at twice its speed [m].
     pub(super) margin: Vec<f64>,
 }
 
 impl RigidWorld {
-    /// World at time 0; refuses values out of range and bodies that start too deep in something.
+    /// Creates the world at time 0; rejects values out of range and bodies that start with too large an overlap.
     pub fn new(setup: RigidSetup) -> Result<Self, RigidError> {
         setup.check()?;
         let count = setup.bodies.len();
@@ -106,12 +106,12 @@ impl RigidWorld {
             path: vec![0.0; count],
             margin: vec![0.0; count],
         };
-        world.touch(0.0, 0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
+        world.update_contacts(0.0, 0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
         world.publish();
         Ok(world)
     }
 
-    /// Places and motions of the bodies.
+    /// Positions and motions of the bodies.
     pub fn states(&self) -> &[BodyState] {
         &self.states
     }
@@ -126,65 +126,64 @@ impl RigidWorld {
         &self.contact_mean
     }
 
-    /// Energy and its losses; kinetic and potential energy are of now.
+    /// Energy balance; kinetic and potential energy are current values.
     pub fn energy(&self) -> Energy {
         self.energy
     }
 
-    /// Number of contacts now.
+    /// Number of active contacts.
     pub fn contact_count(&self) -> usize {
         self.contacts.len()
     }
 
-    /// Deepest overlap now [m].
+    /// Largest current overlap [m].
     pub fn deepest_overlap(&self) -> f64 {
         self.contacts.iter().map(|contact| contact.overlap).fold(0.0, f64::max)
     }
 
-    /// Substeps made since the start.
+    /// Number of substeps since the start.
     pub fn substeps(&self) -> u64 {
         self.substeps
     }
 
-    /// Contacts that have ended since the last call, in the order of their ends.
+    /// Returns and clears the contacts that have ended since the last call, ordered by end time.
     pub fn take_events(&mut self) -> Vec<ContactEvent> {
         std::mem::take(&mut self.book.ended.ended)
     }
 
-    /// Contacts that exist now, as recorded so far.
+    /// Active contacts, as recorded so far.
     pub fn running_events(&self) -> impl Iterator<Item = &ContactEvent> {
         self.book.running.iter().map(|contact| &contact.event)
     }
 
-    /// Ended contacts that were dropped because nobody took them.
+    /// Number of ended contacts dropped because [`take_events`](Self::take_events) was not called in time.
     pub fn dropped_events(&self) -> u64 {
         self.book.ended.dropped
     }
 
-    /// The hardest impacts of each unit since the start, with the contacts that still exist; the hardest first.
+    /// The hardest impacts of each unit since the start, including active contacts; hardest first.
     pub fn impacts(&self) -> Vec<RecordedContact> {
         self.book.impacts_so_far().into_hardest_first()
     }
 
-    /// Contacts whose force has had its peak so far after `time` [s], and that would be among [`Self::impacts`] if the
-    /// world ended now.
+    /// Contacts of [`Self::impacts`] whose peak force so far occurred after `time` [s].
     pub fn impacts_with_peak_after(&self, time: f64) -> impl Iterator<Item = &ContactEvent> {
         let impacts = &self.book.impacts;
         let running = self.running_events().filter(|event| impacts.would_keep(event));
         impacts.impacts().map(|impact| &impact.event).chain(running).filter(move |event| event.peak_time > time)
     }
 
-    /// [Numbers](ContactEvent::number) of the contacts that exist or are among the hardest impacts, in no order.
+    /// [Numbers](ContactEvent::number) of the contacts that are active or among the hardest impacts, unordered.
     pub fn remembered_contacts(&self) -> impl Iterator<Item = u64> {
         self.book.impacts.impacts().map(|impact| &impact.event).chain(self.running_events()).map(|event| event.number)
     }
 
-    /// Changes gravity [m/s2], to tilt the ground.
+    /// Sets the gravity vector [m/s2]; a tilt test rotates gravity instead of the ground.
     pub fn set_gravity(&mut self, gravity: DVec3) {
         self.gravity = gravity;
     }
 
-    /// Advances all bodies by `dt` [s] under the given loads (without gravity), constant over `dt`.
+    /// Advances all bodies by `dt` [s] under the given loads (without gravity), which are constant over `dt`.
     pub fn advance(&mut self, dt: f64, loads: &[Load]) -> Result<(), RigidError> {
         if loads.len() != self.position.len() {
             return Err(RigidError::Loads { loads: loads.len(), bodies: self.position.len() });
@@ -213,7 +212,7 @@ impl RigidWorld {
         Ok(())
     }
 
-    /// Share of the time left: as many equal steps as the stiffest contact asks for.
+    /// Substep length [s]: divides the remaining time into equal substeps, short enough for the stiffest contact.
     fn substep_length(&self, left: f64) -> f64 {
         let longest = (TAU / self.frequency_squared.sqrt() / STEPS_PER_PERIOD).min(LONGEST_SUBSTEP);
         left / (left / longest).ceil().max(1.0)
@@ -223,15 +222,15 @@ impl RigidWorld {
         let old = self.accelerations(loads);
         self.kick(&old, 0.5 * h);
         self.drift(h);
-        let linear_over = self.velocity.clone();
-        let angular_over = self.angular_velocities();
-        self.book_load_work(loads, &angular_over, h);
+        let linear_mid = self.velocity.clone();
+        let angular_mid = self.angular_velocities();
+        self.add_load_work(loads, &angular_mid, h);
         self.kick(&old, 0.5 * h);
         self.time += h;
         self.check_finite()?;
-        self.touch(h, left.min(LONGEST_SUBSTEP), &linear_over, &angular_over)?;
-        // Undo the extrapolation, then the true second half.
-        self.velocity.copy_from_slice(&linear_over);
+        self.update_contacts(h, left.min(LONGEST_SUBSTEP), &linear_mid, &angular_mid)?;
+        // Undo the extrapolation, then apply the second half kick with the new acceleration.
+        self.velocity.copy_from_slice(&linear_mid);
         let new = self.accelerations(loads);
         for body in 0..self.position.len() {
             self.angular_momentum[body] += (new[body].1 - old[body].1) * (0.5 * h);
@@ -241,7 +240,7 @@ impl RigidWorld {
         Ok(())
     }
 
-    /// The search for contacts takes finite numbers only.
+    /// Checks that all states are finite, as the contact search requires.
     fn check_finite(&self) -> Result<(), RigidError> {
         let finite = |b: &usize| (self.position[*b] + self.angular_momentum[*b]).is_finite();
         match (0..self.position.len()).find(|b| !finite(b) || !self.rotation[*b].is_finite()) {
@@ -252,12 +251,12 @@ impl RigidWorld {
 
     /// Acceleration [m/s2] and torque [N m] of each body.
     fn accelerations(&self, loads: &[Load]) -> Vec<(DVec3, DVec3)> {
-        let of = |(given, contact): (&Load, &Load)| {
-            let acceleration = self.gravity + (given.force + contact.force) / self.mass;
-            let torque = given.torque + contact.torque;
+        let accelerate = |(external, contact): (&Load, &Load)| {
+            let acceleration = self.gravity + (external.force + contact.force) / self.mass;
+            let torque = external.torque + contact.torque;
             if self.in_layer { (acceleration.with_y(0.0), DVec3::Y * torque.y) } else { (acceleration, torque) }
         };
-        loads.iter().zip(&self.contact_now).map(of).collect()
+        loads.iter().zip(&self.contact_now).map(accelerate).collect()
     }
 
     fn kick(&mut self, accelerations: &[(DVec3, DVec3)], dt: f64) {
@@ -276,21 +275,21 @@ impl RigidWorld {
     }
 
     fn angular_velocities(&self) -> Vec<DVec3> {
-        let of = |(q, l): (&DQuat, &DVec3)| motion::angular_velocity(*q, &self.inverse_inertia, *l);
-        self.rotation.iter().zip(&self.angular_momentum).map(of).collect()
+        let velocity = |(q, l): (&DQuat, &DVec3)| motion::angular_velocity(*q, &self.inverse_inertia, *l);
+        self.rotation.iter().zip(&self.angular_momentum).map(velocity).collect()
     }
 
-    fn book_load_work(&mut self, loads: &[Load], angular_over: &[DVec3], h: f64) {
+    fn add_load_work(&mut self, loads: &[Load], angular_mid: &[DVec3], h: f64) {
         for (body, load) in loads.iter().enumerate() {
-            let power = load.force.dot(self.velocity[body]) + load.torque.dot(angular_over[body]);
+            let power = load.force.dot(self.velocity[body]) + load.torque.dot(angular_mid[body]);
             self.energy.load_work += power * h;
         }
     }
 
-    /// Finds the contacts at the present places and their forces.
-    fn touch(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
+    /// Finds the contacts at the current positions and computes their forces.
+    fn update_contacts(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) -> Result<(), RigidError> {
         self.angular_velocity = self.angular_velocities();
-        self.search(h, horizon, linear, angular);
+        self.update_near_pairs(h, horizon, linear, angular);
         let placements = Placements { rotation: &self.rotation, position: &self.position };
         let touches = self.surfaces.touches(&self.near, placements, &self.contacts, &self.margin, self.time)?;
         let evaluation = self.laws.evaluate(
@@ -309,18 +308,18 @@ impl RigidWorld {
         Ok(())
     }
 
-    /// Finds the pairs of parts that can be near each other now, after a step `h` [s] at the velocities given.
-    fn search(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) {
+    /// Updates the pairs of parts that can be near each other after a substep `h` [s] at the given velocities.
+    fn update_near_pairs(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) {
         let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
-            self.path[body] += ROUNDING * h * (linear[body].length() + angular[body].length() * reach);
-            // What may touch within the horizon, at twice the present speeds, has to be seen for the step length.
+            self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
+            // The substep length needs all contacts that may start within the horizon at twice the current speeds.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
             self.margin[body] = 2.0 * speed * horizon;
         }
-        let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        let margin = 2.0 * most(&self.margin);
-        if self.seen < 2.0 * most(&self.path) + margin {
+        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let margin = 2.0 * largest(&self.margin);
+        if self.seen < 2.0 * largest(&self.path) + margin {
             self.seen = margin + self.rounding;
             self.path.fill(0.0);
             let placements = Placements { rotation: &self.rotation, position: &self.position };
@@ -331,7 +330,7 @@ impl RigidWorld {
         self.near.extend(self.pairs.iter().filter(|pair| pair.can_be_near(&within)));
     }
 
-    /// Brings what callers see up to date.
+    /// Updates the results for callers.
     pub(super) fn publish(&mut self) {
         self.energy.kinetic = 0.0;
         self.energy.potential = 0.0;

@@ -1,7 +1,7 @@
-//! What a device does in a step: the verbs of [`Solver`], for the processor and for a graphics card.
+//! The operations of a time step, for the processor ([`Solver`]) and for a graphics card.
 //!
-//! The processor keeps the water in the arrays that it is given. A card keeps its own and hands them out on
-//! [`Backend::fetch`]; what it is told is computed when something is to be read back.
+//! The processor works on the host's water arrays. A card keeps its own arrays and copies them to the host on
+//! [`Backend::fetch`]; it executes queued commands when a result is read back.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -16,40 +16,37 @@ use super::{
 };
 use crate::sph::particles::{boundary::Boundary, water::Water};
 
-/// Name of the processor as a device.
+/// Device name of the processor.
 pub const PROCESSOR: &str = "CPU";
 
-/// A device that cannot be used, or no longer.
+/// Reason why a device cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DeviceError {
-    /// There is none of that kind.
+    /// There is no such device, or it does not open.
     #[error("{0}")]
     Missing(String),
-    /// It lacks memory.
-    #[error("{device} has not enough memory: {what}; raise domain.dp_m, or run with --device cpu")]
+    /// It does not have enough memory.
+    #[error("{device} does not have enough memory: {what}; raise domain.dp_m, or run with --device cpu")]
     Memory {
-        /// Its name.
+        /// Name of the device.
         device: String,
-        /// What was asked for.
+        /// Requested and available memory.
         what: String,
     },
-    /// It does not know the scheme of the case.
-    #[error("the GPU does not compute {0}; run with --device cpu")]
+    /// It does not support the numerical scheme of the case.
+    #[error("the GPU does not support {0}; run with --device cpu")]
     Scheme(&'static str),
-    /// It failed while it computed.
-    #[error(
-        "{device} was lost: {what}; the last checkpoint is not touched: go on from it with breakwater resume, on this or another device"
-    )]
+    /// It failed during the computation.
+    #[error("{device} failed: {what}; the last checkpoint is intact: run breakwater resume on this or another device")]
     Lost {
-        /// Its name.
+        /// Name of the device.
         device: String,
-        /// What the driver says.
+        /// Message of the driver.
         what: String,
     },
 }
 
-/// The fastest, the lightest and the densest water [m/s, kg/m3], and whether a particle is outside the domain or not a
-/// number.
+/// Extremes of the water at the end of a time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Watched {
     /// Largest speed [m/s].
@@ -58,90 +55,90 @@ pub struct Watched {
     pub lightest: f64,
     /// Highest density [kg/m3].
     pub densest: f64,
-    /// Whether a particle has left the domain or is not a number.
+    /// Whether a particle has left the domain or has a state that is not finite.
     pub astray: bool,
 }
 
-/// Surfaces that water does not go through, as [`crate::simulation::flume`] has them at the end of a step. Lengths [m].
+/// Surfaces that water must not penetrate, at the end of a time step (see [`crate::simulation::flume`]). Lengths [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
-    /// Distance at which the approach of a particle ends.
+    /// Smallest distance of a particle; nearer particles lose their approach velocity.
     pub nearest: f64,
-    /// Pieces of the outline of bed and walls, x and z of both ends.
+    /// Segments of the outline of bed and walls, x and z of both ends.
     pub outline: Vec<[f64; 4]>,
     /// Obstacles: low and high corner.
     pub boxes: Vec<[DVec3; 2]>,
-    /// Balls that hold the parts of the units: centre and radius.
+    /// Bounding spheres of the units' parts: centre and radius.
     pub balls: Vec<(DVec3, f64)>,
-    /// Place of the wavemaker at rest, height of its lowest row, and the displacement of each.
+    /// Position of the wavemaker at rest, height of its lowest row, and the displacement of each row.
     pub wavemaker: Option<(f64, f64, Vec<f64>)>,
-    /// Width between side walls, which begin at y = 0.
+    /// Width between the side walls; the first one stands at y = 0.
     pub sides: Option<f64>,
 }
 
-/// The particles near to surfaces, taken out of the water: their places among all, and they themselves.
+/// The water particles near surfaces.
 #[derive(Debug, Clone, Default)]
 pub struct NearWater {
-    /// Place of each in the arrays of the device, ascending.
+    /// Index of each particle in the arrays of the device, ascending.
     pub places: Vec<u32>,
-    /// Their state.
+    /// State of the particles.
     pub water: Water,
 }
 
-/// The verbs of a step.
+/// The operations of a time step.
 pub trait Backend: Send {
-    /// Name of the device.
+    /// Returns the name of the device.
     fn name(&self) -> &str;
 
-    /// Constants of the scheme.
+    /// Returns the constants of the scheme.
     fn parameters(&self) -> &Parameters;
 
-    /// Bins.
+    /// Returns the bins of the cell list.
     fn grid(&self) -> &Grid;
 
-    /// Where the bins of the water begin, as last sorted and fetched.
+    /// Returns where each bin of the water begins, as last sorted and fetched.
     fn water_bins(&self) -> &Bins;
 
-    /// Whether the water lies with the device and not in the arrays of the host.
+    /// Returns whether the device keeps the water in its own memory instead of the host's arrays.
     fn keeps_water(&self) -> bool;
 
-    /// Take over water and boundary: at the start and after a checkpoint has been read or written.
+    /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
     ///
     /// # Errors
-    /// If the device has not enough memory.
+    /// If the device does not have enough memory.
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
 
-    /// Bring water, its bins and the boundary's densities up to date in the arrays of the host.
+    /// Updates water, its bins and the boundary densities in the arrays of the host.
     ///
     /// # Errors
     /// If the device is lost.
     fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
-    /// Bring the boundary's densities alone up to date.
+    /// Updates only the boundary densities in the arrays of the host.
     ///
     /// # Errors
     /// If the device is lost.
     fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
-    /// Sort the particles into bins, the water's arrays with them.
+    /// Sorts the particles into bins and the water's arrays into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
 
-    /// Find the neighbours of every target for this step.
+    /// Builds the neighbour lists of this time step.
     fn list(&mut self, water: &Water, boundary: &Boundary);
 
-    /// Density of the boundary particles from their ghost nodes.
+    /// Computes the densities of the boundary particles from their ghost nodes.
     fn boundary_densities(&mut self, boundary: &mut Boundary);
 
-    /// Rates of water and units.
+    /// Computes the rates of water and units.
     fn rates(&mut self);
 
-    /// Largest acceleration and signal speed of the water.
+    /// Returns the largest acceleration and signal speed of the water.
     ///
     /// # Errors
     /// If the device is lost.
     fn limits(&mut self) -> Result<Limits, DeviceError>;
 
-    /// Equations 8.1, 8.2 and 9.1; `move_boundary` puts the boundary where it is half a step on.
+    /// Predictor, equations 8.1, 8.2 and 9.1; `move_boundary` moves the boundary to the half step.
     fn predict(
         &mut self,
         dt: f64,
@@ -150,41 +147,41 @@ pub trait Backend: Send {
         move_boundary: &mut dyn FnMut(&mut Boundary),
     );
 
-    /// Equations 8.3, 8.4 and 9.2: the state at the end of the step.
+    /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary);
 
-    /// Force [N] of the water on each unit and its torque [N m] about the unit's centre [m].
+    /// Returns the force [N] of the water on each unit and its torque [N m] about the unit's centre [m].
     ///
     /// # Errors
     /// If the device is lost.
     fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<(DVec3, DVec3)>, DeviceError>;
 
-    /// The water near to surfaces, to be kept out of them, of a device that keeps the water.
+    /// Returns the water near surfaces, which the host keeps out of them; empty if the host holds the water.
     ///
     /// # Errors
     /// If the device is lost.
     fn take_near(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
 
-    /// Give back the velocities of the water near to surfaces.
+    /// Writes the velocities of the water near surfaces back to the device.
     fn put_near(&mut self, near: &NearWater);
 
-    /// Begin to sort the water, whose places at the end of the step are known, while the host moves the units.
+    /// Starts sorting the water at its positions at the end of the time step, while the host moves the units.
     fn sort_ahead(&mut self);
 
-    /// Look over the water at the end of a step; `None` if it lies in the arrays of the host.
+    /// Returns the extremes of the water at the end of a time step; `None` if the host holds the water.
     ///
     /// # Errors
     /// If the device is lost.
     fn watch(&mut self) -> Result<Option<Watched>, DeviceError>;
 
-    /// Rates of the water found last, in its order, until [`Self::sort_ahead`]; those of cards lack the speed of approach.
+    /// Returns the last computed rates of the water in its order, valid until [`Self::sort_ahead`]. Rates from cards
+    /// do not include the approach speed.
     ///
     /// # Errors
     /// If the device is lost.
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
 
-    /// Who gives energy to the water and who takes it, at the state whose rates were found last and which has been
-    /// fetched.
+    /// Returns the powers that act on the water, at the fetched state whose rates were computed last.
     ///
     /// # Errors
     /// If the device is lost.

@@ -2,7 +2,7 @@
 
 use super::lanes::Real;
 
-/// `sum` + m_b v_ab . grad_a W_ab [kg/(m3 s)] with m_b = rho_b V_b and v_ab . grad_a W_ab = (v_ab . r_ab) G;
+/// Returns `sum` + m_b v_ab . grad_a W_ab [kg/(m3 s)] with m_b = rho_b V_b and v_ab . grad_a W_ab = (v_ab . r_ab) G;
 /// `gv` is G V_b.
 #[inline(always)]
 pub fn add_compression<R: Real>(sum: R, rho_b: R, v_dot_r: R, gv: R) -> R {

@@ -1,27 +1,27 @@
 //! Equations 4 and 5: density diffusion of Fourtakas et al. (2019),
 //! D_a = 2 delta h c sum_b (rho_ba^T - rho_ab^H) (r_ab . grad_a W_ab) / r_ab^2 V_b.
 //!
-//! Two things differ from the equations as printed. With rho_ba = rho_b - rho_a and r_ab = r_a - r_b the sum is
-//! negative where neighbours are denser, so the printed sign would sharpen differences; diffusion needs the opposite
-//! one, as in Molteni & Colagrossi (2009). And equation 5, rho_ab^H = rho0 g z_ab, is a pressure; its density follows
-//! from the equation of state: rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
+//! Two details differ from the printed equations. (1) With rho_ba = rho_b - rho_a and r_ab = r_a - r_b the sum is
+//! negative where neighbours are denser. The printed sign would sharpen differences; diffusion needs the opposite sign,
+//! as in Molteni & Colagrossi (2009). (2) Equation 5, rho_ab^H = rho0 g z_ab, is a pressure. The equation of state
+//! gives its density: rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
 //!
-//! Boundary particles of the dynamic boundary condition have an excess density of their own, by which they keep the
-//! water off. They and the water in their reach are left out, as in DualSPHysics: diffusion would carry that excess
-//! away, and the water would sink into the wall.
+//! Boundary particles of the dynamic boundary condition repel the water by their own excess density. As in
+//! DualSPHysics, density diffusion excludes them and the water within their support: diffusion would remove that
+//! excess, and the water would sink into the wall.
 
 use super::{equation_of_state::Tait, lanes::Real};
 
-/// What is diffused.
+/// Form of the density diffusion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DensityDiffusion {
-    /// Nothing.
+    /// No density diffusion.
     None,
-    /// The whole density (Molteni & Colagrossi 2009): rho^H = 0.
+    /// Diffuses the total density (Molteni & Colagrossi 2009): rho^H = 0.
     MolteniColagrossi,
-    /// The density beyond the hydrostatic one (Fourtakas et al. 2019).
+    /// Diffuses the deviation from the hydrostatic density (Fourtakas et al. 2019).
     Fourtakas,
-    /// What the renormalised gradients of both particles do not explain (Antuono et al. 2010):
+    /// Diffuses the difference that the renormalised gradients of the pair do not explain (Antuono et al. 2010):
     /// rho_b - rho_a - (grad rho_a + grad rho_b) . r_ba / 2.
     Antuono,
 }
@@ -29,18 +29,18 @@ pub enum DensityDiffusion {
 /// Constants of the diffusion term.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Diffusion {
-    /// What is diffused.
+    /// Form of the term.
     pub kind: DensityDiffusion,
     /// 2 delta h c0 [m2/s].
     strength: f32,
     /// rho0 g / c0^2 [kg/m4].
     hydrostatic: f32,
-    /// Second term of the binomial series of the root, (gamma - 1) g / (2 c0^2) [1/m].
+    /// Second coefficient of the binomial series of rho^H, (gamma - 1) g / (2 c0^2) [1/m].
     curvature: f32,
 }
 
 impl Diffusion {
-    /// Constants from delta [-], h [m], the equation of state and g [m/s2].
+    /// Creates the constants from delta [-], h [m], the equation of state and g [m/s2].
     pub fn new(kind: DensityDiffusion, delta: f64, h: f64, tait: &Tait, g: f64) -> Self {
         let Tait { rho0, c0, gamma } = *tait;
         let delta = if kind == DensityDiffusion::None { 0.0 } else { delta };
@@ -53,25 +53,25 @@ impl Diffusion {
         }
     }
 
-    /// rho0 g / c0^2 [kg/m4] and (gamma - 1) g / (2 c0^2) [1/m], by which the hydrostatic density is left alone.
+    /// Returns the coefficients of rho^H: rho0 g / c0^2 [kg/m4] and (gamma - 1) g / (2 c0^2) [1/m].
     #[cfg(feature = "gpu")]
     pub(super) fn hydrostatic(&self) -> [f32; 2] {
         [self.hydrostatic, self.curvature]
     }
 
-    /// No diffusion.
+    /// Returns constants without diffusion.
     pub fn none() -> Self {
         Self { kind: DensityDiffusion::None, strength: 0.0, hydrostatic: 0.0, curvature: 0.0 }
     }
 
-    /// rho_b - rho_a - rho_ab^H [kg/m3] over the height z_ab = z_a - z_b [m].
+    /// Returns rho_b - rho_a - rho_ab^H [kg/m3] for the height difference z_ab = z_a - z_b [m].
     #[inline(always)]
     pub fn excess<R: Real>(&self, rho_a: R, rho_b: R, z_ab: R) -> R {
         let slope = R::splat(self.hydrostatic * self.curvature).mul_add(z_ab, R::splat(-self.hydrostatic));
         slope.mul_add(z_ab, rho_b - rho_a)
     }
 
-    /// Factor of the sum of [`Self::excess`] G V_b, with (r_ab . grad_a W_ab) / r_ab^2 = G [m2/s].
+    /// Returns the factor of the sum of [`Self::excess`] G V_b [m2/s]; (r_ab . grad_a W_ab) / r_ab^2 = G.
     #[inline(always)]
     pub fn factor(&self) -> f32 {
         -self.strength
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn series_of_the_hydrostatic_density_is_close_to_the_root() {
+    fn series_of_the_hydrostatic_density_matches_the_exact_root() {
         let (rho0, c0, gamma, g) = (1000.0, 15.0, 7.0, 9.81);
         let tait = Tait { rho0, c0, gamma };
         let diffusion = Diffusion::new(DensityDiffusion::Fourtakas, 0.1, 0.02, &tait, g);
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn density_flows_from_dense_to_thin() {
+    fn diffusion_carries_density_from_dense_to_light_particles() {
         let tait = Tait { rho0: 1000.0, c0: 15.0, gamma: 7.0 };
         let diffusion = Diffusion::new(DensityDiffusion::Fourtakas, 0.1, 0.02, &tait, 9.81);
         // G is negative inside the support.

@@ -1,4 +1,4 @@
-//! What the water is computed on: the processor, or a graphics card.
+//! Choice of the device that computes the water: the processor or a graphics card.
 
 use std::{fmt, str::FromStr};
 
@@ -12,15 +12,15 @@ use super::{
     step::Solver,
 };
 
-/// What the user asks for.
+/// Device that the user requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DeviceChoice {
-    /// A graphics card if there is one that computes the case, else the processor.
+    /// A graphics card if there is one that supports the case, otherwise the processor.
     Auto,
     /// The processor.
     #[default]
     Cpu,
-    /// A graphics card, by its number in `breakwater devices`.
+    /// The graphics card with this number in `breakwater devices`.
     Gpu(usize),
 }
 
@@ -38,19 +38,19 @@ impl FromStr for DeviceChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let number = |text: &str| text.parse().map_err(|_| format!("{text:?} is not the number of a device"));
+        let parse_number = |text: &str| text.parse().map_err(|_| format!("{text:?} is not a device number"));
         match text.split_once(':') {
             None if text == "auto" => Ok(Self::Auto),
             None if text == "cpu" => Ok(Self::Cpu),
             None if text == "gpu" => Ok(Self::Gpu(0)),
-            Some(("gpu", index)) => number(index).map(Self::Gpu),
-            _ => Err("must be auto, cpu, gpu or gpu:N with N as in breakwater devices".to_owned()),
+            Some(("gpu", index)) => parse_number(index).map(Self::Gpu),
+            _ => Err("must be auto, cpu, gpu or gpu:N; breakwater devices lists the numbers N".to_owned()),
         }
     }
 }
 
 impl DeviceChoice {
-    /// The device of a name, as checkpoints keep it, if it is here; else what there is.
+    /// Returns the device with this name, as stored in checkpoints, or `Auto` if it is not available.
     pub fn named(name: &str) -> Self {
         if name == PROCESSOR {
             return Self::Cpu;
@@ -63,7 +63,7 @@ impl DeviceChoice {
     }
 }
 
-/// A device that is ready.
+/// An open device.
 #[derive(Debug, Clone, Default)]
 pub enum Device {
     /// The processor.
@@ -75,8 +75,8 @@ pub enum Device {
 }
 
 impl Device {
-    /// Open what was asked for; with a reason if that came to be the processor. `scheme` is what of the case a card
-    /// does not compute, if there is such a thing.
+    /// Opens the requested device. With `Auto` it falls back to the processor and returns the reason. `scheme` names
+    /// the part of the numerical scheme that graphics cards do not support, if any.
     ///
     /// # Errors
     /// If there is no such card, or it cannot be used.
@@ -85,7 +85,7 @@ impl Device {
             DeviceChoice::Cpu => Ok((Self::Cpu, None)),
             DeviceChoice::Auto => {
                 let reason = match scheme {
-                    Some(what) => format!("the GPU does not compute {what}"),
+                    Some(what) => format!("the GPU does not support {what}"),
                     None => match Self::best_card() {
                         Ok(device) => return Ok((device, None)),
                         Err(error) => error.to_string(),
@@ -100,12 +100,12 @@ impl Device {
         }
     }
 
-    /// The first card that is no software.
+    /// Opens the first card that is not a software renderer.
     #[cfg(feature = "gpu")]
     fn best_card() -> Result<Self, DeviceError> {
         let number = Card::all().iter().position(|card| !card.is_software);
         let missing =
-            || DeviceError::Missing("there is no graphics card; breakwater devices shows what there is".to_owned());
+            || DeviceError::Missing("there is no graphics card; breakwater devices lists the devices".to_owned());
         Self::card(number.ok_or_else(missing)?)
     }
 
@@ -124,7 +124,7 @@ impl Device {
         Err(DeviceError::Missing("this breakwater was built without the feature `gpu`".to_owned()))
     }
 
-    /// Whether so many particles fit.
+    /// Returns whether this number of particles fits into its memory.
     pub fn holds(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
         match self {
             Self::Cpu => true,
@@ -133,7 +133,7 @@ impl Device {
         }
     }
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(&self) -> String {
         match self {
             Self::Cpu => PROCESSOR.to_owned(),
@@ -142,15 +142,15 @@ impl Device {
         }
     }
 
-    /// What computes water with bins in the box from `low` to `high` that may not leave the box `bounds` [m].
+    /// Creates the solver with bins in the box from `low` to `high`; no particle may leave the box `bounds` [m].
     ///
     /// # Errors
-    /// If the device does not know the scheme.
+    /// If the device does not support the scheme.
     pub fn solver(
         &self,
         parameters: Parameters,
         [low, high]: [DVec3; 2],
-        // The processor leaves it to the run to look at its arrays.
+        // On the processor the simulation checks the bounds in its own arrays.
         #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] bounds: [DVec3; 2],
     ) -> Result<Box<dyn Backend>, DeviceError> {
         match self {
@@ -161,7 +161,7 @@ impl Device {
     }
 }
 
-/// The part of a scheme that cards do not compute, if there is one.
+/// Returns the part of a scheme that graphics cards do not support, if any.
 pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
     use super::{
         density_diffusion::DensityDiffusion, parameters::BoundaryCondition, viscosity::Viscosity, wall_slip::WallSlip,
@@ -176,10 +176,10 @@ pub fn not_on_cards(parameters: &Parameters) -> Option<&'static str> {
         return Some("density diffusion with renormalised gradients (numerics.density_diffusion = \"antuono\")");
     }
     if parameters.slip != WallSlip::Original {
-        return Some("walls that slide or stick (numerics.wall_slip other than \"original\")");
+        return Some("free slip or no slip at walls (numerics.wall_slip other than \"original\")");
     }
     if !parameters.gap_pressure {
-        return Some("units without the pressure through gaps (numerics.gap_pressure = false)");
+        return Some("units without gap pressure (numerics.gap_pressure = false)");
     }
     parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
 }
@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_cards_do_not_compute_is_named() {
+    fn unsupported_schemes_are_named() {
         use super::super::{density_diffusion::DensityDiffusion, parameters::BoundaryCondition, wall_slip::WallSlip};
         let published = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         assert_eq!(not_on_cards(&published), None);
@@ -205,7 +205,7 @@ mod tests {
             (antuono, "density_diffusion"),
         ] {
             assert!(not_on_cards(&parameters).is_some_and(|what| what.contains(key)), "{key}");
-            // Asked for by name it is refused; by auto the processor computes it, and it is said why.
+            // An explicit GPU is refused; `Auto` falls back to the processor and gives the reason.
             let refused = Device::open(DeviceChoice::Gpu(0), not_on_cards(&parameters)).unwrap_err().to_string();
             assert!(refused.contains(key) && refused.contains("--device cpu"), "{refused}");
             let (device, reason) = Device::open(DeviceChoice::Auto, not_on_cards(&parameters)).unwrap();
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn devices_are_read_as_they_are_written() {
+    fn device_choices_are_parsed() {
         let read = |text: &str| text.parse::<DeviceChoice>();
         assert_eq!(DeviceChoice::named(PROCESSOR), DeviceChoice::Cpu);
         assert_eq!(DeviceChoice::named("a card of another machine"), DeviceChoice::Auto);

@@ -12,34 +12,34 @@ pub struct Tait {
 }
 
 impl Tait {
-    /// c0^2 rho0 / gamma [Pa].
+    /// Returns c0^2 rho0 / gamma [Pa].
     fn stiffness(&self) -> f64 {
         self.c0 * self.c0 * self.rho0 / self.gamma
     }
 
-    /// Pressure [Pa] of the density [kg/m3].
+    /// Returns the pressure [Pa] at the density [kg/m3].
     pub fn pressure(&self, rho: f64) -> f64 {
         self.stiffness() * (self.power(rho / self.rho0, self.gamma) - 1.0)
     }
 
-    /// Density [kg/m3] of the pressure [Pa].
+    /// Returns the density [kg/m3] at the pressure [Pa].
     pub fn density(&self, p: f64) -> f64 {
         self.rho0 * (1.0 + p / self.stiffness()).powf(1.0 / self.gamma)
     }
 
-    /// Speed of sound c = c0 (rho/rho0)^((gamma-1)/2) [m/s].
+    /// Returns the speed of sound c = c0 (rho/rho0)^((gamma-1)/2) [m/s].
     pub fn sound_speed(&self, rho: f64) -> f64 {
         self.c0 * self.power(rho / self.rho0, 0.5 * (self.gamma - 1.0))
     }
 
-    /// Internal energy of compression per mass, int p / rho^2 d rho from rho0 [J/kg].
+    /// Returns the internal energy of compression per mass, int p / rho^2 d rho from rho0 [J/kg].
     pub fn internal_energy(&self, rho: f64) -> f64 {
         let ratio = rho / self.rho0;
         let b = self.stiffness() / self.rho0;
         b * ((ratio.powf(self.gamma - 1.0) - 1.0) / (self.gamma - 1.0) + 1.0 / ratio - 1.0)
     }
 
-    /// Whole exponents, which are the rule, go without `powf`.
+    /// Returns base^exponent; integer exponents, the usual case, avoid the slower `powf`.
     fn power(&self, base: f64, exponent: f64) -> f64 {
         if exponent.fract() == 0.0 { base.powi(exponent as i32) } else { base.powf(exponent) }
     }
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn internal_energy_grows_by_the_work_of_pressure() {
+    fn internal_energy_increases_by_the_work_of_pressure() {
         let rho = 1013.0;
         let slope = (WATER.internal_energy(rho + 1e-2) - WATER.internal_energy(rho - 1e-2)) / 2e-2;
         assert!((slope * rho * rho / WATER.pressure(rho) - 1.0).abs() < 1e-5);

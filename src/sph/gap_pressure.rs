@@ -1,10 +1,10 @@
-//! The pressure that reaches units through gaps too narrow for water particles.
+//! Pressure on units in gaps too narrow for water particles.
 //!
-//! Where a foot stands on the bed, no particle fits below it; with the forces of the water alone its pressure would
-//! press on the foot from above and never from below, and hold the unit down with several times its weight. Water does
-//! reach such gaps and its pressure is continuous through them, so bed, walls and other units act on a unit with the
-//! pressure term of equation 1, their densities being those of the water near by (see [`super::mdbc`]). Viscosity is
-//! left out: dry friction is the contact's.
+//! No particle fits below a unit's foot on the bed. Pressure from water particles alone would act on the foot only from
+//! above and hold the unit down with several times its weight. Real water fills such gaps, and its pressure is
+//! continuous through them. Therefore bed, walls and other units act on a unit with the pressure term of equation 1;
+//! their densities come from the nearby water (see [`super::mdbc`]). Viscosity is excluded: the contact law provides
+//! dry friction.
 
 use rayon::prelude::*;
 
@@ -16,10 +16,10 @@ use super::{
 };
 
 impl PairLoop {
-    /// Add the pressure of bed, walls and other units, across gaps that hold no water particles, to the accelerations
-    /// of the units; arguments as in [`Self::rates`].
+    /// Adds the pressure of bed, walls and other units across gaps to the units' accelerations; arguments as in
+    /// [`Self::rates`].
     ///
-    /// The unit's own particles are in the lists as well: their forces on each other cancel.
+    /// The lists also contain the unit's own particles: the forces between them cancel.
     pub fn add_gap_pressure(
         &self,
         lists: &NeighbourLists,
@@ -41,7 +41,7 @@ impl PairLoop {
         });
     }
 
-    /// The pressure term of equation 1 for one target, in double precision so that inner forces cancel [m/s2].
+    /// Returns the pressure term of equation 1 for one target [m/s2]. In double precision internal forces cancel.
     fn pressure_acceleration(&self, a: &Record, neighbours: &[u32], records: &[Record]) -> [f64; 3] {
         let kernel = &self.parameters.kernel;
         let mut sum = [0.0; 3];

@@ -1,8 +1,8 @@
-//! Velocity of the water at the ghost nodes of mDBC, by the same corrected interpolation as the density there, for
-//! walls that hold the water or let it slide.
+//! Velocity of the water at the ghost nodes of mDBC, for walls with no slip or free slip. It uses the same corrected
+//! interpolation as the density.
 //!
-//! The interpolation is linear in what it interpolates: with the equations solved for the weights of their left-hand
-//! sides, the velocity is one weighted sum over the water round the node, v = sum_b (a W + b . r_b g) V_b v_b.
+//! The interpolation is linear in the interpolated field. The equations are solved for the weights of their left-hand
+//! sides; the velocity is then one weighted sum over the water, v = sum_b (a W + b . r_b g) V_b v_b.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -22,18 +22,18 @@ use crate::sph::particles::boundary::Boundary;
 /// Velocity of the water at a ghost node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GhostVelocity {
-    /// [m/s].
+    /// Velocity [m/s].
     pub velocity: DVec3,
-    /// From 0, where the water is too thin to be fitted, to 1.
+    /// Trust in the linear fit, from 0 (too few layers of water) to 1.
     pub trust: f64,
 }
 
-/// Weighted sum of the velocities round a node [m/s].
+/// Weighted sum of the velocities around a node [m/s].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct VelocitySum([f32; 3]);
 
 impl GhostNodes {
-    /// What the water does at the node of each boundary particle, `None` where it is dry; to be called after
+    /// Computes the velocity at the ghost node of each boundary particle, `None` where the node is dry. Call it after
     /// [`GhostNodes::densities`].
     pub fn velocities(
         &mut self,
@@ -55,15 +55,15 @@ impl GhostNodes {
         out.resize(sums.len(), None);
         for ((sums, velocity), &particle) in sums.iter().zip(velocity_sums).zip(&bins.order) {
             let trust = sums.trust(to_surface[particle as usize]);
-            let wet = f64::from(sums.value[0]) >= DRY;
+            let is_wet = f64::from(sums.value[0]) >= DRY;
             let velocity = DVec3::from_array(velocity.0.map(f64::from));
-            out[particle as usize] = wet.then_some(GhostVelocity { velocity, trust });
+            out[particle as usize] = is_wet.then_some(GhostVelocity { velocity, trust });
         }
     }
 }
 
-/// Weights of W V and of r g V for the velocity at a node, without the constant factors of W and g: of the mean and, as
-/// far as they are trusted, of the four equations. `to_surface` [m] is half the way from the boundary particle to it.
+/// Returns the weights of W V and of r g V for the velocity, without the constant factors of W and g. Trust blends the
+/// weighted mean with the four equations. `to_surface` [m] is half the vector from boundary particle to node.
 fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
     let occupied = f64::from(sums.value[0]);
     if occupied < DRY {

@@ -1,9 +1,8 @@
-//! Gradients of density and velocity and the order of the particles, for the schemes that need them: with
-//! r_ba = r_b - r_a,
+//! Gradients of density and velocity, and measures of the particle distribution. With r_ba = r_b - r_a:
 //!
-//!   M      = sum_b V_b r_ba (x) grad_a W_ab,              the identity in a full and even neighbourhood
+//!   M      = sum_b V_b r_ba (x) grad_a W_ab,              the identity in a full, uniform neighbourhood
 //!   grad f = M^-1 sum_b V_b (f_b - f_a) grad_a W_ab,      exact for linear fields
-//!   grad C = sum_b V_b grad_a W_ab,                       zero in an even neighbourhood
+//!   grad C = sum_b V_b grad_a W_ab,                       zero in a uniform neighbourhood
 //!   div r  = tr M.
 
 use glam::{DMat3, DVec3};
@@ -19,27 +18,27 @@ use super::{
     viscosity::Viscosity,
 };
 
-/// Determinant of M below which a neighbourhood is too one-sided for it to be inverted: a quarter of a neighbourhood.
+/// Smallest determinant of M for which M is inverted: that of a quarter of a neighbourhood.
 const LEAST_DETERMINANT: f64 = 0.05;
 
-/// What neighbours need to know beyond the record; of boundary particles, nothing.
+/// Data of a particle that neighbours need in addition to its record; empty for boundary particles.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct Extra {
     /// Renormalised gradient of the density [kg/m4].
     pub density_gradient: [f32; 3],
-    /// Share of the target's gradient that stands for the neighbour's: 1 for boundary particles, which have none.
+    /// Share of the target's gradient that replaces the neighbour's: 1 for boundary particles, which have none.
     pub borrowed: f32,
-    /// tau / rho^2 of the sub-particle-scale turbulence: xx, yy, zz, xy, xz, yz [m5/(kg s2)].
+    /// Sub-particle-scale stress tau / rho^2: xx, yy, zz, xy, xz, yz [m5/(kg s2)].
     pub stress: [f32; 6],
 }
 
 impl Extra {
-    /// Of a boundary particle.
+    /// Value for a boundary particle.
     pub(super) const OF_BOUNDARY: Self = Self { density_gradient: [0.0; 3], borrowed: 1.0, stress: [0.0; 6] };
 }
 
-/// Order of the particles round one of them.
+/// Distribution of the particles around a target.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Order {
     /// grad C [1/m].
@@ -52,7 +51,7 @@ pub struct Order {
 #[derive(Debug, Default)]
 pub struct Gradients {
     sums: Vec<Sums>,
-    /// Of all records; empty if the scheme does not ask for it.
+    /// One entry per record; empty if the scheme does not need it.
     extra: Vec<Extra>,
 }
 
@@ -70,17 +69,17 @@ struct Sums {
 }
 
 impl Gradients {
-    /// Whether a scheme needs them.
+    /// Returns whether a scheme needs the gradients.
     pub fn are_needed(parameters: &Parameters) -> bool {
-        Self::neighbours_need_them(parameters) || parameters.shifting.is_some()
+        Self::needs_extra(parameters) || parameters.shifting.is_some()
     }
 
-    fn neighbours_need_them(parameters: &Parameters) -> bool {
+    fn needs_extra(parameters: &Parameters) -> bool {
         let turbulent = matches!(parameters.viscosity, Viscosity::Laminar { turbulence: Some(_), .. });
         turbulent || parameters.diffusion.kind == DensityDiffusion::Antuono
     }
 
-    /// Gradients of the water, the first `targets` of the records.
+    /// Computes the gradients of the water, which is the first `targets` of the records.
     pub fn compute(&mut self, pairs: &PairLoop, lists: &NeighbourLists, records: &[Record], targets: usize) {
         self.sums.resize(targets, Sums::default());
         self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
@@ -88,7 +87,7 @@ impl Gradients {
             let targets = &records[begin..begin + sums.len()];
             lists.instructions().dispatch(ChunkSums { pairs, chunk, targets, records, sums });
         });
-        if Self::neighbours_need_them(&pairs.parameters) {
+        if Self::needs_extra(&pairs.parameters) {
             self.extra.resize(records.len(), Extra::OF_BOUNDARY);
             let (of_water, of_boundary) = self.extra.split_at_mut(targets);
             let parameters = &pairs.parameters;
@@ -99,12 +98,12 @@ impl Gradients {
         }
     }
 
-    /// What neighbours need to know, of all records.
+    /// Returns the additional data of all records.
     pub fn extra(&self) -> &[Extra] {
         &self.extra
     }
 
-    /// Order of the particles round a target.
+    /// Returns the distribution of the particles around a target.
     pub fn order(&self, target: usize) -> Order {
         let sums = &self.sums[target];
         Order {
@@ -113,17 +112,17 @@ impl Gradients {
         }
     }
 
-    /// Bytes in use.
+    /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         self.sums.capacity() * size_of::<Sums>() + self.extra.capacity() * size_of::<Extra>()
     }
 }
 
 impl Sums {
-    /// M^-1, or the identity at an edge of the water.
+    /// Returns M^-1, or the identity where the neighbourhood is too one-sided.
     fn renormalisation(&self) -> DMat3 {
         let [xx, yy, zz, xy, xz, yz] = self.moments.map(f64::from);
-        // In a two-dimensional flume all neighbours lie in one plane, and nothing changes across it.
+        // In a two-dimensional flume all neighbours lie in one plane; fields do not vary across it.
         let yy = if yy == 0.0 { 1.0 } else { yy };
         let moments = DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz));
         if moments.determinant() > LEAST_DETERMINANT { moments.inverse() } else { DMat3::IDENTITY }
@@ -170,12 +169,12 @@ impl WithLanes for ChunkSums<'_> {
             };
             let lanes = sums.map(L::to_array);
             for (lane, sums) in self.sums[members].iter_mut().enumerate() {
-                let at = |k: usize| lanes[k][lane];
+                let sum = |k: usize| lanes[k][lane];
                 *sums = Sums {
-                    moments: std::array::from_fn(at),
-                    concentration: std::array::from_fn(|k| at(6 + k)),
-                    density: std::array::from_fn(|k| at(9 + k)),
-                    velocity: std::array::from_fn(|i| std::array::from_fn(|j| at(12 + 3 * i + j))),
+                    moments: std::array::from_fn(sum),
+                    concentration: std::array::from_fn(|k| sum(6 + k)),
+                    density: std::array::from_fn(|k| sum(9 + k)),
+                    velocity: std::array::from_fn(|i| std::array::from_fn(|j| sum(12 + 3 * i + j))),
                 };
             }
         }
@@ -183,7 +182,7 @@ impl WithLanes for ChunkSums<'_> {
 }
 
 impl ChunkSums<'_> {
-    /// The sums of a cluster in the order of [`Sums`].
+    /// Returns the sums of a cluster in the order of [`Sums`].
     #[inline(always)]
     fn cluster_sums<L: Lanes, const PERIODIC: bool>(&self, cluster: &Cluster, neighbours: &[u32]) -> [L; 21] {
         let kernel = &self.pairs.parameters.kernel;
@@ -197,10 +196,10 @@ impl ChunkSums<'_> {
             let b = &self.records[j as usize];
             let [x, y, z] = self.pairs.difference::<L, PERIODIC>(a, b);
             let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
-            // Constant factors of the sums come at the end.
+            // The constant factor is applied once at the end.
             let gv = kernel.gradient_shape(closeness) * splat(b.volume);
             let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-            // r_ba = -r_ab makes the sign.
+            // Minus because r_ba = -r_ab.
             let of_moments = [(gx, x), (gy, y), (gz, z), (gx, y), (gx, z), (gy, z)];
             for (sum, (g, r)) in sums[..6].iter_mut().zip(of_moments) {
                 *sum = *sum - g * r;

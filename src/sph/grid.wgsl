@@ -1,4 +1,4 @@
-// The stable counting sort into bins (grid.rs): count, scan, scatter, and each point finds its rank in its bin.
+// Stable counting sort into bins (grid.rs): count, scan, scatter, then rank each point in its bin.
 
 struct Sort {
     points: u32,
@@ -7,7 +7,7 @@ struct Sort {
     blocks: u32,
 }
 
-// Bins that a group of 256 threads scans.
+// Number of bins that a group of 256 threads scans.
 const SCANNED = 1024u;
 
 @group(0) @binding(1) var<uniform> sort: Sort;
@@ -33,7 +33,7 @@ fn count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
     atomicAdd(&counts[bin], 1u);
 }
 
-// Sum of the values of the threads before this one; the sum of all is left in partial[255].
+// Returns the sum of the values of all threads before this one; partial[255] holds the total.
 fn scan_group(local: u32, value: u32) -> u32 {
     partial[local] = value;
     workgroupBarrier();
@@ -104,7 +104,7 @@ fn add_sums(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
         return;
     }
     start[bin] += block_sums[bin / SCANNED];
-    // From here on it counts the points that have been put into the bin.
+    // From here on, counts holds the number of points already scattered into the bin.
     atomicStore(&counts[bin], 0u);
 }
 

@@ -1,4 +1,4 @@
-//! The particles of one kind among the records, sorted into bins, with their neighbours and rates.
+//! A group of particles of one kind, sorted into bins, with neighbour lists and rates.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use super::{
     rates::Rate,
 };
 
-/// One of the three groups of particles in the records: water, walls (with bed and piston), units.
+/// One of the three groups of particles in the records: water, walls (with bed and piston) or units.
 #[derive(Debug, Default)]
 pub(super) struct Group {
     pub(super) bins: Bins,
@@ -21,12 +21,12 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// No particles yet.
+    /// Creates a group without particles.
     pub(super) fn new(instructions: InstructionSet) -> Self {
         Self { lists: NeighbourLists::new(instructions), ..Self::default() }
     }
 
-    /// Sort positions into bins.
+    /// Sorts positions into bins.
     pub(super) fn sort(&mut self, grid: &Grid, positions: &[DVec3]) {
         self.bins.sort(grid, positions);
         self.sorted.clear();

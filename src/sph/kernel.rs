@@ -1,15 +1,15 @@
 //! Quintic Wendland kernel (Wendland 1995), support 2h.
 //!
 //! W(q) = alpha_D (1 - q/2)^4 (2q + 1), q = r/h <= 2, with alpha_D = 21 / (16 pi h^3) in three dimensions. A
-//! two-dimensional flume is a layer of one particle; with alpha_D = 7 / (4 pi h^2 t), t its thickness, volumes, masses
-//! and forces keep their units, and every sum over the layer is the two-dimensional one.
+//! two-dimensional flume is a single layer of particles with thickness t. With alpha_D = 7 / (4 pi h^2 t), volumes,
+//! masses and forces keep their units, and every sum over the layer equals the two-dimensional sum.
 //! The gradient is grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3: no division by r.
 
 use std::f64::consts::PI;
 
 use super::lanes::Real;
 
-/// The kernel for one smoothing length.
+/// Wendland kernel with a given smoothing length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wendland {
     /// Smoothing length h [m].
@@ -17,49 +17,49 @@ pub struct Wendland {
     inv_2h: f32,
     alpha: f32,
     gradient: f32,
-    /// Dimensions, 2 or 3.
+    /// Number of dimensions, 2 or 3.
     dimensions: u32,
 }
 
 impl Wendland {
-    /// Kernel in three dimensions with smoothing length `h` [m].
+    /// Creates the three-dimensional kernel with smoothing length `h` [m].
     pub fn new(h: f64) -> Self {
-        Self::with(h, 21.0 / (16.0 * PI * h.powi(3)), 3)
+        Self::with_scale(h, 21.0 / (16.0 * PI * h.powi(3)), 3)
     }
 
-    /// Kernel in two dimensions with smoothing length `h` [m], for a layer of particles of this thickness [m].
+    /// Creates the two-dimensional kernel with smoothing length `h` [m] for a layer of particles of this thickness [m].
     pub fn in_layer(h: f64, thickness: f64) -> Self {
-        Self::with(h, 7.0 / (4.0 * PI * h * h * thickness), 2)
+        Self::with_scale(h, 7.0 / (4.0 * PI * h * h * thickness), 2)
     }
 
-    fn with(h: f64, alpha: f64, dimensions: u32) -> Self {
+    fn with_scale(h: f64, alpha: f64, dimensions: u32) -> Self {
         let gradient = -5.0 * alpha / (h * h);
         Self { h, inv_2h: (0.5 / h) as f32, alpha: alpha as f32, gradient: gradient as f32, dimensions }
     }
 
-    /// 2 for a layer of particles, else 3.
+    /// Returns 2 for a layer of particles, otherwise 3.
     pub fn dimensions(&self) -> u32 {
         self.dimensions
     }
 
-    /// Radius of the support 2h [m].
+    /// Returns the radius of the support, 2h [m].
     pub fn support(&self) -> f64 {
         2.0 * self.h
     }
 
-    /// 1 - q/2, zero outside the support [-], from the distance r [m].
+    /// Returns the closeness 1 - q/2 [-] for the distance r [m]; zero outside the support.
     #[inline(always)]
     pub fn closeness<R: Real>(&self, r: R) -> R {
         (R::splat(1.0) - r * R::splat(self.inv_2h)).max(R::splat(0.0))
     }
 
-    /// W [1/m3] from the closeness 1 - q/2.
+    /// Returns W [1/m3] from the closeness 1 - q/2.
     #[inline(always)]
     pub fn value<R: Real>(&self, closeness: R) -> R {
         R::splat(self.alpha) * self.shape(closeness)
     }
 
-    /// W without its constant factor, [`Self::scale`], from the closeness 1 - q/2 [-].
+    /// Returns W [-] without its constant factor, [`Self::scale`], from the closeness 1 - q/2.
     #[inline(always)]
     pub fn shape<R: Real>(&self, closeness: R) -> R {
         let square = closeness * closeness;
@@ -67,24 +67,24 @@ impl Wendland {
         square * square * closeness.mul_add(R::splat(-4.0), R::splat(5.0))
     }
 
-    /// alpha_D [1/m3].
+    /// Returns alpha_D [1/m3].
     pub fn scale(&self) -> f32 {
         self.alpha
     }
 
-    /// G [1/m5] from the closeness 1 - q/2: grad_a W_ab = G r_ab.
+    /// Returns G [1/m5] from the closeness 1 - q/2; grad_a W_ab = G r_ab.
     #[inline(always)]
     pub fn gradient_factor<R: Real>(&self, closeness: R) -> R {
         R::splat(self.gradient) * self.gradient_shape(closeness)
     }
 
-    /// G without its constant factor, [`Self::gradient_scale`], from the closeness 1 - q/2 [-].
+    /// Returns G [-] without its constant factor, [`Self::gradient_scale`], from the closeness 1 - q/2.
     #[inline(always)]
     pub fn gradient_shape<R: Real>(&self, closeness: R) -> R {
         closeness * closeness * closeness
     }
 
-    /// -5 alpha_D / h^2 [1/m5].
+    /// Returns -5 alpha_D / h^2 [1/m5].
     #[inline(always)]
     pub fn gradient_scale(&self) -> f32 {
         self.gradient
@@ -103,30 +103,30 @@ mod tests {
     }
 
     #[test]
-    fn integrates_to_one() {
+    fn kernel_integrates_to_one() {
         let kernel = Wendland::new(0.02);
-        // 1e-6: the constants are kept in single precision.
+        // 1e-6: the constants are stored in single precision.
         assert!((integral(0.02, |r| kernel.value(kernel.closeness(r))) - 1.0).abs() < 1e-6);
     }
 
     #[test]
-    fn integrates_to_one_over_a_layer() {
+    fn layer_kernel_integrates_to_one_over_the_layer() {
         let kernel = Wendland::in_layer(0.02, 0.01);
-        // 4 pi r^2 of the integral is a circle's 2 pi r times the thickness, and what is left over.
+        // The factor converts the 4 pi r^2 of `integral` to 2 pi r times the thickness.
         let over_layer = |r: f64| kernel.value(kernel.closeness(r)) * 0.01 / (2.0 * r);
         assert!((integral(0.02, over_layer) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn gradient_of_a_linear_field_is_exact() {
-        // int (grad W)_x (-x) dV = 1, by symmetry a third of -int G r^2 dV.
+        // int (grad W)_x (-x) dV = 1; by symmetry it is a third of -int G r^2 dV.
         let kernel = Wendland::new(0.02);
         let sum = integral(0.02, |r| -kernel.gradient_factor(kernel.closeness(r)) * r * r / 3.0);
         assert!((sum - 1.0).abs() < 1e-6);
     }
 
     #[test]
-    fn gradient_is_the_derivative() {
+    fn gradient_is_the_derivative_of_the_kernel() {
         let kernel = Wendland::new(0.02);
         for r in [0.003, 0.017, 0.031] {
             let w = |r: f64| kernel.value(kernel.closeness(r));
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_outside_the_support() {
+    fn kernel_vanishes_outside_the_support() {
         let kernel = Wendland::new(0.02);
         assert_eq!(kernel.value(kernel.closeness(0.041_f64)), 0.0);
         assert_eq!(kernel.gradient_factor(kernel.closeness(0.041_f64)), 0.0);

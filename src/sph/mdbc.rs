@@ -1,20 +1,20 @@
 //! Modified dynamic boundary condition (English et al. 2022; section 2.2 of Mitsui et al. 2023).
 //!
 //! Each boundary particle has a ghost node, its mirror image in the boundary surface. The density and its gradient at
-//! the ghost node come from the water particles round it by the first-order consistent correction of Liu & Liu (2006):
+//! the ghost node come from the water particles around it by the first-order consistent correction of Liu & Liu (2006):
 //! the four equations
 //!
 //!   sum_b f_b W V_b      = f sum_b W V_b      + grad f . sum_b r_b W V_b
 //!   sum_b f_b grad W V_b = f sum_b grad W V_b + grad f . sum_b r_b (x) grad W V_b,   r_b from the ghost node to b,
 //!
-//! are solved for f and grad f, and the density is carried back along the line to the particle.
+//! are solved for f and grad f, and the density is extrapolated along the line from the node to the particle.
 //!
-//! Where too few particles surround the node the matrix is ill-conditioned. The stated fall-back is then the mean
-//! density of the neighbours, carried from their centroid to the boundary particle by the hydrostatic gradient. It also
-//! takes over where all the water lies between node and boundary, a thin sheet on a dry bed: a gradient fitted to one
-//! or two layers would be carried to far behind them, and its errors drive the sheet apart. A node without neighbours
-//! leaves its particle at the reference density: there is no water to press on. No particle has less than that:
-//! a wall presses on the water and does not pull at it.
+//! Where too few particles surround the node, the matrix is ill-conditioned. The published fallback is the mean density
+//! of the neighbours, extrapolated from their centroid to the boundary particle by the hydrostatic gradient. It is also
+//! used for thin sheets on a dry bed, where all the water lies between node and boundary: a gradient fitted to one or
+//! two layers would be extrapolated far behind them, and its errors would drive the sheet apart. A node without
+//! neighbours gives its particle the reference density, which is also the lower bound: a wall exerts pressure on the
+//! water but no suction.
 
 pub(super) mod node_sums;
 
@@ -33,30 +33,29 @@ use super::{
 };
 use crate::sph::particles::boundary::Boundary;
 
-/// Smallest determinant of the scaled matrix, as a share of the determinant of a full neighbourhood with the same sum
-/// of W V, for which the gradient is trusted. Half a neighbourhood has 0.1, a single layer or a corner of few particles
-/// less than this.
+/// Smallest determinant of the scaled matrix for which the gradient is fitted, relative to a full neighbourhood with
+/// the same sum of W V. Half a neighbourhood has 0.1; a single layer or a corner with few particles is below the limit.
 pub(super) const LEAST_DETERMINANT: f64 = 0.01;
 
-/// How far the centroid of the water lies from the node towards the boundary, in h, where trust in the fitted gradient
-/// begins to fall and where none is left. It is 0.42 h for a node at the surface of deep water on a bed, and below
-/// nothing for one in the water or beside it, at a wall that stands in the surface. The two numbers are calibrated:
+/// Distance of the water's centroid from the node towards the boundary [h]: at the first value trust in the fitted
+/// gradient starts to decrease, at the second it is zero. The distance is 0.42 h for a node at the surface of deep
+/// water on a bed. It is negative for a node inside the water or next to it, at a surface-piercing wall. Calibrated:
 /// with 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
 pub(super) const TRUST: [f64; 2] = [0.1, 0.2];
 
-/// Spread of the water along the wall's normal, sum g V r_n^2 / sum W V [h2], where trust in the fitted gradient begins
-/// and where it is full. Seen from the node nearest to the wall it is 0.2 to 0.3 for two layers of particles, 0.5 to
-/// 0.65 for three and 0.74 in deep water. Calibrated with still water on a beach: a gradient from two layers is mostly
-/// their noise, which the walls amplify.
+/// Spread of the water along the wall's normal, sum g V r_n^2 / sum W V [h2]: below the first value trust in the fitted
+/// gradient is zero, from the second on it is full. At the node nearest to the wall two layers of particles give 0.2 to
+/// 0.3, three layers 0.5 to 0.65, deep water 0.74. Calibrated with still water on a beach: a gradient from two layers
+/// is mostly noise, which the walls amplify.
 pub(super) const SPREAD: [f64; 2] = [0.4, 0.7];
 
-/// Smallest piece of an array that is worth a task of the thread pool.
+/// Smallest chunk of an array that is worth a task of the thread pool.
 pub(super) const PIECE: usize = 1024;
 
-/// Sum of W V below which a node is dry: less than a lone particle gives from one dp away.
+/// Sum of W V below which a node is dry: less than the contribution of one particle at the distance dp.
 pub(super) const DRY: f64 = 0.01;
 
-/// Ghost nodes, sorted into bins, and their sums.
+/// Ghost nodes, sorted into bins, with their neighbour lists and sums.
 #[derive(Debug, Default)]
 pub struct GhostNodes {
     points: Vec<DVec3>,
@@ -67,12 +66,12 @@ pub struct GhostNodes {
     pub(super) sums: Vec<NodeSums>,
     /// Densities of the boundary particles in the order of the nodes [kg/m3].
     densities: Vec<f64>,
-    /// Weights of the water's velocities, and the velocities, in the order of the nodes.
+    /// Weights of the water's velocities, and the velocity sums, in the order of the nodes.
     pub(super) velocity_weights: Vec<[f32; 4]>,
     pub(super) velocity_sums: Vec<VelocitySum>,
 }
 
-/// Sums over the water round one ghost node, lengths in h.
+/// Sums over the water around one ghost node, lengths in h.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct NodeSums {
     /// sum W V (1, x, y, z).
@@ -88,12 +87,12 @@ pub(super) struct NodeSums {
 }
 
 impl GhostNodes {
-    /// Ghost nodes whose sums are taken with an instruction set.
+    /// Creates an empty set of ghost nodes; their sums are computed with the given instruction set.
     pub fn new(instructions: InstructionSet) -> Self {
         Self { lists: NeighbourLists::new(instructions), ..Self::default() }
     }
 
-    /// Bytes in use.
+    /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         let points = (self.points.capacity() + self.sorted.capacity()) * size_of::<DVec3>();
         let sums = self.split.capacity() * size_of::<[f32; 4]>()
@@ -103,7 +102,7 @@ impl GhostNodes {
         points + sums + self.bins.bytes() + self.lists.bytes()
     }
 
-    /// Find the density of each boundary particle from the water round its ghost node.
+    /// Computes the density of each boundary particle from the water around its ghost node.
     pub fn densities(
         &mut self,
         grid: &Grid,
@@ -151,7 +150,7 @@ impl NodeTerms<17, 0> for NodeSums {
         let Pair { r: [x, y, z], wv, gv } = *pair;
         let f = L::splat(b.excess_density);
         let (gx, gy, gz) = (gv * x, gv * y, gv * z);
-        // One array: the compiler keeps the sums in registers then, and not with a chain of several.
+        // With one array the compiler keeps the sums in registers; with several arrays it does not.
         let products = [
             (wv, x),
             (wv, y),
@@ -197,14 +196,14 @@ impl NodeTerms<17, 0> for NodeSums {
 }
 
 impl NodeSums {
-    /// Density of the boundary particle [kg/m3], `to_surface` [m] being half the way to this node.
+    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from it to this node.
     fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
         if occupied < DRY {
             return rho0;
         }
-        // From the node back to the particle, in h.
+        // Vector from the node to the particle, in h.
         let back = -2.0 * to_surface / parameters.kernel.h;
         let hydrostatic = -rho0 * parameters.gravity / parameters.tait.c0.powi(2);
         let above_centroid = back.z - f64::from(self.value[3]) / occupied;
@@ -215,12 +214,12 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // A wall does not pull: air comes between it and water that parts from it.
+        // No suction: air enters between a wall and water that separates from it.
         rho0 + excess.max(0.0)
     }
 
-    /// Trust in a fitted gradient, from 0 to 1; `to_surface` [m] is half the way from the boundary particle to this
-    /// node.
+    /// Returns the trust in a fitted gradient, from 0 to 1; `to_surface` [m] is half the vector from the boundary
+    /// particle to this node.
     pub(super) fn trust(&self, to_surface: DVec3) -> f64 {
         let [occupied, x, y, z] = self.value.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
@@ -232,19 +231,19 @@ impl NodeSums {
             DVec3::new(xz, yz, zz).dot(normal),
         );
         let spread = along.dot(normal) / occupied;
-        let of_place = ((TRUST[1] - behind) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
-        let of_layers = ((spread - SPREAD[0]) / (SPREAD[1] - SPREAD[0])).clamp(0.0, 1.0);
-        of_place * of_layers
+        let position_trust = ((TRUST[1] - behind) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+        let layer_trust = ((spread - SPREAD[0]) / (SPREAD[1] - SPREAD[0])).clamp(0.0, 1.0);
+        position_trust * layer_trust
     }
 
-    /// Solution [f, h grad f] of the four equations with the given left-hand sides, if they are well conditioned.
+    /// Returns the solution [f, h grad f] of the four equations for the given left-hand sides, if well conditioned.
     fn value_and_gradient(&self, value_f: f64, [fx, fy, fz]: [f64; 3]) -> Option<[f64; 4]> {
         let [a, b, c, d] = self.matrix();
-        let with = |[k, x, y, z]: [f64; 4], right: f64| [k, x, y, z, right];
-        self.solve([with(a, value_f), with(b, fx), with(c, fy), with(d, fz)])
+        let append = |[k, x, y, z]: [f64; 4], right: f64| [k, x, y, z, right];
+        self.solve([append(a, value_f), append(b, fx), append(c, fy), append(d, fz)])
     }
 
-    /// Weights of the four left-hand sides in f, the same for whatever is interpolated: the equations transposed.
+    /// Returns the weights of the four left-hand sides in f, from the transposed equations; they hold for any field.
     pub(super) fn weights(&self) -> Option<[f64; 4]> {
         let matrix = self.matrix();
         let column = |k: usize| [matrix[0][k], matrix[1][k], matrix[2][k], matrix[3][k], f64::from(u8::from(k == 0))];
@@ -255,13 +254,12 @@ impl NodeSums {
         solve(rows, LEAST_DETERMINANT * f64::from(self.value[0]).powi(4))
     }
 
-    /// The four equations' matrix.
+    /// Returns the matrix of the four equations.
     fn matrix(&self) -> [[f64; 4]; 4] {
         let [w, wx, wy, wz] = self.value.map(f64::from);
         let [gx, gy, gz] = self.first.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
-        // In a two-dimensional flume all neighbours lie in the node's plane, and nothing changes across it: as in a full
-        // neighbourhood.
+        // In a two-dimensional flume all neighbours lie in the node's plane; use the value of a full neighbourhood.
         let yy = if yy == 0.0 { w } else { yy };
         [[w, wx, wy, wz], [gx, xx, xy, xz], [gy, xy, yy, yz], [gz, xz, yz, zz]]
     }
@@ -271,7 +269,7 @@ impl NodeSums {
 mod tests {
     use super::*;
 
-    /// Sums over water whose centroid lies at (0, 0, z) h from the node, with its spread along z [h2] and the excess
+    /// Returns sums over water with its centroid at (0, 0, z) h from the node, its spread along z [h2] and the excess
     /// density f [kg/m3].
     fn layer(z: f32, spread: f32, f: f32) -> NodeSums {
         let second = [0.3, 0.3, 0.3 * spread, 0.0, 0.0, 0.0];
@@ -279,21 +277,21 @@ mod tests {
     }
 
     #[test]
-    fn gradients_are_trusted_in_the_water_and_not_above_a_sheet() {
+    fn gradients_are_trusted_inside_the_water_and_not_above_a_thin_sheet() {
         let bed = DVec3::new(0.0, 0.0, 0.01);
         for (z, trust) in [(0.3, 1.0), (-0.1, 1.0), (-0.15, 0.5), (-0.2, 0.0), (-0.5, 0.0)] {
             assert!((layer(z, 0.74, 0.0).trust(bed) - trust).abs() < 1e-6, "{z}");
         }
-        // What counts is the side of the wall: water below a ceiling lies towards the node.
+        // The direction of the wall matters: water below a ceiling lies on the far side of the node.
         assert_eq!(layer(-0.5, 0.74, 0.0).trust(-bed), 1.0);
-        // Two layers, three, and deep water.
+        // Two layers, three layers and deep water.
         for (spread, trust) in [(0.3, 0.0), (0.55, 0.5), (0.74, 1.0)] {
             assert!((layer(0.3, spread, 0.0).trust(bed) - trust).abs() < 1e-6, "{spread}");
         }
     }
 
     #[test]
-    fn weights_of_the_node_give_the_value_that_the_equations_give() {
+    fn node_weights_give_the_same_value_as_the_equations() {
         let sums = NodeSums {
             value: [0.8, 0.05, -0.02, 0.1],
             first: [0.06, -0.03, 0.12],
@@ -303,19 +301,19 @@ mod tests {
         let (value, first) = (0.3, [0.2, -0.1, 0.4]);
         let [f, ..] = sums.value_and_gradient(value, first).unwrap();
         let [a, b, c, d] = sums.weights().unwrap();
-        // Rounding of two eliminations.
+        // 1e-12: rounding of two eliminations.
         assert!((a * value + b * first[0] + c * first[1] + d * first[2] - f).abs() < 1e-12);
     }
 
     #[test]
-    fn a_wall_presses_on_a_sheet_and_does_not_pull_at_it() {
+    fn walls_exert_pressure_but_no_suction_on_a_thin_sheet() {
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let to_surface = DVec3::new(0.0, 0.0, 0.005);
         let rho0 = parameters.tait.rho0;
         let pressed = layer(-0.5, 0.0, 3.0).density_at(&parameters, to_surface);
-        // Half h above the boundary particle's mirror image, less the way from the centroid down to the particle.
-        let way = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
-        let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * way;
+        // Height of the centroid above the boundary particle: it lies h / 2 below the ghost node.
+        let height = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
+        let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * height;
         assert!((pressed - rho0 - expected).abs() < 1e-6);
         assert_eq!(layer(-0.5, 0.0, -3.0).density_at(&parameters, to_surface), rho0);
     }

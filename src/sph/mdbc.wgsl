@@ -9,7 +9,7 @@
 // rho - rho0 of the boundary [kg/m3].
 @group(0) @binding(7) var<storage, read_write> density: array<f32>;
 
-// Sums over the water round a node, lengths in h; f is rho - rho0.
+// Sums over the water around a node, lengths in h; f is rho - rho0.
 struct NodeSums {
     // W V (x, y, z, 1).
     value: vec4<f32>,
@@ -65,7 +65,7 @@ fn sum_round(node: vec4<f32>) -> NodeSums {
     return sums;
 }
 
-// Trust in the fitted gradient, by the place of the water and its spread along the normal.
+// Returns the trust in the fitted gradient, from the position of the water's centroid and its spread along the normal.
 fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
     let far = length(surface);
     var normal = vec3<f32>(0.0);
@@ -85,10 +85,10 @@ fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
         * clamp((spread - layers.x) / (layers.y - layers.x), 0.0, 1.0);
 }
 
-// Excess density at `back` [h] from the node, fitted; `mean` where the equations are ill-conditioned.
+// Returns the fitted excess density at `back` [h] from the node, or `mean` where the equations are ill-conditioned.
 fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
     var s = sums.squares;
-    // In a two-dimensional flume nothing changes across: as in a full neighbourhood.
+    // In a two-dimensional flume use the value of a full neighbourhood across the width.
     s.y = select(s.y, sums.value.w, s.y == 0.0);
     let p = sums.products;
     var rows = array<vec4<f32>, 4>(
@@ -133,7 +133,7 @@ fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
     return value + dot(vec3<f32>(x, y, z), back);
 }
 
-// rho - rho0 of the boundary particle that `surface` [m] leads from to its surface.
+// Returns rho - rho0 of the boundary particle; `surface` [m] is the vector from the particle to its surface.
 fn excess_density(sums: NodeSums, surface: vec3<f32>) -> f32 {
     let occupied = sums.value.w;
     if occupied < parameters.dry {
@@ -147,7 +147,7 @@ fn excess_density(sums: NodeSums, surface: vec3<f32>) -> f32 {
     if trust > 0.0 {
         excess += trust * (fitted(sums, back, mean) - mean);
     }
-    // A wall does not pull.
+    // No suction by walls.
     return max(excess, 0.0);
 }
 

@@ -1,4 +1,4 @@
-//! Weakly compressible smoothed particle hydrodynamics (Mitsui et al. 2023, section 2.1 and 2.2).
+//! Weakly compressible smoothed particle hydrodynamics (Mitsui et al. 2023, sections 2.1 and 2.2).
 //!
 //! | file | equation |
 //! | --- | --- |
@@ -12,16 +12,16 @@
 //! | [`step`] | 7 to 9: symplectic position Verlet |
 //! | [`mdbc`] | section 2.2: density of boundary particles from ghost nodes |
 //! | [`ghost_velocity`], [`wall_slip`] | velocity of boundary particles from ghost nodes |
-//! | [`gradients`] | gradients of density and velocity, order of the particles |
+//! | [`gradients`] | gradients of density and velocity, particle distribution |
 //! | [`shifting`] | particle shifting |
 //! | `gap_pressure` | pressure on units through gaps without water particles |
 //! | [`time_step`] | variable time step |
-//! | [`backend`], [`device`] | what computes: the processor or a graphics card |
-//! | [`power`] | power of walls, viscosity, diffusion |
+//! | [`backend`], [`device`] | computing on the processor (CPU) or a graphics card (GPU) |
+//! | [`power`] | power of walls, viscosity and density diffusion |
 //!
-//! Particles are sorted into [`grid`] bins each step; clusters of as many as there are SIMD [`lanes`] share one list of
-//! [`neighbours`], and `pair_sums` adds a neighbour to all members at once. Every sum is gathered by the particle that
-//! owns it, in a fixed order: the same bits for any number of threads.
+//! Each time step sorts the particles into the bins of a cell list ([`grid`]). A cluster holds as many particles as
+//! there are SIMD [`lanes`] and has one neighbour list ([`neighbours`]); `pair_sums` adds a neighbour to all members at
+//! once. Each particle gathers its own sums in a fixed order, so results are bit-identical for any number of threads.
 
 pub mod backend;
 pub mod continuity;

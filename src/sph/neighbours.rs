@@ -1,8 +1,8 @@
-//! Clusters of neighbouring particles, one a SIMD lane, and their shared neighbour lists.
+//! Clusters of neighbouring particles, one per SIMD lane, and their shared neighbour lists.
 //!
-//! A candidate enters a cluster's list if it is near the cluster's box; lanes that it does not reach cost nothing but
-//! a multiplication by zero. The list is built once a step and serves both evaluations of the step, so it reaches a
-//! little further than the kernel: as far as two particles can close in during half a step.
+//! A candidate enters a cluster's list if it is near the cluster's bounding box; lanes outside its support only
+//! multiply by zero. The list is built once per time step and serves both rate evaluations. It therefore extends beyond
+//! the kernel support by the distance that two particles can approach each other in half a time step.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -12,30 +12,30 @@ use super::{
     lanes::{InstructionSet, Lanes, MOST_LANES, WithLanes},
 };
 
-/// Smallest piece of an array that is worth a task of the thread pool.
-const PIECE: usize = 4096;
+/// Smallest chunk of an array that is worth a task of the thread pool.
+const MIN_CHUNK: usize = 4096;
 
-/// Targets of one task of the thread pool; clusters do not cross its ends.
+/// Number of targets per task of the thread pool; clusters do not cross the ends of a chunk.
 pub const CHUNK: usize = 512;
 
-/// A cluster has at most this many bins between its first and last particle for each of its lanes, lest a loose row
-/// make a huge box. Where water fills the bins, four particles lie in each.
-const LONGEST_CLUSTER: f32 = 0.5;
+/// Largest number of bins between the first and last particle of a cluster, per lane. It keeps the box of a sparse row
+/// small. Where water fills the bins, each contains four particles.
+const CLUSTER_BINS_PER_LANE: f32 = 0.5;
 
-/// Consecutive targets, at most as many as there are lanes, and the place of their neighbours.
+/// Consecutive targets, at most as many as there are lanes, and the end of their neighbour list.
 #[derive(Debug, Clone, Copy)]
 pub struct Cluster {
-    /// First target, counted from the start of the chunk.
+    /// Index of the first target in the chunk.
     pub first: u32,
     /// Number of targets, at least 1.
     pub len: u32,
     /// Whether neighbours may lie beyond the sides of a periodic flume.
     pub crosses_sides: bool,
-    /// End of its neighbours in the chunk's list; they begin where those of the cluster before end.
+    /// End of its neighbours in the chunk's list; they start where those of the previous cluster end.
     pub list_end: u32,
 }
 
-/// Clusters and lists of [`CHUNK`] consecutive targets.
+/// Clusters and neighbour lists of [`CHUNK`] consecutive targets.
 #[derive(Debug, Default)]
 pub struct Chunk {
     clusters: Vec<Cluster>,
@@ -43,7 +43,7 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    /// Each cluster with its neighbours.
+    /// Returns each cluster with its neighbours.
     pub fn clusters(&self) -> impl Iterator<Item = (&Cluster, &[u32])> {
         let mut begin = 0;
         self.clusters.iter().map(move |cluster| {
@@ -54,34 +54,34 @@ impl Chunk {
     }
 }
 
-/// Sorted particles that can be neighbours.
+/// Sorted particles that are candidates for neighbours.
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
     /// Their bins.
     pub bins: &'a Bins,
     /// Their positions in the order of the bins.
     pub positions: &'a SortedPositions,
-    /// Index of the first in the records.
+    /// Index of the first particle in the records.
     pub first_record: u32,
 }
 
-/// Positions in the order of the bins, from the low corner of the grid, an array an axis [m].
+/// Positions in the order of the bins, relative to the low corner of the grid, one array per axis [m].
 #[derive(Debug, Default)]
 pub struct SortedPositions {
     axes: [Vec<f32>; 3],
 }
 
 impl SortedPositions {
-    /// Take over the positions; the arrays are padded so that a whole register can be read from any place.
+    /// Copies the positions; the arrays are padded so that a whole register can be read from any index.
     pub fn set(&mut self, grid: &Grid, points: &[DVec3]) {
         for (axis, values) in self.axes.iter_mut().enumerate() {
             values.resize(points.len() + MOST_LANES, 0.0);
-            let places = values.par_iter_mut().zip(points).with_min_len(PIECE);
-            places.for_each(|(value, point)| *value = (point[axis] - grid.low[axis]) as f32);
+            let pairs = values.par_iter_mut().zip(points).with_min_len(MIN_CHUNK);
+            pairs.for_each(|(value, point)| *value = (point[axis] - grid.low[axis]) as f32);
         }
     }
 
-    /// Bytes in use.
+    /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         self.axes.iter().map(|axis| axis.capacity() * size_of::<f32>()).sum()
     }
@@ -100,27 +100,27 @@ pub struct NeighbourLists {
 }
 
 impl NeighbourLists {
-    /// No lists yet; clusters will fill the lanes of an instruction set.
+    /// Creates empty lists; clusters will fill the lanes of the instruction set.
     pub fn new(instructions: InstructionSet) -> Self {
         Self { chunks: Vec::new(), instructions }
     }
 
-    /// The instruction set whose lanes the clusters fill.
+    /// Returns the instruction set whose lanes the clusters fill.
     pub fn instructions(&self) -> InstructionSet {
         self.instructions
     }
 
-    /// The chunks in the order of the targets.
+    /// Returns the chunks in the order of the targets.
     pub fn chunks(&self) -> &[Chunk] {
         &self.chunks
     }
 
-    /// Bytes in use.
+    /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         self.chunks.iter().map(|c| c.list.capacity() * 4 + c.clusters.capacity() * size_of::<Cluster>()).sum()
     }
 
-    /// Pairs that are computed for a target, those in idle lanes included.
+    /// Returns the mean number of pairs computed per target, including idle lanes.
     pub fn lanes_per_target(&self) -> f64 {
         let clusters = || self.chunks.iter().flat_map(Chunk::clusters);
         let listed: usize = clusters().map(|(_, list)| list.len()).sum();
@@ -128,9 +128,9 @@ impl NeighbourLists {
         (listed * self.instructions.lanes()) as f64 / f64::from(targets.max(1))
     }
 
-    /// Cluster the targets and list, for each cluster, the sources within `reach` [m] of its box.
+    /// Clusters the targets and lists, for each cluster, the sources within `reach` [m] of its box.
     ///
-    /// `targets` are sorted as `bins` says.
+    /// `targets` are in the order of `bins`.
     pub fn build(&mut self, grid: &Grid, bins: &Bins, targets: &[DVec3], sources: &[Sources], reach: f64) {
         self.chunks.resize_with(targets.len().div_ceil(CHUNK), Chunk::default);
         let instructions = self.instructions;
@@ -142,7 +142,7 @@ impl NeighbourLists {
     }
 }
 
-/// The clusters and lists of one chunk.
+/// Construction of the clusters and lists of one chunk.
 struct Build<'a> {
     chunk: &'a mut Chunk,
     grid: &'a Grid,
@@ -164,7 +164,7 @@ impl WithLanes for Build<'_> {
         let mut first = members.start;
         while first < members.end {
             let end = cluster_end(grid, &bins.bin_at[..members.end], first, L::COUNT);
-            let cluster_box = BoundingBox::of(grid, &targets[first..end]);
+            let cluster_box = BoundingBox::around(grid, &targets[first..end]);
             for source in sources {
                 cluster_box.list_near::<L>(grid, source, reach, &mut chunk.list);
             }
@@ -179,30 +179,30 @@ impl WithLanes for Build<'_> {
     }
 }
 
-/// End of the cluster that starts at `first`: the same row, at most as many targets as lanes, not too long.
+/// Returns the end of the cluster that starts at `first`: one row, at most `lanes` targets, a limited number of bins.
 fn cluster_end(grid: &Grid, bin_at: &[u32], first: usize, lanes: usize) -> usize {
     let nx = grid.count[0] as u32;
     let row = bin_at[first] / nx;
-    let longest = (LONGEST_CLUSTER * lanes as f32) as u32;
-    let same = |bin: u32| bin / nx == row && bin - bin_at[first] < longest;
-    let most = (first + lanes).min(bin_at.len());
-    (first + 1..most).find(|&i| !same(bin_at[i])).unwrap_or(most)
+    let max_bins = (CLUSTER_BINS_PER_LANE * lanes as f32) as u32;
+    let fits = |bin: u32| bin / nx == row && bin - bin_at[first] < max_bins;
+    let limit = (first + lanes).min(bin_at.len());
+    (first + 1..limit).find(|&i| !fits(bin_at[i])).unwrap_or(limit)
 }
 
-/// Box round a cluster [m], in f64: the wavemaker's end of a long flume keeps its precision.
+/// Bounding box of a cluster [m], in f64 to keep precision in a long flume.
 struct BoundingBox {
     low: DVec3,
     high: DVec3,
 }
 
 impl BoundingBox {
-    fn of(grid: &Grid, points: &[DVec3]) -> Self {
+    fn around(grid: &Grid, points: &[DVec3]) -> Self {
         let low = points.iter().copied().reduce(DVec3::min).expect("a cluster has a particle");
         let high = points.iter().copied().reduce(DVec3::max).expect("a cluster has a particle");
         Self { low: low - grid.low, high: high - grid.low }
     }
 
-    /// Append the records of `source` within `reach` of the box.
+    /// Appends the records of `source` within `reach` of the box.
     #[inline(always)]
     fn list_near<L: Lanes>(&self, grid: &Grid, source: &Sources, reach: f64, list: &mut Vec<u32>) {
         let [nx, ny, nz] = grid.count;
@@ -210,8 +210,8 @@ impl BoundingBox {
         for iz in self.bins(grid, 2, reach) {
             let gap_z = self.gap(grid, 2, iz, iz == 0, iz + 1 == nz);
             for iy in self.rows_across(grid, reach) {
-                let edge = |at_edge: bool| at_edge && grid.periodic_width.is_none();
-                let gap_y = self.gap(grid, 1, iy, edge(iy == 0), edge(iy + 1 == ny));
+                let is_open_edge = |at_edge: bool| at_edge && grid.periodic_width.is_none();
+                let gap_y = self.gap(grid, 1, iy, is_open_edge(iy == 0), is_open_edge(iy + 1 == ny));
                 let rest = reach * reach - gap_z * gap_z - gap_y * gap_y;
                 if rest < 0.0 {
                     continue;
@@ -225,19 +225,19 @@ impl BoundingBox {
         }
     }
 
-    /// Whether the box can reach across the sides of a periodic flume.
+    /// Returns whether the box can reach across the sides of a periodic flume.
     fn crosses_sides(&self, grid: &Grid, reach: f64) -> bool {
         grid.periodic_width.is_some_and(|width| self.low.y < reach || self.high.y > width - reach)
     }
 
-    /// Bins along an axis that the box can reach.
+    /// Returns the bins along an axis that the box can reach.
     fn bins(&self, grid: &Grid, axis: usize, reach: f64) -> std::ops::RangeInclusive<usize> {
         let from = grid.along(axis, self.low[axis] - reach + grid.low[axis]);
         from..=grid.along(axis, self.high[axis] + reach + grid.low[axis])
     }
 
-    /// Rows of bins across the flume that the box can reach; in a periodic one they are to be taken modulo their
-    /// number, each at most once.
+    /// Returns the rows of bins across the flume that the box can reach, each at most once. In a periodic flume the
+    /// caller takes the indices modulo the number of rows.
     fn rows_across(&self, grid: &Grid, reach: f64) -> std::ops::RangeInclusive<usize> {
         if grid.periodic_width.is_none() {
             return self.bins(grid, 1, reach);
@@ -250,7 +250,7 @@ impl BoundingBox {
         first..=first + more
     }
 
-    /// Distance along an axis from the box to a bin [m]; bins at the open ends of the grid hold everything beyond.
+    /// Returns the distance along an axis from the box to a bin [m]; bins at open ends of the grid extend to infinity.
     fn gap(&self, grid: &Grid, axis: usize, bin: usize, first: bool, last: bool) -> f64 {
         let size = grid.size[axis];
         let (mut low, mut high) = (bin as f64 * size, (bin + 1) as f64 * size);
@@ -265,14 +265,14 @@ impl BoundingBox {
     }
 }
 
-/// The test whether points lie within reach of a box, as many at a time as there are lanes, in single precision; the
-/// reach is widened by its rounding.
+/// Single-precision test whether points lie within reach of a box, one point per lane. The reach includes an allowance
+/// for rounding.
 struct Near<L> {
     low: [L; 3],
     high: [L; 3],
     middle_y: L,
     reach2: L,
-    /// Width of a periodic flume and its inverse, else 0 [m, 1/m].
+    /// Width of a periodic flume [m] and its inverse [1/m], otherwise 0.
     width: L,
     per_width: L,
 }
@@ -293,8 +293,8 @@ impl<L: Lanes> Near<L> {
         }
     }
 
-    /// Append the numbers of the near points. Branch-free: as many numbers as lanes are written, near ones
-    /// first, and the others are overwritten by what follows.
+    /// Appends the indices of the near points. Branch-free: it writes as many indices as lanes, the near ones first;
+    /// the next write overwrites the others.
     #[inline(always)]
     fn append(&self, positions: &SortedPositions, members: std::ops::Range<usize>, offset: u32, list: &mut Vec<u32>) {
         let mut len = list.len();
@@ -302,10 +302,10 @@ impl<L: Lanes> Near<L> {
         for first in members.clone().step_by(L::COUNT) {
             let x = positions.load::<L>(0, first);
             let mut y = positions.load::<L>(1, first);
-            // In a periodic flume, the image that is nearest to the box.
+            // In a periodic flume, use the image nearest to the box.
             y += self.width * ((self.middle_y - y) * self.per_width).round();
             let z = positions.load::<L>(2, first);
-            let (dx, dy, dz) = (self.outside(0, x), self.outside(1, y), self.outside(2, z));
+            let (dx, dy, dz) = (self.distance_along(0, x), self.distance_along(1, y), self.distance_along(2, z));
             let distance2 = dx.mul_add(dx, dy.mul_add(dy, dz * dz));
             let present = (1_u32 << (members.end - first).min(L::COUNT)) - 1;
             let near = distance2.at_most(self.reach2) & present;
@@ -315,9 +315,9 @@ impl<L: Lanes> Near<L> {
         list.truncate(len);
     }
 
-    /// Distance along an axis from the box [m].
+    /// Returns the distance along an axis from the box [m].
     #[inline(always)]
-    fn outside(&self, axis: usize, value: L) -> L {
+    fn distance_along(&self, axis: usize, value: L) -> L {
         (self.low[axis] - value).max(value - self.high[axis]).max(L::splat(0.0))
     }
 }
@@ -335,7 +335,7 @@ mod tests {
         (0..n).map(|_| DVec3::new(random(), random(), random()) * size).collect()
     }
 
-    fn every_pair_is_listed(instructions: InstructionSet, periodic: Option<f64>) {
+    fn assert_every_pair_is_listed(instructions: InstructionSet, periodic: Option<f64>) {
         let (dp, reach, size) = (0.05, 0.21, DVec3::new(2.0, 0.6, 0.7));
         let grid = Grid::new(DVec3::ZERO, size, dp, periodic);
         let points = scattered(3000, size);
@@ -368,11 +368,11 @@ mod tests {
 
     #[test]
     fn every_neighbour_is_listed_once() {
-        InstructionSet::available().into_iter().for_each(|set| every_pair_is_listed(set, None));
+        InstructionSet::available().into_iter().for_each(|set| assert_every_pair_is_listed(set, None));
     }
 
     #[test]
     fn every_neighbour_is_listed_once_across_periodic_sides() {
-        InstructionSet::available().into_iter().for_each(|set| every_pair_is_listed(set, Some(0.6)));
+        InstructionSet::available().into_iter().for_each(|set| assert_every_pair_is_listed(set, Some(0.6)));
     }
 }

@@ -1,6 +1,6 @@
-// The bins that a point can reach, row by row (neighbours.rs).
+// Bins within reach of a point, row by row (neighbours.rs).
 
-// Rows of bins within reach of a point; across a periodic flume their numbers are to be taken modulo the rows.
+// Rows of bins within reach of a point; in a periodic flume, take the indices across modulo the number of rows.
 struct Rows {
     first: vec2<i32>,
     last: vec2<i32>,
@@ -21,11 +21,11 @@ fn rows_within(place: vec4<f32>, reach: f32) -> Rows {
     return rows;
 }
 
-// First and last bin of a row (across, up) that a point can reach, or an empty range.
+// Returns the first and last bin of a row (across, up) within reach of a point, or an empty range.
 fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
     var middle = (vec2<f32>(row) + 0.5 - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz - place.zw;
     let last = parameters.count.yz - 1;
-    // The bins at the open ends of the grid hold everything beyond.
+    // Bins at the open ends of the grid extend to infinity.
     if (row.y == 0 && middle.y > 0.0) || (row.y == last.y && middle.y < 0.0) {
         middle.y = 0.0;
     }
@@ -49,7 +49,7 @@ fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
     return vec2<u32>(begin + clamped);
 }
 
-// From b to a, its nearest image in a periodic flume [m].
+// Returns the vector from b to a [m]; in a periodic flume, from the nearest image.
 fn difference(a: vec4<f32>, b: vec4<f32>) -> vec3<f32> {
     var r = vec3<f32>((a.x - b.x) * parameters.size.x + (a.y - b.y), a.zw - b.zw);
     if PERIODIC {

@@ -1,4 +1,4 @@
-//! The sums of equations 1 and 2 over the neighbours of a cluster, one member a lane.
+//! Sums of equations 1 and 2 over the neighbours of a cluster, one member per lane.
 
 use super::{
     continuity::add_compression,
@@ -14,25 +14,25 @@ use super::{
     viscosity::{Viscosity, approach_rate, laminar_factor, monaghan_gingold_stress, viscous_stress},
 };
 
-/// A viscosity that a loop over pairs is compiled for.
+/// Viscosity model; the pair loop is compiled once per model.
 pub(super) trait Resistance {
-    /// Whether there is a sub-particle-scale stress besides.
+    /// Whether the model includes a sub-particle-scale stress.
     const TURBULENT: bool = false;
 
-    /// rho_a rho_b Pi_ab [Pa]: viscosity along the line between the particles.
+    /// Returns rho_a rho_b Pi_ab [Pa]: viscosity along the line between the particles.
     #[inline(always)]
     fn stress<L: Lanes>(_: &Constants, _approach: L, _a: &Members<L>, _b: &Record, _rho_b: L) -> L {
         L::splat(0.0)
     }
 
-    /// Factor of v_ab [Pa s]: viscosity along the difference of the velocities, if there is any.
+    /// Returns the factor of v_ab [Pa s]: viscosity along the velocity difference, if the model has it.
     #[inline(always)]
     fn shear<L: Lanes>(_: &Constants, _rho_a: L, _rho_b: L) -> Option<L> {
         None
     }
 }
 
-/// Equation 3.
+/// Artificial viscosity, equation 3.
 pub(super) struct Artificial;
 
 impl Resistance for Artificial {
@@ -43,7 +43,7 @@ impl Resistance for Artificial {
     }
 }
 
-/// Monaghan & Gingold (1983).
+/// Laminar viscosity of Monaghan & Gingold (1983).
 pub(super) struct MonaghanGingold;
 
 impl Resistance for MonaghanGingold {
@@ -53,7 +53,7 @@ impl Resistance for MonaghanGingold {
     }
 }
 
-/// Lo & Shao (2002).
+/// Laminar viscosity of Lo & Shao (2002).
 pub(super) struct Laminar;
 
 impl Resistance for Laminar {
@@ -63,7 +63,7 @@ impl Resistance for Laminar {
     }
 }
 
-/// The same with sub-particle-scale turbulence.
+/// Laminar viscosity of Lo & Shao (2002) with sub-particle-scale turbulence.
 pub(super) struct Turbulent;
 
 impl Resistance for Turbulent {
@@ -75,7 +75,7 @@ impl Resistance for Turbulent {
     }
 }
 
-/// Constants of the sums in single precision.
+/// Constants of the sums, in single precision.
 pub(super) struct Constants {
     kernel: Wendland,
     diffusion: Diffusion,
@@ -83,24 +83,24 @@ pub(super) struct Constants {
     rho0: f32,
     /// alpha of the artificial viscosity [-].
     alpha: f32,
-    /// nu of the laminar viscosity [m2/s].
+    /// nu of the laminar viscosity, or K nu of Monaghan & Gingold's form [m2/s].
     nu: f32,
 }
 
-/// The members of a cluster, the targets "a" of the equations.
+/// Members of a cluster: the targets "a" of the equations.
 pub(super) struct Members<L> {
     velocity: [L; 3],
     excess_density: L,
     density: L,
     pressure: L,
     sound_speed: L,
-    /// One where density diffusion acts, else zero.
+    /// One where density diffusion acts, otherwise zero.
     pub(super) diffuses: L,
     density_gradient: [L; 3],
     stress: [L; 6],
 }
 
-/// A neighbour "b" seen from the members.
+/// Position of a neighbour "b" relative to the members.
 pub(super) struct Near<L> {
     /// r_ab [m].
     r: [L; 3],
@@ -110,11 +110,11 @@ pub(super) struct Near<L> {
     pub(super) closeness: L,
 }
 
-/// Sums of the members, without the constant factors, which come at the end.
+/// Sums of the members, without constant factors; [`Sums::rates`] applies them.
 pub(super) struct Sums<L> {
-    /// Along the lines between the particles.
+    /// Force along the lines between the particles.
     force: [L; 3],
-    /// Of laminar and turbulent stress. Small beside the pressure, it would lose its digits in the same sum.
+    /// Laminar and turbulent stress. It is small compared with the pressure and would lose precision in the same sum.
     shear: [L; 3],
     compression: L,
     diffusion: L,
@@ -133,7 +133,7 @@ impl Constants {
         Self { kernel, diffusion, h, rho0, alpha: alpha as f32, nu: nu as f32 }
     }
 
-    /// Where a neighbour at r_ab [m] is.
+    /// Returns the relative position of a neighbour at r_ab [m].
     #[inline(always)]
     pub(super) fn near<L: Lanes>(&self, r: [L; 3]) -> Near<L> {
         let r2 = r[0].mul_add(r[0], r[1].mul_add(r[1], r[2] * r[2]));
@@ -142,7 +142,7 @@ impl Constants {
 }
 
 impl<L: Lanes> Members<L> {
-    /// The members of `cluster` among the `targets`; `extra` are theirs, for schemes that have them.
+    /// Creates the members of `cluster` from the `targets` and, for schemes that need it, from their `extra` data.
     #[inline(always)]
     pub(super) fn new<R: Resistance, const ANTUONO: bool>(
         constants: &Constants,
@@ -181,7 +181,7 @@ impl<L: Lanes> Sums<L> {
         Self { force: [zero; 3], shear: [zero; 3], compression: zero, diffusion: zero, fastest: zero }
     }
 
-    /// Add a neighbour `near`, whose record is `b`.
+    /// Adds the neighbour `near` with the record `b`.
     #[inline(always)]
     pub(super) fn add<R: Resistance, const ANTUONO: bool>(
         &mut self,
@@ -222,7 +222,7 @@ impl<L: Lanes> Sums<L> {
         self.diffusion = (g * splat(b.diffusive_volume)).mul_add(excess, self.diffusion);
     }
 
-    /// Add the sums over other neighbours.
+    /// Adds the sums over other neighbours.
     #[inline(always)]
     pub(super) fn add_sums(&mut self, other: &Self) {
         for k in 0..3 {
@@ -234,7 +234,7 @@ impl<L: Lanes> Sums<L> {
         self.fastest = self.fastest.max(other.fastest);
     }
 
-    /// The rates of the members.
+    /// Returns the rates of the members.
     #[inline(always)]
     pub(super) fn rates(&self, constants: &Constants, a: &Members<L>) -> [Rate; MOST_LANES] {
         let scale = L::splat(constants.kernel.gradient_scale());
@@ -252,7 +252,7 @@ impl<L: Lanes> Sums<L> {
     }
 }
 
-/// (grad rho_a + grad rho_b) . r_ab / 2, which the diffusion of Antuono et al. (2010) leaves alone [kg/m3].
+/// Returns (grad rho_a + grad rho_b) . r_ab / 2 [kg/m3], the part excluded from diffusion by Antuono et al. (2010).
 #[inline(always)]
 fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &Extra) -> L {
     let share = L::splat(0.5 * (1.0 + b.borrowed));
@@ -261,7 +261,7 @@ fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &Extra) -
     slope(0).mul_add(x, slope(1).mul_add(y, slope(2) * z))
 }
 
-/// `sum` + `factor` times a vector.
+/// Adds `factor` times a vector to `sum`.
 #[inline(always)]
 fn add_to<L: Lanes>(sum: &mut [L; 3], factor: L, vector: [L; 3]) {
     for (sum, component) in sum.iter_mut().zip(vector) {

@@ -1,4 +1,4 @@
-//! Constants of the scheme, derived once from the case.
+//! Constants of the numerical scheme, derived once from the case.
 
 use super::{
     density_diffusion::{DensityDiffusion, Diffusion},
@@ -9,25 +9,25 @@ use super::{
     wall_slip::WallSlip,
 };
 
-/// How boundary particles get their density.
+/// Method for the density of boundary particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryCondition {
-    /// From the continuity equation (Crespo et al. 2007).
+    /// DBC: from the continuity equation (Crespo et al. 2007).
     Dynamic,
-    /// From ghost nodes in the water (English et al. 2022).
+    /// mDBC: from ghost nodes in the water (English et al. 2022).
     ModifiedDynamic,
 }
 
-/// Everything the solver needs to know that does not change during a run.
+/// Constants of the solver during a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Parameters {
-    /// Distance between particles [m].
+    /// Particle spacing [m].
     pub dp: f64,
     /// Kernel.
     pub kernel: Wendland,
     /// Equation of state.
     pub tait: Tait,
-    /// Resistance to shear.
+    /// Viscosity.
     pub viscosity: Viscosity,
     /// Density diffusion.
     pub diffusion: Diffusion,
@@ -37,19 +37,19 @@ pub struct Parameters {
     pub cfl: f64,
     /// Boundary condition.
     pub boundary: BoundaryCondition,
-    /// Velocity that boundary particles show to the water under mDBC.
+    /// Wall slip condition under mDBC.
     pub slip: WallSlip,
-    /// Whether bed, walls and other units press on units through gaps that hold no water particle, under mDBC.
+    /// Whether pressure acts on units through gaps without water particles, under mDBC.
     pub gap_pressure: bool,
     /// Particle shifting, if any.
     pub shifting: Option<Shifting>,
-    /// Width across the flume if what leaves on one side enters on the other [m].
+    /// Width of the flume if it is periodic across [m].
     pub periodic_width: Option<f64>,
 }
 
 impl Parameters {
-    /// The scheme of Mitsui et al. (2023) for a particle distance, a smoothing length [m], a speed of sound [m/s], a
-    /// gravity [m/s2] and, if the domain is periodic across, its width [m].
+    /// Returns the scheme of Mitsui et al. (2023) for particle spacing `dp` [m], smoothing length `h` [m], speed of
+    /// sound `c0` [m/s] and gravity [m/s2]. `periodic_width` is the width of a flume that is periodic across [m].
     pub fn published(dp: f64, h: f64, c0: f64, gravity: f64, periodic_width: Option<f64>) -> Self {
         let tait = Tait { rho0: 1000.0, c0, gamma: 7.0 };
         Self {

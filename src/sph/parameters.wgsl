@@ -1,15 +1,15 @@
-// Constants of the scheme (parameters.rs), and what is common to all stages.
+// Constants of the scheme (parameters.rs), and code common to all stages.
 
 struct Parameters {
-    // Bins along x, y, z.
+    // Number of bins along x, y, z.
     count: vec3<i32>,
-    // Water particles; in the records the boundary follows them.
+    // Number of water particles; in the records the boundary follows them.
     water: u32,
     // Size of a bin [m].
     size: vec3<f32>,
-    // Boundary particles.
+    // Number of boundary particles.
     boundary: u32,
-    // Bed, walls and wavemaker among them; the others are those of units.
+    // Number of bed, wall and wavemaker particles among them; the others belong to units.
     walls: u32,
     // Width of a periodic domain [m].
     width: f32,
@@ -26,23 +26,23 @@ struct Parameters {
     alpha: f32,
     // -2 delta h c0 [m2/s].
     diffusion: f32,
-    // rho0 g / c0^2 [kg/m4], zero where the whole density is diffused.
+    // rho0 g / c0^2 [kg/m4]; zero if the total density is diffused.
     hydrostatic: f32,
     // (gamma - 1) g / (2 c0^2) [1/m].
     curvature: f32,
     // g [m/s2].
     gravity: f32,
-    // -rho0 g / c0^2 [kg/m4], by which mDBC carries densities.
+    // -rho0 g / c0^2 [kg/m4], the hydrostatic gradient with which mDBC extrapolates densities.
     density_slope: f32,
     padding: f32,
-    // Trust in a fitted gradient by the place of the water and by its spread, see mdbc.rs.
+    // Limits of the trust in a fitted gradient, for the position and the spread of the water (mdbc.rs).
     trust_place: vec2<f32>,
     trust_spread: vec2<f32>,
     // Smallest scaled determinant for which a gradient is fitted.
     least_determinant: f32,
     // Sum of W V below which a node is dry.
     dry: f32,
-    // Box that no particle may leave, from the low corner of the grid [m].
+    // Box that no particle may leave, relative to the low corner of the grid [m].
     bounds_low: vec3<f32>,
     padding_low: f32,
     bounds_high: vec3<f32>,
@@ -52,26 +52,26 @@ struct Parameters {
     sound: array<vec4<f32>, 2>,
 }
 
-// What changes from step to step.
+// Values that change every time step.
 struct Step {
-    // Length of the step [s].
+    // Time step [s].
     dt: f32,
-    // Kernel support, and how far a particle can have gone since it was sorted [m].
+    // Kernel support plus the distance that a particle can have moved since sorting [m].
     reach: f32,
 }
 
-// A particle as its neighbours see it (records.rs).
+// Data of a particle that its neighbours need (records.rs).
 struct Record {
-    // Bin along x, offset from its low end, y and z from the middle of the grid [m].
+    // Bin along x; offset from its low end, y and z from the middle of the grid [m].
     place: vec4<f32>,
     // Velocity [m/s] and volume [m3].
     motion: vec4<f32>,
-    // rho - rho0 [kg/m3], pressure [Pa], speed of sound [m/s], and what it is: WATER, WALL or UNIT.
+    // rho - rho0 [kg/m3], pressure [Pa], speed of sound [m/s], kind of particle (WATER, WALL or UNIT).
     state: vec4<f32>,
 }
 
-// Whether what leaves on one side enters on the other. A constant of the compiled shader: branches on uniform values make
-// Mesa's software driver compile a shader anew at every dispatch, and keep it.
+// Whether the flume is periodic across its width. This is a compile-time constant: with branches on uniform values,
+// Mesa's software driver compiles a shader again at every dispatch and never frees it.
 override PERIODIC: bool = false;
 
 const WATER = 0.0;
@@ -80,18 +80,18 @@ const UNIT = 2.0;
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 
-// Number of a thread in a dispatch of groups of 64 that may lie in two dimensions.
+// Returns the index of a thread in a one- or two-dimensional dispatch of groups of 64.
 fn thread_number(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
     return (group.y * groups.x + group.x) * 64u + local;
 }
 
-// Bin of the cell of a point; those outside the grid are counted into the nearest.
+// Returns the bin index of a cell; cells outside the grid belong to the nearest bin.
 fn bin_of_cell(cell: vec3<i32>) -> u32 {
     let c = clamp(cell, vec3<i32>(0), parameters.count - 1);
     return u32((c.z * parameters.count.y + c.y) * parameters.count.x + c.x);
 }
 
-// Place as in a Record from a cell and the offset in it.
+// Returns the position in the form of Record.place from a cell and the offset in it.
 fn split(cell: vec3<i32>, offset: vec3<f32>) -> vec4<f32> {
     let across = (vec2<f32>(cell.yz) - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz + offset.yz;
     return vec4<f32>(f32(cell.x), offset.x, across);

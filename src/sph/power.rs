@@ -1,11 +1,11 @@
-//! Who gives energy to the water and who takes it, at one moment, and how far its flow is from free of divergence.
+//! Power that acts on the water at one moment, and the divergence of its velocity.
 //!
-//! Pairs of water particles exchange energy by pressure without gain or loss. So what pressure adds in all,
+//! Pressure between two water particles conserves their energy. Therefore the sum
 //!
-//!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion,
+//!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion
 //!
-//! is the work of bed, walls, wavemaker and units; the same sum over what viscosity and diffusion add to the rates is
-//! theirs. Gravity moves energy between kinetic and potential only.
+//! is the power of bed, walls, wavemaker and units. The same sum over the contributions of viscosity and diffusion to
+//! the rates is their power. Gravity only converts kinetic energy to potential energy and back.
 
 use glam::DVec3;
 
@@ -15,18 +15,18 @@ use crate::sph::particles::water::Water;
 /// Power received by the water [W].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Powers {
-    /// From bed, walls, wavemaker and units by pressure.
+    /// Power of bed, walls, wavemaker and units through pressure.
     pub boundary: f64,
-    /// From viscosity; negative, but where moving walls drag the water along.
+    /// Power of viscosity; negative unless moving walls drag the water along.
     pub viscosity: f64,
-    /// From density diffusion.
+    /// Power of density diffusion.
     pub diffusion: f64,
     /// Root mean square over the water of div v = -1 / rho d rho/dt, without diffusion [1/s].
     pub divergence: f64,
 }
 
 impl Solver {
-    /// Powers at the state whose rates were found last; `water` is that state, sorted.
+    /// Computes the powers at the state whose rates were computed last; `water` is that state, sorted.
     pub fn powers(&self, water: &Water) -> Powers {
         let parameters = self.parameters;
         let pressure_only = self.rates_with(
@@ -42,7 +42,7 @@ impl Solver {
 }
 
 impl Powers {
-    /// Powers from the rates of the sorted water and those without viscosity and diffusion.
+    /// Computes the powers from the rates of the sorted water with and without viscosity and diffusion.
     pub(super) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
         let mut powers = Self::default();
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn divergence_is_the_mean_over_the_volume_without_diffusion() {
+    fn divergence_is_the_volume_average_without_diffusion() {
         let mut water = Water::default();
         for mass in [1.0, 3.0] {
             water.position.push(DVec3::ZERO);

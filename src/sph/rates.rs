@@ -1,5 +1,5 @@
-//! Right-hand sides of equations 1 and 2: one pass over the neighbour lists gives the acceleration, the rate of the
-//! density and the largest approach speed of each target.
+//! Right-hand sides of equations 1 and 2. One pass over the neighbour lists computes the acceleration, the density rate
+//! and the largest approach speed of each target.
 
 use rayon::prelude::*;
 
@@ -14,10 +14,10 @@ use super::{
     viscosity::Viscosity,
 };
 
-/// Neighbours that are summed up before their sums are added to those of all.
+/// Number of neighbours per partial sum; partial sums reduce rounding errors.
 const BLOCK: usize = 32;
 
-/// Sums of one target.
+/// Rates of one target.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Rate {
     /// Acceleration without gravity [m/s2].
@@ -28,7 +28,7 @@ pub struct Rate {
     pub approach: f32,
 }
 
-/// What the pair loop needs besides the records.
+/// Loop over pairs: its constants besides the records.
 #[derive(Debug, Clone, Copy)]
 pub struct PairLoop {
     /// Constants of the scheme.
@@ -38,19 +38,19 @@ pub struct PairLoop {
 }
 
 impl PairLoop {
-    /// Loop over pairs in bins of length `bin_x` [m].
+    /// Creates a loop over pairs in bins of length `bin_x` [m].
     pub fn new(parameters: Parameters, bin_x: f64) -> Self {
         let width = parameters.periodic_width.unwrap_or(0.0) as f32;
         Self { parameters, bin_x: bin_x as f32, width }
     }
 
-    /// The same loop with other constants.
+    /// Returns the same loop with other parameters.
     pub(super) fn with(self, parameters: Parameters) -> Self {
         Self { parameters, ..self }
     }
 
-    /// Rates of the targets, which are consecutive `records` from `first_target` on; `extra` is what the scheme needs
-    /// besides, a value for each record, or nothing.
+    /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `extra` has one entry
+    /// per record, or is empty if the scheme needs no additional data.
     pub fn rates(
         &self,
         lists: &NeighbourLists,
@@ -66,29 +66,29 @@ impl PairLoop {
         });
     }
 
-    /// Number of pairs of a target, the first of the `records`, and a neighbour within the kernel's support.
+    /// Counts the pairs of a target and a neighbour within the kernel support; the targets are the first `records`.
     pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
-        let count = |(number, chunk): (usize, &Chunk)| {
-            let of_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
+        let count_chunk = |(number, chunk): (usize, &Chunk)| {
+            let count_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
                 let first = number * CHUNK + cluster.first as usize;
-                let near =
+                let is_near =
                     |a: &Record, j: &u32| self.distance(a, &records[*j as usize]).1 < self.parameters.kernel.support();
-                let of_target = |a| neighbours.iter().filter(|j| near(a, j)).count() as u64;
-                records[first..first + cluster.len as usize].iter().map(of_target).sum::<u64>()
+                let count_target = |a| neighbours.iter().filter(|j| is_near(a, j)).count() as u64;
+                records[first..first + cluster.len as usize].iter().map(count_target).sum::<u64>()
             };
-            chunk.clusters().map(of_cluster).sum::<u64>()
+            chunk.clusters().map(count_cluster).sum::<u64>()
         };
-        lists.chunks().par_iter().enumerate().map(count).sum()
+        lists.chunks().par_iter().enumerate().map(count_chunk).sum()
     }
 
-    /// Split positions of the members of a cluster, as [`super::records::split_position`] gives them.
+    /// Returns the split positions of the members of a cluster, see [`super::records::split_position`].
     #[inline(always)]
     pub(super) fn split_positions<L: Lanes>(&self, cluster: &Cluster, targets: &[Record]) -> [L; 4] {
-        let of: [fn(&Record) -> f32; 4] = [|r| r.bin_x, |r| r.x, |r| r.y, |r| r.z];
-        of.map(|f| lanes_of(cluster, targets, f))
+        let fields: [fn(&Record) -> f32; 4] = [|r| r.bin_x, |r| r.x, |r| r.y, |r| r.z];
+        fields.map(|f| lanes_of(cluster, targets, f))
     }
 
-    /// r_ab [m] of the members of a cluster and a neighbour; its nearest image, if `PERIODIC`.
+    /// Returns r_ab [m] of the members of a cluster and a neighbour, or of its nearest image if `PERIODIC`.
     #[inline(always)]
     pub(super) fn difference<L: Lanes, const PERIODIC: bool>(&self, a: [L; 4], b: &Record) -> [L; 3] {
         let splat = L::splat;
@@ -100,7 +100,7 @@ impl PairLoop {
         [x, y, a[3] - splat(b.z)]
     }
 
-    /// Vector from b to a, its nearest image in a periodic flume, and its length [m].
+    /// Returns the vector from b to a and its length [m]; in a periodic flume, from the nearest image.
     pub(super) fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
         let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
         let mut r = [
@@ -115,11 +115,11 @@ impl PairLoop {
     }
 }
 
-/// The rates of one chunk of targets.
+/// Computation of the rates of one chunk of targets.
 struct ChunkRates<'a> {
     pairs: &'a PairLoop,
     chunk: &'a Chunk,
-    /// Number of the first target among the records.
+    /// Index of the first target in the records.
     begin: usize,
     targets: &'a [Record],
     records: &'a [Record],
@@ -165,7 +165,7 @@ impl ChunkRates<'_> {
         }
     }
 
-    /// Rates of a cluster. Neighbours are summed up in blocks: the sum of sums is three times as exact as one long sum.
+    /// Returns the rates of a cluster. Partial sums over blocks have a third of the rounding error of one long sum.
     #[inline(always)]
     fn cluster_rates<L: Lanes, R: Resistance, const ANTUONO: bool, const PERIODIC: bool>(
         &self,
@@ -184,22 +184,22 @@ impl ChunkRates<'_> {
         let mut sums = Sums::zero();
         let mut next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[first as usize]));
         for (block, following) in neighbours.chunks(BLOCK).zip(neighbours[1..].chunks(BLOCK).chain([&[][..]])) {
-            let mut of_block = Sums::zero();
+            let mut block_sums = Sums::zero();
             for (k, &number) in block.iter().enumerate() {
                 let current = next;
                 let after = *following.get(k).unwrap_or(&first);
                 next = constants.near(pairs.difference::<L, PERIODIC>(place, &records[after as usize]));
                 let b = &records[number as usize];
                 let extra_b = if ANTUONO || R::TURBULENT { &self.extra[number as usize] } else { &Extra::OF_BOUNDARY };
-                of_block.add::<R, ANTUONO>(constants, &a, &current, b, extra_b);
+                block_sums.add::<R, ANTUONO>(constants, &a, &current, b, extra_b);
             }
-            sums.add_sums(&of_block);
+            sums.add_sums(&block_sums);
         }
         sums.rates(constants, &a)
     }
 
-    /// One for members of a cluster that neither are boundary particles of the dynamic boundary condition nor are
-    /// reached by one, and zero for others.
+    /// Returns zero for members that are boundary particles of the dynamic boundary condition or have one within their
+    /// support, and one for all other members.
     #[inline(always)]
     fn out_of_reach_of_walls<L: Lanes, const PERIODIC: bool>(
         &self,
@@ -209,11 +209,11 @@ impl ChunkRates<'_> {
     ) -> L {
         let Self { pairs, targets, records, .. } = self;
         let place = pairs.split_positions(cluster, targets);
-        let of_boundary = |record: &Record| record.diffusive_volume == 0.0;
-        let mut closest: L = lanes_of(cluster, targets, |a| if of_boundary(a) { 1.0 } else { 0.0 });
+        let is_dynamic_boundary = |record: &Record| record.diffusive_volume == 0.0;
+        let mut closest: L = lanes_of(cluster, targets, |a| if is_dynamic_boundary(a) { 1.0 } else { 0.0 });
         for &number in neighbours {
             let b = &records[number as usize];
-            if of_boundary(b) {
+            if is_dynamic_boundary(b) {
                 closest = closest.max(constants.near(pairs.difference::<L, PERIODIC>(place, b)).closeness);
             }
         }
@@ -221,7 +221,7 @@ impl ChunkRates<'_> {
     }
 }
 
-/// The members of a cluster, one a lane; missing ones repeat the last.
+/// Returns `f` of the members of a cluster, one per lane; surplus lanes repeat the last member.
 #[inline(always)]
 pub(super) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
     let members = &targets[cluster.first as usize..][..cluster.len as usize];

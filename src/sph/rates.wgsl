@@ -1,16 +1,16 @@
-// Right-hand sides of equations 1 and 2 (rates.rs, pair_sums.rs), for water and units, and the limits of the time step.
+// Right-hand sides of equations 1 and 2 (rates.rs, pair_sums.rs) for water and units, and limits of the time step.
 
 @group(0) @binding(1) var<uniform> step: Step;
 @group(0) @binding(2) var<storage, read> records: array<Record>;
 @group(0) @binding(3) var<storage, read> water_start: array<u32>;
 @group(0) @binding(4) var<storage, read> boundary_start: array<u32>;
 @group(0) @binding(5) var<storage, read> boundary_order: array<u32>;
-// Acceleration without gravity [m/s2] and d rho / dt [kg/(m3 s)]: of the water, and of the boundary in its own order.
+// Acceleration without gravity [m/s2] and d rho / dt [kg/(m3 s)] of the water, then of the boundary in its own order.
 @group(0) @binding(6) var<storage, read_write> rates: array<vec4<f32>>;
 // Bits of the largest |dv/dt| [m/s2] and c + |mu| [m/s] of the water.
 @group(0) @binding(7) var<storage, read_write> limits: array<atomic<u32>, 2>;
 
-// Sums over neighbours without the constant factors.
+// Sums over neighbours without constant factors.
 struct Sums {
     force: vec3<f32>,
     compression: f32,
@@ -18,7 +18,7 @@ struct Sums {
     fastest: f32,
 }
 
-// What `b` adds to the sums of `a`; solids act on a unit with their pressure only (gap_pressure.rs).
+// Adds the contribution of `b` to the sums of `a`; solids act on a unit only by pressure (gap_pressure.rs).
 fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, closeness: f32) {
     let g = gradient_shape(closeness);
     let gv = g * b.motion.w;
@@ -40,7 +40,7 @@ fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, 
 }
 
 fn add_range(total: ptr<function, Sums>, a: Record, first: u32, end: u32) {
-    // The sum of sums is more exact than one long sum.
+    // Partial sums reduce rounding errors.
     var sums: Sums;
     for (var j = first; j < end; j++) {
         let r = difference(a.place, records[j].place);
@@ -76,7 +76,7 @@ fn sum_over_neighbours(a: Record) -> Sums {
 var<workgroup> largest_acceleration: array<u32, 64>;
 var<workgroup> largest_signal: array<u32, 64>;
 
-// Larger of the bits of numbers that are not negative; those of what is not a number are larger than all others.
+// Maxima of the bits of non-negative numbers; the bits of NaN are larger than those of any number.
 fn reduce_limits(local: u32, acceleration: u32, signal: u32) {
     largest_acceleration[local] = acceleration;
     largest_signal[local] = signal;

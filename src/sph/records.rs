@@ -1,23 +1,23 @@
-//! The packed record of a particle that the pair loop broadcasts.
+//! Packed record of a particle, which the pair loop broadcasts to all lanes.
 
 use glam::DVec3;
 
 use super::{grid::Grid, parameters::Parameters};
 
-/// What a neighbour needs to know of a particle, in single precision, 48 bytes.
+/// Data of a particle that its neighbours need, in single precision, 48 bytes.
 ///
-/// The long axis is split into a whole number of bins and an offset, so that differences keep their precision in
-/// flumes of any length; y and z are relative to the middle of the grid.
+/// x is split into a bin index and an offset, so that differences keep their precision in flumes of any length; y and z
+/// are relative to the middle of the grid.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Record {
-    /// Bin along x, a whole number.
+    /// Bin along x, an integer.
     pub bin_x: f32,
     /// Offset from the bin's low end [m].
     pub x: f32,
-    /// y and z from the middle of the grid [m].
+    /// y relative to the middle of the grid [m].
     pub y: f32,
-    /// See `y`.
+    /// z relative to the middle of the grid [m].
     pub z: f32,
     /// Velocity [m/s].
     pub velocity: [f32; 3],
@@ -29,12 +29,12 @@ pub struct Record {
     pub pressure: f32,
     /// Speed of sound [m/s].
     pub sound_speed: f32,
-    /// The volume with which the particle takes part in density diffusion [m3]: zero for boundary particles of the
-    /// dynamic boundary condition, whose density is not one of the water.
+    /// Volume of the particle in density diffusion [m3]; zero for boundary particles of the dynamic boundary condition,
+    /// whose density is not that of the water.
     pub diffusive_volume: f32,
 }
 
-/// Position split as in [`Record`]: bin along x, offset, y, z.
+/// Splits a position as in [`Record`]: bin along x, offset, y, z.
 pub fn split_position(grid: &Grid, point: DVec3) -> [f32; 4] {
     let from_low = point - grid.low;
     let bin = (from_low.x / grid.size.x).floor();
@@ -47,7 +47,7 @@ pub fn split_position(grid: &Grid, point: DVec3) -> [f32; 4] {
     ]
 }
 
-/// Record of a particle from its double-precision state.
+/// Returns the record of a particle from its double-precision state.
 pub fn record(
     grid: &Grid,
     parameters: &Parameters,

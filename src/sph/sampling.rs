@@ -1,4 +1,4 @@
-//! Measuring the water at points: pressure, velocity, surface elevation.
+//! Interpolation of the water at points: pressure, velocity, level of the free surface.
 
 use glam::{DVec2, DVec3};
 
@@ -10,21 +10,21 @@ use super::{
 };
 use crate::sph::particles::water::Water;
 
-/// Sum of W V at which the water ends: half a neighbourhood.
+/// Sum of W V at the free surface: half a neighbourhood.
 const SURFACE: f64 = 0.5;
 
-/// Smallest scaled determinant for which the linear fit is trusted; see [`super::mdbc`].
+/// Smallest scaled determinant for which the linear fit is used; see [`super::mdbc`].
 const LEAST_DETERMINANT: f64 = 0.01;
 
 /// Second moment of the kernel along each axis, int W x^2 dV [h^2]; 5/18 in two dimensions.
 const SECOND_MOMENT: f64 = 4.0 / 15.0;
 
-/// The sorted water of a step, ready to be measured.
+/// Sampler of the sorted water of a time step.
 #[derive(Clone, Copy)]
 pub struct Sampler<'a> {
-    /// Bins that the water is sorted into.
+    /// Grid of the bins.
     pub grid: &'a Grid,
-    /// Where each bin begins.
+    /// Start of each bin.
     pub bins: &'a Bins,
     /// The water, sorted.
     pub water: &'a Water,
@@ -34,7 +34,7 @@ pub struct Sampler<'a> {
     pub tait: Tait,
 }
 
-/// Water at a point.
+/// State of the water at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Pressure [Pa].
@@ -44,13 +44,13 @@ pub struct Sample {
 }
 
 impl Sampler<'_> {
-    /// Fold over the water within the kernel's support of a point: offset from the point [m] and particle.
+    /// Folds over the water within the kernel support of a point; `f` takes the offset from it [m] and the particle.
     fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
         let bins = |axis: usize| grid.along(axis, point[axis] - reach)..=grid.along(axis, point[axis] + reach);
         let (x, z) = (bins(0), bins(2));
-        // Every row of a periodic flume is looked at: gauges are few.
+        // Search every row of a periodic flume; there are only few gauges.
         let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { bins(1) };
         let mut value = start;
         for iz in z {
@@ -73,18 +73,18 @@ impl Sampler<'_> {
         value
     }
 
-    /// m / rho W of a neighbour [-].
+    /// Returns m / rho W of a neighbour [-].
     fn weight(&self, r: DVec3, b: usize) -> f64 {
         self.water.mass[b] / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
     }
 
-    /// Sum of W V [-]: 1 inside the water, 1/2 at its surface.
+    /// Returns the sum of W V [-]: 1 inside the water, 1/2 at the free surface.
     pub fn occupied(&self, point: DVec3) -> f64 {
         self.fold(point, 0.0, |sum, r, b| sum + self.weight(r, b))
     }
 
-    /// Pressure and velocity by a linear fit with kernel weights (moving least squares), or by the weighted mean where
-    /// the neighbours do not carry a fit; `None` where the point is dry.
+    /// Returns pressure and velocity from a linear fit with kernel weights (moving least squares), or the weighted mean
+    /// where the fit is ill-conditioned; `None` where the point is dry.
     pub fn sample(&self, point: DVec3) -> Option<Sample> {
         let per_h = 1.0 / self.kernel.h;
         // Moments of (1, x, y, z) against (1, x, y, z, p, u, v, w).
@@ -101,12 +101,12 @@ impl Sampler<'_> {
             sums
         });
         let occupied = moments[0][0];
-        // A fifth of a neighbourhood: what is left of it a little above a calm surface.
+        // A fifth of a neighbourhood, as found slightly above a calm free surface.
         if occupied < 0.2 {
             return None;
         }
         if self.kernel.dimensions() == 2 {
-            // Nothing changes across the flume.
+            // Fields do not vary across the flume.
             moments[2][2] = SECOND_MOMENT * occupied;
         }
         let value = |field: usize| {
@@ -117,19 +117,19 @@ impl Sampler<'_> {
         Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
     }
 
-    /// Level of the surface z [m] over a place (x, y), looked for from `high` down to `low` [m]; `None` if dry.
-    pub fn surface(&self, place: DVec2, low: f64, high: f64) -> Option<f64> {
+    /// Returns the level z of the free surface at (x, y), searched from `high` down to `low` [m]; `None` if dry.
+    pub fn surface(&self, xy: DVec2, low: f64, high: f64) -> Option<f64> {
         let step = 0.25 * self.kernel.h;
-        let at = |z: f64| self.occupied(place.extend(z));
+        let occupied_at = |z: f64| self.occupied(xy.extend(z));
         let count = ((high - low) / step).ceil() as u32;
-        let mut above = (high, at(high));
+        let mut above = (high, occupied_at(high));
         for z in (1..=count).map(|k| high - f64::from(k) * step) {
-            let here = (z, at(z));
-            if here.1 >= SURFACE {
-                let share = (SURFACE - above.1) / (here.1 - above.1);
-                return Some(above.0 + share * (here.0 - above.0));
+            let current = (z, occupied_at(z));
+            if current.1 >= SURFACE {
+                let share = (SURFACE - above.1) / (current.1 - above.1);
+                return Some(above.0 + share * (current.0 - above.0));
             }
-            above = here;
+            above = current;
         }
         None
     }

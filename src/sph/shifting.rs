@@ -2,15 +2,15 @@
 //!
 //!   dr = -A h |v| dt grad C,   C = sum_b V_b W_ab,
 //!
-//! from where they are dense to where they are sparse. Near the free surface, where div r = sum_b V_b r_ba . grad_a
-//! W_ab falls below what a full neighbourhood has, the shift fades out.
+//! from dense to sparse regions. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab is smaller than in a
+//! full neighbourhood, the shift decreases to zero.
 
 use glam::DVec3;
 
-/// div r of a particle at the surface, below which nothing is shifted, in two and in three dimensions [-].
+/// div r at the free surface in two and three dimensions [-]; particles with less are not shifted.
 const SURFACE: [f64; 2] = [1.5, 2.75];
 
-/// Longest shift as a share of the distance between particles.
+/// Largest shift as a share of the particle spacing.
 const LONGEST: f64 = 0.1;
 
 /// Constants of the shift.
@@ -20,14 +20,14 @@ pub struct Shifting {
     pub coefficient: f64,
     /// Smoothing length [m].
     pub h: f64,
-    /// Distance between particles [m].
+    /// Particle spacing [m].
     pub dp: f64,
-    /// Dimensions, 2 or 3, which is div r of a full neighbourhood.
+    /// Number of dimensions, 2 or 3; it equals div r of a full neighbourhood.
     pub dimensions: u32,
 }
 
 impl Shifting {
-    /// Shift over a step of length `dt` [s], from speed [m/s], grad C [1/m] and div r [-].
+    /// Returns the shift [m] over a time step `dt` [s] from the speed [m/s], grad C [1/m] and div r [-].
     pub fn shift(&self, dt: f64, speed: f64, concentration_gradient: DVec3, divergence: f64) -> DVec3 {
         let (full, surface) = (f64::from(self.dimensions), SURFACE[self.dimensions as usize - 2]);
         let inside = ((divergence - surface) / (full - surface)).clamp(0.0, 1.0);
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn goes_down_the_concentration_and_not_at_the_surface() {
+    fn particles_shift_to_lower_concentration_except_at_the_free_surface() {
         let shifting = Shifting { coefficient: 2.0, h: 0.02, dp: 0.01, dimensions: 3 };
         let shift = shifting.shift(1e-4, 1.0, DVec3::X, 3.1);
         assert!((shift - DVec3::X * -4e-6).length() < 1e-18);

@@ -1,6 +1,6 @@
-//! Four linear equations, as the first-order consistent corrections need them.
+//! Solution of four linear equations, for the first-order consistent corrections.
 
-/// Solve four linear equations [A | b] by elimination with pivots; `None` if |det A| is below `least`.
+/// Solves four linear equations [A | b] by Gaussian elimination with pivoting; `None` if |det A| is below `least`.
 pub fn solve(mut rows: [[f64; 5]; 4], least: f64) -> Option<[f64; 4]> {
     let mut determinant = 1.0;
     for column in 0..4 {
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn four_equations_are_solved() {
+    fn solution_satisfies_the_equations_and_singular_systems_are_refused() {
         let rows = [
             [2.0, 1.0, 0.0, 0.5, 1.0],
             [0.0, 3.0, 1.0, 0.0, 2.0],

@@ -1,9 +1,9 @@
-//! The symplectic position Verlet step (equations 7 to 9) as verbs; [`crate::simulation::flume`] puts them in order:
+//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls them in the order:
 //!
 //! sort - list - boundary densities - rates - time step - predict - rates - correct
 //!
-//! Equations 8.3, 8.4 and 9.2 are printed with the half-step values on their right-hand sides, which would count half
-//! a step twice; as in equation 7.2 and in Parshikov et al. (2000), the values at the start of the step stand here:
+//! The printed equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would count half a
+//! step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the start of the step:
 //! v^{n+1} = v^n + dt dv^{n+1/2}/dt, r^{n+1} = r^n + dt (v^n + v^{n+1})/2, rho^{n+1} = rho^n (2 - eps)/(2 + eps).
 
 use glam::DVec3;
@@ -27,25 +27,25 @@ use super::{
 };
 use crate::sph::particles::{boundary::Boundary, water::Water};
 
-/// Smallest piece of an array that is worth a task of the thread pool.
-const PIECE: usize = 4096;
+/// Smallest chunk of an array that is worth a task of the thread pool.
+const MIN_CHUNK: usize = 4096;
 
-/// Scratch memory and constants of the solver; nothing here outlives a step except to spare allocations.
+/// Constants and scratch memory of the solver; scratch memory is kept between time steps only to avoid allocations.
 #[derive(Debug)]
 pub struct Solver {
     /// Constants of the scheme.
     pub parameters: Parameters,
-    /// Bins.
+    /// Grid of the bins.
     pub grid: Grid,
     pairs: PairLoop,
     water: Group,
     walls: Group,
     units: Group,
-    /// Bed, walls and units near each unit.
+    /// Neighbour lists of the units: bed, walls and units.
     gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
-    /// Velocity of the water at the ghost nodes; empty if the walls do not ask for it.
+    /// Velocity of the water at the ghost nodes; empty if the wall slip condition does not need it.
     ghost_velocity: Vec<Option<GhostVelocity>>,
     gradients: Gradients,
     half: Water,
@@ -54,7 +54,7 @@ pub struct Solver {
     unit_force: Vec<DVec3>,
 }
 
-/// The water's arrays, those of the half step with the masses of the step.
+/// Arrays of the water at the start or at the half of a time step.
 #[derive(Clone, Copy)]
 struct State<'a> {
     position: &'a [DVec3],
@@ -64,18 +64,18 @@ struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    fn of(water: &'a Water) -> Self {
+    fn from_water(water: &'a Water) -> Self {
         Self { position: &water.position, velocity: &water.velocity, density: &water.density, mass: &water.mass }
     }
 }
 
 impl Solver {
-    /// Solver for the box from `low` to `high` [m], with the best instructions that the processor has.
+    /// Creates a solver for the box from `low` to `high` [m] with the best instruction set of the processor.
     pub fn new(parameters: Parameters, low: DVec3, high: DVec3) -> Self {
         Self::with_instructions(InstructionSet::best(), parameters, low, high)
     }
 
-    /// The same with given instructions.
+    /// Creates a solver with a given instruction set.
     pub fn with_instructions(instructions: InstructionSet, parameters: Parameters, low: DVec3, high: DVec3) -> Self {
         let lists = || NeighbourLists::new(instructions);
         let group = || Group::new(instructions);
@@ -100,7 +100,7 @@ impl Solver {
         }
     }
 
-    /// Sort the particles into bins, the water's arrays with them.
+    /// Sorts the particles into bins and the water's arrays into the order of the bins.
     pub fn sort(&mut self, water: &mut Water, boundary: &Boundary) {
         let walls = boundary.walls();
         self.water.sort(&self.grid, &water.position);
@@ -110,10 +110,10 @@ impl Solver {
         self.walls.first_record = water.len();
         self.units.first_record = water.len() + walls.len();
         self.records.resize(water.len() + boundary.len(), Record::default());
-        self.fill_water_records(State::of(water));
+        self.fill_water_records(State::from_water(water));
     }
 
-    /// List the neighbours of every target for this step.
+    /// Builds the neighbour lists of this time step.
     pub fn list(&mut self, water: &Water, boundary: &Boundary) {
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
@@ -131,7 +131,7 @@ impl Solver {
         w.lists = lists;
     }
 
-    /// Put the water's arrays in the order of the bins.
+    /// Sorts the water's arrays into the order of the bins.
     fn permute(&mut self, water: &mut Water) {
         let order = &self.water.bins.order;
         gather(order, &water.position, &mut self.sorted.position);
@@ -142,36 +142,36 @@ impl Solver {
         std::mem::swap(water, &mut self.sorted);
     }
 
-    /// Kernel support, and as much more as two particles can approach each other in half a step [m].
+    /// Returns the kernel support plus the distance that two particles can approach each other in half a time step [m].
     fn reach(&self, water: &Water, boundary: &Boundary) -> f64 {
-        let fastest = |v: &[DVec3]| {
-            let squares = v.par_iter().with_min_len(PIECE).map(|v| v.length_squared());
+        let largest_speed = |v: &[DVec3]| {
+            let squares = v.par_iter().with_min_len(MIN_CHUNK).map(|v| v.length_squared());
             squares.reduce(|| 0.0, f64::max).sqrt()
         };
-        let speed = fastest(&water.velocity).max(fastest(&boundary.velocity));
+        let speed = largest_speed(&water.velocity).max(largest_speed(&boundary.velocity));
         let Parameters { kernel, cfl, tait, .. } = &self.parameters;
-        // The step is at most cfl h / c; c may lie a tenth below c0 in a splash. Each of the two moves speed dt / 2.
+        // dt is at most cfl h / c; in a splash c can be 10 % below c0. Each of the two particles moves speed dt / 2.
         let step = cfl * kernel.h / (0.9 * tait.c0);
         kernel.support() + (speed * step).min(kernel.h)
     }
 
-    /// Records of the water at the start of a step or at its half.
+    /// Fills the records of the water at the start or at the half of a time step.
     fn fill_water_records(&mut self, water: State) {
         let (grid, parameters) = (&self.grid, &self.parameters);
         let records = self.records[..water.position.len()].par_iter_mut();
-        records.enumerate().with_min_len(PIECE).for_each(|(i, out)| {
+        records.enumerate().with_min_len(MIN_CHUNK).for_each(|(i, out)| {
             *out =
                 record(grid, parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true);
         });
     }
 
-    /// Records of the boundary with densities at the start of a step or at its half.
+    /// Fills the records of the boundary with densities at the start or at the half of a time step.
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
         let (grid, parameters, ghost_velocity) = (&self.grid, &self.parameters, &self.ghost_velocity);
         let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
         let diffuses = parameters.boundary == BoundaryCondition::ModifiedDynamic;
         let fill = |out: &mut [Record], order: &[u32], offset: usize| {
-            out.par_iter_mut().zip(order).with_min_len(PIECE).for_each(|(out, &i)| {
+            out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| {
                 let i = offset + i as usize;
                 let mass = parameters.tait.rho0 * boundary.volume[i];
                 let ghost = ghost_velocity.get(i).copied().flatten();
@@ -184,7 +184,7 @@ impl Solver {
         fill(of_units, &self.units.bins.order, boundary.walls().len());
     }
 
-    /// Density of the boundary particles from their ghost nodes (mDBC); under DBC it follows the continuity equation.
+    /// Computes boundary densities from ghost nodes under mDBC; under DBC they follow the continuity equation.
     pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
@@ -195,7 +195,7 @@ impl Solver {
         self.fill_boundary_records(boundary, &boundary.density);
     }
 
-    /// Rates of water, units and, under DBC, walls from the records as they stand.
+    /// Computes the rates of water, units and, under DBC, walls from the present records.
     pub fn rates(&mut self) {
         let Self { pairs, records, water, walls, units, parameters, gap_lists, gradients, .. } = self;
         if Gradients::are_needed(parameters) {
@@ -211,12 +211,12 @@ impl Solver {
         }
     }
 
-    /// Rates of the water found last, in its order.
+    /// Returns the last computed rates of the water, in its order.
     pub fn water_rates(&self) -> &[Rate] {
         &self.water.rates
     }
 
-    /// Rates of the water with another viscosity and diffusion.
+    /// Computes the rates of the water with another viscosity and diffusion.
     pub(super) fn rates_with(&self, viscosity: Viscosity, diffusion: Diffusion) -> Vec<Rate> {
         let pairs = self.pairs.with(Parameters { viscosity, diffusion, ..self.parameters });
         let mut rates = vec![Rate::default(); self.water.rates.len()];
@@ -224,12 +224,12 @@ impl Solver {
         rates
     }
 
-    /// Largest acceleration and signal speed of the water.
+    /// Returns the largest acceleration and signal speed of the water.
     pub fn limits(&self) -> Limits {
         Limits::of(&self.records[..self.water.rates.len()], &self.water.rates, self.parameters.gravity)
     }
 
-    /// Equations 8.1, 8.2 and 9.1: the state half a step on, kept aside; `move_boundary` puts the boundary there.
+    /// Predictor, equations 8.1, 8.2 and 9.1: computes a separate half-step state; `move_boundary` moves the boundary.
     pub fn predict(
         &mut self,
         dt: f64,
@@ -246,7 +246,7 @@ impl Solver {
         (&mut half.position, &mut half.velocity, &mut half.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(i, (position, velocity, density, rate))| {
                 *position = water.position[i] + half_dt * water.velocity[i];
                 *velocity = water.velocity[i] + half_dt * (acceleration(rate) + gravity);
@@ -255,7 +255,7 @@ impl Solver {
         self.half_boundary_density(half_dt, boundary);
         move_boundary(boundary);
         let half = std::mem::take(&mut self.half);
-        self.fill_water_records(State { mass: &water.mass, ..State::of(&half) });
+        self.fill_water_records(State { mass: &water.mass, ..State::from_water(&half) });
         self.half = half;
         let half_density = std::mem::take(&mut self.half_density);
         let from_nodes = self.parameters.boundary == BoundaryCondition::ModifiedDynamic;
@@ -263,7 +263,7 @@ impl Solver {
         self.half_density = half_density;
     }
 
-    /// Equation 9.1 for the boundary particles of the dynamic boundary condition.
+    /// Applies equation 9.1 to the boundary particles of the dynamic boundary condition.
     fn half_boundary_density(&mut self, half_dt: f64, boundary: &Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             return;
@@ -274,7 +274,7 @@ impl Solver {
         }
     }
 
-    /// d rho / dt of each boundary particle.
+    /// Returns each boundary particle with its d rho / dt [kg/(m3 s)].
     fn boundary_rates(&self) -> Vec<(usize, f64)> {
         let rates = |group: &Group, offset: usize| {
             let pairs = group.bins.order.iter().zip(&group.rates);
@@ -285,14 +285,14 @@ impl Solver {
         all
     }
 
-    /// Equations 8.3, 8.4 and 9.2: the state at the end of the step.
+    /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     pub fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary) {
         let gravity = DVec3::NEG_Z * self.parameters.gravity;
         let (half, grid, gradients, shifting) = (&self.half, &self.grid, &self.gradients, self.parameters.shifting);
         (&mut water.position, &mut water.velocity, &mut water.density, &self.water.rates)
             .into_par_iter()
             .enumerate()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(i, (position, velocity, density, rate))| {
                 let end_velocity = *velocity + dt * (acceleration(rate) + gravity);
                 let mut moved = 0.5 * dt * (*velocity + end_velocity);
@@ -307,14 +307,14 @@ impl Solver {
         if self.parameters.boundary == BoundaryCondition::Dynamic {
             for (particle, rate) in self.boundary_rates() {
                 let end = end_density(boundary.density[particle], self.half_density[particle], rate, dt);
-                // A wall does not pull at the water: Crespo et al. (2007).
+                // Walls exert no suction on the water (Crespo et al. 2007).
                 boundary.density[particle] = end.max(self.parameters.tait.rho0);
             }
         }
     }
 
-    /// Force [N] of the water on each unit and its torque [N m] about the unit's centre [m], summed particle by
-    /// particle in a fixed order.
+    /// Returns the force [N] of the water on each unit and its torque [N m] about the unit's centre [m]. The order of
+    /// summation over particles is fixed.
     pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<(DVec3, DVec3)> {
         let first_unit = boundary.walls().end;
         self.unit_force.resize(boundary.len() - first_unit, DVec3::ZERO);
@@ -331,22 +331,22 @@ impl Solver {
         boundary.units().iter().zip(centres).map(load).collect()
     }
 
-    /// Pairs that are computed for a water particle, those in idle lanes included.
+    /// Returns the mean number of pairs computed per water particle, including idle lanes.
     pub fn lanes_per_target(&self) -> f64 {
         self.water.lists.lanes_per_target()
     }
 
-    /// Mean number of neighbours of a water particle within the kernel's support.
+    /// Returns the mean number of neighbours of a water particle within the kernel support.
     pub fn mean_neighbours(&self) -> f64 {
         self.pairs.count_within_support(&self.water.lists, &self.records) as f64 / self.water.rates.len().max(1) as f64
     }
 
-    /// Bytes of the neighbour lists and of the records, which every evaluation reads.
+    /// Returns the memory that every rate evaluation reads, neighbour lists and records [bytes].
     pub fn bytes_read(&self) -> usize {
         self.water.lists.bytes() + self.records.len() * size_of::<Record>()
     }
 
-    /// Bytes in use besides the state of water and boundary.
+    /// Returns the memory in use besides the state of water and boundary [bytes].
     pub fn bytes(&self) -> usize {
         let groups: usize = [&self.water, &self.walls, &self.units].map(Group::bytes).iter().sum();
         let records = self.records.capacity() * size_of::<Record>();
@@ -359,27 +359,27 @@ impl Solver {
             + self.sorted.bytes()
     }
 
-    /// The sorted water of this step, for gauges.
+    /// Returns the bins of the sorted water, for gauges.
     pub fn water_bins(&self) -> &Bins {
         &self.water.bins
     }
 }
 
-/// Acceleration of the pair forces [m/s2].
+/// Returns the acceleration without gravity [m/s2].
 fn acceleration(rate: &Rate) -> DVec3 {
     DVec3::from_array(rate.acceleration.map(f64::from))
 }
 
-/// Equation 9.2: rho (2 - eps) / (2 + eps) with eps = -dt (d rho/dt) / rho at the half step.
+/// Returns rho (2 - eps) / (2 + eps) with eps = -dt (d rho/dt) / rho at the half step (equation 9.2).
 fn end_density(rho: f64, half_rho: f64, rate: f64, dt: f64) -> f64 {
     let epsilon = -dt * rate / half_rho;
     rho * (2.0 - epsilon) / (2.0 + epsilon)
 }
 
-/// `out[i] = values[order[i]]`.
+/// Permutes values: `out[i] = values[order[i]]`.
 fn gather<T: Copy + Send + Sync + Default>(order: &[u32], values: &[T], out: &mut Vec<T>) {
     out.resize(values.len(), T::default());
-    out.par_iter_mut().zip(order).with_min_len(PIECE).for_each(|(out, &i)| *out = values[i as usize]);
+    out.par_iter_mut().zip(order).with_min_len(MIN_CHUNK).for_each(|(out, &i)| *out = values[i as usize]);
 }
 
 #[cfg(test)]
@@ -388,12 +388,12 @@ mod tests {
 
     #[test]
     fn density_update_is_second_order() {
-        // d rho / dt = -rho: one step against exp(-dt).
+        // d rho / dt = -rho: one time step compared with exp(-dt).
         let error = |dt: f64| {
             let half = 1000.0 * (1.0 - 0.5 * dt);
             (end_density(1000.0, half, -half, dt) / 1000.0 - (-dt).exp()).abs()
         };
-        // The error of a step falls eightfold with half the step: third order locally.
+        // Halving dt reduces the local error by a factor of eight: third order locally.
         let ratio = error(0.02) / error(0.01);
         assert!((ratio - 8.0).abs() < 0.2, "{ratio}");
     }

@@ -7,15 +7,15 @@
 @group(0) @binding(5) var<storage, read> rates: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> half_offset: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> half_motion: array<vec4<f32>>;
-// Bits of the largest speed [m/s]; of the lowest and highest rho - rho0 as whole numbers in the same order; whether a
-// particle has left the domain or is not a number; particles near to surfaces, see impermeable.wgsl.
+// Bits of the largest speed [m/s]; lowest and highest rho - rho0 as ordered integers; whether a particle has left the
+// domain or is not finite; number of particles near surfaces, see impermeable.wgsl.
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>, 5>;
 
 fn with_gravity(rate: vec4<f32>) -> vec3<f32> {
     return rate.xyz - vec3<f32>(0.0, 0.0, parameters.gravity);
 }
 
-// Equations 8.1, 8.2 and 9.1.
+// Predictor, equations 8.1, 8.2 and 9.1.
 @compute @workgroup_size(64)
 fn predict(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
            @builtin(local_invocation_index) local: u32) {
@@ -30,13 +30,13 @@ fn predict(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gro
     half_motion[i] = vec4<f32>(now.xyz + half_dt * with_gravity(rate), now.w);
 }
 
-// Whole numbers in the order of the numbers whose bits they are made of.
+// Maps a number to an integer; the integers have the same order as the numbers.
 fn ordered(value: f32) -> u32 {
     let bits = bitcast<u32>(value);
     return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
 }
 
-// By the bits: a compiler may take it that there is nothing but numbers.
+// Tests the bits, because a shader compiler may assume that all values are finite.
 fn is_finite(values: vec4<f32>) -> bool {
     return all((bitcast<vec4<u32>>(values) & vec4<u32>(0x7f800000u)) != vec4<u32>(0x7f800000u));
 }
@@ -62,7 +62,7 @@ fn reduce_extremes(local: u32) {
     }
 }
 
-// Equations 8.3, 8.4 and 9.2.
+// Corrector, equations 8.3, 8.4 and 9.2.
 @compute @workgroup_size(64)
 fn correct(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
            @builtin(local_invocation_index) local: u32) {

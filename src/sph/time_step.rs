@@ -16,7 +16,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Limits of the water, from its records and rates; NaN anywhere makes them NaN.
+    /// Computes the limits from the records and rates of the water; any NaN makes them NaN.
     pub fn of(records: &[Record], rates: &[Rate], gravity: f64) -> Self {
         records
             .par_iter()
@@ -36,12 +36,12 @@ impl Limits {
             })
     }
 
-    /// The time step [s].
+    /// Returns the time step [s].
     pub fn time_step(&self, parameters: &Parameters) -> f64 {
         let h = parameters.kernel.h;
-        let of_force = (h / self.acceleration).sqrt();
-        let of_sound_and_viscosity = h / self.signal_speed;
-        let courant = parameters.cfl * of_force.min(of_sound_and_viscosity);
+        let force_limit = (h / self.acceleration).sqrt();
+        let signal_limit = h / self.signal_speed;
+        let courant = parameters.cfl * force_limit.min(signal_limit);
         match parameters.viscosity {
             Viscosity::Laminar { nu, .. } | Viscosity::MonaghanGingold { nu } => courant.min(viscous_limit(h, nu)),
             Viscosity::Artificial { .. } => courant,
@@ -49,7 +49,7 @@ impl Limits {
     }
 }
 
-/// Largest step [s] that the diffusion of momentum allows, from h [m] and nu [m2/s]; infinite without viscosity.
+/// Returns the largest time step [s] for viscous diffusion, from h [m] and nu [m2/s]; infinite without viscosity.
 pub fn viscous_limit(h: f64, nu: f64) -> f64 {
     0.125 * h * h / nu
 }
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn not_a_number_is_not_lost() {
+    fn maximum_keeps_nan() {
         assert!(larger_or_nan(f64::NAN, 1.0).is_nan());
         assert!(larger_or_nan(1.0, f64::NAN).is_nan());
         assert_eq!(larger_or_nan(1.0, 2.0), 2.0);

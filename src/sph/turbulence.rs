@@ -1,11 +1,11 @@
-//! Sub-particle-scale turbulence (Gotoh et al. 2001; Dalrymple & Rogers 2006): Smagorinsky's eddy viscosity in the
-//! stress
+//! Sub-particle-scale turbulence (Gotoh et al. 2001; Dalrymple & Rogers 2006) with Smagorinsky's eddy viscosity. The
+//! stress is
 //!
 //!   tau = 2 nu_t rho (S - tr S / 3) - 2/3 rho C_I D^2 |S|^2,   nu_t = (C_s D)^2 |S|,   |S| = sqrt(2 S : S),
 //!
-//! S being the rate of strain, and in the acceleration sum_b m_b (tau_a / rho_a^2 + tau_b / rho_b^2) grad_a W_ab.
+//! where S is the strain rate; the acceleration is sum_b m_b (tau_a / rho_a^2 + tau_b / rho_b^2) grad_a W_ab.
 
-/// Constants of the closure.
+/// Constants of the turbulence closure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smagorinsky {
     /// (C_s D)^2 [m2].
@@ -15,13 +15,13 @@ pub struct Smagorinsky {
 }
 
 impl Smagorinsky {
-    /// C_s = 0.12 and C_I = 0.0066, the filter as wide as the particles are apart: `dp` [m].
+    /// Creates the closure with C_s = 0.12 and C_I = 0.0066; the filter width D is the particle spacing `dp` [m].
     pub fn new(dp: f64) -> Self {
         Self { eddy: (0.12 * dp).powi(2), isotropic: 0.0066 * dp * dp }
     }
 
-    /// tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz, from the gradient d v_i / d x_j [1/s] and the
-    /// density [kg/m3].
+    /// Returns tau / rho^2 [m5/(kg s2)] in the order xx, yy, zz, xy, xz, yz. `gradient` is d v_i / d x_j [1/s], `rho`
+    /// the density [kg/m3].
     pub fn specific_stress(&self, gradient: [[f64; 3]; 3], rho: f64) -> [f64; 6] {
         let strain = |i: usize, j: usize| 0.5 * (gradient[i][j] + gradient[j][i]);
         let square: f64 = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| strain(i, j).powi(2)).sum();
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pure_shear_gives_the_eddy_viscosity_of_smagorinsky() {
+    fn pure_shear_gives_smagorinskys_eddy_viscosity() {
         let (dp, rate, rho) = (0.01, 5.0, 1000.0);
         let mut gradient = [[0.0; 3]; 3];
         gradient[0][2] = rate;
@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn rotation_has_no_stress() {
+    fn rigid_rotation_causes_no_stress() {
         let gradient = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
         assert_eq!(Smagorinsky::new(0.01).specific_stress(gradient, 1000.0), [0.0; 6]);
     }

@@ -1,25 +1,25 @@
-//! Velocity that boundary particles show to the water under mDBC, from the velocity of the water at their ghost nodes.
+//! Wall slip under mDBC: velocity of boundary particles in the water's equations, from the velocity at ghost nodes.
 
 use glam::DVec3;
 
 use super::ghost_velocity::GhostVelocity;
 
-/// Which velocity a boundary particle shows to the water.
+/// Wall slip condition: which velocity a boundary particle has in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallSlip {
-    /// That of the wall (English et al. 2022).
+    /// The velocity of the wall (English et al. 2022).
     Original,
-    /// Mirrored about that of the wall: the water sticks.
+    /// No slip: the water's velocity mirrored about the wall's velocity.
     NoSlip,
-    /// Its part along the normal mirrored, the other as in the water: the water slides.
+    /// Free slip: the normal component is mirrored, the tangential component equals that of the water.
     FreeSlip,
 }
 
 impl WallSlip {
-    /// Velocity to be shown [m/s], from that of the wall [m/s], the water at the ghost node and the way to the surface
-    /// [m]. A dry node leaves the velocity of the wall; where water is thin, nothing is mirrored, for a sheet that is
-    /// met by what it does itself bounces. Where it does not slide ([`Boundary::slides`]) free slip keeps the wall's
-    /// velocity along the surface.
+    /// Returns the velocity [m/s] from the wall's velocity [m/s], the water at the ghost node and the vector to the
+    /// surface [m]. A dry node gives the wall's velocity. In thin sheets nothing is mirrored, because a sheet would
+    /// bounce off its own mirrored velocity. Where free slip is not allowed ([`Boundary::slides`]), `FreeSlip` keeps
+    /// the wall's tangential velocity.
     ///
     /// [`Boundary::slides`]: crate::sph::particles::boundary::Boundary::slides
     pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, slides: bool) -> DVec3 {
@@ -43,19 +43,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mean_of_ghost_and_particle_obeys_the_condition() {
+    fn mean_of_ghost_and_boundary_velocity_satisfies_the_slip_condition() {
         let (wall, ghost, up) = (DVec3::new(0.1, 0.0, 0.2), DVec3::new(1.0, 2.0, -3.0), DVec3::Z * 0.05);
-        let of_water = |trust| Some(GhostVelocity { velocity: ghost, trust });
-        let mean = |slip: WallSlip| 0.5 * (slip.velocity(wall, of_water(1.0), up, true) + ghost);
+        let ghost_with = |trust| Some(GhostVelocity { velocity: ghost, trust });
+        let mean = |slip: WallSlip| 0.5 * (slip.velocity(wall, ghost_with(1.0), up, true) + ghost);
         assert!((mean(WallSlip::NoSlip) - wall).length() < 1e-15);
         assert!((mean(WallSlip::FreeSlip) - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
         assert_eq!(WallSlip::NoSlip.velocity(wall, None, up, true), wall);
-        // A thin sheet slides, and meets a wall that does not answer.
-        let sliding = WallSlip::FreeSlip.velocity(wall, of_water(0.0), up, true);
+        // A thin sheet has free slip, and the wall mirrors no normal velocity.
+        let sliding = WallSlip::FreeSlip.velocity(wall, ghost_with(0.0), up, true);
         assert!((sliding - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
-        assert_eq!(WallSlip::NoSlip.velocity(wall, of_water(0.0), up, true), wall);
-        // At an edge the wall holds what goes along it, and still answers what comes.
-        let at_edge = WallSlip::FreeSlip.velocity(wall, of_water(1.0), up, false);
+        assert_eq!(WallSlip::NoSlip.velocity(wall, ghost_with(0.0), up, true), wall);
+        // At an edge the tangential velocity is the wall's, and the normal velocity is still mirrored.
+        let at_edge = WallSlip::FreeSlip.velocity(wall, ghost_with(1.0), up, false);
         assert!((at_edge - DVec3::new(0.1, 0.0, 3.4)).length() < 1e-15);
     }
 }

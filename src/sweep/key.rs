@@ -2,46 +2,46 @@
 
 use serde_json::{Map, Value};
 
-/// The last part of a key's path.
+/// Returns the last part of a key's path.
 pub fn short(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
-/// The last two parts of a key's path: `mound.crest_width_m`.
+/// Returns the last two parts of a key's path: `mound.crest_width_m`.
 pub fn brief(key: &str) -> &str {
     key.rmatch_indices('.').nth(1).map_or(key, |(dot, _)| &key[dot + 1..])
 }
 
-/// The value at a path that [`set`] takes; null if there is none.
+/// Returns the value at a path as in [`set`]; null if there is none.
 pub fn get(root: &Value, path: &str) -> Value {
     let pointer = path.replace(['.', '['], "/").replace(']', "");
     root.pointer(&format!("/{pointer}")).cloned().unwrap_or_default()
 }
 
-/// Set the value at a path such as `friction[1].coefficient`; objects on the way that are missing are made.
+/// Sets the value at a path such as `friction[1].coefficient`; creates missing objects on the way.
 ///
 /// # Errors
-/// If the path leads through something that is no object, or to an entry that a list does not have.
+/// If the path leads through a value that is not an object, or to an entry that a list does not have.
 pub fn set(root: &mut Value, path: &str, value: Value) -> Result<(), String> {
-    let mut place = root;
+    let mut target = root;
     for part in path.split('.') {
         let (key, indices) = part.split_once('[').map_or((part, ""), |(key, rest)| (key, rest));
         if key.is_empty() {
-            return Err("a part of the path is empty; write it as in friction[1].coefficient".to_owned());
+            return Err("a part of the path is empty; write a path like friction[1].coefficient".to_owned());
         }
-        if place.is_null() {
-            *place = Value::Object(Map::new());
+        if target.is_null() {
+            *target = Value::Object(Map::new());
         }
-        let object = place.as_object_mut().ok_or_else(|| format!("what stands before {key} is no object"))?;
-        place = object.entry(key).or_insert(Value::Null);
+        let object = target.as_object_mut().ok_or_else(|| format!("the part before {key} is not an object"))?;
+        target = object.entry(key).or_insert(Value::Null);
         for index in indices.split('[').filter(|index| !index.is_empty()) {
             let number: Option<usize> = index.strip_suffix(']').and_then(|number| number.parse().ok());
-            let number = number.ok_or_else(|| format!("[{index} is no index"))?;
-            let length = place.as_array().map_or(0, Vec::len);
-            place = place.get_mut(number).ok_or_else(|| format!("{key} has {length} entries, from [0] on"))?;
+            let number = number.ok_or_else(|| format!("[{index} is not an index"))?;
+            let length = target.as_array().map_or(0, Vec::len);
+            target = target.get_mut(number).ok_or_else(|| format!("{key} has {length} entries, starting with [0]"))?;
         }
     }
-    *place = value;
+    *target = value;
     Ok(())
 }
 
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_reach_into_lists_and_missing_objects() {
+    fn paths_reach_lists_and_create_missing_objects() {
         let mut case =
             json!({ "friction": [{ "coefficient": 0.5 }, { "coefficient": 0.3 }], "wave": { "height_m": 0.1 } });
         set(&mut case, "friction[1].coefficient", json!(0.4)).unwrap();

@@ -1,16 +1,16 @@
-//! Sweeps: one case with keys that vary, every combination a run.
+//! Sweeps: many runs of one case with keys that vary.
 //!
 //! | file | what it holds |
 //! | --- | --- |
 //! | [`plan`] | the sweep file and the runs that follow from it |
 //! | [`key`] | paths of the keys that vary |
 //! | [`member`] | the folder of one run, and whether it is finished |
-//! | [`queue`] | running them side by side on this machine |
-//! | [`slurm`] | handing them to the Slurm workload manager as a job array |
-//! | [`table`] | the results of all of them as a table and a chart |
+//! | [`queue`] | runs in parallel on this machine |
+//! | [`slurm`] | runs as a job array of the Slurm workload manager |
+//! | [`table`] | the results of all runs as a table |
 //!
-//! Every run is a process of its own: one that crashes or is killed takes no other with it. What is finished is kept,
-//! what was interrupted goes on from its checkpoint, what failed is tried once more.
+//! Each run is a separate process, so a crash does not affect the others. Finished runs are kept, interrupted runs
+//! resume from their checkpoint, failed runs are tried once more.
 
 pub mod key;
 pub mod member;

@@ -13,7 +13,7 @@ use crate::{
     simulation::flume::branch::difference,
 };
 
-/// Most runs of one sweep.
+/// Largest number of runs in one sweep.
 const MOST_RUNS: usize = 10_000;
 
 /// Why a sweep is refused.
@@ -24,62 +24,63 @@ pub enum SweepError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// It is no sweep.
+    /// The file is not a valid sweep.
     #[error("{}: {what}", path.display())]
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and what is needed.
+        /// What is wrong and what is allowed.
         what: String,
     },
-    /// A run would be refused.
+    /// The case of a run is refused.
     #[error("run {number} of the sweep ({label}) is refused:\n{errors}")]
     Member {
-        /// Its number, from 1.
+        /// Number of the run, from 1.
         number: usize,
-        /// What varies in it.
+        /// Varied keys and their values.
         label: String,
-        /// What is wrong with its case.
+        /// Errors in its case.
         errors: CaseErrors,
     },
 }
 
-/// A sweep: one case with keys that vary, every combination of their values a run.
+/// A sweep: many runs of one case with keys that vary.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SweepFile {
-    /// Where the JSON schema lies, for editors (`breakwater schema --sweep` prints it). Not used by the solver.
+    /// Path of the JSON schema, for editors (`breakwater schema --sweep` prints it). Not used by the solver.
     #[serde(rename = "$schema", default)]
     _schema: Option<String>,
-    /// Title of table and chart.
+    /// Title of chart and runs.
     title: String,
-    /// The case file, from where the sweep file lies; files that it names are looked for beside it.
+    /// The case file, relative to the sweep file. Paths in the case file are relative to the case file.
     case: PathBuf,
-    /// Keys that have other values than in the case, the same in all runs: `{"domain.dp_m": 0.014}`.
+    /// Keys with values that differ from the case but are the same in all runs: `{"domain.dp_m": 0.014}`.
     #[serde(default)]
     set: Map<String, Value>,
-    /// Keys with their values; the last one varies fastest.
+    /// Keys with their values; the last key varies fastest.
     vary: Vec<VaryFile>,
-    /// Which of their values meet in a run.
+    /// How the values of different keys are combined.
     #[serde(default)]
     combine: Combine,
-    /// Simulated time [s] until which the units stand still in every run: up to there one run is made, with the first
-    /// values, and the others begin at its checkpoint. Only friction, the rule of rest and titles may vary then.
+    /// Simulated time [s] until which the units do not move in any run. One common run with the first values covers
+    /// this time, and the other runs start from its checkpoint. Only friction, the rest criterion and titles may
+    /// then vary.
     #[schemars(extend("exclusiveMinimum" = 0))]
     common_start_s: Option<f64>,
 }
 
-/// Which values of the keys that vary meet in a run.
+/// How the values of the varied keys are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Combine {
-    /// Every value of a key with every one of the others.
+    /// All combinations of all values.
     #[default]
     All,
-    /// The case as it is, then every value alone: how much hangs on each of them.
+    /// The base case, then each value alone; shows how much the result depends on each key.
     OneAtATime,
 }
 
@@ -89,24 +90,24 @@ pub enum Combine {
 struct VaryFile {
     /// Path of the key, as in `domain.dp_m` or `friction[1].coefficient`.
     key: String,
-    /// Its values: numbers, texts, whatever the key takes.
+    /// Values of any type that the key allows.
     #[schemars(length(min = 1))]
     values: Option<Vec<Value>>,
     /// First value.
     from: Option<f64>,
     /// Last value.
     to: Option<f64>,
-    /// How many values at equal distances, both ends included.
+    /// Number of equally spaced values, including both ends.
     #[schemars(range(min = 2, max = 10_000))]
     count: Option<usize>,
 }
 
-/// JSON schema of sweep files, indented.
+/// Returns the JSON schema of sweep files, indented.
 pub fn schema_text() -> String {
     format!("{:#}", schemars::schema_for!(SweepFile).as_value())
 }
 
-/// A key of the case and the values that it takes.
+/// A varied key of the case and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Varied {
     /// Path of the key, as in `friction[1].coefficient`.
@@ -115,52 +116,52 @@ pub struct Varied {
     pub values: Vec<Value>,
 }
 
-/// One run.
+/// One run of a sweep.
 #[derive(Debug, Clone)]
 pub struct Member {
     /// Number, from 1; 0 is the common start.
     pub number: usize,
     /// Name of its folder.
     pub name: String,
-    /// Values of the varied keys, in their order; null where the case does not have it.
+    /// Values of the varied keys, in their order; null for keys that the case does not have.
     pub values: Vec<Value>,
-    /// The case file's text.
+    /// Text of the case file.
     pub text: String,
-    /// Hash of the case, as in summaries.
+    /// Fingerprint of the case, as in summaries.
     pub hash: String,
-    /// Hash of what decides where the run stands while its units have not moved, see [`Case::start_hash`].
+    /// Fingerprint of what determines the run before its units move, see [`Case::start_hash`].
     start_hash: String,
     /// Simulated time at which the common start ends [s].
     pub until: Option<f64>,
 }
 
-/// A sweep.
+/// A validated sweep.
 #[derive(Debug, Clone)]
 pub struct Sweep {
     /// Title.
     pub title: String,
-    /// The case that is varied; files that it names are looked for beside it.
+    /// The case that is varied; its paths are relative to it.
     pub case: PathBuf,
-    /// What varies.
+    /// The varied keys.
     pub varied: Vec<Varied>,
-    /// Which values meet in a run.
+    /// How the values are combined.
     pub combine: Combine,
     /// The runs; the last key varies fastest.
     pub members: Vec<Member>,
-    /// The run at whose checkpoint the others begin, if there is one.
+    /// The run from whose checkpoint the others start, if any.
     pub start: Option<Member>,
 }
 
 impl Sweep {
-    /// Whether a text is meant to be a sweep.
+    /// Returns whether a text describes a sweep.
     pub fn is_one(text: &str) -> bool {
         serde_json::from_str::<Value>(text).is_ok_and(|value| value.get("vary").is_some())
     }
 
-    /// Read a sweep and check every run of it.
+    /// Reads a sweep and validates all of its runs.
     ///
     /// # Errors
-    /// If the file is no sweep, or one of its runs would be refused.
+    /// If the file is not a valid sweep, or the case of a run is refused.
     pub fn load(path: &Path) -> Result<Self, SweepError> {
         let content = |what: String| SweepError::Content { path: path.to_owned(), what };
         let read = |path: &Path| {
@@ -185,7 +186,7 @@ impl Sweep {
             set(&mut base, key, value.clone()).map_err(|what| content(format!("set: {key}: {what}")))?;
         }
         let runs = file.combine.runs(&varied).filter(|runs| *runs <= MOST_RUNS);
-        let runs = runs.ok_or_else(|| content(format!("vary: these are more than {MOST_RUNS} runs; take fewer")))?;
+        let runs = runs.ok_or_else(|| content(format!("vary: more than {MOST_RUNS} runs; use fewer values")))?;
         let mut duration = f64::INFINITY;
         let member = |number: usize| {
             let changes = file.combine.changes(&varied, number);
@@ -195,10 +196,10 @@ impl Sweep {
                 set(&mut text, &one.key, value.clone())
                     .map_err(|what| content(format!("vary: {}: {what}", one.key)))?;
             }
-            say_what_differs(&mut text, &given, &keys);
+            note_differences(&mut text, &given, &keys);
             let label = label(&varied, &changes);
             let values = varied.iter().map(|one| get(&text, &one.key)).collect();
-            // The title of the case that is varied would be wrong for most runs.
+            // The title of the base case would be wrong for most runs.
             if !varied.iter().any(|one| one.key == "title") {
                 text["title"] = format!("{}: {label}", file.title).into();
             }
@@ -218,16 +219,16 @@ impl Sweep {
         Ok(Self { title: file.title, case, varied, combine: file.combine, members, start })
     }
 
-    /// The run with a number, 0 for the common start.
+    /// Returns the run with a number; 0 for the common start.
     pub fn member(&self, number: usize) -> Option<&Member> {
         match number.checked_sub(1) {
-            Some(place) => self.members.get(place),
+            Some(index) => self.members.get(index),
             None => self.start.as_ref(),
         }
     }
 }
 
-/// The first run, ended at a time [s] at which the others can begin; all of them last as long [s].
+/// Returns the common start: the first run, ended at the time `until` [s]. `duration` is that of all runs [s].
 fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String> {
     let first = &members[0];
     if let Some(other) = members.iter().find(|other| other.start_hash != first.start_hash) {
@@ -241,18 +242,18 @@ fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String
 
 impl VaryFile {
     fn values(&self, number: usize) -> Result<Varied, String> {
-        let at = format!("vary[{number}] ({})", self.key);
+        let path = format!("vary[{number}] ({})", self.key);
         let values = match (&self.values, self.from, self.to, self.count) {
             (Some(values), None, None, None) if !values.is_empty() => values.clone(),
             (None, Some(from), Some(to), Some(count)) if (2..=MOST_RUNS).contains(&count) => {
                 let step = (to - from) / (count - 1) as f64;
-                // Twelve digits: 0.1 + 2 * 0.11 is 0.32 to whoever reads it.
+                // Round to twelve digits, so that 0.1 + 2 * 0.11 reads 0.32.
                 let value = |k: usize| (1e12 * (from + k as f64 * step)).round() / 1e12;
                 (0..count).map(|k| json!(value(k))).collect()
             }
             _ => {
                 return Err(format!(
-                    "{at}: must have either `values`, a list, or `from`, `to` and `count`, two values or more"
+                    "{path}: must have either `values` (a list) or `from`, `to` and `count` (at least 2)"
                 ));
             }
         };
@@ -261,7 +262,7 @@ impl VaryFile {
 }
 
 impl Combine {
-    /// How many runs; none if they cannot be counted.
+    /// Returns the number of runs; `None` on overflow.
     fn runs(self, varied: &[Varied]) -> Option<usize> {
         let mut values = varied.iter().map(|one| one.values.len());
         match self {
@@ -270,7 +271,7 @@ impl Combine {
         }
     }
 
-    /// What the run with a number from 0 has in the place of the case's values; none where it keeps them.
+    /// Returns the values that a run (numbered from 0) changes; `None` for keys that keep the value of the case.
     fn changes(self, varied: &[Varied], number: usize) -> Vec<Option<Value>> {
         if self == Self::All {
             return combination(varied, number).into_iter().map(Some).collect();
@@ -285,7 +286,7 @@ impl Combine {
     }
 }
 
-/// Values of the run with a number from 0.
+/// Returns the values of a run (numbered from 0).
 fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     let mut values: Vec<Value> = varied
         .iter()
@@ -300,27 +301,27 @@ fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     values
 }
 
-/// Add to the assumptions of a run in which of the keys it differs from the case as given: what is assumed there is said
-/// of the values given, and reports would carry it on.
-fn say_what_differs(run: &mut Value, given: &Value, keys: &[&str]) {
+/// Adds the changed keys to the assumptions of a run. The assumptions of the base case describe its own values, and
+/// reports repeat them.
+fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
     let differs = |key: &&str| {
         let (now, before) = (get(run, key), get(given, key));
-        let there = if before.is_null() { "not set".to_owned() } else { in_words(&before) };
-        (now != before).then(|| format!("{key} = {} (there {there})", in_words(&now)))
+        let base = if before.is_null() { "not set".to_owned() } else { in_words(&before) };
+        (now != before).then(|| format!("{key} = {} (base case: {base})", in_words(&now)))
     };
     let differences: Vec<String> = keys.iter().filter_map(differs).collect();
     if differences.is_empty() {
         return;
     }
-    let sentence = format!("Not as in the case that the sweep varies: {}.", differences.join(", "));
+    let sentence = format!("Changed from the base case of the sweep: {}.", differences.join(", "));
     match &mut run["assumptions"] {
         Value::Array(assumptions) => assumptions.push(sentence.into()),
         none @ Value::Null => *none = json!([sentence]),
-        _ => (), // Refused when the case is read.
+        _ => (), // The validation of the case refuses other types.
     }
 }
 
-/// What a run changes in words: `coefficient=0.32 height_m=0.045`.
+/// Describes what a run changes: `coefficient=0.32 height_m=0.045`.
 fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
     let one =
         |(one, value): (&Varied, &Option<Value>)| Some(format!("{}={}", short(&one.key), in_words(value.as_ref()?)));
@@ -328,7 +329,7 @@ fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
     if words.is_empty() { "as_given".to_owned() } else { words.join(" ") }
 }
 
-/// A value without quotes; nothing for null.
+/// Returns a value as text without quotes; empty for null.
 pub fn in_words(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -337,7 +338,7 @@ pub fn in_words(value: &Value) -> String {
     }
 }
 
-/// A text as the name of a folder.
+/// Turns a text into the name of a folder.
 fn file_name(text: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || "._-=".contains(c) { c } else { '_' };
     text.chars().map(plain).take(80).collect()
@@ -348,7 +349,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ranges_have_their_ends_and_no_crooked_digits() {
+    fn ranges_include_both_ends_and_have_short_decimals() {
         let vary = VaryFile { key: "a.b".to_owned(), values: None, from: Some(0.1), to: Some(0.98), count: Some(9) };
         let values: Vec<f64> = vary.values(0).unwrap().values.iter().map(|v| v.as_f64().unwrap()).collect();
         assert_eq!(values, [0.1, 0.21, 0.32, 0.43, 0.54, 0.65, 0.76, 0.87, 0.98]);
@@ -357,20 +358,20 @@ mod tests {
     }
 
     #[test]
-    fn what_is_assumed_of_the_case_is_corrected_in_a_run() {
+    fn assumptions_of_a_run_list_changed_keys() {
         let given = json!({ "assumptions": ["The crest is 0.32 m wide."], "crest_width_m": 0.32, "dp_m": 0.007 });
         let mut run = given.clone();
-        say_what_differs(&mut run, &given, &["crest_width_m", "dp_m", "numerics.cfl"]);
+        note_differences(&mut run, &given, &["crest_width_m", "dp_m", "numerics.cfl"]);
         assert_eq!(run, given);
         run["crest_width_m"] = json!(0.28);
         set(&mut run, "numerics.cfl", json!(0.4)).unwrap();
-        say_what_differs(&mut run, &given, &["crest_width_m", "dp_m", "numerics.cfl"]);
-        let said = "Not as in the case that the sweep varies: crest_width_m = 0.28 (there 0.32), \
-                    numerics.cfl = 0.4 (there not set).";
-        assert_eq!(run["assumptions"], json!(["The crest is 0.32 m wide.", said]));
-        let mut silent = json!({ "dp_m": 0.014 });
-        say_what_differs(&mut silent, &given, &["dp_m"]);
-        assert_eq!(silent["assumptions"][0], "Not as in the case that the sweep varies: dp_m = 0.014 (there 0.007).");
+        note_differences(&mut run, &given, &["crest_width_m", "dp_m", "numerics.cfl"]);
+        let added = "Changed from the base case of the sweep: crest_width_m = 0.28 (base case: 0.32), \
+                     numerics.cfl = 0.4 (base case: not set).";
+        assert_eq!(run["assumptions"], json!(["The crest is 0.32 m wide.", added]));
+        let mut bare = json!({ "dp_m": 0.014 });
+        note_differences(&mut bare, &given, &["dp_m"]);
+        assert_eq!(bare["assumptions"][0], "Changed from the base case of the sweep: dp_m = 0.014 (base case: 0.007).");
     }
 
     #[test]

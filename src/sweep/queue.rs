@@ -1,4 +1,4 @@
-//! The runs of a sweep side by side on this machine.
+//! Executes the runs of a sweep in parallel on this machine.
 
 use std::{
     fs::File,
@@ -13,24 +13,24 @@ use std::{
 
 use super::{member::Outcome, plan::Member};
 
-/// Tries of a run that fails.
+/// Largest number of attempts per run.
 const TRIES: usize = 2;
 
-/// What a run is told besides its case.
+/// Arguments of the runs of a sweep.
 #[derive(Debug, Clone)]
 pub struct Work<'a> {
     /// The sweep file.
     pub sweep_file: &'a Path,
     /// The folder of the sweep.
     pub dir: &'a Path,
-    /// Threads of each run.
+    /// Threads per run.
     pub threads: usize,
-    /// Device of each run, as `--device` has it.
+    /// Device of each run, as in `--device`.
     pub device: &'a str,
 }
 
 impl Work<'_> {
-    /// The command that makes one run, or goes on with it.
+    /// Returns the command that starts or resumes one run.
     pub fn command(&self, program: &Path, member: usize) -> Command {
         let mut command = Command::new(program);
         command.arg("sweep").arg(self.sweep_file).arg("--out").arg(self.dir);
@@ -39,8 +39,8 @@ impl Work<'_> {
         command
     }
 
-    /// Make a run, at most twice; its words go to its log.
-    fn make(&self, program: &Path, member: &Member) -> io::Result<Outcome> {
+    /// Executes a run with at most [`TRIES`] attempts; its output goes to its log.
+    fn execute(&self, program: &Path, member: &Member) -> io::Result<Outcome> {
         for attempt in 1..=TRIES {
             let log = File::options().create(true).append(true).open(member.log(self.dir))?;
             let mut command = self.command(program, member.number);
@@ -50,7 +50,7 @@ impl Work<'_> {
                 break;
             }
             writeln!(&log, "{}try {attempt} of {TRIES}, {status}", Member::FAILED)?;
-            // Refused input is refused again.
+            // A second attempt would refuse the same input.
             if status.code() == Some(2) {
                 break;
             }
@@ -58,33 +58,33 @@ impl Work<'_> {
         Ok(member.outcome(self.dir))
     }
 
-    /// Make all runs that are not finished, `jobs` at a time; `tell` hears of each that has ended and of how many are
-    /// left.
+    /// Executes all runs that are not finished, `jobs` at a time; `report` receives each run that ended, its state and
+    /// the number of runs left.
     ///
     /// # Errors
-    /// If a process cannot be started or a log not be written.
+    /// If a process cannot be started or a log cannot be written.
     pub fn make_all(
         &self,
         program: &Path,
         members: &[Member],
         jobs: usize,
-        tell: impl Fn(&Member, &Outcome, usize) + Sync,
+        report: impl Fn(&Member, &Outcome, usize) + Sync,
     ) -> io::Result<()> {
         let finished = |member: &&Member| matches!(member.outcome(self.dir), Outcome::Finished(_));
         let waiting: Vec<&Member> = members.iter().filter(|member| !finished(member)).collect();
         let (next, ended) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let trouble = Mutex::new(None);
+        let first_error = Mutex::new(None);
         std::thread::scope(|scope| {
             for _ in 0..jobs.min(waiting.len()) {
                 scope.spawn(|| {
                     while let Some(member) = waiting.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        match self.make(program, member) {
+                        match self.execute(program, member) {
                             Ok(outcome) => {
                                 let left = waiting.len() - 1 - ended.fetch_add(1, Ordering::Relaxed);
-                                tell(member, &outcome, left);
+                                report(member, &outcome, left);
                             }
                             Err(error) => {
-                                trouble.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                                first_error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
                                 return;
                             }
                         }
@@ -92,6 +92,6 @@ impl Work<'_> {
                 });
             }
         });
-        trouble.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+        first_error.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
     }
 }

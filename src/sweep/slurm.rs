@@ -1,4 +1,4 @@
-//! The runs of a sweep as a job array of the Slurm workload manager.
+//! Executes the runs of a sweep as a job array of the Slurm workload manager.
 
 use std::{io, path::Path, process::Command, time::Duration};
 
@@ -8,11 +8,11 @@ use crate::output::{OutputError, write_atomically};
 /// Name of the script in the folder of the sweep.
 pub const SCRIPT: &str = "sweep.sbatch";
 
-/// Time between two looks at the queue.
-const LOOK: Duration = Duration::from_secs(5);
+/// Time between two queries of the queue.
+const POLL_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Write the script of a job array over the runs that are not finished; `options` are lines for `#SBATCH`. A job that
-/// was taken from a node that failed is queued again by Slurm and goes on from its checkpoint. `None` if all are
+/// Writes the script of a job array for the runs that are not finished; `options` are added as `#SBATCH` lines.
+/// If a node fails, Slurm queues its job again, and the run resumes from its checkpoint. Returns `None` if all runs are
 /// finished.
 ///
 /// # Errors
@@ -36,7 +36,7 @@ pub fn write_script(
         .chain(command.get_args())
         .map(|word| quoted(&word.to_string_lossy()))
         .collect();
-    // The number after --member comes from the array.
+    // The array provides the number after --member.
     let line = words.join(" ").replacen("--member 0", "--member \"$SLURM_ARRAY_TASK_ID\"", 1);
     let options: String = options.iter().map(|option| format!("#SBATCH {option}\n")).collect();
     let script = format!(
@@ -51,39 +51,39 @@ pub fn write_script(
     Ok(Some(path))
 }
 
-/// A word for the shell.
+/// Quotes a word for the shell.
 fn quoted(word: &str) -> String {
     let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./:=".contains(c));
     if plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
-/// Submit the script; returns the number of the job.
+/// Submits the script; returns the job number.
 ///
 /// # Errors
-/// If there is no `sbatch`, or it refuses.
+/// If `sbatch` is missing or fails.
 pub fn submit(script: &Path) -> io::Result<String> {
-    let said = Command::new("sbatch").arg("--parsable").arg(script).output()?;
-    if !said.status.success() {
-        return Err(io::Error::other(format!("sbatch: {}", String::from_utf8_lossy(&said.stderr).trim())));
+    let output = Command::new("sbatch").arg("--parsable").arg(script).output()?;
+    if !output.status.success() {
+        return Err(io::Error::other(format!("sbatch: {}", String::from_utf8_lossy(&output.stderr).trim())));
     }
-    let number = String::from_utf8_lossy(&said.stdout);
+    let number = String::from_utf8_lossy(&output.stdout);
     Ok(number.trim().split(';').next().unwrap_or_default().to_owned())
 }
 
-/// Wait until Slurm has none of the job's tasks any more; `tell` hears how many it has.
+/// Waits until all tasks of the job have ended; `report` receives the number of remaining tasks.
 ///
 /// # Errors
-/// If there is no `squeue`.
-pub fn wait(job: &str, mut tell: impl FnMut(usize)) -> io::Result<()> {
+/// If `squeue` is missing.
+pub fn wait(job: &str, mut report: impl FnMut(usize)) -> io::Result<()> {
     loop {
-        let said = Command::new("squeue").args(["--noheader", "--array", "--job", job]).output()?;
-        // A job that Slurm has forgotten is an error of squeue: it has ended.
-        let tasks = String::from_utf8_lossy(&said.stdout).lines().filter(|line| !line.trim().is_empty()).count();
+        let output = Command::new("squeue").args(["--noheader", "--array", "--job", job]).output()?;
+        // For a job that ended, squeue may report an error and no tasks.
+        let tasks = String::from_utf8_lossy(&output.stdout).lines().filter(|line| !line.trim().is_empty()).count();
         if tasks == 0 {
             return Ok(());
         }
-        tell(tasks);
-        std::thread::sleep(LOOK);
+        report(tasks);
+        std::thread::sleep(POLL_INTERVAL);
     }
 }
 
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_survive_the_shell() {
+    fn special_characters_are_quoted_for_the_shell() {
         assert_eq!(quoted("cases/fudo/sweep.json"), "cases/fudo/sweep.json");
         assert_eq!(quoted("a b'c"), "'a b'\\''c'");
     }

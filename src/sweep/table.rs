@@ -1,42 +1,21 @@
-//! The results of all runs of a sweep as a table and a chart.
+//! Writes the results of all runs of a sweep as a table.
 
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::{
-    key::{brief, short},
     member::Outcome,
-    plan::{Combine, Sweep, Varied, in_words},
+    plan::{Sweep, in_words},
 };
-use crate::{
-    output::{OutputError, write_atomically},
-    report::plot::{Lever, Line, LineChart, TornadoChart, standalone},
-};
+use crate::output::{OutputError, write_atomically};
 
-/// Size of the chart [px].
-const SIZE: [f64; 2] = [720.0, 420.0];
-
-/// Write `sweep.csv`, a row a run, and `sweep.svg`, the mean displacement against the first key that is a number, or how
-/// much each value changes it if one varies at a time; returns what was written.
+/// Writes `sweep.csv`, one row per run; returns its path.
 ///
 /// # Errors
-/// If a file cannot be written.
-pub fn write(sweep: &Sweep, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let outcomes: Vec<Outcome> = sweep.members.iter().map(|member| member.outcome(dir)).collect();
-    let csv = dir.join("sweep.csv");
-    write_atomically(&csv, table(sweep, &outcomes).as_bytes())?;
-    let mut written = vec![csv];
-    let chart = match sweep.combine {
-        Combine::All => chart(sweep, &outcomes).map(|chart| chart.svg()),
-        Combine::OneAtATime => tornado(sweep, &outcomes).map(|chart| chart.svg()),
-    };
-    if let Some(chart) = chart {
-        let path = dir.join("sweep.svg");
-        write_atomically(&path, standalone(&chart).as_bytes())?;
-        written.push(path);
-    }
-    Ok(written)
+/// If the file cannot be written.
+pub fn write_table(sweep: &Sweep, outcomes: &[Outcome], dir: &Path) -> Result<PathBuf, OutputError> {
+    let path = dir.join("sweep.csv");
+    write_atomically(&path, table(sweep, outcomes).as_bytes())?;
+    Ok(path)
 }
 
 fn table(sweep: &Sweep, outcomes: &[Outcome]) -> String {
@@ -91,85 +70,8 @@ fn table(sweep: &Sweep, outcomes: &[Outcome]) -> String {
     rows.iter().map(|row| row.join(",") + "\n").collect()
 }
 
-/// A field of a table.
+/// Quotes a field for CSV.
 fn quoted(text: &str) -> String {
     let special = text.contains([',', '"', '\n']);
     if special { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
-
-/// Mean displacement against the first key whose values are numbers, a line for each combination of the others.
-fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
-    let is_axis = |one: &Varied| one.values.len() > 1 && one.values.iter().all(Value::is_number);
-    let along = sweep.varied.iter().position(is_axis)?;
-    let mut lines: Vec<Line> = Vec::new();
-    for (member, outcome) in sweep.members.iter().zip(outcomes) {
-        let Outcome::Finished(summary) = outcome else { continue };
-        let (Some(x), Some(y)) = (member.values[along].as_f64(), summary.mean_displacement_m) else { continue };
-        let others = sweep.varied.iter().zip(&member.values).enumerate().filter(|(k, _)| *k != along);
-        let name: Vec<String> =
-            others.map(|(_, (one, value))| format!("{} {}", short(&one.key), in_words(value))).collect();
-        let name = name.join(", ");
-        match lines.iter_mut().find(|line| line.name == name) {
-            Some(line) => line.points.push([x, y]),
-            None => {
-                lines.push(Line { name, points: vec![[x, y]], colour: lines.len(), dots: true, ..Line::default() });
-            }
-        }
-    }
-    lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a[0].total_cmp(&b[0])));
-    (!lines.is_empty()).then(|| LineChart {
-        title: sweep.title.clone(),
-        x_label: sweep.varied[along].key.clone(),
-        y_label: "mean displacement [m]".to_owned(),
-        lines,
-        size: SIZE,
-        ..LineChart::default()
-    })
-}
-
-/// How much each value changes the mean displacement of the case as it is, the first run; nothing before that has ended.
-fn tornado(sweep: &Sweep, outcomes: &[Outcome]) -> Option<TornadoChart> {
-    let of = |outcome: &Outcome| match outcome {
-        Outcome::Finished(summary) => summary.mean_displacement_m,
-        Outcome::Missing | Outcome::Failed(_) => None,
-    };
-    let (given, as_given) = (&sweep.members.first()?.values, of(outcomes.first()?)?);
-    let lever = |(k, one): (usize, &Varied)| Lever {
-        name: format!("{} {}", brief(&one.key), in_words(&given[k])).trim_end().to_owned(),
-        values: (sweep.members.iter().zip(outcomes))
-            .filter(|(member, _)| member.values[k] != given[k])
-            .filter_map(|(member, outcome)| Some((in_words(&member.values[k]), of(outcome)? - as_given)))
-            .collect(),
-    };
-    Some(TornadoChart {
-        title: sweep.title.clone(),
-        x_label: format!("change of the mean displacement [m] from {as_given:.3} m"),
-        levers: sweep.varied.iter().enumerate().map(lever).filter(|lever| !lever.values.is_empty()).collect(),
-        width: SIZE[0],
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::output::Summary;
-
-    #[test]
-    fn one_value_at_a_time_is_held_against_the_case_as_it_is() {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/sensitivity-sweep.json");
-        let sweep = Sweep::load(&file).unwrap();
-        let moved = |mean: f64| {
-            let summary = Summary { mean_displacement_m: Some(mean), ..Summary::default() };
-            Outcome::Finished(Box::new(summary))
-        };
-        // Nobody has made the others yet.
-        let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
-        let chart = tornado(&sweep, &outcomes).unwrap();
-        let [lever] = &chart.levers[..] else { panic!("{:?}", chart.levers) };
-        assert_eq!(lever.name, "mound.crest_width_m 0.32");
-        let [(words, change)] = &lever.values[..] else { panic!("{lever:?}") };
-        assert!(words == "0.36" && (change - 0.03).abs() < 1e-12, "{lever:?}");
-        assert!(chart.x_label.ends_with("from 0.250 m"), "{}", chart.x_label);
-        assert!(tornado(&sweep, &[Outcome::Missing, moved(0.28)]).is_none());
-    }
 }

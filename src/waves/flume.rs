@@ -1,4 +1,4 @@
-//! One run of the layered model: a flume, a wave, what stops it; what comes out is a [`FlumeRecord`].
+//! One run of the flume model, from a [`FlumeSetup`] to a [`FlumeRecord`].
 
 use thiserror::Error;
 
@@ -9,44 +9,44 @@ use crate::waves::record::{FlumeRecord, SurfaceProfile};
 use crate::waves::regular::WaveError;
 use crate::waves::solitary::SolitaryWave;
 
-/// Most layers the model takes: the vertical profile of these long waves is resolved by two or three.
+/// Largest number of layers; two or three resolve the vertical profile of long waves.
 pub const MOST_LAYERS: usize = 8;
-/// Courant number of a long wave on the largest depth [-]: the scheme is stable to 1, and its errors in time stay below
-/// those in space up to about 0.4.
+/// Courant number of a long wave on the largest depth [-]. The scheme is stable up to 1; up to about 0.4 its time
+/// errors stay below its space errors.
 const COURANT: f64 = 0.4;
-/// Cells follow the piston over this many strokes, so that none is squeezed by more than a tenth.
+/// Length over which the cells follow the piston, in strokes: no cell is compressed by more than 10 %.
 const MAPPED_STROKES: f64 = 10.0;
-/// The piston may squeeze the cells in front of it by at most this share.
+/// Largest relative compression of the cells in front of the piston [-].
 const MOST_SQUEEZE: f64 = 0.5;
 
-/// A flume with a wave, and what to record.
+/// Parameters of a flume run: flume, wave, grid and records.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlumeSetup {
-    /// Bed, from the piston at rest (first point) to the end wall (last point); the mound is part of it.
+    /// Bed, from the piston at rest (first point) to the end wall (last point), including the mound.
     pub profile: Profile,
-    /// Still-water level z [m].
+    /// Still water level z [m].
     pub still_level_m: f64,
-    /// Gravity [m/s2].
+    /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
-    /// The wave and what makes it.
+    /// The wave and its generation.
     pub wave: WaveSource,
-    /// What stands at the right end.
+    /// Right end of the flume.
     pub right_end: RightEnd,
-    /// Vertical accelerations.
+    /// Pressure model.
     pub pressure: Pressure,
-    /// Friction on the bed.
+    /// Bed friction.
     pub friction: Friction,
-    /// Breaking of waves.
+    /// Wave breaking.
     pub breaking: Breaking,
     /// Number of layers, 1..=8.
     pub layers: usize,
-    /// Width of a cell [m].
+    /// Cell width [m].
     pub cell_m: f64,
-    /// Places of wave gauges [m].
+    /// Positions x of the wave gauges [m].
     pub gauges_x_m: Vec<f64>,
-    /// Times at which the surface along the whole flume is recorded [s], each at the end of the step that passes it.
+    /// Times of surface profiles along the whole flume [s]; each is recorded at the first time step that reaches it.
     pub profile_times_s: Vec<f64>,
-    /// Window [m] in which the whole flow is recorded; cut to the flume.
+    /// Range of x in which the flow is recorded [m], limited to the flume.
     pub window_x_m: [f64; 2],
     /// Time between records [s].
     pub record_interval_s: f64,
@@ -54,17 +54,17 @@ pub struct FlumeSetup {
     pub end_s: f64,
 }
 
-/// The wave and what makes it at the left end, its depth that at this end.
+/// Wave generation at the left end; the depth of the wave is the depth there.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WaveSource {
-    /// A piston that makes a solitary wave; its stroke starts at t = 0.
+    /// A piston that generates a solitary wave; its stroke starts at t = 0.
     Piston(SolitaryWave),
-    /// Water that flows in and out with the wave.
+    /// An inflow boundary through which the wave enters.
     Inflow(IncomingWave),
 }
 
 impl WaveSource {
-    /// Depth for which the wave is made [m].
+    /// Still water depth of the wave [m].
     fn depth_m(&self) -> f64 {
         match self {
             Self::Piston(wave) => wave.depth_m,
@@ -80,7 +80,7 @@ impl WaveSource {
         }
     }
 
-    /// Way of the piston [m].
+    /// Stroke of the piston [m]; 0 for an inflow.
     fn stroke_m(&self) -> f64 {
         match self {
             Self::Piston(wave) => wave.stroke_m(),
@@ -89,33 +89,33 @@ impl WaveSource {
     }
 }
 
-/// What can go wrong with a flume.
+/// Errors of a flume run.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FlumeError {
-    /// A value outside its range.
+    /// A value is outside its range.
     #[error("flume: {name} is {value}, it must be {allowed}")]
     Value {
-        /// Which value.
+        /// Name of the value.
         name: &'static str,
         /// The value.
         value: f64,
-        /// What would be allowed.
+        /// Allowed range.
         allowed: String,
     },
-    /// A wave that cannot be made.
+    /// The wave cannot be generated.
     #[error(transparent)]
     Wave(#[from] WaveError),
-    /// The computation went astray.
-    #[error("flume: unstable at t = {time_s:.3} s, x = {x_m:.3} m; try a smaller cell or fewer layers")]
+    /// The run became unstable.
+    #[error("flume: the run became unstable at t = {time_s:.3} s, x = {x_m:.3} m; try smaller cells or fewer layers")]
     Unstable {
         /// Time [s].
         time_s: f64,
-        /// Place [m].
+        /// Position [m].
         x_m: f64,
     },
 }
 
-/// Compute the flume from rest to `end_s`.
+/// Runs the flume model from still water to `end_s`.
 pub fn run(setup: &FlumeSetup) -> Result<FlumeRecord, FlumeError> {
     check(setup)?;
     let mapped_m = mapped_length_m(setup)?;
@@ -133,7 +133,7 @@ pub fn run(setup: &FlumeSetup) -> Result<FlumeRecord, FlumeError> {
         }
         flume.advance_velocities();
         if step % steps_per_record == 0 {
-            take_record(&flume, &mut record);
+            add_record(&flume, &mut record);
         }
         flume.advance_depths();
         if let Some(x_m) = flume.astray_at() {
@@ -162,7 +162,7 @@ fn parameters(setup: &FlumeSetup, mapped_m: f64, step_s: f64) -> LayeredParamete
     }
 }
 
-/// Refuse what cannot be computed.
+/// Returns an error for the first value outside its range.
 fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     let points = setup.profile.points();
     let length = points[points.len() - 1][0] - points[0][0];
@@ -176,42 +176,42 @@ fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     positive("end_s", setup.end_s)?;
     positive("cell_m", setup.cell_m)?;
     let widest = length / 10.0;
-    require("cell_m", setup.cell_m, setup.cell_m <= widest, &format!("at most a tenth of the flume, {widest}"))?;
+    require("cell_m", setup.cell_m, setup.cell_m <= widest, &format!("at most {widest} (a tenth of the flume)"))?;
     let allowed = format!("from 1 to {MOST_LAYERS}");
     require("layers", setup.layers as f64, (1..=MOST_LAYERS).contains(&setup.layers), &allowed)?;
     positive("still_level_m above the bed at the wavemaker", depth)?;
     let height = setup.wave.height_m();
     positive("the wave's height_m", height)?;
     let highest = 0.7 * depth;
-    let allowed = format!("at most 0.7 of the depth, {highest}, where solitary waves break");
+    let allowed = format!("at most {highest} (0.7 of the depth); higher solitary waves break");
     require("the wave's height_m", height, height <= highest, &allowed)?;
-    // The wave's law holds for the depth it is made in; a millimetre is within what a flume is filled to.
-    let same = (setup.wave.depth_m() - depth).abs() <= 1e-3;
-    require("the wave's depth_m", setup.wave.depth_m(), same, &format!("the depth at the wavemaker, {depth}"))?;
-    check_what_stops_the_wave(setup, length)?;
+    // Flumes are filled to within about a millimetre.
+    let is_same = (setup.wave.depth_m() - depth).abs() <= 1e-3;
+    require("the wave's depth_m", setup.wave.depth_m(), is_same, &format!("{depth}, the depth at the wavemaker"))?;
+    check_right_end_and_friction(setup, length)?;
     let [from, to] = setup.window_x_m;
     require("window_x_m[0]", from, from.is_finite() && from < to, &format!("below window_x_m[1], {to}"))?;
     let end = points[points.len() - 1][0];
-    require("window_x_m[0]", from, from < end, &format!("below the flume's end, {end}"))?;
+    require("window_x_m[0]", from, from < end, &format!("below {end}, the end of the flume"))?;
     let start = points[0][0];
-    require("window_x_m[1]", to, to > start, &format!("above the flume's start, {start}"))?;
+    require("window_x_m[1]", to, to > start, &format!("above {start}, the start of the flume"))?;
     setup.gauges_x_m.iter().try_for_each(|&x| {
-        require("a gauge's x", x, (start..=end).contains(&x), &format!("inside the flume, {start} to {end}"))
+        require("a gauge's x", x, (start..=end).contains(&x), &format!("inside the flume, from {start} to {end}"))
     })
 }
 
-/// Refuse ends and friction that cannot be.
-fn check_what_stops_the_wave(setup: &FlumeSetup, length: f64) -> Result<(), FlumeError> {
+/// Returns an error for an invalid right end or friction.
+fn check_right_end_and_friction(setup: &FlumeSetup, length: f64) -> Result<(), FlumeError> {
     let refuse = |name, value, allowed| Err(FlumeError::Value { name, value, allowed });
     let points = setup.profile.points();
     let depth_at_end = setup.still_level_m - points[points.len() - 1][1];
     match setup.right_end {
         RightEnd::Radiating if depth_at_end <= 2.0 * setup.wave.height_m() => {
-            let allowed = "more than two wave heights, where waves can leave; else take a wall or a sponge".to_owned();
+            let allowed = "more than two wave heights; otherwise use a wall or a sponge".to_owned();
             return refuse("the depth at a radiating end", depth_at_end, allowed);
         }
         RightEnd::Sponge { length_m } if !(length_m > 0.0 && length_m < length) => {
-            let allowed = format!("above 0 and shorter than the flume, {length}");
+            let allowed = format!("above 0 and below {length}, the length of the flume");
             return refuse("the sponge's length_m", length_m, allowed);
         }
         _ => {}
@@ -224,7 +224,7 @@ fn check_what_stops_the_wave(setup: &FlumeSetup, length: f64) -> Result<(), Flum
     }
 }
 
-/// Length over which the cells follow the piston [m]: ten strokes, less if the bed is level or the flume short of it.
+/// Length over which the cells follow the piston [m]: ten strokes, or less if the level bed or the flume is shorter.
 fn mapped_length_m(setup: &FlumeSetup) -> Result<f64, FlumeError> {
     let points = setup.profile.points();
     let level = points.windows(2).take_while(|w| w[0][1] == w[1][1]).last().map_or(0.0, |w| w[1][0] - points[0][0]);
@@ -233,13 +233,13 @@ fn mapped_length_m(setup: &FlumeSetup) -> Result<f64, FlumeError> {
     let wanted = (MAPPED_STROKES * stroke).max(10.0 * setup.cell_m).min(0.5 * length);
     let mapped = if level >= 0.4 * wanted { wanted.min(level) } else { wanted };
     if stroke > MOST_SQUEEZE * mapped {
-        let allowed = format!("at most {} for a flume of this length", MOST_SQUEEZE * mapped);
+        let allowed = format!("at most {} in a flume of this length", MOST_SQUEEZE * mapped);
         return Err(FlumeError::Value { name: "the piston's stroke", value: stroke, allowed });
     }
     Ok(mapped)
 }
 
-/// Steps between two records, for the Courant number.
+/// Number of time steps between two records, from the Courant number.
 fn steps_per_record(setup: &FlumeSetup, mapped_m: f64) -> usize {
     let lowest = setup.profile.points().iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let depth = setup.still_level_m - lowest + 2.0 * setup.wave.height_m();
@@ -248,13 +248,13 @@ fn steps_per_record(setup: &FlumeSetup, mapped_m: f64) -> usize {
     (setup.record_interval_s / step).ceil().max(1.0) as usize
 }
 
-/// The record before the first state, its window cut to the flume and sampled about once a cell.
+/// Creates an empty record; its window is limited to the flume and has about one point per cell.
 fn empty_record(setup: &FlumeSetup, volume_m2: f64) -> FlumeRecord {
     let points = setup.profile.points();
     let from = setup.window_x_m[0].max(points[0][0]);
     let to = setup.window_x_m[1].min(points[points.len() - 1][0]);
-    let pieces = ((to - from) / setup.cell_m).ceil().max(1.0) as usize;
-    let window = (0..=pieces).map(|i| from + (to - from) * i as f64 / pieces as f64).collect();
+    let intervals = ((to - from) / setup.cell_m).ceil().max(1.0) as usize;
+    let window = (0..=intervals).map(|i| from + (to - from) * i as f64 / intervals as f64).collect();
     let mut record = FlumeRecord::new(
         setup.profile.clone(),
         setup.still_level_m,
@@ -267,14 +267,14 @@ fn empty_record(setup: &FlumeSetup, volume_m2: f64) -> FlumeRecord {
     record
 }
 
-/// Add the present state.
-fn take_record(flume: &LayeredFlume, record: &mut FlumeRecord) {
+/// Adds the current state to the record.
+fn add_record(flume: &LayeredFlume, record: &mut FlumeRecord) {
     let levels: Vec<f64> = record.gauges_x_m.iter().map(|&x| flume.surface_m(x)).collect();
     let window = record.window_x_m.clone();
     record.push(flume.paddle_m(), &levels, window.iter().map(|&x| flume.column(x)));
     record.shore_level_m.push(flume.shore_level_m());
-    let astray = flume.volume_m2() - flume.entered_m2() - record.volume_m2;
-    record.volume_error = record.volume_error.max((astray / record.volume_m2).abs());
+    let error_m2 = flume.volume_m2() - flume.entered_m2() - record.volume_m2;
+    record.volume_error = record.volume_error.max((error_m2 / record.volume_m2).abs());
 }
 
 #[cfg(test)]
@@ -286,7 +286,7 @@ mod tests {
         WaveSource::Piston(SolitaryWave { height_m, depth_m, gravity: 9.81, theory: PistonTheory::Rayleigh })
     }
 
-    /// A level flume of 24 m with a wall at its end.
+    /// A level flume, 24 m long, with an end wall.
     fn setup() -> FlumeSetup {
         FlumeSetup {
             profile: Profile::new(vec![[0.0, 0.0], [24.0, 0.0]]),
@@ -308,29 +308,28 @@ mod tests {
     }
 
     #[test]
-    fn wave_doubles_at_the_end_wall_and_comes_back() {
+    fn solitary_wave_doubles_at_the_end_wall_and_reflects() {
         let record = run(&setup()).unwrap();
-        // Run-up of a solitary wave on a wall, 2H + H^2 / 2d = 2.04 H to second order; the generated wave is within 1
-        // %.
+        // Second-order run-up of a solitary wave on a wall: 2H + H^2 / 2d = 2.04 H. The generated wave is within 1 %.
         assert!((record.crest(1).0 / 0.04 - 2.04).abs() < 0.03, "{}", record.crest(1).0 / 0.04);
         assert!(record.volume_error < 1e-12);
         let back = (record.crest(1).1 / 0.05) as usize;
         let reflected = record.gauge_elevations_m[0][back..].iter().copied().fold(0.0, f64::max);
-        // A collision costs a solitary wave under 1 % of its height, and so do 24 m at this cell.
+        // The reflection costs the wave less than 1 % of its height, and so do 24 m at this cell width.
         assert!((reflected / record.crest(0).0 - 1.0).abs() < 0.02, "{}", reflected / record.crest(0).0);
         assert_eq!(*record.window_x_m.last().unwrap(), 24.0);
     }
 
     #[test]
-    fn the_piston_displaces_what_it_should() {
+    fn piston_completes_its_stroke() {
         let record = run(&FlumeSetup { end_s: 8.0, ..setup() }).unwrap();
         let stroke = record.paddle_m.last().unwrap();
-        // The stroke is cut where 1 - tanh = 1e-3.
+        // The motion is truncated where 1 - tanh = 1e-3.
         assert!((stroke / setup().wave.stroke_m() - 1.0).abs() < 2e-3);
     }
 
     #[test]
-    fn what_cannot_be_computed_is_refused_with_a_reason() {
+    fn invalid_setups_are_rejected_with_a_reason() {
         let message = |change: fn(&mut FlumeSetup)| {
             let mut setup = setup();
             change(&mut setup);
@@ -339,13 +338,13 @@ mod tests {
         assert_eq!(message(|s| s.layers = 9), "flume: layers is 9, it must be from 1 to 8");
         assert_eq!(message(|s| s.cell_m = -0.1), "flume: cell_m is -0.1, it must be above 0");
         assert_eq!(message(|s| s.end_s = f64::NAN), "flume: end_s is NaN, it must be above 0");
-        assert!(message(|s| s.gauges_x_m = vec![25.0]).contains("inside the flume, 0 to 24"));
-        assert!(message(|s| s.window_x_m = [40.0, 50.0]).contains("below the flume's end"));
-        assert!(message(|s| s.wave = piston(0.04, 0.8)).contains("the depth at the wavemaker, 0.5"));
-        assert!(message(|s| s.wave = piston(0.4, 0.5)).contains("where solitary waves break"));
+        assert!(message(|s| s.gauges_x_m = vec![25.0]).contains("inside the flume, from 0 to 24"));
+        assert!(message(|s| s.window_x_m = [40.0, 50.0]).contains("below 24, the end of the flume"));
+        assert!(message(|s| s.wave = piston(0.04, 0.8)).contains("0.5, the depth at the wavemaker"));
+        assert!(message(|s| s.wave = piston(0.4, 0.5)).contains("higher solitary waves break"));
         assert!(message(|s| s.still_level_m = -1.0).contains("above the bed at the wavemaker"));
         assert!(message(|s| s.friction = Friction::Manning { n_s_m13: -0.1 }).contains("from 0 to 0.2"));
-        assert!(message(|s| s.right_end = RightEnd::Sponge { length_m: 30.0 }).contains("shorter than the flume, 24"));
+        assert!(message(|s| s.right_end = RightEnd::Sponge { length_m: 30.0 }).contains("below 24, the length"));
         let dry_end = |s: &mut FlumeSetup| {
             s.profile = Profile::new(vec![[0.0, 0.0], [20.0, 0.0], [24.0, 0.5]]);
             s.right_end = RightEnd::Radiating;

@@ -1,37 +1,37 @@
-//! Waves that flow into the flume at its left end, as surface and velocity over time at one place.
+//! Incoming waves at the left end of the flume: elevation and velocity over time at one position.
 
 use super::irregular::IrregularWave;
 use super::solitary::ThirdOrderSolitary;
 use super::stream_function::StreamFunctionWave;
 
-/// A wave at the inflow.
+/// An incoming wave at the inflow boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub enum IncomingWave {
-    /// A solitary wave of third order.
+    /// Third-order solitary wave.
     Solitary {
         /// The wave.
         wave: ThirdOrderSolitary,
-        /// Time at which its crest passes [s].
+        /// Time at which the crest passes [s].
         crest_at_s: f64,
     },
     /// Regular waves of permanent form.
     Regular {
         /// The wave; a crest passes at t = 0.
         wave: StreamFunctionWave,
-        /// Time over which it grows from still water [s].
+        /// Duration of the ramp from still water [s].
         ramp_s: f64,
     },
-    /// A sea of many periods.
+    /// Irregular waves.
     Irregular {
         /// The sea.
         wave: IrregularWave,
-        /// Time over which it grows from still water [s].
+        /// Duration of the ramp from still water [s].
         ramp_s: f64,
     },
 }
 
 impl IncomingWave {
-    /// A solitary wave whose crest passes when its front, 1e-4 of its height, has passed at t = 0.
+    /// Creates a solitary wave whose front (1e-4 of its height) enters at t = 0.
     pub fn solitary(wave: ThirdOrderSolitary) -> Self {
         Self::Solitary { wave, crest_at_s: wave.half_length_m() / wave.celerity_m_s() }
     }
@@ -54,7 +54,7 @@ impl IncomingWave {
         }
     }
 
-    /// Depth of still water for which the wave is made [m].
+    /// Still water depth of the wave [m].
     pub fn depth_m(&self) -> f64 {
         match self {
             Self::Solitary { wave, .. } => wave.depth_m,
@@ -63,7 +63,7 @@ impl IncomingWave {
         }
     }
 
-    /// Height that bounds the waves [m]; for a sea twice the significant one, which one wave in 3,000 exceeds.
+    /// Maximum wave height [m]; for irregular waves twice the significant height, which 1 wave in 3,000 exceeds.
     pub fn height_m(&self) -> f64 {
         match self {
             Self::Solitary { wave, .. } => wave.height_m,
@@ -73,9 +73,9 @@ impl IncomingWave {
     }
 }
 
-/// Growth from 0 to 1 over `length` [s], half a cosine.
-fn ramp(t: f64, length: f64) -> f64 {
-    if t >= length { 1.0 } else { 0.5 - 0.5 * (std::f64::consts::PI * (t / length).max(0.0)).cos() }
+/// Half-cosine ramp from 0 to 1 over `duration` [s].
+fn ramp(t: f64, duration: f64) -> f64 {
+    if t >= duration { 1.0 } else { 0.5 - 0.5 * (std::f64::consts::PI * (t / duration).max(0.0)).cos() }
 }
 
 #[cfg(test)]

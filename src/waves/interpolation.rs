@@ -1,8 +1,8 @@
-//! Cubic interpolation on unevenly spaced points, falling back to a straight line where a neighbour is dry.
+//! Cubic interpolation on unevenly spaced points, reduced to linear interpolation next to dry points.
 
 use std::ops::Range;
 
-/// Where to read between points: first index, its weights and how many points count.
+/// Interpolation stencil: first index, weights and number of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stencil {
     first: usize,
@@ -11,8 +11,8 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
-    /// Stencil for `x` on rising `xs`: Lagrange's cubic through four usable points, a straight line through two, the
-    /// nearer one alone where only one is usable or x lies outside the range.
+    /// Stencil for `x` on increasing `xs`: Lagrange's cubic through four usable points, else a straight line through
+    /// two. A single point where only one neighbour is usable or x lies outside the range.
     pub(super) fn at(xs: &[f64], x: f64, usable: impl Fn(usize) -> bool) -> Self {
         let last = xs.len() - 1;
         let single = |first| Self { first, weights: [1.0, 0.0, 0.0, 0.0], points: 1 };
@@ -25,8 +25,8 @@ impl Stencil {
         let left = xs.partition_point(|&p| p <= x) - 1;
         let share = (x - xs[left]) / (xs[left + 1] - xs[left]);
         if !(usable(left) && usable(left + 1)) {
-            let take_left = if usable(left) == usable(left + 1) { share < 0.5 } else { usable(left) };
-            return single(if take_left { left } else { left + 1 });
+            let use_left = if usable(left) == usable(left + 1) { share < 0.5 } else { usable(left) };
+            return single(if use_left { left } else { left + 1 });
         }
         if left == 0 || left + 2 > last || !usable(left - 1) || !usable(left + 2) {
             return Self { first: left, weights: [1.0 - share, share, 0.0, 0.0], points: 2 };
@@ -43,12 +43,12 @@ impl Stencil {
         Self { first: left - 1, weights, points: 4 }
     }
 
-    /// One of the points read: if it is not usable, none is.
+    /// First point of the stencil; if this point is not usable, no point is.
     pub(super) fn point(&self) -> usize {
         self.first
     }
 
-    /// The points that count.
+    /// All points of the stencil.
     pub(super) fn points(&self) -> Range<usize> {
         self.first..self.first + self.points
     }
@@ -64,12 +64,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cubics_are_reproduced_and_dry_neighbours_left_out() {
+    fn stencil_reproduces_cubics_and_leaves_out_dry_points() {
         let xs = [0.0, 1.0, 2.5, 3.0, 4.0];
         let f = |x: f64| 1.0 + x - 2.0 * x * x + 0.5 * x.powi(3);
-        let at = Stencil::at(&xs, 2.7, |_| true).apply(|i| f(xs[i]));
-        // Lagrange's cubic is exact for a cubic.
-        assert!((at - f(2.7)).abs() < 1e-12);
+        let interpolated = Stencil::at(&xs, 2.7, |_| true).apply(|i| f(xs[i]));
+        assert!((interpolated - f(2.7)).abs() < 1e-12);
         assert_eq!(Stencil::at(&xs, 2.7, |i| i != 4).apply(|i| xs[i]), 2.7);
         assert_eq!(Stencil::at(&xs, 2.7, |i| i < 3).apply(|i| xs[i]), 2.5);
         assert_eq!(Stencil::at(&xs, -1.0, |_| true).apply(|i| xs[i]), 0.0);

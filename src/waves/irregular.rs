@@ -1,41 +1,41 @@
-//! A sea of many periods: a JONSWAP spectrum with random phases, of first order.
+//! Irregular waves: a first-order JONSWAP sea with random phases.
 //!
 //! Hasselmann et al. (1973): S(f) ~ f^-5 exp(-1.25 (f_p/f)^4) gamma^a, a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)), s = 0.07
-//! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is the sum of waves of amplitude
-//! sqrt(2 S df), evenly spaced in frequency with random phases, so it repeats after 1/df. Velocities are those of
-//! linear waves with the depth stretched to the surface (Wheeler 1970). Waves bound to groups are left out: the
-//! nonlinear flume model makes them, together with free long waves that a wavemaker of second order would suppress.
+//! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is a sum of waves of amplitude
+//! sqrt(2 S df), evenly spaced in frequency, with random phases; it repeats after 1/df. Velocities follow linear theory
+//! with Wheeler (1970) stretching. Bound long waves are left out: the nonlinear flume model generates them. It also
+//! generates spurious free long waves, which second-order wave generation would suppress.
 
 use std::f64::consts::TAU;
 
 use super::regular::{WaveError, linear_wavenumber_per_m};
 use crate::random::SplitMix64;
 
-/// Frequencies over that of the peak between which the spectrum is kept [-]: beyond lie 1 to 2 % of its energy.
+/// Limits of f / f_p of the spectrum [-]; 1 to 2 % of the energy lies outside.
 const BAND: [f64; 2] = [0.6, 3.0];
-/// Waves the sea is made of, at most: what a flume computes at every step.
+/// Largest number of wave components; the flume model evaluates all of them at every time step.
 const MOST_COMPONENTS: usize = 5000;
 
-/// The sea as it is ordered.
+/// Target parameters of a JONSWAP sea.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JonswapSea {
     /// Significant height H_s = 4 sqrt(m_0) [m].
     pub significant_height_m: f64,
-    /// Period of the spectrum's peak T_p [s].
+    /// Peak period T_p [s].
     pub peak_period_s: f64,
-    /// Peak enhancement gamma [-]; 3.3 on average, 1 is the spectrum of Pierson & Moskowitz (1964).
+    /// Peak enhancement factor gamma [-]; 3.3 on average, 1 gives the spectrum of Pierson & Moskowitz (1964).
     pub peak_enhancement: f64,
-    /// Still depth d [m].
+    /// Still water depth d [m].
     pub depth_m: f64,
-    /// Gravity g [m/s2].
+    /// Gravitational acceleration g [m/s2].
     pub gravity: f64,
-    /// Time after which the sea repeats itself [s].
+    /// Time after which the sea repeats [s].
     pub repeat_s: f64,
-    /// Number from which the phases are drawn: the same number gives the same sea.
+    /// Seed of the random phases: the same seed gives the same sea.
     pub seed: u64,
 }
 
-/// The waves of a sea at one place.
+/// Wave components of a sea at one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IrregularWave {
     sea: JonswapSea,
@@ -52,10 +52,10 @@ struct Component {
 }
 
 impl IrregularWave {
-    /// Draw the waves of a sea.
+    /// Creates the wave components with random phases.
     ///
     /// # Errors
-    /// If a value is out of its range.
+    /// If a value is out of range.
     pub fn new(sea: JonswapSea) -> Result<Self, WaveError> {
         check(&sea)?;
         let df = 1.0 / sea.repeat_s;
@@ -79,7 +79,7 @@ impl IrregularWave {
         Ok(Self { sea, components: components.collect() })
     }
 
-    /// The sea as it was ordered.
+    /// Target parameters.
     pub fn sea(&self) -> &JonswapSea {
         &self.sea
     }
@@ -89,12 +89,12 @@ impl IrregularWave {
         self.components.iter().map(|c| c.amplitude * c.angle(t).cos()).sum()
     }
 
-    /// Horizontal velocity [m/s] at z [m] above still water: a omega cosh(k d s) / sinh(k d) cos, s = (z + d)/(d +
-    /// eta).
+    /// Horizontal velocity [m/s] at z [m] above still water: the sum of a omega cosh(k d s) / sinh(k d) cos with
+    /// s = (z + d)/(d + eta).
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
         let d = self.sea.depth_m;
-        let stretched = d * ((z + d) / (d + self.elevation_m(t))).clamp(0.0, 1.0);
-        self.components.iter().map(|c| c.velocity(stretched, d, t)).sum()
+        let stretched_height = d * ((z + d) / (d + self.elevation_m(t))).clamp(0.0, 1.0);
+        self.components.iter().map(|c| c.velocity(stretched_height, d, t)).sum()
     }
 }
 
@@ -103,7 +103,7 @@ impl Component {
         self.phase - self.angular_frequency * t
     }
 
-    /// Velocity at a height above the bed [m/s]; exponentials keep cosh / sinh finite in deep water.
+    /// Horizontal velocity at a height above the bed [m/s]; exponentials keep cosh / sinh finite in deep water.
     fn velocity(&self, height: f64, depth: f64, t: f64) -> f64 {
         let k = self.wavenumber;
         let ratio = ((k * (height - depth)).exp() + (-k * (height + depth)).exp()) / (1.0 - (-2.0 * k * depth).exp());
@@ -128,21 +128,21 @@ fn check(sea: &JonswapSea) -> Result<(), WaveError> {
     let longest = MOST_COMPONENTS as f64 / (BAND[1] - BAND[0]) * sea.peak_period_s;
     let shortest = 20.0 * sea.peak_period_s;
     if !(shortest..=longest).contains(&sea.repeat_s) {
-        return refuse("repeat_s", sea.repeat_s, format!("from 20 peak periods, {shortest}, to {longest}"));
+        return refuse("repeat_s", sea.repeat_s, format!("from {shortest} (20 peak periods) to {longest}"));
     }
-    // Twice this height, the highest wave in 3,000, is what a solitary wave breaks at.
+    // The highest of 3,000 waves is twice the significant height, and a solitary wave breaks at 0.8 of the depth.
     let highest = 0.4 * sea.depth_m;
     if sea.significant_height_m > highest {
         return refuse(
             "significant_height_m",
             sea.significant_height_m,
-            format!("at most 0.4 of the depth, {highest}"),
+            format!("at most {highest} (0.4 of the depth)"),
         );
     }
     Ok(())
 }
 
-/// Shape of the spectrum at f / f_p, not scaled [-].
+/// Unscaled shape of the spectrum at f / f_p [-].
 fn jonswap_shape(ratio: f64, sea: &JonswapSea) -> f64 {
     let width = if ratio <= 1.0 { 0.07 } else { 0.09 };
     let peak = (-(ratio - 1.0).powi(2) / (2.0 * width * width)).exp();
@@ -166,12 +166,12 @@ mod tests {
     }
 
     #[test]
-    fn surface_has_the_ordered_height_and_repeats() {
+    fn sea_has_the_target_height_and_repeats() {
         let wave = IrregularWave::new(sea()).unwrap();
         let samples = 4000;
         let eta: Vec<f64> = (0..samples).map(|i| wave.elevation_m(0.1 * f64::from(i))).collect();
         let variance = eta.iter().map(|e| e * e).sum::<f64>() / f64::from(samples);
-        // Over one whole period of the sum its variance is that of the components: rounding.
+        // Over the repeat time the variance equals that of the components to rounding.
         assert!((4.0 * variance.sqrt() / 0.08 - 1.0).abs() < 1e-9);
         assert!((wave.elevation_m(3.3) - wave.elevation_m(403.3)).abs() < 1e-9);
         let other = IrregularWave::new(JonswapSea { seed: 8, ..sea() }).unwrap();
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn long_components_move_the_water_as_long_waves() {
+    fn long_components_have_long_wave_velocities() {
         // One wave of k d = 0.05: u = sqrt(g/d) a within (k d)^2 = 0.25 %.
         let wave = Component { amplitude: 0.01, angular_frequency: 0.175, wavenumber: 0.0625, phase: 0.0 };
         let u = wave.velocity(0.4, 0.8, 0.0);
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn seas_that_cannot_be_made_are_refused() {
+    fn impossible_seas_are_rejected() {
         let message = |change: fn(&mut JonswapSea)| {
             let mut sea = sea();
             change(&mut sea);
@@ -196,7 +196,7 @@ mod tests {
         };
         assert_eq!(message(|s| s.peak_period_s = 0.0), "wave: peak_period_s is 0, it must be above 0");
         assert!(message(|s| s.peak_enhancement = 0.5).contains("from 1 to 10"));
-        assert!(message(|s| s.repeat_s = 10.0).contains("from 20 peak periods"));
-        assert!(message(|s| s.significant_height_m = 0.5).contains("0.4 of the depth"));
+        assert!(message(|s| s.repeat_s = 10.0).contains("from 40 (20 peak periods)"));
+        assert!(message(|s| s.significant_height_m = 0.5).contains("(0.4 of the depth)"));
     }
 }

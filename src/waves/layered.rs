@@ -1,8 +1,8 @@
-//! K-layer non-hydrostatic model of a flume, in one horizontal dimension.
+//! K-layer non-hydrostatic flume model in one horizontal dimension.
 //!
 //! Zijlema, Stelling & Smit (2011), "SWASH: An operational public domain code for simulating wave fields and rapidly
-//! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). Layers of equal share
-//! of the depth, u at the faces, w in the middle of each layer, H in the cells:
+//! varied flows in coastal waters"; Stelling & Zijlema (2003); Zijlema & Stelling (2005, 2008). All layers of a column
+//! are equally thick. The depth H is stored in the cells, u at the faces, w in the middle of each layer:
 //!
 //! ```text
 //! dH/dt + dx sum(h_m u_m) = 0
@@ -10,16 +10,16 @@
 //! dw_m/dt + adv = - (q_{m+1} - q_m) / h_m
 //! ```
 //!
-//! | part | how | where |
+//! | part | method | module |
 //! | --- | --- | --- |
 //! | time | leapfrog: H at n, u and w at n + 1/2; second-order Adams-Bashforth for advection | here |
-//! | moving piston | cells that follow it, fluxes relative to the faces | `grid` |
-//! | advection | conservative in momentum, third-order upwind | `advection` |
-//! | pressure q | Keller box, continuity as its transpose, one direct solve a step | `pressure` |
-//! | surface, wet and dry, breaking | half-step depths at the faces, hydrostatic front | `surface` |
-//! | ends | walls, inflow of waves, radiation, sponge | `ends` |
-//! | friction | Manning's law, implicit | `friction` |
-//! | reading the flow at any x | cubic between the cells | `sample` |
+//! | moving piston | cells follow the piston, fluxes relative to the faces | `grid` |
+//! | advection | momentum-conservative, third-order upwind | `advection` |
+//! | pressure q | Keller box, continuity as its transpose, one direct solve per time step | `pressure` |
+//! | free surface, wetting and drying, breaking | half-step depths at the faces, hydrostatic front | `surface` |
+//! | ends | wall, piston, wave inflow, radiation, sponge | `ends` |
+//! | friction | Manning or smooth bed, implicit | `friction` |
+//! | flow at any x | cubic interpolation between the cells | `sample` |
 
 mod advection;
 mod block_tridiagonal;
@@ -37,10 +37,10 @@ pub use sample::Column;
 use block_tridiagonal::BlockTridiagonal;
 use grid::Grid;
 
-/// Water shallower than this does not move [m].
+/// Depth below which a cell counts as dry and its water does not move [m].
 pub(super) const THIN_M: f64 = 1e-5;
 
-/// A flume being computed.
+/// Parameters, state and workspace of a flume run.
 #[derive(Debug, Clone)]
 pub struct LayeredFlume {
     gravity: f64,
@@ -63,7 +63,7 @@ pub struct LayeredFlume {
     w: Vec<f64>,
     paddle_m: f64,
     entered_m2: f64,
-    // What the steps hand on: the fluxes carry the momentum of the next one.
+    // Carried to the next time step: its advection uses these fluxes.
     flux: Vec<f64>,
     rise_m_s: Vec<f64>,
     breaking: Vec<bool>,
@@ -85,7 +85,7 @@ pub struct LayeredFlume {
 }
 
 impl LayeredFlume {
-    /// Still water.
+    /// Creates a flume with still water.
     pub fn new(parameters: LayeredParameters) -> Self {
         let LayeredParameters { still_level_m, layers, cell_m, step_s, .. } = parameters;
         let mapped_m = match parameters.left_end {
@@ -137,8 +137,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Begin with a given flow instead of still water: `elevation` above still water [m] of x at t = 0, `velocity`
-    /// [m/s] of (x, z) at t = -dt/2.
+    /// Sets the initial flow: `elevation(x)` above still water [m] at t = 0 and `velocity(x, z)` [m/s] at t = -dt/2.
     pub fn set_flow(&mut self, elevation: impl Fn(f64) -> f64, velocity: impl Fn(f64, f64) -> f64) {
         let k = self.layers;
         for cell in 0..self.grid.cells() {
@@ -159,13 +158,13 @@ impl LayeredFlume {
         (0..self.grid.cells()).for_each(|cell| self.follow(cell));
     }
 
-    /// Advance one step.
+    /// Advances by one time step.
     pub fn step(&mut self) {
         self.advance_velocities();
         self.advance_depths();
     }
 
-    /// First half of a step: u and w from n - 1/2 to n + 1/2. Between the halves [`Self::column`] gives the flow at n.
+    /// First half of a time step: u and w from n - 1/2 to n + 1/2. [`Self::column`] then returns the flow at n.
     pub fn advance_velocities(&mut self) {
         self.grid.aim(self.next_paddle_m(), self.step_s);
         self.measure_faces();
@@ -173,13 +172,13 @@ impl LayeredFlume {
         self.exchange_between_layers();
         self.accelerate_u();
         self.accelerate_w();
-        self.turn_over();
+        self.adopt_provisional_velocities();
         self.correct_with_pressure();
         self.settle_films();
         self.first_step = false;
     }
 
-    /// Second half of a step: the depths from n to n + 1.
+    /// Second half of a time step: depths from n to n + 1.
     pub fn advance_depths(&mut self) {
         let paddle_m = self.next_paddle_m();
         self.volume_fluxes(self.step_s);
@@ -190,19 +189,19 @@ impl LayeredFlume {
         self.time_s += self.step_s;
     }
 
-    /// u without non-hydrostatic pressure: u -= dt (adv + g dx eta), slowed by friction and sponge implicitly; zero at
-    /// closed faces.
+    /// Computes the provisional u without non-hydrostatic pressure: u -= dt (adv + g dx eta). Friction and sponge are
+    /// implicit; u is zero at closed faces.
     fn accelerate_u(&mut self) {
         let (k, dt) = (self.layers, self.step_s);
         for face in 1..self.grid.cells() {
             let slope = self.surface_slope(face);
-            let slowed = 1.0 / (1.0 + dt * self.damping_rate(face));
+            let damping = 1.0 / (1.0 + dt * self.damping_rate(face));
             for m in 0..k {
-                let at = face * k + m;
+                let index = face * k + m;
                 let new = if self.open[face] { self.advection_of_u(face, m) } else { 0.0 };
-                let old = std::mem::replace(&mut self.advection_u[at], new);
-                self.next_u[at] = if self.open[face] {
-                    slowed * (self.u[at] - dt * (self.adams_bashforth(new, old) + self.gravity * slope))
+                let old = std::mem::replace(&mut self.advection_u[index], new);
+                self.next_u[index] = if self.open[face] {
+                    damping * (self.u[index] - dt * (self.adams_bashforth(new, old) + self.gravity * slope))
                 } else {
                     0.0
                 };
@@ -210,21 +209,21 @@ impl LayeredFlume {
         }
     }
 
-    /// w without non-hydrostatic pressure: w -= dt adv.
+    /// Computes the provisional w without non-hydrostatic pressure: w -= dt adv.
     fn accelerate_w(&mut self) {
         let (k, dt) = (self.layers, self.step_s);
         for cell in 0..self.grid.cells() {
             for m in 0..k {
-                let at = cell * k + m;
+                let index = cell * k + m;
                 let new = if self.active[cell] { self.advection_of_w(cell, m) } else { 0.0 };
-                let old = std::mem::replace(&mut self.advection_w[at], new);
-                self.next_w[at] = self.w[at] - dt * self.adams_bashforth(new, old);
+                let old = std::mem::replace(&mut self.advection_w[index], new);
+                self.next_w[index] = self.w[index] - dt * self.adams_bashforth(new, old);
             }
         }
     }
 
-    /// The provisional velocities take the place of u and w, which stay at hand as the earlier ones.
-    fn turn_over(&mut self) {
+    /// Makes the provisional velocities the current u and w, and keeps the old ones in `earlier_u` and `earlier_w`.
+    fn adopt_provisional_velocities(&mut self) {
         std::mem::swap(&mut self.u, &mut self.earlier_u);
         std::mem::swap(&mut self.u, &mut self.next_u);
         std::mem::swap(&mut self.w, &mut self.earlier_w);
@@ -232,12 +231,12 @@ impl LayeredFlume {
         self.set_end_velocities();
     }
 
-    /// Second-order Adams-Bashforth from the present and the last rate; Euler in the first step.
+    /// Second-order Adams-Bashforth rate from the current and the previous one; Euler in the first time step.
     fn adams_bashforth(&self, new: f64, old: f64) -> f64 {
         if self.first_step { new } else { 1.5 * new - 0.5 * old }
     }
 
-    /// dx eta at a face between cells [-].
+    /// Slope of the free surface dx eta at an inner face [-].
     fn surface_slope(&self, face: usize) -> f64 {
         let level = |cell: usize| self.grid.bed[cell] + self.depth[cell];
         (level(face) - level(face - 1)) / self.grid.spacing(face)
@@ -248,22 +247,22 @@ impl LayeredFlume {
         self.time_s
     }
 
-    /// Distance of the piston from its place at rest [m].
+    /// Displacement of the piston from its rest position [m].
     pub fn paddle_m(&self) -> f64 {
         self.paddle_m
     }
 
-    /// Water that has come in through the ends less what went out, per metre of width [m2].
+    /// Net volume of water that has entered through the ends, per metre of width [m2].
     pub fn entered_m2(&self) -> f64 {
         self.entered_m2
     }
 
-    /// Water in the flume per metre of width [m2].
+    /// Volume of water in the flume per metre of width [m2].
     pub fn volume_m2(&self) -> f64 {
         self.depth.iter().zip(&self.grid.width).map(|(h, dx)| h * dx).sum()
     }
 
-    /// Largest difference between the surface and the still level over the wet cells [m].
+    /// Largest absolute elevation from still water level over the wet cells [m].
     pub fn largest_elevation_m(&self) -> f64 {
         let levels = self.depth.iter().zip(&self.grid.bed).filter(|(h, _)| **h > 0.0).map(|(h, bed)| h + bed);
         levels.fold(0.0, |largest, level| f64::max(largest, (level - self.still_level_m).abs()))
@@ -274,16 +273,15 @@ impl LayeredFlume {
         self.u.iter().fold(0.0, |largest, u| f64::max(largest, u.abs()))
     }
 
-    /// Place [m] of the first cell whose numbers have gone astray: not finite, or water that crosses a cell in less
-    /// than a step.
+    /// Position x [m] of the first unstable cell: a value is not finite, or water crosses the cell in less than a step.
     pub fn astray_at(&self) -> Option<f64> {
-        let fast = |face: usize| {
-            // A millionth for rounding: shallow water may cross a cell in just a step.
+        let is_too_fast = |face: usize| {
+            // The millionth covers rounding: `settle_films` allows one cell per time step.
             let limit = (1.0 + 1e-6) * self.grid.spacing(face) / self.step_s;
             self.u[face * self.layers..(face + 1) * self.layers].iter().any(|u| !u.is_finite() || u.abs() > limit)
         };
-        let astray = |cell: usize| fast(cell) || fast(cell + 1) || !self.depth[cell].is_finite();
-        (0..self.grid.cells()).find(|&cell| astray(cell)).map(|cell| self.grid.centre_x[cell])
+        let is_unstable = |cell: usize| is_too_fast(cell) || is_too_fast(cell + 1) || !self.depth[cell].is_finite();
+        (0..self.grid.cells()).find(|&cell| is_unstable(cell)).map(|cell| self.grid.centre_x[cell])
     }
 }
 
@@ -292,7 +290,7 @@ mod tests {
     use super::*;
     use crate::geometry::profile::Profile;
 
-    /// A closed box 2 m long and 0.8 m deep.
+    /// A closed basin 2 m long and 0.8 m deep.
     fn basin(layers: usize) -> LayeredFlume {
         LayeredFlume::new(LayeredParameters {
             profile: Profile::new(vec![[0.0, -0.8], [2.0, -0.8]]),
@@ -309,8 +307,8 @@ mod tests {
         })
     }
 
-    /// c^2 / (g d) of small waves, mu = k d: of the Keller box with one and two layers, linearised from the equations
-    /// in `pressure`; else exact.
+    /// c^2 / (g d) of small waves with mu = k d. For one and two layers it is that of the Keller box, linearised from
+    /// the equations in `pressure`; for more layers it is exact.
     fn dispersion(layers: usize, mu: f64) -> f64 {
         match layers {
             1 => 1.0 / (1.0 + mu.powi(2) / 4.0),
@@ -321,31 +319,31 @@ mod tests {
 
     #[test]
     fn standing_wave_has_the_period_of_linear_theory() {
-        // Two half waves in the box, k d = 2.5: hydrostatic waves would be 60 % too fast.
+        // Two half waves in the basin, k d = 2.5: hydrostatic waves would be 60 % too fast.
         let k = std::f64::consts::PI;
-        // Against the scheme's own dispersion only grid and time step remain, k^2 dx^2 / 24 = 2e-4; eight layers are
-        // within 1e-3 of the exact one.
+        // One and two layers: only the errors of grid and time step remain, k^2 dx^2 / 24 = 2e-4. Eight layers are
+        // within 1e-3 of the exact dispersion.
         for (layers, tolerance) in [(1, 5e-4), (2, 5e-4), (8, 1e-3)] {
             let period = std::f64::consts::TAU / (k * (9.81 * 0.8 * dispersion(layers, k * 0.8)).sqrt());
             let mut flume = basin(layers);
             flume.set_flow(|x| 1e-4 * (k * x).cos(), |_, _| 0.0);
-            let mut falls = Vec::new();
+            let mut down_crossings = Vec::new();
             let mut before = flume.surface_m(0.01);
-            while falls.len() < 4 {
+            while down_crossings.len() < 4 {
                 flume.step();
                 let now = flume.surface_m(0.01);
                 if before > 0.0 && now <= 0.0 {
-                    falls.push(flume.time_s() - 0.002 * now / (now - before));
+                    down_crossings.push(flume.time_s() - 0.002 * now / (now - before));
                 }
                 before = now;
             }
-            let measured = (falls[3] - falls[0]) / 3.0;
+            let measured = (down_crossings[3] - down_crossings[0]) / 3.0;
             assert!((measured / period - 1.0).abs() < tolerance, "K = {layers}: {measured} {period}");
         }
     }
 
     #[test]
-    fn energy_of_a_small_standing_wave_is_kept() {
+    fn small_standing_wave_keeps_its_height() {
         let mut flume = basin(2);
         let k = std::f64::consts::PI;
         flume.set_flow(|x| 1e-4 * (k * x).cos(), |_, _| 0.0);
@@ -356,7 +354,7 @@ mod tests {
                 highest = highest.max(flume.surface_m(0.01));
             }
         }
-        // Leapfrog and a pressure that does no work: nothing is lost in ten periods but what upwinding takes.
+        // Leapfrog and pressure conserve energy; in ten periods only upwinding dissipates.
         assert!((highest / 1e-4 - 1.0).abs() < 0.01, "{highest}");
     }
 }

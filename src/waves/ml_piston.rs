@@ -1,14 +1,13 @@
-//! Multi-layer piston: a wavemaker for particles whose rows follow the water of a flume run.
+//! Multi-layer piston: a wavemaker in the particle domain whose rows follow the water of a flume run.
 //!
 //! Altomare, Dominguez, Crespo, Suzuki, Caceres & Gomez-Gesteira (2015), "Hybridization of the wave propagation model
 //! SWASH and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall: they
-//! must move as the water that stands at x0 when the particles start, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t).
-//! Integrating the Eulerian u(x0, t) instead gives too short a stroke.
+//! follow the water that is at x0 when the particle run starts, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t).
+//! Integrating the Eulerian u(x0, t) instead makes the stroke too short.
 //!
-//! Rows move in x only and keep their height, while the water rises and falls. So one water particle is followed from
-//! each row's height (in space, x and z), and at each moment a row takes the velocity interpolated in height between
-//! the followed particles; below the lowest it takes the lowest's, above the highest (at the still surface) the
-//! highest's.
+//! The rows move in x only, whereas the water also rises and falls. Therefore one water particle is tracked in x and z
+//! from the height of each row. A row takes the velocity interpolated in height between the tracked particles. Below
+//! the lowest and above the highest particle (at the surface) the velocity is constant.
 
 use std::io;
 
@@ -16,33 +15,31 @@ use crate::waves::absorption::Absorption;
 use crate::waves::record::FlumeRecord;
 use crate::waves::velx::Velx;
 
-/// The motion of the rows of a piston.
+/// Motion of the rows of a multi-layer piston.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MlPiston {
     place_m: f64,
     row_heights_m: Vec<f64>,
     start_s: f64,
     interval_s: f64,
-    /// Velocities at the knots [m/s], one list a row.
+    /// Velocities at the knots [m/s], one list per row.
     velocities: Vec<Vec<f64>>,
-    /// Displacements at the knots [m], one list a row.
+    /// Displacements at the knots [m], one list per row.
     displacements: Vec<Vec<f64>>,
     absorption: Option<Absorption>,
 }
 
 impl MlPiston {
-    /// Rows at the given levels z [m] standing at `x0_m` at the start, moving until the end [s], from knots
-    /// `interval_s` apart.
+    /// Rows at levels z [m] that start at `x0_m` and move from start to end [s], with knots `interval_s` apart.
     ///
-    /// In periodic waves the water drifts, at the surface with the waves and below against them, and would carry the
-    /// rows ever further apart. With `drawn_back_s` both are drawn back to where they stood, in this time [s], a few
-    /// periods.
+    /// In periodic waves the water drifts with the waves at the surface and against them below, so the rows would move
+    /// apart. `drawn_back_s`, a few periods, is the time constant [s] that returns rows and particles to their start.
     ///
-    /// The record's window must hold the water's whole way (about a metre from x0); beyond it the velocity is that at
-    /// its end.
+    /// The window of the record must contain the whole path of the water (about 1 m from x0); outside it the velocity
+    /// at its end is used.
     ///
     /// # Panics
-    /// If there is no row, the interval is not above zero, the end not after the start, or x0 outside the window.
+    /// If there is no row, the interval is not positive, the end is not after the start, or x0 is outside the window.
     pub fn from_record(
         record: &FlumeRecord,
         x0_m: f64,
@@ -51,30 +48,34 @@ impl MlPiston {
         interval_s: f64,
         drawn_back_s: Option<f64>,
     ) -> Self {
-        assert!(!row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s, "a piston needs rows and time");
+        assert!(
+            !row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s,
+            "a piston needs rows, an interval > 0 and end > start"
+        );
         let window = &record.window_x_m;
-        assert!((window[0]..=window[window.len() - 1]).contains(&x0_m), "x0 = {x0_m} lies outside the record's window");
+        assert!((window[0]..=window[window.len() - 1]).contains(&x0_m), "x0 = {x0_m} m is outside the window");
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
-        let standing = particles_at_start(record, x0_m, row_heights_m, start_s);
-        let mut particles = standing.clone();
-        let mut moved = vec![0.0; row_heights_m.len()];
+        let initial = particles_at_start(record, x0_m, row_heights_m, start_s);
+        let mut particles = initial.clone();
+        let mut displacements = vec![0.0; row_heights_m.len()];
         let mut velocities = vec![Vec::with_capacity(knots); row_heights_m.len()];
         for knot in 0..knots {
             let t = start_s + knot as f64 * interval_s;
             let mut speeds: Vec<[f64; 2]> = particles.iter().map(|&[x, z]| [z, record.velocity(x, z, t).0]).collect();
-            // Particles keep their order in height but for those that touch the bed or a broken surface.
+            // Only particles at the bed or at a broken surface can change their order in height.
             speeds.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            for ((series, moved), &height) in velocities.iter_mut().zip(&mut moved).zip(row_heights_m) {
-                let velocity = at_height(&speeds, height) - drawn_back_s.map_or(0.0, |time| *moved / time);
-                *moved += interval_s * velocity;
+            for ((series, displacement), &height) in velocities.iter_mut().zip(&mut displacements).zip(row_heights_m) {
+                let velocity =
+                    velocity_at_height(&speeds, height) - drawn_back_s.map_or(0.0, |time| *displacement / time);
+                *displacement += interval_s * velocity;
                 series.push(velocity);
             }
-            for (particle, standing) in particles.iter_mut().zip(&standing) {
-                *particle = follow(record, *particle, t, interval_s);
+            for (particle, initial) in particles.iter_mut().zip(&initial) {
+                *particle = track_particle(record, *particle, t, interval_s);
                 if let Some(time) = drawn_back_s {
                     let share = 1.0 - (-interval_s / time).exp();
-                    for (now, start) in particle.iter_mut().zip(standing) {
-                        *now += share * (start - *now);
+                    for (coordinate, start) in particle.iter_mut().zip(initial) {
+                        *coordinate += share * (start - *coordinate);
                     }
                 }
             }
@@ -82,22 +83,22 @@ impl MlPiston {
         Self::from_velocities(x0_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
     }
 
-    /// Rows with the velocities of a file, from a start to an end [s] of its time, from knots `interval_s` apart.
+    /// Rows with the velocities of a file, from start to end [s] in its time, with knots `interval_s` apart.
     ///
-    /// The file knows the velocity at one place. With the speed of the wave [m/s] a row that has moved by X has the
-    /// velocity that the place had X / c earlier; without it, that of the place.
+    /// The file has the velocity at one position x. With a celerity c [m/s], a row displaced by X takes the velocity
+    /// that this position had X / c earlier; without c, it takes the present one.
     pub fn from_rows(rows: &Velx, [start_s, end_s]: [f64; 2], interval_s: f64, celerity_m_s: Option<f64>) -> Self {
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
         let motion = |row: usize| {
-            let mut moved = 0.0;
-            let velocity = |moved: f64, t: f64| row_velocity(rows, row, t - celerity_m_s.map_or(0.0, |c| moved / c));
+            let mut x = 0.0;
+            let velocity = |x: f64, t: f64| row_velocity(rows, row, t - celerity_m_s.map_or(0.0, |c| x / c));
             let mut series = Vec::with_capacity(knots);
             for knot in 0..knots {
                 let t = start_s + knot as f64 * interval_s;
-                let now = velocity(moved, t);
+                let u = velocity(x, t);
                 // Heun's method.
-                moved += 0.5 * interval_s * (now + velocity(moved + interval_s * now, t + interval_s));
-                series.push(now);
+                x += 0.5 * interval_s * (u + velocity(x + interval_s * u, t + interval_s));
+                series.push(u);
             }
             series
         };
@@ -105,7 +106,7 @@ impl MlPiston {
         Self::from_velocities(rows.place_m[0], rows.heights_m[0].clone(), start_s, interval_s, velocities)
     }
 
-    /// The motion from velocities at even knots: the displacement is their integral, linear velocity between knots.
+    /// Motion from velocities at evenly spaced knots; the displacement is their trapezoidal integral.
     fn from_velocities(
         place_m: f64,
         row_heights_m: Vec<f64>,
@@ -115,23 +116,23 @@ impl MlPiston {
     ) -> Self {
         let integrate = |series: &Vec<f64>| {
             let mut displacement = 0.0;
-            let mut all = vec![0.0];
+            let mut integral = vec![0.0];
             for pair in series.windows(2) {
                 displacement += 0.5 * (pair[0] + pair[1]) * interval_s;
-                all.push(displacement);
+                integral.push(displacement);
             }
-            all
+            integral
         };
         let displacements = velocities.iter().map(integrate).collect();
         Self { place_m, row_heights_m, start_s, interval_s, velocities, displacements, absorption: None }
     }
 
-    /// The same rows, taking up together what comes back to them.
+    /// Adds active absorption, which moves all rows together.
     pub fn absorbing(self, absorption: Absorption) -> Self {
         Self { absorption: Some(absorption), ..self }
     }
 
-    /// How they take up what comes back, if they do.
+    /// Active absorption, if any.
     pub fn absorption(&self) -> Option<&Absorption> {
         self.absorption.as_ref()
     }
@@ -141,76 +142,75 @@ impl MlPiston {
         &self.row_heights_m
     }
 
-    /// Place of the rows before they move [m].
+    /// Rest position x of the rows [m].
     pub fn place_m(&self) -> f64 {
         self.place_m
     }
 
-    /// Time at which the rows begin to move [s].
+    /// Time at which the rows start to move [s].
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
 
-    /// Time at which they stop [s].
+    /// Time at which the rows stop [s].
     pub fn end_s(&self) -> f64 {
         self.start_s + (self.velocities[0].len() - 1) as f64 * self.interval_s
     }
 
-    /// Displacement of a row [m] at t [s] of the flume: 0 until the start, the last one after the end. In between the
-    /// cubic of Hermite through the knots, which is a parabola here because the displacements are the trapezoidal
-    /// integral of the velocities.
+    /// Displacement of a row [m] at flume time t [s]: 0 before the start, constant after the end. Between the knots it
+    /// is a parabola, the integral of the linear velocity.
     pub fn displacement_m(&self, row: usize, t: f64) -> f64 {
         let (v, d) = (&self.velocities[row], &self.displacements[row]);
-        match self.knot(t) {
+        match self.locate(t) {
             Knot::Before => 0.0,
             Knot::After => d[d.len() - 1],
             Knot::At(i, share) => d[i] + self.interval_s * share * (v[i] + 0.5 * share * (v[i + 1] - v[i])),
         }
     }
 
-    /// How far a row goes seaward of its place at rest [m]: nothing, if it is less than the distance of two rows, which
-    /// lies within the layers behind them.
+    /// Largest seaward displacement of a row from its rest position [m]. Zero if it is below the row spacing, because
+    /// the layers of particles behind the rows cover it.
     pub fn seaward_reach_m(&self) -> f64 {
-        let own = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
-        let furthest = own - self.absorbed_reach_m();
+        let generated = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
+        let furthest = generated - self.absorbed_reach_m();
         let spacing = self.row_heights_m.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
         if -furthest < spacing { 0.0 } else { -furthest }
     }
 
-    /// How far a row goes shoreward of its place at rest [m].
+    /// Largest shoreward displacement of a row from its rest position [m].
     pub fn shoreward_reach_m(&self) -> f64 {
         self.displacements.iter().flatten().fold(0.0_f64, |most, &d| most.max(d)) + self.absorbed_reach_m()
     }
 
-    /// How far absorption may carry the rows to either side [m].
+    /// Largest displacement that absorption may add in either direction [m].
     fn absorbed_reach_m(&self) -> f64 {
         self.absorption.map_or(0.0, |absorption| absorption.reach_m)
     }
 
-    /// Velocity of a row [m/s] at t [s] of the flume, the derivative of the displacement: 0 before the start and after
-    /// the end (it jumps there by what the water has at those moments).
+    /// Velocity of a row [m/s] at flume time t [s]: 0 before the start and after the end, linear between knots. It
+    /// jumps at start and end if the water moves then.
     pub fn velocity_m_s(&self, row: usize, t: f64) -> f64 {
         let v = &self.velocities[row];
-        match self.knot(t) {
+        match self.locate(t) {
             Knot::Before | Knot::After => 0.0,
             Knot::At(i, share) => v[i] + share * (v[i + 1] - v[i]),
         }
     }
 
-    /// Where t lies among the knots.
-    fn knot(&self, t: f64) -> Knot {
-        let knots = (t - self.start_s) / self.interval_s;
-        let pieces = self.velocities[0].len() - 1;
-        if knots < 0.0 {
+    /// Locates t among the knots.
+    fn locate(&self, t: f64) -> Knot {
+        let offset = (t - self.start_s) / self.interval_s;
+        let intervals = self.velocities[0].len() - 1;
+        if offset < 0.0 {
             Knot::Before
-        } else if knots >= pieces as f64 {
+        } else if offset >= intervals as f64 {
             Knot::After
         } else {
-            Knot::At(knots as usize, knots.fract())
+            Knot::At(offset as usize, offset.fract())
         }
     }
 
-    /// The velocities as a DualSPHysics file, its time starting with the motion.
+    /// Velocities in DualSPHysics' `_velx` format; time counts from the start of the motion.
     pub fn velx(&self) -> Velx {
         let knots = self.velocities[0].len();
         Velx {
@@ -221,13 +221,13 @@ impl MlPiston {
         }
     }
 
-    /// Write the `_velx` file.
+    /// Writes the `_velx` file.
     pub fn write_velx(&self, out: impl io::Write) -> io::Result<()> {
         self.velx().write(out)
     }
 }
 
-/// A time among the knots.
+/// Position of a time among the knots; `At` holds the knot before it and the share of the interval.
 enum Knot {
     Before,
     At(usize, f64),
@@ -238,15 +238,15 @@ enum Knot {
 fn row_velocity(rows: &Velx, row: usize, t: f64) -> f64 {
     let times = &rows.times_s;
     let after = times.partition_point(|&time| time <= t);
-    let at = |i: usize| rows.velocities_m_s[i][row];
+    let velocity = |i: usize| rows.velocities_m_s[i][row];
     if after == 0 || after == times.len() {
-        return at(after.saturating_sub(1));
+        return velocity(after.saturating_sub(1));
     }
     let share = (t - times[after - 1]) / (times[after] - times[after - 1]);
-    at(after - 1) + share * (at(after) - at(after - 1))
+    velocity(after - 1) + share * (velocity(after) - velocity(after - 1))
 }
 
-/// First time [s] at which the mean velocity of the rows of a file below a level z [m] reaches `share` of its maximum.
+/// First time [s] at which the mean velocity of the rows below level z [m] reaches `share` of its maximum.
 pub fn start_of_rows(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
     let wet = rows.heights_m[0].partition_point(|&z| z < below_z_m).max(1);
     let mean = |velocities: &Vec<f64>| (velocities[..wet].iter().sum::<f64>() / wet as f64).abs();
@@ -256,8 +256,8 @@ pub fn start_of_rows(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
     rows.times_s[first.unwrap_or(0)]
 }
 
-/// First time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum, to a record; the end of the
-/// record if the water never moves.
+/// First recorded time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum. Returns the end of
+/// the record if the water never moves.
 pub fn start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
     let speeds: Vec<f64> = record.times_s().iter().map(|&t| record.mean_velocity(x0_m, t).abs()).collect();
     let largest = speeds.iter().copied().fold(0.0, f64::max);
@@ -265,7 +265,7 @@ pub fn start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
     first.map_or(record.end_s(), |i| record.times_s()[i])
 }
 
-/// One particle a row that stands in the water, and one at the surface; at least that one.
+/// Start positions of the tracked particles: one per row in the water and one at the surface.
 fn particles_at_start(record: &FlumeRecord, x0_m: f64, row_heights_m: &[f64], start_s: f64) -> Vec<[f64; 2]> {
     let (bed, surface) = (record.profile.z(x0_m), record.surface_level_m(x0_m, start_s));
     let mut heights: Vec<f64> = row_heights_m.iter().copied().filter(|z| (bed..surface).contains(z)).collect();
@@ -274,8 +274,8 @@ fn particles_at_start(record: &FlumeRecord, x0_m: f64, row_heights_m: &[f64], st
     heights.into_iter().map(|z| [x0_m, z]).collect()
 }
 
-/// Move a water particle for `dt` (classical Runge-Kutta); it stays between the bed and the surface.
-fn follow(record: &FlumeRecord, [x, z]: [f64; 2], t: f64, dt: f64) -> [f64; 2] {
+/// Moves a water particle by `dt` with the classical Runge-Kutta method and keeps it between bed and surface.
+fn track_particle(record: &FlumeRecord, [x, z]: [f64; 2], t: f64, dt: f64) -> [f64; 2] {
     let rate = |shift: f64, [kx, kz]: [f64; 2]| {
         let (u, w) = record.velocity(x + shift * kx, z + shift * kz, t + shift);
         [u, w]
@@ -290,8 +290,8 @@ fn follow(record: &FlumeRecord, [x, z]: [f64; 2], t: f64, dt: f64) -> [f64; 2] {
     [x, (z + step(1)).clamp(bed, record.surface_level_m(x, t + dt).max(bed))]
 }
 
-/// Velocity at a height from [height, velocity] pairs of rising height: linear between them, constant beyond the ends.
-fn at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
+/// Velocity at a height from [height, velocity] pairs of increasing height: linear, constant beyond the ends.
+fn velocity_at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
     let above = speeds.partition_point(|s| s[0] <= height);
     if above == 0 {
         return speeds[0][1];
@@ -316,7 +316,7 @@ mod tests {
         AMPLITUDE * (std::f64::consts::TAU * (t / 4.0 - x / 8.0)).sin()
     }
 
-    /// That wave in water 1 m deep, recorded every 0.02 s and 0.05 m.
+    /// `wave` in water 1 m deep, recorded every 0.02 s and 0.05 m.
     fn record() -> FlumeRecord {
         let profile = Profile::new(vec![[0.0, 0.0], [4.0, 0.0]]);
         let window: Vec<f64> = (0..=80).map(|i| 0.05 * f64::from(i)).collect();
@@ -340,23 +340,23 @@ mod tests {
             t = 0.5 + dt * f64::from(i + 1);
             if i % 3000 == 0 {
                 for row in 0..3 {
-                    // Trapezoidal integral at 0.02 s: dt^2 u'' T / 12 is 2e-5.
+                    // Error of the trapezoidal rule at 0.02 s: dt^2 u'' T / 12 is 2e-5.
                     assert!((piston.displacement_m(row, t) - (x - 1.0)).abs() < 5e-5);
                 }
             }
         }
-        // The place where the row stood sees another velocity: what integrating u(x0, t) would miss.
-        let at_rest: f64 = (0..30_000).map(|i| dt * wave(1.0, 0.5 + dt * f64::from(i))).sum();
-        assert!((at_rest - (x - 1.0)).abs() > 0.02);
+        // Integrating the Eulerian u(x0, t) gives a different displacement.
+        let eulerian: f64 = (0..30_000).map(|i| dt * wave(1.0, 0.5 + dt * f64::from(i))).sum();
+        assert!((eulerian - (x - 1.0)).abs() > 0.02);
     }
 
     #[test]
-    fn velocity_is_the_derivative_and_the_ends_hold() {
+    fn velocity_is_the_derivative_and_rows_rest_outside_the_motion() {
         let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], [0.5, 2.5], 0.1, None);
         for i in 0..40 {
             let (t, h) = (0.53 + 0.0481 * f64::from(i), 1e-6);
             let slope = (piston.displacement_m(0, t + h) - piston.displacement_m(0, t - h)) / (2.0 * h);
-            // Across a knot the parabolas differ by their curvature: h times 0.5 m/s2.
+            // Across a knot the slope changes by at most h times 0.5 m/s2.
             assert!((slope - piston.velocity_m_s(0, t)).abs() < 1e-6);
         }
         assert_eq!((piston.displacement_m(0, 0.4), piston.velocity_m_s(0, 0.4)), (0.0, 0.0));
@@ -366,21 +366,21 @@ mod tests {
     }
 
     #[test]
-    fn a_velocity_between_particles_is_linear_and_constant_beyond() {
+    fn velocity_is_linear_between_particles_and_constant_beyond() {
         let speeds = [[0.1, 1.0], [0.3, 2.0]];
-        assert_eq!([0.0, 0.1, 0.3, 9.0].map(|z| at_height(&speeds, z)), [1.0, 1.0, 2.0, 2.0]);
-        assert!((at_height(&speeds, 0.25) - 1.75).abs() < 1e-12);
+        assert_eq!([0.0, 0.1, 0.3, 9.0].map(|z| velocity_at_height(&speeds, z)), [1.0, 1.0, 2.0, 2.0]);
+        assert!((velocity_at_height(&speeds, 0.25) - 1.75).abs() < 1e-12);
     }
 
     #[test]
-    fn start_is_where_the_water_first_moves() {
-        // |sin| reaches half its maximum at a twelfth of the period, but at x = 0.
+    fn start_time_is_when_the_velocity_reaches_the_share() {
+        // At x = 0, |sin| reaches half its maximum after a twelfth of the period.
         let start = start_time(&record(), 0.0, 0.5);
         assert!((start - 4.0 / 12.0).abs() <= 0.02);
     }
 
     #[test]
-    fn file_lists_the_rows() {
+    fn velx_file_lists_the_rows() {
         let piston = MlPiston::from_record(&record(), 1.0, &[0.2, 0.9], [0.5, 0.56], 0.02, None);
         let mut file = Vec::new();
         piston.write_velx(&mut file).unwrap();

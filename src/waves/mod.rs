@@ -1,24 +1,24 @@
-//! From the wavemaker to the particles: solitary and regular waves, the layered flume model, pistons and flaps.
+//! Wave theories, wavemakers and the flume model that drives the particle domain.
 //!
-//! | module | what it holds |
+//! | module | contents |
 //! | --- | --- |
-//! | [`solitary`] | the piston's motion for a solitary wave, and the third-order wave |
-//! | [`regular`] | regular waves as they are ordered; linear dispersion, highest waves |
-//! | [`stream_function`] | regular waves of permanent form by Fourier approximation, short to cnoidal |
-//! | [`irregular`] | a JONSWAP sea with random phases |
-//! | [`incoming`] | any of these as an inflow at the end of the flume |
-//! | [`paddle_motion`] | the motion of the paddle that makes regular waves |
-//! | [`layered`] | the K-layer non-hydrostatic model: piston or inflow, wall, radiating end or sponge, friction, breaking |
-//! | [`flume`] | one run of that model, from a set-up to a record |
-//! | [`record`] | gauges, profiles and a window of the flow over time, to be asked at any (x, z, t) |
-//! | [`ml_piston`] | a wavemaker for the particles whose rows follow the water |
-//! | [`paddle`] | a rigid piston or flap that moves by theory |
-//! | [`absorption`] | what a piston does about the waves that come back to it |
-//! | [`wavemaker`] | either of these, as rows that move |
-//! | [`velx`] | the piston's velocities as a DualSPHysics `_velx` file |
-//! | [`external`] | the velocity at one place from files of other programs |
+//! | [`solitary`] | piston motion for a solitary wave; third-order solitary wave |
+//! | [`regular`] | target regular waves; linear dispersion and breaking heights |
+//! | [`stream_function`] | stream function wave theory for regular waves, from deep-water to cnoidal waves |
+//! | [`irregular`] | JONSWAP sea with random phases |
+//! | [`incoming`] | any of these waves as an inflow at the left end of the flume |
+//! | [`paddle_motion`] | paddle motion that generates regular waves |
+//! | [`layered`] | K-layer non-hydrostatic flume model with its ends, friction and breaking |
+//! | [`flume`] | one run of the flume model, from a set-up to a record |
+//! | [`record`] | recorded gauges, surface profiles and flow, interpolated at any (x, z, t) |
+//! | [`ml_piston`] | multi-layer piston: particle rows that follow the water of a flume run |
+//! | [`paddle`] | rigid piston or flap |
+//! | [`absorption`] | active absorption of waves that return to a piston |
+//! | [`wavemaker`] | multi-layer piston or paddle as moving rows of particles |
+//! | [`velx`] | row velocities in DualSPHysics' `_velx` format |
+//! | [`external`] | velocities and surface levels from files of other programs |
 //!
-//! SI units; x from the wavemaker at rest to the shore, z upwards from the bed profile's own datum.
+//! SI units. x points from the wavemaker at rest to the shore, z upwards from the datum of the bed profile.
 
 pub mod absorption;
 pub mod external;

@@ -1,20 +1,20 @@
-//! A rigid paddle in the particles: rows that move in proportion to one motion.
+//! Rigid wave paddle in the particle domain: all rows move in proportion to one motion.
 
 use crate::waves::absorption::{Absorption, RETURN_PERIODS};
 use crate::waves::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::solitary::SolitaryWave;
 
-/// Motion of a paddle at the still surface, t [s] from its start.
+/// Motion of a paddle at still water level; t [s] counts from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PaddleMotion {
-    /// For a solitary wave.
+    /// Generates a solitary wave.
     Solitary(SolitaryWave),
-    /// For regular waves.
+    /// Generates regular waves.
     Regular(RegularMotion),
 }
 
 impl PaddleMotion {
-    /// Displacement from the place of rest [m].
+    /// Displacement from the rest position [m].
     pub fn displacement_m(&self, t: f64) -> f64 {
         match self {
             Self::Solitary(wave) => wave.piston_displacement_m(t),
@@ -30,7 +30,7 @@ impl PaddleMotion {
         }
     }
 
-    /// How far it goes seaward and shoreward of its place of rest, upper bounds [m].
+    /// Upper bounds of the seaward and shoreward displacement from the rest position [m].
     pub fn reach_m(&self) -> [f64; 2] {
         match self {
             Self::Solitary(wave) => [0.0, wave.stroke_m()],
@@ -38,7 +38,7 @@ impl PaddleMotion {
         }
     }
 
-    /// Elevation of the wave that it makes, at a distance [m] from the paddle and t [s].
+    /// Elevation of the generated wave [m] at a distance [m] from the paddle and t [s].
     pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
         match self {
             Self::Solitary(wave) => wave.elevation_at_piston_m(t - distance_m / wave.celerity_m_s()),
@@ -46,7 +46,7 @@ impl PaddleMotion {
         }
     }
 
-    /// How a piston with this motion absorbs what comes back, with a gauge at a distance [m].
+    /// Active absorption for a piston with this motion and a gauge at a distance [m].
     pub fn absorption(&self, gauge_m: f64) -> Absorption {
         let reach_m = self.reach_m()[1];
         match self {
@@ -68,21 +68,20 @@ impl PaddleMotion {
     }
 }
 
-/// Rows of a paddle. A flap's rows keep their height: they shear where a rigid flap turns, which differs by the square
-/// of its angle.
+/// A rigid paddle made of rows. The rows of a flap move only horizontally: shear replaces rotation, with an error of
+/// the order of the flap angle squared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Paddle {
     place_m: f64,
     row_heights_m: Vec<f64>,
-    /// Displacement of each row over that at the still surface [-].
+    /// Displacement of each row relative to that at still water level [-].
     shares: Vec<f64>,
     motion: PaddleMotion,
     absorption: Option<Absorption>,
 }
 
 impl Paddle {
-    /// A paddle at `place_m` with rows at the levels z [m], over a bed at the level `bed_m` [m] in water of the depth
-    /// `depth_m` [m].
+    /// Creates a paddle at x = `place_m` with rows at the levels z [m], for bed level `bed_m` and depth `depth_m` [m].
     pub fn new(
         place_m: f64,
         row_heights_m: Vec<f64>,
@@ -94,27 +93,27 @@ impl Paddle {
         Self { place_m, row_heights_m, shares, motion, absorption: None }
     }
 
-    /// The same paddle, taking up what comes back to it, with a gauge at a distance [m].
+    /// Adds active absorption with a gauge at a distance [m].
     pub fn absorbing(self, gauge_m: f64) -> Self {
         Self { absorption: Some(self.motion.absorption(gauge_m)), ..self }
     }
 
-    /// How it takes up what comes back, if it does.
+    /// Active absorption, if any.
     pub fn absorption(&self) -> Option<&Absorption> {
         self.absorption.as_ref()
     }
 
-    /// Displacement at the still surface at t [s], without what absorption adds [m].
+    /// Displacement at still water level at t [s], without absorption [m].
     pub fn motion_m(&self, t: f64) -> f64 {
         self.motion.displacement_m(t)
     }
 
-    /// Elevation of the wave that it makes, at a distance [m] and t [s].
+    /// Elevation of the generated wave [m] at a distance [m] from the paddle and t [s].
     pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
         self.motion.elevation_m(distance_m, t)
     }
 
-    /// Place at rest [m].
+    /// Rest position x [m].
     pub fn place_m(&self) -> f64 {
         self.place_m
     }
@@ -124,13 +123,13 @@ impl Paddle {
         &self.row_heights_m
     }
 
-    /// Displacement [m] and velocity [m/s] of each row at t [s], without what absorption adds.
+    /// Displacement [m] and velocity [m/s] of each row at t [s], without absorption.
     pub fn rows_at(&self, t: f64) -> impl Iterator<Item = [f64; 2]> {
         let (displacement, velocity) = (self.motion.displacement_m(t), self.motion.velocity_m_s(t));
         self.shares.iter().map(move |share| [share * displacement, share * velocity])
     }
 
-    /// How far any row goes seaward and shoreward of its place of rest, upper bounds [m].
+    /// Upper bounds of the seaward and shoreward displacement of any row, with absorption [m].
     pub fn reach_m(&self) -> [f64; 2] {
         let largest = self.shares.iter().copied().fold(0.0, f64::max);
         let absorbed = self.absorption.map_or(0.0, |absorption| absorption.reach_m);
@@ -150,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_a_piston_move_as_one() {
+    fn piston_rows_move_together() {
         let paddle = paddle(PaddleShape::Piston);
         let rows: Vec<[f64; 2]> = paddle.rows_at(4.1).collect();
         assert!(rows.iter().all(|row| *row == rows[0]) && rows[0][0] != 0.0);
@@ -158,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_a_flap_move_with_their_height_above_the_hinge() {
+    fn flap_rows_move_in_proportion_to_their_height_above_the_hinge() {
         let rows: Vec<[f64; 2]> = paddle(PaddleShape::Flap { hinge_m: 0.2 }).rows_at(4.1).collect();
         // Hinge at z = 1.2 m, surface at 1.4 m.
         for (row, share) in rows.iter().zip([0.0, 0.5, 1.0, 2.0]) {

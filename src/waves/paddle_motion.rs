@@ -1,30 +1,30 @@
-//! The motion of a paddle that makes regular waves.
+//! Motion of a wave paddle that generates regular waves.
 //!
-//! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: waves of small height before a paddle
-//!   that moves by S f(z) / 2 sin(omega t), with f = 1 at the still surface.
-//! * Madsen (1971), "On the generation of long waves": the motion at twice the frequency with which a piston makes a
-//!   second-order wave of permanent form. Without it, a free wave of that frequency travels along more slowly.
+//! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: small waves in front of a paddle that
+//!   moves by S f(z) / 2 sin(omega t), with f = 1 at still water level.
+//! * Madsen (1971), "On the generation of long waves": a piston motion at twice the wave frequency generates a
+//!   second-order wave of permanent form. Without it the piston also generates a slower free wave at that frequency.
 //!
-//! A flap has no second-order motion here.
+//! A flap moves at first order only.
 
 use std::f64::consts::PI;
 
 use super::regular::RegularWave;
 
-/// What moves.
+/// Shape of a paddle: its displacement over the height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PaddleShape {
-    /// All heights alike.
+    /// Uniform over the height.
     Piston,
-    /// In proportion to the height above the hinge, and not at all below it.
+    /// Proportional to the height above the hinge, zero below it.
     Flap {
-        /// Height of the hinge above the bed, negative below it [m].
+        /// Height of the hinge above the bed [m]; negative below the bed.
         hinge_m: f64,
     },
 }
 
 impl PaddleShape {
-    /// Displacement at `z` [m] above the bed over that at the still surface, in water of depth d [m] [-].
+    /// Displacement at `z` [m] above the bed relative to that at still water level, in depth d [m] [-].
     pub fn share(&self, z: f64, depth: f64) -> f64 {
         match *self {
             Self::Piston => 1.0,
@@ -32,13 +32,12 @@ impl PaddleShape {
         }
     }
 
-    /// Height of the wave over the stroke at the still surface [-], for the wave number k [1/m] and the depth d [m]:
-    /// H/S = 4 sinh kd / (sinh 2kd + 2kd) times the integral of k f(z) cosh kz from the bed to the surface. That is
+    /// Transfer function H/S: wave height per stroke at still water level [-], for wavenumber k [1/m] and depth d [m].
+    /// H/S = 4 sinh kd / (sinh 2kd + 2kd) times the integral of k f(z) cosh kz from the bed to the surface, which is
     ///
     ///   sinh kd                                              for a piston,
-    ///   sinh kd - (cosh kd - cosh k z_h) / (k (d - z_h))     for a flap with the hinge z_h above the bed; z_h = 0 in
-    ///   the
-    ///                                                        second cosh where it lies below.
+    ///   sinh kd - (cosh kd - cosh k z_h) / (k (d - z_h))     for a flap with its hinge z_h above the bed; if the hinge
+    ///                                                        lies below the bed, z_h = 0 in the second cosh.
     pub fn height_per_stroke(&self, k: f64, depth: f64) -> f64 {
         let kd = k * depth;
         let integral = match *self {
@@ -52,25 +51,25 @@ impl PaddleShape {
     }
 }
 
-/// The motion at the still surface of a paddle that makes regular waves.
+/// Motion at still water level of a paddle that generates regular waves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegularMotion {
     /// Angular frequency [rad/s].
     omega: f64,
-    /// Wave number [1/m].
-    number: f64,
+    /// Wavenumber [1/m].
+    wavenumber: f64,
     /// Amplitude of the wave [m].
     amplitude_m: f64,
-    /// Amplitude at that frequency, half of the stroke [m].
+    /// First-order amplitude of the paddle at omega, half the stroke [m].
     first_m: f64,
-    /// Amplitude at twice that frequency [m].
+    /// Second-order amplitude of the paddle at 2 omega [m].
     second_m: f64,
-    /// Time over which the motion grows [s].
+    /// Duration of the ramp [s].
     ramp_s: f64,
 }
 
 impl RegularMotion {
-    /// The motion of a paddle, its stroke growing over `ramp_periods`.
+    /// Creates the motion; the stroke grows over `ramp_periods`.
     pub fn new(wave: &RegularWave, shape: PaddleShape, ramp_periods: f64) -> Self {
         let (k, depth) = (wave.number_per_m(), wave.depth_m);
         let first_m = 0.5 * wave.height_m / shape.height_per_stroke(k, depth);
@@ -79,43 +78,43 @@ impl RegularMotion {
             PaddleShape::Flap { .. } => 0.0,
         };
         let (omega, amplitude_m) = (wave.angular_frequency(), 0.5 * wave.height_m);
-        Self { omega, number: k, amplitude_m, first_m, second_m, ramp_s: ramp_periods * wave.period_s }
+        Self { omega, wavenumber: k, amplitude_m, first_m, second_m, ramp_s: ramp_periods * wave.period_s }
     }
 
-    /// Stroke at first order [m].
+    /// First-order stroke [m].
     pub fn stroke_m(&self) -> f64 {
         2.0 * self.first_m
     }
 
-    /// Largest distance from the place of rest, an upper bound [m].
+    /// Upper bound of the distance from the rest position [m].
     pub fn reach_m(&self) -> f64 {
         self.first_m + self.second_m.abs()
     }
 
-    /// Displacement [m] at t [s] from the start: r(t) (S/2 sin omega t + X2 sin 2 omega t); the wave's crest passes the
-    /// paddle when sin omega t rises through 0.
+    /// Displacement r(t) (S/2 sin omega t + X2 sin 2 omega t) [m], t [s] from the start. A crest passes the paddle when
+    /// sin omega t crosses zero upwards.
     pub fn displacement_m(&self, t: f64) -> f64 {
-        self.ramp(t)[0] * self.full(t)[0]
+        self.ramp(t)[0] * self.full_motion(t)[0]
     }
 
     /// Velocity [m/s], the derivative of the displacement.
     pub fn velocity_m_s(&self, t: f64) -> f64 {
-        let ([share, rate], [x, v]) = (self.ramp(t), self.full(t));
+        let ([share, rate], [x, v]) = (self.ramp(t), self.full_motion(t));
         rate * x + share * v
     }
 
-    /// Elevation of the wave that is made, of first order, at a distance [m] from the paddle and t [s].
+    /// First-order elevation of the generated wave [m] at a distance [m] from the paddle and t [s].
     pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
-        let since = t - self.number * distance_m / self.omega;
-        self.ramp(since)[0] * self.amplitude_m * (self.omega * since).cos()
+        let retarded_t = t - self.wavenumber * distance_m / self.omega;
+        self.ramp(retarded_t)[0] * self.amplitude_m * (self.omega * retarded_t).cos()
     }
 
-    /// Speed of the crests [m/s].
+    /// Celerity [m/s].
     pub fn celerity_m_s(&self) -> f64 {
-        self.omega / self.number
+        self.omega / self.wavenumber
     }
 
-    /// Velocity of the paddle over the elevation of the wave that it makes [1/s].
+    /// Paddle velocity per elevation of the generated wave [1/s].
     pub fn velocity_per_elevation(&self) -> f64 {
         self.omega * self.first_m / self.amplitude_m
     }
@@ -126,14 +125,14 @@ impl RegularMotion {
     }
 
     /// Displacement [m] and velocity [m/s] without the ramp.
-    fn full(&self, t: f64) -> [f64; 2] {
+    fn full_motion(&self, t: f64) -> [f64; 2] {
         let (one, two) = (self.omega * t, 2.0 * self.omega * t);
         let displacement = self.first_m * one.sin() + self.second_m * two.sin();
         let velocity = self.omega * (self.first_m * one.cos() + 2.0 * self.second_m * two.cos());
         [displacement, velocity]
     }
 
-    /// Share of the motion and its derivative [1/s]: half a cosine from 0 to 1, with level ends.
+    /// Ramp factor r [-] and its derivative [1/s]: a half cosine from 0 to 1.
     fn ramp(&self, t: f64) -> [f64; 2] {
         if t <= 0.0 {
             return [0.0, 0.0];
@@ -146,8 +145,8 @@ impl RegularMotion {
     }
 }
 
-/// Amplitude of the piston's motion at twice the wave's frequency [m] (Madsen 1971):
-/// X2 = H^2 / (32 d) (3 cosh kd / sinh^3 kd - 2 / m1), m1 = H/S of the piston.
+/// Second-order amplitude of the piston at twice the wave frequency [m] (Madsen 1971):
+/// X2 = H^2 / (32 d) (3 cosh kd / sinh^3 kd - 2 / m1), with m1 = H/S of the piston.
 fn second_order_m(height: f64, k: f64, depth: f64) -> f64 {
     let kd = k * depth;
     let m1 = PaddleShape::Piston.height_per_stroke(k, depth);
@@ -165,34 +164,34 @@ mod tests {
     }
 
     #[test]
-    fn transfer_has_its_limits() {
+    fn transfer_function_has_the_shallow_and_deep_water_limits() {
         let flap = PaddleShape::Flap { hinge_m: 0.0 };
-        // In shallow water a stroke lifts what it displaces: H/S = kd for a piston, half of it for a flap hinged at the
+        // In shallow water the wave holds the displaced volume: H/S = kd for a piston, kd/2 for a flap hinged at the
         // bed. The next term is of order (kd)^2.
         let k = 0.01 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) / 0.01 - 1.0).abs() < 1e-4);
         assert!((flap.height_per_stroke(k, DEPTH) / 0.005 - 1.0).abs() < 1e-4);
-        // In deep water only the paddle at the surface counts; a flap's first correction is -1/kd.
+        // In deep water only the motion at the surface matters; the first correction for a flap is -1/kd.
         let k = 20.0 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) - 2.0).abs() < 1e-12);
         assert!((flap.height_per_stroke(k, DEPTH) - 2.0 * (1.0 - 1.0 / 20.0)).abs() < 1e-6);
-        // A hinge far below the bed makes a piston.
+        // A flap with its hinge far below the bed acts as a piston.
         let far = PaddleShape::Flap { hinge_m: -1e6 };
         assert!((far.height_per_stroke(k, DEPTH) - PaddleShape::Piston.height_per_stroke(k, DEPTH)).abs() < 1e-5);
     }
 
     #[test]
-    fn transfer_is_the_integral_over_the_paddle() {
+    fn transfer_function_equals_the_integral_over_the_paddle() {
         let shapes = [-0.3, 0.0, 0.13].map(|hinge_m| PaddleShape::Flap { hinge_m });
         for shape in shapes.into_iter().chain([PaddleShape::Piston]) {
             for k in [0.3, 3.245, 9.0] {
-                // Mid-point rule with n pieces; the kink at the hinge costs 1e-7 of it.
+                // Midpoint rule with n intervals; the kink at the hinge causes a relative error of 1e-7.
                 let n = 4000;
-                let piece = |i: i32| {
+                let interval = |i: i32| {
                     let z = DEPTH * (f64::from(i) + 0.5) / f64::from(n);
                     k * shape.share(z, DEPTH) * (k * z).cosh() * DEPTH / f64::from(n)
                 };
-                let integral: f64 = (0..n).map(piece).sum();
+                let integral: f64 = (0..n).map(interval).sum();
                 let kd = k * DEPTH;
                 let expected = 4.0 * kd.sinh() * integral / ((2.0 * kd).sinh() + 2.0 * kd);
                 assert!((shape.height_per_stroke(k, DEPTH) / expected - 1.0).abs() < 1e-5, "{shape:?}, k = {k}");
@@ -201,10 +200,9 @@ mod tests {
     }
 
     #[test]
-    fn second_order_motion_is_that_of_the_water() {
-        // In shallow water the piston follows dX/dt = c eta / (d + eta) at its own place. With Stokes' second-order
-        // elevation this gives, by expansion in a/d and kd, X2 = (a^2 / 2 k d^2) (3 / (2 kd)^2 - 1/2); the next term is
-        // smaller by (kd)^2.
+    fn second_order_motion_follows_the_water_in_shallow_water() {
+        // In shallow water dX/dt = c eta / (d + eta) at the piston. With Stokes' second-order elevation, expansion in
+        // a/d and kd gives X2 = (a^2 / 2 k d^2) (3 / (2 kd)^2 - 1/2); the next term is smaller by (kd)^2.
         let (height, kd) = (1e-3, 0.2);
         let (a, k) = (0.5 * height, kd / DEPTH);
         let expected = a * a / (2.0 * k * DEPTH * DEPTH) * (3.0 / (4.0 * kd * kd) - 0.5);
@@ -214,17 +212,17 @@ mod tests {
     }
 
     #[test]
-    fn ramp_is_smooth_and_the_velocity_is_the_derivative() {
+    fn ramp_is_smooth_and_velocity_is_the_derivative() {
         let motion = RegularMotion::new(&wave(), PaddleShape::Piston, 1.5);
         assert_eq!((motion.displacement_m(0.0), motion.velocity_m_s(0.0)), (0.0, 0.0));
         let h = 1e-5;
         for i in 1..100 {
             let t = 0.0317 * f64::from(i);
             let slope = (motion.displacement_m(t + h) - motion.displacement_m(t - h)) / (2.0 * h);
-            // Central difference: h^2 X''' / 6 is below 1e-9.
+            // Error of the central difference: h^2 X''' / 6 is below 1e-9.
             assert!((slope - motion.velocity_m_s(t)).abs() < 1e-8);
         }
-        // No jump where the ramp ends: over 2 h the velocity changes by the acceleration, at most 4 m/s2.
+        // The velocity has no jump at the end of the ramp: the acceleration is at most 4 m/s2.
         let end = 1.5 * 1.2;
         assert!((motion.velocity_m_s(end + h) - motion.velocity_m_s(end - h)).abs() < 8.0 * h);
         let largest = (0..2000).map(|i| motion.displacement_m(0.005 * f64::from(i)).abs()).fold(0.0, f64::max);

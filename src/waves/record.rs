@@ -1,40 +1,40 @@
-//! What a flume run leaves behind: gauges, profiles of the surface, the shore, and the whole flow in a window, to be
-//! asked at any place and time.
+//! Results of a flume run: wave gauges, surface profiles, the shoreline, and the flow in a window, interpolated at any
+//! position and time.
 
 use crate::geometry::profile::Profile;
 use crate::waves::interpolation::Stencil;
 use crate::waves::layered::Column;
 
-/// Water shallower than this counts as dry when blending in space [m]: below it the mean bed of a cell differs from the
-/// profile's at a corner.
+/// Depth below which a point counts as dry in interpolation [m]: for thinner films the difference between the mean bed
+/// of a cell and the profile at a corner matters.
 const FILM_M: f64 = 1e-3;
 
-/// Gauges and a window of the flow at a fixed interval.
+/// Wave gauges and the flow in a window, recorded at a fixed interval.
 #[derive(Debug, Clone)]
 pub struct FlumeRecord {
     /// Bed of the flume.
     pub profile: Profile,
-    /// Still-water level z [m].
+    /// Still water level z [m].
     pub still_level_m: f64,
     /// Number of layers.
     pub layers: usize,
     /// Time between records [s]; the first is at t = 0.
     pub interval_s: f64,
-    /// Places of the gauges [m].
+    /// Positions x of the gauges [m].
     pub gauges_x_m: Vec<f64>,
-    /// Elevation above still water at the gauges [m], one series a gauge; bed level minus still level while dry.
+    /// Elevation above still water at the gauges [m], one series per gauge; bed level minus still water level if dry.
     pub gauge_elevations_m: Vec<Vec<f64>>,
-    /// The surface along the whole flume at the times that were asked for.
+    /// Surface along the whole flume at the requested times.
     pub profiles: Vec<SurfaceProfile>,
-    /// Highest point of the ground that the water from the left end reaches z [m], a value a record.
+    /// Bed level z at the shoreline [m], one value per record.
     pub shore_level_m: Vec<f64>,
-    /// Points of the window [m].
+    /// Positions x of the points of the window [m].
     pub window_x_m: Vec<f64>,
-    /// Displacement of the piston [m], a value a record.
+    /// Displacement of the piston [m], one value per record.
     pub paddle_m: Vec<f64>,
-    /// Water in the flume at the start [m2].
+    /// Initial volume of water in the flume per metre of width [m2].
     pub volume_m2: f64,
-    /// Largest departure from that volume and what came in through the ends, relative to it [-].
+    /// Largest error of the volume balance, relative to the initial volume [-].
     pub volume_error: f64,
     surface_m: Vec<f64>,
     u: Vec<f64>,
@@ -42,7 +42,7 @@ pub struct FlumeRecord {
     times_s: Vec<f64>,
 }
 
-/// The surface along the whole flume at one moment.
+/// Surface along the whole flume at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceProfile {
     /// Time [s].
@@ -51,20 +51,19 @@ pub struct SurfaceProfile {
     pub points: Vec<SurfacePoint>,
 }
 
-/// The surface in a cell.
+/// Surface in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Middle of the cell [m].
+    /// Centre of the cell [m].
     pub x_m: f64,
-    /// Level of the surface z, of the bed where it is dry [m].
+    /// Surface level z [m]; the bed level in a dry cell.
     pub surface_m: f64,
     /// Depth of the water [m].
     pub depth_m: f64,
 }
 
 impl SurfaceProfile {
-    /// Level of the surface z [m] at x [m], on a straight line between the middles of cells; `None` where it is dry or
-    /// outside them.
+    /// Surface level z [m] at x [m], linear between the cell centres; `None` where dry or outside the centres.
     pub fn surface_m(&self, x: f64) -> Option<f64> {
         let right = self.points.partition_point(|p| p.x_m < x);
         let (a, b) = (self.points.get(right.checked_sub(1)?)?, self.points.get(right)?);
@@ -74,19 +73,19 @@ impl SurfaceProfile {
     }
 }
 
-/// The flow in the window at one moment.
+/// Flow in the window at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlumeState {
     /// Time [s].
     pub time_s: f64,
-    /// Points [m].
+    /// Positions of the points [m].
     pub x_m: Vec<f64>,
-    /// The flow at the points.
+    /// Flow at the points.
     pub columns: Vec<Column>,
 }
 
 impl FlumeRecord {
-    /// An empty record.
+    /// Creates an empty record.
     pub(super) fn new(
         profile: Profile,
         still_level_m: f64,
@@ -115,7 +114,7 @@ impl FlumeRecord {
         }
     }
 
-    /// Add the state at the next record's time.
+    /// Adds the state at the time of the next record.
     pub(super) fn push(&mut self, paddle_m: f64, gauge_levels_m: &[f64], columns: impl Iterator<Item = Column>) {
         self.times_s.push(self.times_s.len() as f64 * self.interval_s);
         self.paddle_m.push(paddle_m);
@@ -139,55 +138,55 @@ impl FlumeRecord {
         self.times_s.last().copied().unwrap_or(0.0)
     }
 
-    /// Elevation above still water [m] at x [m] and t [s]; bed level minus still level where it is dry. Cubic in
-    /// space and time; outside the window or the time of the run the value at its end.
+    /// Elevation above still water [m] at x [m] and t [s]; bed level minus still water level where dry. Cubic in space
+    /// and time, constant beyond the ends of the window and of the run.
     pub fn elevation(&self, x: f64, t: f64) -> f64 {
         self.surface_level_m(x, t) - self.still_level_m
     }
 
-    /// Surface level z [m] at x [m] and t [s], as [`Self::elevation`].
+    /// Surface level z [m] at x [m] and t [s], interpolated as [`Self::elevation`].
     pub fn surface_level_m(&self, x: f64, t: f64) -> f64 {
         let bed = self.profile.z(x);
-        self.surface_between(&self.between(x, t), bed)
+        self.interpolate_surface(&self.stencils(x, t), bed)
     }
 
-    fn surface_between(&self, between: &Between, bed: f64) -> f64 {
-        between.blend(|at| if self.is_wet(at) { self.surface_m[at] } else { bed }).max(bed)
+    fn interpolate_surface(&self, stencils: &Stencils, bed: f64) -> f64 {
+        stencils.interpolate(|i| if self.is_wet(i) { self.surface_m[i] } else { bed }).max(bed)
     }
 
-    /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s]: above the surface those of the surface, below
-    /// the bed those of the bed. u between the layers is a parabola in the height above the bed, w is linear.
+    /// Horizontal and vertical velocity [m/s] at (x, z) [m] and t [s], constant above the surface and below the bed.
+    /// Between the layers u is a parabola in the height above the bed and w is linear.
     pub fn velocity(&self, x: f64, z: f64, t: f64) -> (f64, f64) {
         let bed = self.profile.z(x);
-        let between = self.between(x, t);
-        let depth = self.surface_between(&between, bed) - bed;
+        let stencils = self.stencils(x, t);
+        let depth = self.interpolate_surface(&stencils, bed) - bed;
         let height = if depth > 0.0 { ((z - bed) / depth).clamp(0.0, 1.0) } else { 0.0 };
         let k = self.layers;
-        let u = between.blend(|at| profile_of_u(&self.u[at * k..(at + 1) * k], height));
-        let w = between.blend(|at| profile_of_w(&self.w[at * (k + 1)..(at + 1) * (k + 1)], height));
+        let u = stencils.interpolate(|i| profile_of_u(&self.u[i * k..(i + 1) * k], height));
+        let w = stencils.interpolate(|i| profile_of_w(&self.w[i * (k + 1)..(i + 1) * (k + 1)], height));
         (u, w)
     }
 
-    /// Mean of the horizontal velocity over the depth [m/s] at x [m] and t [s].
+    /// Depth-mean horizontal velocity [m/s] at x [m] and t [s].
     pub fn mean_velocity(&self, x: f64, t: f64) -> f64 {
         let k = self.layers;
-        self.between(x, t).blend(|at| self.u[at * k..(at + 1) * k].iter().sum::<f64>() / k as f64)
+        self.stencils(x, t).interpolate(|i| self.u[i * k..(i + 1) * k].iter().sum::<f64>() / k as f64)
     }
 
-    /// The flow in the whole window at t [s].
+    /// Flow in the whole window at t [s].
     pub fn state_at(&self, t: f64) -> FlumeState {
         let time_s = t.clamp(0.0, self.end_s());
         let (k, points) = (self.layers, self.window_x_m.len());
-        let in_time = self.in_time(time_s);
-        // Values stored `each` to a point, the `at`-th of one record.
-        let mix = |values: &[f64], each: usize, at: usize| in_time.apply(|record| values[record * points * each + at]);
+        let time = self.time_stencil(time_s);
+        // `values` has `n` values per point; `j` is the index within one record.
+        let interpolate = |values: &[f64], n: usize, j: usize| time.apply(|record| values[record * points * n + j]);
         let column = |i: usize| {
             let bed_m = self.profile.z(self.window_x_m[i]);
             Column {
-                surface_m: mix(&self.surface_m, 1, i).max(bed_m),
+                surface_m: interpolate(&self.surface_m, 1, i).max(bed_m),
                 bed_m,
-                u: (0..k).map(|m| mix(&self.u, k, i * k + m)).collect(),
-                w: (0..=k).map(|m| mix(&self.w, k + 1, i * (k + 1) + m)).collect(),
+                u: (0..k).map(|m| interpolate(&self.u, k, i * k + m)).collect(),
+                w: (0..=k).map(|m| interpolate(&self.w, k + 1, i * (k + 1) + m)).collect(),
             }
         };
         let columns = (0..points).map(column).collect();
@@ -208,40 +207,40 @@ impl FlumeRecord {
         (top - 0.25 * (before - after) * shift, (highest as f64 + shift) * self.interval_s)
     }
 
-    /// Stencil over the records for t [s].
-    fn in_time(&self, t: f64) -> Stencil {
+    /// Stencil in time for t [s].
+    fn time_stencil(&self, t: f64) -> Stencil {
         Stencil::at(&self.times_s, t, |_| true)
     }
 
-    /// Where to read for x [m] and t [s]; points that are dry at one of the times keep out of the cubic in space.
-    fn between(&self, x: f64, t: f64) -> Between {
-        let (time, points) = (self.in_time(t), self.window_x_m.len());
-        let wet = |i: usize| time.points().all(|record| self.is_wet(record * points + i));
-        Between { time, place: Stencil::at(&self.window_x_m, x, wet), points }
+    /// Stencils for x [m] and t [s]; the cubic in space leaves out points that are dry at one of the times.
+    fn stencils(&self, x: f64, t: f64) -> Stencils {
+        let (time, points) = (self.time_stencil(t), self.window_x_m.len());
+        let is_wet = |i: usize| time.points().all(|record| self.is_wet(record * points + i));
+        Stencils { time, space: Stencil::at(&self.window_x_m, x, is_wet), points }
     }
 
     /// Whether there is water at a recorded point.
-    fn is_wet(&self, at: usize) -> bool {
-        self.surface_m[at] > self.profile.z(self.window_x_m[at % self.window_x_m.len()]) + FILM_M
+    fn is_wet(&self, index: usize) -> bool {
+        self.surface_m[index] > self.profile.z(self.window_x_m[index % self.window_x_m.len()]) + FILM_M
     }
 }
 
-/// A place and moment between recorded points.
-struct Between {
+/// Stencils in time and space for one position and time.
+struct Stencils {
     time: Stencil,
-    place: Stencil,
-    /// Points of one record.
+    space: Stencil,
+    /// Number of points of one record.
     points: usize,
 }
 
-impl Between {
-    /// `value` of a recorded point, blended in space and time.
-    fn blend(&self, value: impl Fn(usize) -> f64) -> f64 {
-        self.time.apply(|record| self.place.apply(|i| value(record * self.points + i)))
+impl Stencils {
+    /// Interpolates `value(index)` of the recorded points in space and time.
+    fn interpolate(&self, value: impl Fn(usize) -> f64) -> f64 {
+        self.time.apply(|record| self.space.apply(|i| value(record * self.points + i)))
     }
 }
 
-/// u at a height above the bed, as a share of the depth, from the layers' means: linear in the height squared, which is
+/// u at a relative height above the bed, 0 to 1, from the layer means. It is linear in the height squared, which is
 /// exact for the parabola a + b height^2 of a long irrotational wave.
 fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     let k = layers.len();
@@ -255,7 +254,7 @@ fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     layers[below] + share * (layers[below + 1] - layers[below])
 }
 
-/// w at a height above the bed, as a share of the depth, from the interfaces: linear.
+/// w at a relative height above the bed, 0 to 1, linear between the interfaces.
 fn profile_of_w(interfaces: &[f64], height: f64) -> f64 {
     let k = interfaces.len() - 1;
     let below = ((height * k as f64) as usize).min(k - 1);
@@ -267,7 +266,7 @@ fn profile_of_w(interfaces: &[f64], height: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Two layers over a level bed, surface 1 + 0.1 x + 0.2 t, u = 1 + height^2 as layer means, w from 0 to 0.5.
+    /// Two layers over a level bed: surface 1 + 0.1 x + 0.2 t, layer means of u = 1 + height^2, w from 0 to 0.5.
     fn record() -> FlumeRecord {
         let profile = Profile::new(vec![[0.0, 0.0], [10.0, 0.0]]);
         let window: Vec<f64> = (0..6).map(f64::from).collect();
@@ -288,7 +287,7 @@ mod tests {
     #[test]
     fn flow_is_interpolated_in_space_height_and_time() {
         let record = record();
-        // Linear fields and a parabola in height: exact but for rounding.
+        // Linear fields and a parabola in height are exact to rounding.
         assert!((record.elevation(2.3, 1.1) - (0.23 + 0.22)).abs() < 1e-12);
         let depth = 1.0 + 0.23 + 0.22;
         let (u, w) = record.velocity(2.3, 0.6 * depth, 1.1);
@@ -300,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_profile_is_read_where_it_is_wet() {
+    fn surface_profile_has_values_only_in_wet_cells() {
         let point = |x_m: f64, depth_m: f64| SurfacePoint { x_m, surface_m: 1.0 + x_m, depth_m };
         let points = vec![point(0.5, 0.4), point(1.5, 0.2), point(2.5, 0.0)];
         let profile = SurfaceProfile { time_s: 0.0, points };

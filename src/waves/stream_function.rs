@@ -1,16 +1,16 @@
-//! Regular waves of permanent form by Fourier approximation of the stream function: from deep water to waves as long as
-//! cnoidal ones.
+//! Stream function wave theory: regular waves of permanent form by Fourier approximation, from deep water to cnoidal
+//! waves.
 //!
-//! Rienecker & Fenton (1981), "A Fourier approximation method for steady water waves"; Fenton (1988). With d and g as
-//! units, in the frame of the wave, the water flowing towards negative x:
+//! Rienecker & Fenton (1981), "A Fourier approximation method for steady water waves"; Fenton (1988). In units of d and
+//! g and in the frame of the wave, where the water flows towards negative x:
 //!
 //! ```text
 //! psi(X, Y) = - U Y + sum_j B_j sinh(j k Y) / cosh(j k) cos(j X),  X = k x - omega t,  Y from the bed
 //! psi = - Q and (u^2 + v^2) / 2 + Y = R on the surface
 //! ```
 //!
-//! at N + 1 points from crest to trough; together with the mean depth, the height, the period and the mean flow 2 N + 6
-//! equations, solved by Newton's method from a low wave upwards.
+//! at N + 1 points from crest to trough. Mean depth, height, period and mean flow complete the 2 N + 6 equations.
+//! Newton's method solves them for a low wave first and then for increasing heights.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,42 +19,42 @@ use super::regular::{MeanFlow, RegularWave, WaveError, highest_over_depth, linea
 mod equations;
 use equations::{SteadyWave, solve};
 
-/// Growth of the height from one solution to the next [-]; the next one starts from a line through the last two.
+/// Ratio of the heights of successive solutions [-]; each solution starts from a line through the last two.
 const HEIGHT_GROWTH: f64 = 1.25;
-/// H L^2 / d^3 up to which the first wave is nearly a cosine [-].
+/// Largest Ursell number H L^2 / d^3 of the first wave [-], which is then nearly a cosine.
 const FIRST_URSELL: f64 = 4.0;
-/// Share of the depth up to which it is low [-].
+/// Largest height of the first wave per depth [-].
 const FIRST_HEIGHT: f64 = 0.02;
-/// Longest wave on the depth [-]: beyond it crests are solitary waves.
+/// Limit of the wavelength per depth [-]: the crests of longer waves are solitary waves.
 const LONGEST: f64 = 60.0;
 
-/// A computed wave; SI units.
+/// A solution of stream function wave theory in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreamFunctionWave {
     parameters: RegularWave,
     wavenumber: f64,
     celerity: f64,
     mean_velocity: f64,
-    /// E_j: elevation = sum E_j cos(j X) [m].
+    /// E_j [m], with elevation = sum E_j cos(j X).
     elevation: Vec<f64>,
     /// j k B_j from j = 1 [m/s].
     velocity: Vec<f64>,
 }
 
 impl StreamFunctionWave {
-    /// Compute the wave.
+    /// Computes the wave.
     ///
     /// # Errors
-    /// If a value is out of its range, the wave would break, or none is found.
+    /// If a value is out of range, the wave would break, or the solution does not converge.
     pub fn new(parameters: RegularWave, mean_flow: MeanFlow) -> Result<Self, WaveError> {
         let length_guess = check(&parameters)?;
         let RegularWave { height_m, period_s, depth_m, gravity } = parameters;
         let not_found = || WaveError::NotFound { height_m, period_s, depth_m };
         let height = height_m / depth_m;
         let period = period_s * (gravity / depth_m).sqrt();
-        // Crests of long waves fill a small share of the length: the same number of points on each.
+        // The crest of a long wave covers a small part of the wavelength; a higher order resolves it.
         let order = (16.0 + 0.8 * length_guess).min(64.0) as usize;
-        let wave = grow(order, height, period, mean_flow).ok_or_else(not_found)?;
+        let wave = solve_by_growing_height(order, height, period, mean_flow).ok_or_else(not_found)?;
         if !wave.falls_from_crest_to_trough() {
             return Err(not_found());
         }
@@ -75,7 +75,7 @@ impl StreamFunctionWave {
         }
     }
 
-    /// The wave as it was ordered.
+    /// Target height, period and depth.
     pub fn parameters(&self) -> &RegularWave {
         &self.parameters
     }
@@ -85,12 +85,12 @@ impl StreamFunctionWave {
         self.wavenumber
     }
 
-    /// Speed of the crests [m/s].
+    /// Celerity [m/s].
     pub fn celerity_m_s(&self) -> f64 {
         self.celerity
     }
 
-    /// Mean velocity at a point below the troughs [m/s].
+    /// Mean Eulerian velocity below the troughs [m/s].
     pub fn mean_velocity_m_s(&self) -> f64 {
         self.mean_velocity
     }
@@ -117,7 +117,7 @@ impl StreamFunctionWave {
     }
 }
 
-/// Refuse what is out of range; gives the length of the linear wave over the depth [-].
+/// Checks the ranges and returns the linear wavelength per depth [-].
 fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     for (name, value) in
         [("height_m", wave.height_m), ("period_s", wave.period_s), ("depth_m", wave.depth_m), ("gravity", wave.gravity)]
@@ -126,11 +126,10 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     }
     let length = wave.length_m() / wave.depth_m;
     if !length.is_finite() || length >= LONGEST {
-        let allowed = format!("such that the wave is at most {LONGEST} depths long; it is {length:.1}");
+        let allowed = format!("short enough for a wavelength below {LONGEST} depths (linear theory: {length:.1})");
         return Err(WaveError::Value { name: "period_s", value: wave.period_s, allowed });
     }
-    // High waves are longer than linear ones, by up to a fifth, and that much higher they can be; the rest is left to
-    // Newton's method.
+    // High waves are up to 20 % longer than linear ones, which raises their limit. Newton's method detects the rest.
     let highest = highest_over_depth(1.2 * length) * wave.depth_m;
     if wave.height_m >= highest {
         let allowed = format!("below {highest:.4}, where waves of this period and depth break");
@@ -139,27 +138,27 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     Ok(length)
 }
 
-/// From a low wave to the height, each solution a start for the next.
-fn grow(order: usize, height: f64, period: f64, mean_flow: MeanFlow) -> Option<SteadyWave> {
+/// Solves from a low wave up to `height`; each solution is the initial guess of the next one.
+fn solve_by_growing_height(order: usize, height: f64, period: f64, mean_flow: MeanFlow) -> Option<SteadyWave> {
     let k = linear_wavenumber_per_m(TAU / period, 1.0, 1.0);
     let first = height.min(FIRST_HEIGHT).min(FIRST_URSELL * (k / TAU).powi(2));
-    let mut at = first;
-    let mut wave = solve(SteadyWave::linear(order, at, k), at, period, mean_flow)?;
+    let mut current = first;
+    let mut wave = solve(SteadyWave::linear(order, current, k), current, period, mean_flow)?;
     let mut before: Option<(f64, SteadyWave)> = None;
-    while at < height {
-        let next = (at * HEIGHT_GROWTH).min(height);
+    while current < height {
+        let next = (current * HEIGHT_GROWTH).min(height);
         let start = match &before {
-            Some((height_before, earlier)) => wave.extrapolated(earlier, (next - at) / (at - height_before)),
+            Some((height_before, earlier)) => wave.extrapolated(earlier, (next - current) / (current - height_before)),
             None => wave.clone(),
         };
         let higher = solve(start, next, period, mean_flow)?;
-        before = Some((at, std::mem::replace(&mut wave, higher)));
-        at = next;
+        before = Some((current, std::mem::replace(&mut wave, higher)));
+        current = next;
     }
     Some(wave)
 }
 
-/// E_j with elevation(X) = sum E_j cos(j X) through the N + 1 points of `surface` (about 1) from crest to trough.
+/// E_j of elevation(X) = sum E_j cos(j X) through the N + 1 points of `surface` - 1, from crest to trough.
 fn cosine_coefficients(surface: &[f64]) -> Vec<f64> {
     let n = surface.len() - 1;
     let half_at_ends = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
@@ -184,15 +183,15 @@ mod tests {
     fn low_wave_is_linear() {
         let w = wave(1e-4, 2.02, 0.4, MeanFlow::NoCurrent);
         let k = linear_wavenumber_per_m(TAU / 2.02, 0.4, 9.81);
-        // Corrections are of the order (H/d)^2 (1/kd)^4 = 1e-6.
+        // Corrections are of order (H/d)^2 (1/kd)^4 = 1e-6.
         assert!((w.wavenumber_per_m() / k - 1.0).abs() < 1e-5);
         let u = 0.5e-4 * TAU / 2.02 / (k * 0.4).tanh();
         // The second harmonic is H/d (kd)^-2 = 4e-4 of the first.
         assert!((w.velocity_m_s(0.0, 0.0) / u - 1.0).abs() < 1e-3);
     }
 
-    /// Speed by Stokes' fifth-order theory without mean current (Fenton 1985, table 1): c sqrt(k/g) = C0 + e^2 C2 +
-    /// e^4 C4, e = k H / 2, S = sech(2 k d).
+    /// Celerity by Stokes' fifth-order theory without mean current (Fenton 1985, table 1):
+    /// c sqrt(k/g) = C0 + e^2 C2 + e^4 C4, e = k H / 2, S = sech(2 k d).
     fn stokes_celerity(k: f64, height: f64, depth: f64) -> f64 {
         let s = 1.0 / (2.0 * k * depth).cosh();
         let c0 = (k * depth).tanh().sqrt();
@@ -204,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn speed_is_that_of_stokes_waves_of_fifth_order() {
+    fn celerity_agrees_with_stokes_fifth_order() {
         for (height, period, depth) in [(0.08, 1.0, 0.5), (0.15, 1.5, 1.0), (0.1, 1.2, 2.0)] {
             let w = wave(height, period, depth, MeanFlow::NoCurrent);
             let expected = stokes_celerity(w.wavenumber_per_m(), height, depth);
@@ -215,20 +214,19 @@ mod tests {
     }
 
     #[test]
-    fn long_wave_is_a_train_of_solitary_waves() {
-        // Ursell number 150: over the depth in the trough the crest is a solitary wave, whose speed on that depth is
-        // known.
+    fn long_wave_travels_as_a_solitary_wave_over_its_trough() {
+        // Ursell number 150: the crest is a solitary wave on the depth of the trough, with known celerity.
         let w = wave(0.08, 14.0, 1.0, MeanFlow::NoCurrent);
         let trough = 1.0 + w.elevation_m(PI);
         let e = 0.08 / trough;
         let solitary = (9.81 * trough * (1.0 + e - e * e / 20.0 - 3.0 * e.powi(3) / 70.0)).sqrt();
         let over_trough = w.celerity_m_s() - w.velocity_m_s(PI, -0.5);
-        // The trough is level only in the limit: sech^2 of a quarter... of the length leaves 1e-2 of the height.
+        // The trough is level only in the limit: between crests 1e-2 of the height remains.
         assert!((over_trough / solitary - 1.0).abs() < 1e-3, "{over_trough} {solitary}");
     }
 
     #[test]
-    fn no_transport_means_none() {
+    fn no_transport_makes_the_mass_flux_zero() {
         let w = wave(0.1, 2.5, 0.5, MeanFlow::NoTransport);
         let (phases, rows) = (200, 100);
         let mut transport = 0.0;
@@ -240,19 +238,19 @@ mod tests {
                 transport += w.velocity_m_s(phase, z) * depth / f64::from(rows * phases);
             }
         }
-        // The midpoint rule over 100 rows: 1e-5 of H sqrt(g d) / 2 = 0.1.
+        // Error of the midpoint rule over 100 rows: 1e-5 of H sqrt(g d) / 2 = 0.1.
         assert!(transport.abs() < 1e-6, "{transport}");
         assert!(w.mean_velocity_m_s() < 0.0);
     }
 
     #[test]
-    fn waves_that_cannot_be_are_refused() {
+    fn impossible_waves_are_rejected() {
         let make = |height_m, period_s| {
             let wave = RegularWave { height_m, period_s, depth_m: 0.4, gravity: 9.81 };
             StreamFunctionWave::new(wave, MeanFlow::NoTransport).unwrap_err().to_string()
         };
         assert_eq!(make(0.1, -1.0), "wave: period_s is -1, it must be above 0");
-        assert!(make(0.1, 100.0).contains("at most 60 depths long"));
+        assert!(make(0.1, 100.0).contains("below 60 depths"));
         assert!(make(0.35, 2.0).contains("waves of this period and depth break"));
     }
 }

@@ -1,6 +1,5 @@
-//! The `_velx` file of DualSPHysics' multi-layer piston in one dimension (Altomare et al. 2015): a line
-//! `px:;x;py:;y`, a line `time;pz_0;...;vel_0;...`, then a row a time with the heights and the velocities; separator
-//! `;`.
+//! `_velx` file of DualSPHysics' one-dimensional multi-layer piston (Altomare et al. 2015). Line 1 is `px:;x;py:;y`,
+//! line 2 is `time;pz_0;...;vel_0;...`. Then one line per time lists the time, heights and velocities, separator `;`.
 
 use std::io::{self, BufRead, Write};
 
@@ -9,34 +8,34 @@ use thiserror::Error;
 /// Velocities of the rows of a piston over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Velx {
-    /// Place of the piston, x and y [m].
+    /// Position of the piston, x and y [m].
     pub place_m: [f64; 2],
     /// Times [s].
     pub times_s: Vec<f64>,
-    /// Heights of the rows [m], a list a time.
+    /// Heights of the rows [m], one list per time.
     pub heights_m: Vec<Vec<f64>>,
-    /// Velocities of the rows [m/s], a list a time.
+    /// Velocities of the rows [m/s], one list per time.
     pub velocities_m_s: Vec<Vec<f64>>,
 }
 
-/// What can go wrong with a `_velx` file.
+/// Errors of reading a `_velx` file.
 #[derive(Debug, Error)]
 pub enum VelxError {
-    /// Reading failed.
+    /// The file cannot be read.
     #[error("velx: {0}")]
     Io(#[from] io::Error),
-    /// A line that is not as it should be.
+    /// A line is wrong.
     #[error("velx: line {line}: {problem}")]
     Line {
-        /// Line, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
 }
 
 impl Velx {
-    /// Write the file.
+    /// Writes the file.
     pub fn write(&self, mut out: impl Write) -> io::Result<()> {
         let rows = self.heights_m.first().map_or(0, Vec::len);
         let numbered = |name: &str| (0..rows).map(|k| format!(";{name}_{k}")).collect::<String>();
@@ -49,24 +48,24 @@ impl Velx {
         Ok(())
     }
 
-    /// Read a file.
+    /// Reads a file.
     pub fn read(input: impl BufRead) -> Result<Self, VelxError> {
         let mut velx = Self { place_m: [0.0; 2], times_s: vec![], heights_m: vec![], velocities_m_s: vec![] };
         let mut rows = 0;
         for (index, text) in input.lines().enumerate() {
             let text = text?;
-            let fail = |problem: String| VelxError::Line { line: index + 1, problem };
+            let error = |problem: String| VelxError::Line { line: index + 1, problem };
             let fields: Vec<&str> = text.trim().split(';').map(str::trim).collect();
-            let number = |field: &str| field.parse::<f64>().map_err(|_| fail(format!("`{field}` is not a number")));
+            let number = |field: &str| field.parse::<f64>().map_err(|_| error(format!("`{field}` is not a number")));
             match index {
                 0 if fields.len() >= 4 && fields[0] == "px:" && fields[2] == "py:" => {
                     velx.place_m = [number(fields[1])?, number(fields[3])?];
                 }
-                0 => return Err(fail("expected `px:;<x>;py:;<y>`".to_owned())),
+                0 => return Err(error("expected `px:;<x>;py:;<y>`".to_owned())),
                 1 => rows = fields.iter().filter(|name| name.starts_with("pz")).count(),
                 _ if text.trim().is_empty() => {}
                 _ if fields.len() != 1 + 2 * rows => {
-                    return Err(fail(format!("{} fields, expected {} for {rows} rows", fields.len(), 1 + 2 * rows)));
+                    return Err(error(format!("{} fields, expected {} for {rows} row(s)", fields.len(), 1 + 2 * rows)));
                 }
                 _ => {
                     let values = fields.iter().map(|field| number(field)).collect::<Result<Vec<f64>, _>>()?;
@@ -94,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back() {
+    fn written_file_is_read_back_unchanged() {
         let mut file = Vec::new();
         velx().write(&mut file).unwrap();
         let text = String::from_utf8(file.clone()).unwrap();
@@ -103,11 +102,11 @@ mod tests {
     }
 
     #[test]
-    fn a_bad_line_is_named() {
+    fn error_names_the_wrong_line() {
         let message = |text: &str| Velx::read(text.as_bytes()).unwrap_err().to_string();
         assert_eq!(message("x;1"), "velx: line 1: expected `px:;<x>;py:;<y>`");
         let head = "px:;1;py:;0\ntime;pz_0;vel_0\n";
-        assert_eq!(message(&format!("{head}0;0.1")), "velx: line 3: 2 fields, expected 3 for 1 rows");
+        assert_eq!(message(&format!("{head}0;0.1")), "velx: line 3: 2 fields, expected 3 for 1 row(s)");
         assert_eq!(message(&format!("{head}0;0.1;fast")), "velx: line 3: `fast` is not a number");
     }
 }

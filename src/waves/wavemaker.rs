@@ -1,20 +1,20 @@
-//! What moves the rows of boundary particles at the seaward end of the domain.
+//! Wavemakers: rows of boundary particles that move at the seaward end of the particle domain.
 //!
-//! A new kind of wavemaker is a variant here: it tells where each of its rows is and how fast it moves along x.
+//! A new kind of wavemaker is a variant of [`Wavemaker`]: it returns the displacement and velocity along x of each row.
 
 use crate::waves::{absorption::Absorption, ml_piston::MlPiston, paddle::Paddle};
 
 /// A wavemaker made of rows of particles.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Wavemaker {
-    /// Rows that follow the water of a flume run.
+    /// Multi-layer piston: rows follow the water of a flume run.
     MlPiston(MlPiston),
-    /// Rows of a rigid paddle.
+    /// Rigid paddle.
     Paddle(Paddle),
 }
 
 impl Wavemaker {
-    /// Place at rest [m].
+    /// Rest position x [m].
     pub fn place_m(&self) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.place_m(),
@@ -22,7 +22,7 @@ impl Wavemaker {
         }
     }
 
-    /// How it takes up what comes back, if it does.
+    /// Active absorption, if any.
     pub fn absorption(&self) -> Option<&Absorption> {
         match self {
             Self::MlPiston(piston) => piston.absorption(),
@@ -38,7 +38,7 @@ impl Wavemaker {
         }
     }
 
-    /// Displacement [m] and velocity [m/s] along x of each row at t [s] of the flume.
+    /// Displacement [m] and velocity [m/s] along x of each row at flume time t [s].
     pub fn rows_at(&self, t: f64) -> Vec<[f64; 2]> {
         match self {
             Self::MlPiston(piston) => {
@@ -49,8 +49,7 @@ impl Wavemaker {
         }
     }
 
-    /// Where it stands at t [s] of the flume [m]: a paddle at the still surface, a multi-layer piston with its highest
-    /// row.
+    /// Position x [m] at flume time t [s]: a paddle at still water level, a multi-layer piston at its highest row.
     pub fn surface_m(&self, t: f64) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.place_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),
@@ -58,13 +57,13 @@ impl Wavemaker {
         }
     }
 
-    /// Place of the foremost row at t [s] of the flume [m].
+    /// Position x of the foremost row at flume time t [s] [m].
     pub fn front_m(&self, t: f64) -> f64 {
         let furthest = self.rows_at(t).iter().map(|row| row[0]).fold(f64::MIN, f64::max);
         self.place_m() + furthest
     }
 
-    /// How far a row goes seaward of its place of rest [m].
+    /// Largest seaward displacement of a row from its rest position [m].
     pub fn seaward_reach_m(&self) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.seaward_reach_m(),
@@ -72,7 +71,7 @@ impl Wavemaker {
         }
     }
 
-    /// How far a row goes shoreward of its place of rest [m].
+    /// Largest shoreward displacement of a row from its rest position [m].
     pub fn shoreward_reach_m(&self) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.shoreward_reach_m(),

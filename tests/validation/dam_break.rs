@@ -66,8 +66,7 @@ impl Tips {
         let mut dam = dam(dp);
         let mut tips = vec![[0.0, tip(&dam)]];
         while dam.time < LATEST {
-            let dt = dam.begin_step().unwrap();
-            dam.finish_step(dt).unwrap();
+            dam.step().unwrap();
             tips.push([dam.time, tip(&dam)]);
         }
         Self(tips)

@@ -57,8 +57,7 @@ fn run(case: Case, times: impl Iterator<Item = f64>) -> Vec<Moment> {
     let mut moments = Vec::new();
     for time in times {
         while now.time < time {
-            let dt = dam.begin_step().unwrap();
-            dam.finish_step(dt).unwrap();
+            dam.step().unwrap();
             (before, now) = (now, look(&dam));
         }
         let share = if now.time > before.time { (time - before.time) / (now.time - before.time) } else { 0.0 };

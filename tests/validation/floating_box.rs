@@ -65,7 +65,6 @@ fn computed(dp: f64, part: Part) -> Vec<Row> {
     let mut tank = tank(dp, part);
     let (mut rows, end) = (Vec::new(), tank.case.stop.duration);
     while tank.time < end {
-        let dt = tank.begin_step().unwrap();
         let (state, start) = (tank.units.as_ref().unwrap().states()[0], tank.units.as_ref().unwrap().start[0]);
         let moved = state.position - start.position;
         let along = state.rotation * glam::DVec3::X;
@@ -73,7 +72,7 @@ fn computed(dp: f64, part: Part) -> Vec<Row> {
         if first_full_crest(&rows).is_some_and(|crest| tank.time > crest + PERIODS * PERIOD) {
             break;
         }
-        tank.finish_step(dt).unwrap();
+        tank.step().unwrap();
     }
     rows
 }

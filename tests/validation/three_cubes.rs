@@ -47,8 +47,7 @@ impl Paths {
         };
         let mut paths = vec![places(&tank)];
         while tank.time < end {
-            let dt = tank.begin_step().unwrap();
-            tank.finish_step(dt).unwrap();
+            tank.step().unwrap();
             paths.push(places(&tank));
         }
         Self(paths)

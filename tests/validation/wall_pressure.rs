@@ -39,12 +39,12 @@ fn wall_pressure(diffusion: &str, sound_speed_factor: f64) -> Result<Vec<f64>, F
     let mut dam = Simulation::new(Arc::new(case)).unwrap();
     let mut series = Vec::new();
     while dam.time < WINDOW[1] {
-        let dt = dam.begin_step()?;
-        if dam.time >= WINDOW[0] + INTERVAL * series.len() as f64 {
-            let sample = dam.sampler().sample(DVec3::new(4.0, 5.0 * DP, 0.1));
+        let mut now = dam.begin_step()?;
+        if now.time >= WINDOW[0] + INTERVAL * series.len() as f64 {
+            let sample = now.sampler()?.sample(DVec3::new(4.0, 5.0 * DP, 0.1));
             series.push(sample.map_or(0.0, |sample| sample.pressure));
         }
-        dam.finish_step(dt)?;
+        now.finish()?;
     }
     Ok(series)
 }

@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use breakwater::{
     case::{DryCase, PlacementJob},
-    output::Impacts,
+    output::{Impacts, driver::Control},
     simulation::{
         armour_layer::place,
         dry_test::{DryRun, run::run},
@@ -28,7 +28,7 @@ fn the_slope_test_gives_the_friction_that_was_put_in() {
     for (name, friction) in [("tilt-tetrapod.json", 0.32), ("tilt-tetrapod-on-mortar.json", 0.65)] {
         let dir = folder.path().join(name);
         std::fs::create_dir(&dir).unwrap();
-        let summary = run(dry_case(&case_file(name)), &dir, true).unwrap();
+        let summary = run(dry_case(&case_file(name)), &dir, &Control::quiet()).unwrap();
         for unit in &summary.units {
             let found = unit.friction.unwrap();
             println!("{name}: unit {}: {found:.4} ({:+.2} %)", unit.unit, 100.0 * (found / friction - 1.0));
@@ -47,10 +47,10 @@ fn a_broken_dry_run_goes_on_with_the_same_bits() {
     let dirs = ["whole", "broken"].map(|name| folder.path().join(name));
     for dir in &dirs {
         std::fs::create_dir(dir).unwrap();
-        run(dry_case(&case), dir, true).unwrap();
+        run(dry_case(&case), dir, &Control::quiet()).unwrap();
     }
     // The last checkpoint is of 0.6 s: going on from there writes the end once more.
-    breakwater::simulation::dry_test::run::resume(dry_case(&case), &dirs[1], true).unwrap();
+    breakwater::simulation::dry_test::run::resume(dry_case(&case), &dirs[1], &Control::quiet()).unwrap();
     for file in ["units.csv", "energy.csv", "contacts.csv"] {
         let [whole, broken] = dirs.each_ref().map(|dir| std::fs::read(dir.join(file)).unwrap());
         assert_eq!(whole, broken, "{file}");
@@ -122,7 +122,7 @@ fn a_run_that_fails_keeps_its_last_checkpoint_and_the_state_it_failed_in() {
     case["dry"]["height_m"] = json!(5.0);
     case["materials"][0]["young_modulus_pa"] = json!(1e6);
     case["output"] = json!({ "checkpoint_interval_s": 0.4 });
-    let error = run(dry_case(&case), folder.path(), true).unwrap_err().to_string();
+    let error = run(dry_case(&case), folder.path(), &Control::quiet()).unwrap_err().to_string();
     assert!(error.contains("unit 1") && error.contains("failed.json"), "{error}");
     let time = |file: &str| {
         let text = std::fs::read_to_string(folder.path().join(file)).unwrap();

@@ -73,7 +73,7 @@ fn share_of_the_push(scheme: Scheme, height: f64, dp: f64) -> f64 {
             return;
         }
         let since = time - before.replace(time).unwrap_or(time);
-        let sampler = now.sampler();
+        let sampler = now.sampler().unwrap();
         let in_particles =
             |z: f64| sampler.sample(DVec3::new(MIDDLE_X, 0.0, CREST_Z + z)).map_or(0.0, |water| water.velocity.x);
         ours += push(in_particles) * since;

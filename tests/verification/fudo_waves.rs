@@ -4,7 +4,7 @@
 use std::{fs, sync::Arc};
 
 use breakwater::case::Case;
-use breakwater::output::Stopped;
+use breakwater::output::{Stopped, driver::Control};
 use breakwater::simulation::flume::Simulation;
 use breakwater::simulation::flume::run::{RunOptions, run};
 use breakwater::sph::device::Device;
@@ -78,11 +78,12 @@ fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
         if !now.steps.is_multiple_of(20) {
             return;
         }
-        let (time, record) = (now.flume_time(), now.flume.as_ref().unwrap());
+        let time = now.flume_time();
         for (k, distance) in DISTANCES.iter().enumerate() {
             let x = PISTON_X + distance;
             // The piston passes the nearest place after the crest: it travels 0.76 m.
-            if let Some(level) = now.sampler().surface(DVec2::new(x, 0.0), 0.45, 1.1) {
+            let level = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.45, 1.1);
+            if let (Some(level), Some(record)) = (level, &now.flume) {
                 particles[k].push([time, level - STILL_LEVEL]);
                 flume[k].push([time, record.elevation(x, time)]);
             }
@@ -133,7 +134,7 @@ fn a_run_does_not_end_before_the_crest_has_come() {
     case["stop"]["at_rest"] = json!({ "speed_m_s": 0.01, "for_s": 0.2, "not_before_s": 0.5 });
     let folder = tempfile::tempdir().unwrap();
     let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
-    let options = RunOptions { quiet: true, device: Device::Cpu, until: None };
+    let options = RunOptions { control: Control::quiet(), device: Device::Cpu, until: None };
     let summary = run(Arc::new(case), folder.path(), &options).unwrap();
     assert!(summary.stopped == Stopped::AtRest && summary.mean_displacement_m.unwrap() < 0.01, "{summary:?}");
     // The surface over the mound has begun to fall, and no more than 0.5 s ago: the unit was at rest all the time.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use breakwater::case::{DryCase, FractureCase, HandoverWay};
 use breakwater::output::Impacts;
+use breakwater::output::driver::Control;
 use breakwater::simulation::breakage::model::Model;
 use breakwater::simulation::breakage::results::{Breakage, Moved, Outcome};
 use breakwater::simulation::breakage::run::{FOLDER, hand_over};
@@ -26,10 +27,10 @@ fn drop_case() -> Value {
 fn handed_over(case: &Value, dir: &Path) -> Breakage {
     let case = DryCase::from_str(&case.to_string(), "drop.json").unwrap_or_else(|errors| panic!("{errors}"));
     let case = Arc::new(case);
-    let summary = run(case.clone(), dir, true).unwrap();
+    let summary = run(case.clone(), dir, &Control::quiet()).unwrap();
     let moved: Vec<Moved> =
         summary.units.iter().map(|unit| Moved { displacement: unit.moved_m, damaged: false }).collect();
-    hand_over(&Model::of_dry(&case), case.fracture.as_ref().unwrap(), &moved, dir, true).unwrap()
+    hand_over(&Model::of_dry(&case), case.fracture.as_ref().unwrap(), &moved, dir, &Control::quiet()).unwrap()
 }
 
 fn of_way(breakage: &Breakage, way: HandoverWay) -> &Outcome {

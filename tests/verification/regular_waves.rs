@@ -95,8 +95,10 @@ fn run(tank: &Tank) -> Seen {
             energies.push([now.energy().total(), now.statistics.balance.zones]);
         }
         if now.time >= first && now.steps.is_multiple_of(4) {
-            let level = |x: f64| now.sampler().surface(DVec2::new(x, middle), 0.0, top).unwrap();
-            samples.push((now.time, tank.gauges.map(|x| level(x) - tank.wave.depth_m)));
+            let time = now.time;
+            let sampler = now.sampler().unwrap();
+            let level = |x: f64| sampler.surface(DVec2::new(x, middle), 0.0, top).unwrap();
+            samples.push((time, tank.gauges.map(|x| level(x) - tank.wave.depth_m)));
         }
     });
     let amplitudes = [0, 1, 2].map(|gauge| {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use breakwater::simulation::flume::Simulation;
+use breakwater::simulation::flume::{Simulation, step::PreparedStep};
 use glam::DVec3;
 use serde_json::{Value, json};
 
@@ -41,11 +41,11 @@ impl PressureError {
         Self { sums: vec![0.0; points.len()], points, level, depth, count: 0.0 }
     }
 
-    fn look(&mut self, simulation: &Simulation, end: f64) {
-        if simulation.time < 0.5 * end || !simulation.steps.is_multiple_of(5) {
+    fn look(&mut self, now: &mut PreparedStep, end: f64) {
+        if now.time < 0.5 * end || !now.steps.is_multiple_of(5) {
             return;
         }
-        let sampler = simulation.sampler();
+        let sampler = now.sampler().unwrap();
         for (point, sum) in self.points.iter().zip(&mut self.sums) {
             let hydrostatic = RHO0 * GRAVITY * (self.level - point.z);
             *sum += (sampler.sample(*point).unwrap().pressure - hydrostatic) / (RHO0 * GRAVITY * self.depth);
@@ -102,7 +102,7 @@ fn a_gauge_that_rises_shows_the_pressure_of_its_height() {
     let mut seen = Vec::new();
     run_until(&mut tank, end, |now| {
         let place = now.place_of(&now.case.gauges[0]);
-        let pressure = now.sampler().sample(place).unwrap().pressure;
+        let pressure = now.sampler().unwrap().sample(place).unwrap().pressure;
         seen.push((now.time, place, pressure / (RHO0 * GRAVITY * depth) - (1.0 - place.z / depth)));
     });
     let of = |from: f64, to: f64| seen.iter().filter(move |(t, ..)| (from..to).contains(t));

@@ -6,7 +6,7 @@ use breakwater::bench::tank::Tank;
 use breakwater::case::Case;
 use breakwater::geometry::{armour_unit::ArmourUnit, solid::Solid};
 use breakwater::rigid::BodyState;
-use breakwater::simulation::flume::Simulation;
+use breakwater::simulation::flume::{Simulation, step::PreparedStep};
 use breakwater::sph::particles::bed::{Across, Outline, outline_particles};
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::particles::fill::{Basin, clear_solid};
@@ -33,20 +33,19 @@ pub fn simulation(case: &Value) -> Simulation {
     Simulation::new(Arc::new(case)).unwrap()
 }
 
-/// Step until a time [s]; between the two halves of each step, when gauges can be read, `look` sees the state.
-pub fn run_until(simulation: &mut Simulation, end: f64, mut look: impl FnMut(&mut Simulation)) {
+/// Step until a time [s]; before each step `look` sees the prepared state, in which gauges can be read.
+pub fn run_until(simulation: &mut Simulation, end: f64, mut look: impl FnMut(&mut PreparedStep)) {
     while simulation.time < end {
-        let dt = simulation.begin_step().unwrap();
-        look(simulation);
-        simulation.finish_step(dt).unwrap();
+        let mut step = simulation.begin_step().unwrap();
+        look(&mut step);
+        step.finish().unwrap();
     }
 }
 
 /// A number of steps.
 pub fn run_steps(simulation: &mut Simulation, steps: u32) {
     for _ in 0..steps {
-        let dt = simulation.begin_step().unwrap();
-        simulation.finish_step(dt).unwrap();
+        simulation.step().unwrap();
     }
 }
 

@@ -48,7 +48,7 @@ fn gauges_measure_a_layer() {
     let mut tank = simulation(&in_two_dimensions(still_tank(1.0, 0.2, depth, dp, 1.0)));
     let mut read = Vec::new();
     run_until(&mut tank, 1.0, |now| {
-        let sampler = now.sampler();
+        let sampler = now.sampler().unwrap();
         // Where across the flume does not matter.
         let level = sampler.surface(DVec2::new(0.5, 3.0), 0.0, 0.6).unwrap();
         let at = DVec3::new(0.5, -1.0, 0.1);

@@ -1,6 +1,6 @@
 //! From the flume model to the particles: the wavemaker's rows and the water at a hot start.
 
-use breakwater::simulation::flume::{Simulation, incoming::ml_piston};
+use breakwater::simulation::flume::{incoming::ml_piston, step::PreparedStep};
 use glam::DVec2;
 use serde_json::{Value, json};
 
@@ -46,20 +46,20 @@ fn rows_of_the_wavemaker_follow_the_multi_layer_piston() {
     assert!(furthest > 0.01);
 }
 
-fn elevation(simulation: &Simulation, x: f64) -> f64 {
-    simulation.sampler().surface(DVec2::new(x, 0.16), 0.0, 0.7).unwrap() - STILL_LEVEL
+fn elevation(now: &mut PreparedStep, x: f64) -> f64 {
+    now.sampler().unwrap().surface(DVec2::new(x, 0.16), 0.0, 0.7).unwrap() - STILL_LEVEL
 }
 
 #[test]
 fn water_starts_as_the_flume_model_says() {
     let dp = 0.032;
     let mut simulation = simulation(&flume(PASSING, dp));
-    let dt = simulation.begin_step().unwrap();
-    let record = simulation.flume.as_ref().unwrap();
+    let mut now = simulation.begin_step().unwrap();
+    let record = now.flume.clone().unwrap();
     let mut worst = [0.0_f64; 2];
     for x in [6.5, 7.0, 7.5] {
-        let (particles, flume) = (elevation(&simulation, x), record.elevation(x, PASSING));
-        let sample = simulation.sampler().sample(glam::DVec3::new(x, 0.16, 0.2)).unwrap();
+        let (particles, flume) = (elevation(&mut now, x), record.elevation(x, PASSING));
+        let sample = now.sampler().unwrap().sample(glam::DVec3::new(x, 0.16, 0.2)).unwrap();
         let (u, _) = record.velocity(x, 0.2, PASSING);
         println!(
             "x = {x} m: elevation {particles:.4}, flume {flume:.4} m; u {:.4}, flume {u:.4} m/s",
@@ -71,7 +71,7 @@ fn water_starts_as_the_flume_model_says() {
     assert!(record.elevation(7.0, PASSING) > 0.03);
     assert!(worst[0] < 0.1 * dp);
     assert!(worst[1] < 1e-3);
-    simulation.finish_step(dt).unwrap();
+    now.finish().unwrap();
 }
 
 /// The 4.5 cm wave of the Fudo experiment over the bare slope, which ends at a wall 1.4 m from the wavemaker both for
@@ -100,7 +100,7 @@ fn crest_comes_as_in_the_flume(start_s: f64, dp: f64, sound_speed_factor: f64) {
             return;
         }
         let time = now.flume_time();
-        let surface = now.sampler().surface(DVec2::new(x, 0.0), 0.6, 1.1).unwrap() - level;
+        let surface = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.6, 1.1).unwrap() - level;
         let expected = now.flume.as_ref().unwrap().elevation(x, time);
         apart = apart.max((surface - expected).abs());
         let keep_higher = |crest: &mut [f64; 2], eta| *crest = if eta > crest[0] { [eta, time] } else { *crest };

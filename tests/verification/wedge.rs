@@ -1,6 +1,6 @@
 //! The still wedge of English et al. (2022): water of 0.5 m over a wedge 0.25 m high, at rest for seconds.
 
-use breakwater::simulation::flume::Simulation;
+use breakwater::simulation::flume::step::PreparedStep;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
@@ -50,11 +50,11 @@ fn stillness(boundary: &str, dp: f64, duration: f64) -> Stillness {
     let points = points(10.0 * dp);
     let mut errors = vec![0.0; points.len()];
     let (mut square, mut count) = (0.0, 0.0);
-    run_until(&mut tank, duration, |now: &mut Simulation| {
+    run_until(&mut tank, duration, |now: &mut PreparedStep| {
         if now.time < 0.5 * duration || !now.steps.is_multiple_of(20) {
             return;
         }
-        let sampler = now.sampler();
+        let sampler = now.sampler().unwrap();
         for (error, (_, point)) in errors.iter_mut().zip(&points) {
             let hydrostatic = RHO0 * GRAVITY * (DEPTH - point.z);
             *error += (sampler.sample(*point).unwrap().pressure - hydrostatic) / (RHO0 * GRAVITY * DEPTH);

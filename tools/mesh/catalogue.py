@@ -1,4 +1,4 @@
-"""All meshes by name: what builds them, how long their elements are, which of them is in the repository."""
+"""All meshes by name: the function that builds them and their mesh sizes."""
 
 import inspect
 from collections.abc import Callable
@@ -14,22 +14,22 @@ import tetrapods
 class Entry:
     """A mesh."""
 
-    # Scene from lengths of elements [m].
+    # Function that returns the scene for the given mesh sizes [m].
     build: Callable
-    # Length of the elements [m], in the mesh that results are for and in the coarse one for a first run and for tests.
+    # Mesh size [m] of the fine mesh, for results, and of the coarse mesh, for a first run and for tests.
     size: float
     coarse: float
-    # Length of the elements of the base over that of the unit, in both; None: the scene has no base.
+    # Mesh size of the base over that of the unit, in both meshes; None: the scene has no base.
     base: tuple = None
 
     def scene(self, coarse, size=None, height=None):
-        """The scene with elements of `size` [m] and a unit of `height` [m] or, without them, of the entry's."""
+        """Scene with mesh size `size` [m] and unit height `height` [m]; the defaults are those of the entry."""
         size = size or (self.coarse if coarse else self.size)
         sizes = [size] if self.base is None else [size, size * self.base[coarse]]
         return self.build(*sizes, height) if height else self.build(*sizes)
 
     def has_height(self):
-        """Whether the height of the unit can be chosen."""
+        """Whether the height of the unit is a parameter."""
         return "height" in inspect.signature(self.build).parameters
 
 
@@ -41,7 +41,7 @@ MESHES = {
     "disc": Entry(bars.disc, 0.0012, 0.004),
     "compression": Entry(bars.compression, 0.005, 0.0125),
     "block_on_slab": Entry(bars.block_on_slab, 0.0125, 0.03),
-    # 2.9 cm on average in unit and base (sections 3.1.1, 3.2.1).
+    # Mean edge length 2.9 cm in unit and base (sections 3.1.1, 3.2.1).
     "dolos_drop": Entry(dolos_tests.dolos_drop, 0.029, 0.1, (1, 1.4)),
     "dolos_drop_cracked": Entry(dolos_tests.dolos_drop_cracked, 0.029, 0.1, (1, 1.4)),
     "dolos_pendulum": Entry(dolos_tests.dolos_pendulum, 0.029, 0.1, (1, 1.4)),

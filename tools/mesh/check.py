@@ -3,8 +3,8 @@
 
     tools/mesh/check.py cases/fracture/meshes/*.msh
 
-Needs the packages meshio and numpy of PyPI: `pip install meshio numpy`. Prints each body, and every failed check; the
-exit code is 1 if there is one.
+Needs the packages meshio and numpy: `pip install meshio numpy`. Prints each body and every failed check; the exit code
+is 1 if a check fails.
 """
 
 import argparse
@@ -18,12 +18,12 @@ import numpy as np
 
 import quality
 
-# Volumes [m3] by closed forms. Dolos: the sum of its convex blocks, 2.1 % more for the haunches than the published
+# Exact volumes [m3]. Dolos: the sum of its convex blocks; with the haunches 2.1 % more than the published
 # 0.675 (a/H)^1.285 H^3 (Burcharth et al. 1992). Core-Loc: section 4.1 of Guo et al. Tetrapod: 0.2799 H^3.
 DOLOS = {"unit": 0.18536}
 DROP_BASE = {"base": 0.8 * (1.45 * 0.10 + 0.65 * 0.32)}
 PENDULUM = {
-    # The block: H/12 high, from the side of the fluke to the end of the base.
+    # The block is H/12 high and reaches from the side of the fluke to the end of the base.
     "base": DROP_BASE["base"] + 0.8 / 12 * (0.85 - (0.5 - 0.16 * (0.5 - 1 / 12))),
     "cylinder": 0.2 * 0.18536 * 2340 / 7850,
 }
@@ -44,7 +44,7 @@ VOLUMES = {
     "tetrapod": TETRAPOD,
     "tetrapod_on_base": TETRAPOD | {"base": 1.7**2 * 0.3},
 }
-# Sets of the boundary.
+# Named sets of the boundary.
 HELD = {f"base_{side}" for side in ("bottom", "left", "right", "front", "back")}
 CRACKS = {"crack_upper", "crack_lower"}
 SETS = {
@@ -63,14 +63,14 @@ SETS = {
     "tetrapod": set(),
     "tetrapod_on_base": HELD,
 }
-# A mesh of chords and flat triangles loses that share of a round body at most.
+# Largest relative volume error, due to flat triangles on round surfaces.
 VOLUME_TOLERANCE = 0.01
-# Below this a tetrahedron is so flat that it rules the time step [degrees].
+# Smallest dihedral angle [degrees]: flatter tetrahedra would limit the time step.
 LEAST_ANGLE = 8.0
 
 
 def main():
-    """Command line."""
+    """Runs the command line."""
     parser = argparse.ArgumentParser(description="Checks meshes of the fracture cases.")
     parser.add_argument("files", nargs="+", type=Path)
     failed = False
@@ -83,15 +83,15 @@ def main():
 
 
 def check(file):
-    """Yields what is wrong with a mesh."""
+    """Yields the failed checks of a mesh."""
     name = file.stem.removesuffix("-coarse")
     points, groups = read(file)
     bodies = {group: cells for group, cells in groups.items() if cells.shape[1] == 4}
     sets = {group: cells for group, cells in groups.items() if cells.shape[1] < 4}
     if bodies.keys() != VOLUMES[name].keys():
-        yield f"bodies are {sorted(bodies)}"
+        yield f"the bodies are {sorted(bodies)}, but should be {sorted(VOLUMES[name])}"
     if sets.keys() != SETS[name]:
-        yield f"sets are {sorted(sets)}"
+        yield f"the sets are {sorted(sets)}, but should be {sorted(SETS[name])}"
     nodes = [set(cells.ravel()) for cells in bodies.values()]
     if len(set.union(*nodes)) != sum(map(len, nodes)):
         yield "bodies share nodes"
@@ -102,7 +102,7 @@ def check(file):
 
 
 def read(file):
-    """Points, and the cells of each physical group."""
+    """Returns the points and the cells of each physical group."""
     mesh = meshio.read(file)
     names = {(dimension, tag): name for name, (tag, dimension) in mesh.field_data.items()}
     groups = {}
@@ -113,42 +113,42 @@ def read(file):
 
 
 def check_body(name, tets, cells, volume):
-    """Yields what is wrong with a body; prints what it is like."""
+    """Yields the failed checks of a body and prints its properties."""
     volumes, edges, angles = quality.volumes(tets), quality.edge_lengths(tets), quality.dihedral_angles(tets)
     centre = (volumes[:, None] * tets.mean(axis=1)).sum(axis=0) / volumes.sum()
     print(
         f"  {name:12}{len(tets):7} tetrahedra, {volumes.sum():.6g} m3 ({100 * (volumes.sum() / volume - 1):+.2f} %), "
-        f"edges {1e3 * edges.mean():.4g} mm, least {1e3 * edges.min():.4g} mm, least angle {angles.min():.1f} degrees, "
-        f"centre {np.round(centre, 4).tolist()}"
+        f"mean edge {1e3 * edges.mean():.4g} mm, shortest {1e3 * edges.min():.4g} mm, "
+        f"smallest angle {angles.min():.1f} degrees, centre {np.round(centre, 4).tolist()}"
     )
     if volumes.min() <= 0:
-        yield f"{name}: {np.sum(volumes <= 0)} tetrahedra are turned inside out"
+        yield f"{name}: {np.sum(volumes <= 0)} tetrahedra have no positive volume"
     if not abs(volumes.sum() / volume - 1) < VOLUME_TOLERANCE:
-        yield f"{name}: its volume should be {volume:.6g} m3"
+        yield f"{name}: the volume is {volumes.sum():.6g} m3, but should be {volume:.6g} m3"
     if angles.min() < LEAST_ANGLE:
-        yield f"{name}: an angle of {angles.min():.1f} degrees"
+        yield f"{name}: the smallest angle is {angles.min():.1f} degrees; at least {LEAST_ANGLE} degrees is allowed"
     faces = faces_of(cells)
     if max(faces.values()) > 2:
-        yield f"{name}: a face has more than two tetrahedra"
+        yield f"{name}: a face belongs to more than two tetrahedra"
     skin = [face for face, count in faces.items() if count == 1]
     sides = Counter(tuple(sorted(pair)) for a, b, c in skin for pair in ((a, b), (b, c), (a, c)))
     if set(sides.values()) != {2}:
-        yield f"{name}: its surface is not closed"
+        yield f"{name}: the surface is not closed"
 
 
 def check_set(name, cells, faces_of_bodies):
-    """Yields what is wrong with a set of faces or lines: faces lie on the surface of one body, cracks inside one."""
+    """Yields the failed checks of a set: faces must lie on the surface of one body, cracks inside one body."""
     if cells.shape[1] != 3:
         return
     wanted = 2 if name.startswith("crack") else 1
     for faces in faces_of_bodies:
         if all(faces.get(tuple(sorted(face)), 0) == wanted for face in cells):
             return
-    yield f"{name}: a face of it does not have {wanted} tetrahedra of one body"
+    yield f"{name}: a face of the set does not belong to {wanted} tetrahedra of one body"
 
 
 def faces_of(tets):
-    """How many tetrahedra have each face, a sorted triple of nodes."""
+    """Number of tetrahedra of each face, a sorted triple of nodes."""
     tets = np.sort(tets, axis=1)
     triples = np.concatenate([np.delete(tets, corner, axis=1) for corner in range(4)])
     return Counter(map(tuple, triples.tolist()))

@@ -1,9 +1,9 @@
-"""Five Core-Locs over a slope: Guo, Latham & Xiang, section 4.
+"""Five Core-Locs above a slope: Guo, Latham & Xiang, section 4.
 
-The units of section 4.1 are lifted by about 16 mm, lie about 32 mm from their nearest neighbours, and fall. Their
-places are drawn in Figure 25 and not told. Assumed: the places here. `breakwater place` lowered five Core-Locs onto a
-foot and a slope of 3:4; then they were moved apart until their distances were about those of the paper. As in section
-4.3 unit 4 touches nothing within 0.1 s, in which it falls by 49 mm; unit 5 is the first to hit the base, after 21 ms.
+The units of section 4.1 are lifted by about 16 mm, are about 32 mm from their nearest neighbours, and fall. Figure 25
+shows their positions without coordinates; the positions here are assumed. `breakwater place` lowered five Core-Locs
+onto a level foot and a slope of 3:4. Then they were moved apart to about the distances of the paper. As in section 4.3,
+unit 4 touches nothing within 0.1 s, in which it falls by 49 mm. Unit 5 is the first to hit the base, after 21 ms.
 """
 
 import gmsh
@@ -14,7 +14,7 @@ from units import CoreLoc
 
 # Size C [m] of a unit of 8 m3 (section 4.1).
 SIZE = 3.31
-# Centres [m] and rotations (x, y, z, w) of units 1 to 5. Heights over the base: 16, 16, 16, 80 and 2.2 mm; distances of
+# Centres [m] and rotations (x, y, z, w) of units 1 to 5. Gaps above the base: 16, 16, 16, 80 and 2.2 mm; gaps between
 # neighbours: 1-2 and 1-3 32 mm, 3-4 79 mm, 3-5 53 mm, all others more than 0.3 m.
 POSES = [
     ((-1.863, -1.155, 1.4738), (-0.583, -0.396, -0.183, 0.686)),
@@ -23,14 +23,14 @@ POSES = [
     ((3.005, -1.668, 5.0014), (-0.860, -0.430, -0.095, 0.258)),
     ((1.297, 1.844, 3.1191), (0.485, -0.714, -0.491, -0.120)),
 ]
-# Side view of the base [m], (x, z): a level foot, then a slope of 3:4. Assumed: so thick that elements of 1.5 m make up
-# about the paper's number, 2079.
+# Side view of the base [m], (x, z): a level foot, then a slope of 3:4. The thickness is assumed, such that elements of
+# 1.5 m give about the paper's number, 2079.
 BASE = [(-5.5, -5.0), (6.5, -5.0), (6.5, 4.875), (0.0, 0.0), (-5.5, 0.0)]
 BASE_Y = (-5.0, 5.5)
 
 
 def core_loc_five(size, base_size):
-    """Five Core-Locs of 8 m3 just over a foot and a slope, and close to each other, about to fall."""
+    """Five Core-Locs of 8 m3 close to each other, just above a level foot and a slope, before they fall."""
     shape = CoreLoc(SIZE)
     units = []
     for number, (centre, rotation) in enumerate(POSES, start=1):
@@ -44,7 +44,7 @@ def core_loc_five(size, base_size):
 
 
 def pose(centre, rotation):
-    """The 4 x 4 matrix, row by row, of a rotation (x, y, z, w) about the origin and a shift to the centre [m]."""
+    """4 x 4 matrix, by rows, of a rotation (x, y, z, w) about the origin and a translation to the centre [m]."""
     x, y, z, w = np.array(rotation) / np.linalg.norm(rotation)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     matrix = np.eye(4)

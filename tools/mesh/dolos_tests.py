@@ -1,8 +1,7 @@
 """Drop and pendulum tests of a Dolos: Guo, Latham & Xiang, sections 3.1 and 3.2, after Burcharth (1981b).
 
-The paper's axes are x along the stem, y upwards, z across; here z is upwards and y across. The drawings with the
-dimensions of base, block and cylinder (its Figures 9 and 15) carry no numbers in the text: what is not said there is
-assumed, and marked so.
+The paper's axes are x along the stem, y upwards, z across; here z is upwards and y across. The paper does not give all
+dimensions of base, block and cylinder (its Figures 9 and 15). Dimensions marked "assumed" are not in its text.
 """
 
 import math
@@ -15,21 +14,20 @@ from units import Dolos
 
 # Length of the Dolos [m] (section 3.1.1).
 HEIGHT = 1.0
-# Depth of the pre-existing cracks over the length of an element: "approximately one element length" (section 3.1.3).
+# Depth of the pre-existing cracks over the mesh size: "approximately one element length" (section 3.1.3).
 CRACK_DEPTH = 1.0
 
-# The base is a slab with a step. The upright fluke hits the slab; stem and lying fluke rest on the step, whose top is
-# flat under both of them: the stem touches it (section 3.1.2, on the second concentration of stress). So the step is as
-# high as the stem's underside stands over the fluke's end. Assumed: the rest, such that the shares of unit, base and
-# block in the paper's numbers of elements (67,240, 103,042 and about 10,500) come out as shares of their volumes.
-STEP_END = 0.05  # [m] under the stem's middle, clear of the fluke and its haunch
+# The base is a slab with a step. The upright fluke hits the slab. Stem and horizontal fluke rest on the flat top of the
+# step, which the stem touches (section 3.1.2, second stress concentration). The height of the step is therefore that of
+# the stem's underside above the fluke's end. The other dimensions are assumed, such that the volumes of unit, base and
+# block are proportional to the paper's numbers of elements (67,240, 103,042 and about 10,500).
+STEP_END = 0.05  # [m] under the middle of the stem, clear of the fluke and its haunch
 BASE_X = (-0.60, 0.85)  # [m]
 BASE_Y = (-0.40, 0.40)  # [m]
 SLAB = 0.10  # thickness [m]
 
-# The block that stops the foot of the upright fluke in the pendulum test is H/12 high (section 3.2.1). Assumed: it
-# stands on the side towards +x, where the foot goes when the head is struck towards -x, reaches to the end of the base
-# and is a part of it.
+# The block that stops the foot of the upright fluke in the pendulum test is H/12 high (section 3.2.1). Assumed: it is a
+# part of the base, stands on the side of +x, towards which the foot moves, and extends to the end of the base.
 BLOCK = HEIGHT / 12
 
 # Mass of the cylinder over that of the Dolos (section 3.2.1).
@@ -41,10 +39,10 @@ STRUCK = HEIGHT / 12
 
 
 def dolos_drop(size, base_size, cracked=False):
-    """Dolos that has turned down about its lying fluke: the foot of the upright fluke is 0.1 mm over the slab."""
+    """Dolos that has rotated about its horizontal fluke: the foot of the upright fluke is 0.1 mm above the slab."""
     dolos = Dolos(HEIGHT)
     pivot = pivot_of(dolos)
-    # Raised by this angle, the foot has the gap.
+    # Rotation by this angle gives the gap at the foot.
     angle = IMPACT_GAP / (dolos.crossing - pivot[0])
 
     def pose(entities):
@@ -58,7 +56,7 @@ def dolos_drop(size, base_size, cracked=False):
 
 
 def dolos_pendulum(size, base_size, cracked=False):
-    """Dolos at rest on the base, its foot against the block, and a steel cylinder 0.1 mm from its head."""
+    """Dolos at rest on the base with its foot at the block, and a steel cylinder 0.1 mm from its head."""
     dolos = Dolos(HEIGHT)
     unit = _unit(dolos, size, cracked, lambda entities: gmsh.model.occ.translate(entities, 0, 0, RESTING_GAP))
     base = _base(_step_and_slab_with_block(dolos), base_size)
@@ -68,17 +66,17 @@ def dolos_pendulum(size, base_size, cracked=False):
 
 
 def dolos_drop_cracked(size, base_size):
-    """The drop test with cracks in the surface of the Dolos."""
+    """Drop test with cracks in the surface of the Dolos."""
     return dolos_drop(size, base_size, cracked=True)
 
 
 def dolos_pendulum_cracked(size, base_size):
-    """The pendulum test with cracks in the surface of the Dolos."""
+    """Pendulum test with cracks in the surface of the Dolos."""
     return dolos_pendulum(size, base_size, cracked=True)
 
 
 def pivot_of(dolos):
-    """A point of the axis that the unit turns about: where the lying fluke's underside ends, in the Dolos' axes [m]."""
+    """Point of the rotation axis: the outer edge of the horizontal fluke's underside, in the axes of the Dolos [m]."""
     return (-dolos.crossing - dolos.half_fluke_flat, 0.0, -dolos.half_stem)
 
 
@@ -95,24 +93,24 @@ def _unit(dolos, size, cracked, pose):
 
 
 def _wedge(dolos, side, depth):
-    """A piece of the stem under its upper (side 1) or over its lower (-1) corner with the upright fluke.
+    """Prism inside the stem at its upper (side 1) or lower (-1) corner with the upright fluke.
 
-    The piece is a prism inside the stem that touches the surface with one edge only, that between stem and haunch. Its
-    side towards the fluke is the crack: Gmsh improves meshes only if faces inside a body separate two solids.
+    The prism touches the surface only with one edge, that between stem and haunch. Its side towards the fluke is the
+    crack. A solid is needed because Gmsh optimises meshes only if faces inside a body separate two solids.
 
     The crack starts at "the inner side of the chamfer, which is attached to the stem" and leans "more towards the
-    fluke" (section 3.3.2). Assumed: by 45 degrees, which is square to the haunch, and over the whole flat of the stem
-    between its chamfers.
+    fluke" (section 3.3.2). Assumed: an inclination of 45 degrees, normal to the haunch, and the full flat width of the
+    stem between its chamfers.
     """
     x, z = dolos.haunch_on_stem, side * dolos.half_stem
-    # An equilateral triangle: for tetrahedra of good shape on both sides. Downwards from the x axis:
+    # An equilateral triangle gives well-shaped tetrahedra on both sides. Angles are downwards from the x axis.
     ways = [math.radians(45), math.radians(105)]
     section = [(x, z), *((x + depth * math.cos(way), z - side * depth * math.sin(way)) for way in ways)]
     return Polyhedron([(x, y, z) for x, z in section for y in (-dolos.half_flat, dolos.half_flat)]).solid()
 
 
 def _crack_of(wedge, side):
-    """The side of the wedge that is nearest to the surface of the stem."""
+    """The side of the wedge nearest to the surface of the stem."""
     sides = gmsh.model.occ.getSurfaceLoops(wedge)[1][0]
     return [int(max(sides, key=lambda face: side * gmsh.model.occ.getCenterOfMass(2, face)[2]))]
 
@@ -129,7 +127,7 @@ def _step_and_slab(dolos):
 
 
 def _step_and_slab_with_block(dolos):
-    """Side view of the base with the block, which the upright fluke touches along the block's upper edge."""
+    """Side view of the base with the block; the upright fluke touches the block's upper edge."""
     *before, (right, floor), corner, step, left = _step_and_slab(dolos)
     top = floor + BLOCK
     face = dolos.crossing + dolos.half_fluke(top - RESTING_GAP) + RESTING_GAP
@@ -144,15 +142,15 @@ def cylinder_diameter(dolos):
 def _cylinder(dolos, size):
     """Steel cylinder at the head of the upright fluke.
 
-    Assumed: it lies along y and strikes with its side. Its end would touch the leaning side of the fluke with its lower
-    rim first, half a diameter below its own axis.
+    Assumed: the cylinder lies along y and hits with its side. Its end would hit the inclined side of the fluke with its
+    lower rim first, half a diameter below its own axis.
     """
     diameter = cylinder_diameter(dolos)
     struck = dolos.height / 2 - STRUCK
     x = dolos.crossing + dolos.half_fluke(struck)
-    # The side of the fluke leans back by this angle; the cylinder touches it along the line through the struck point.
+    # Inclination of the fluke's side; the cylinder touches it along the line through the impact point.
     lean = math.atan((dolos.half_stem - dolos.half_fluke(dolos.height / 2)) / (dolos.height / 2))
-    # A prism with as many sides as elements find room, and of the same mass. One of its edges is the touching line.
+    # A prism of the same mass with about one side per element. One of its edges is the contact line.
     sides = max(12, round(math.pi * diameter / size))
     radius = diameter / 2 * math.sqrt(2 * math.pi / sides / math.sin(2 * math.pi / sides))
     away = radius + IMPACT_GAP

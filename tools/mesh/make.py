@@ -6,9 +6,9 @@
     tools/mesh/make.py beam --size 0.005 --out beam-5mm.msh
     tools/mesh/make.py --all --coarse
 
-Needs the packages gmsh (made with 4.15.2) and numpy of PyPI: `pip install gmsh numpy`. On a machine without a desktop
-Gmsh may ask for libraries of it; Debian: `apt install libglu1-mesa libxcursor1 libxinerama1 libxft2`.
-README.md beside this file says what the meshes hold.
+Needs the packages gmsh (tested with 4.15.2) and numpy: `pip install gmsh numpy`. Without a desktop, Gmsh may need more
+libraries; on Debian: `apt install libglu1-mesa libxcursor1 libxinerama1 libxft2`.
+README.md in this folder describes the meshes.
 """
 
 import argparse
@@ -24,26 +24,26 @@ from narrow_faces import join_narrow_faces
 REPOSITORY = Path(__file__).resolve().parents[2]
 COARSE_FOLDER = REPOSITORY / "cases" / "fracture" / "meshes"
 FOLDER = REPOSITORY / "runs" / "meshes"
-# Meshes with more tetrahedra than this are written in binary: read faster; as text the others are shorter.
+# Meshes with more tetrahedra than this are written in binary, which is read faster; smaller files are shorter as text.
 MOST_IN_ASCII = 50_000
-# Length that Gmsh is asked for over the length of edges that then comes out on average, if bodies are far longer.
+# Mesh size given to Gmsh over the resulting mean edge length, for bodies much larger than an element.
 ASKED = 0.8
-# Least number of sides of a circle: a Tetrapod's mesh then has 99 % of its volume.
+# Smallest number of sides of a circle: the mesh of a Tetrapod then has 99 % of its volume.
 SIDES_OF_CIRCLE = 20
-# Gmsh's own optimiser works on tetrahedra whose inscribed over circumscribed radius, times 3, is less than this.
+# Gmsh's optimiser improves tetrahedra whose ratio of inscribed to circumscribed radius, times 3, is below this value.
 OPTIMIZE_BELOW = 0.5
-# Rounds of improvement: by Gmsh's own optimiser, then by Netgen's.
+# Number of rounds of optimisation, each by Gmsh's optimiser and then by Netgen's.
 ROUNDS = 3
 
 
 def main():
-    """Command line."""
+    """Runs the command line."""
     parser = argparse.ArgumentParser(description="Makes the tetrahedral meshes of the fracture cases with Gmsh.")
-    parser.add_argument("name", nargs="?", choices=MESHES, metavar="NAME", help="which mesh; see --list")
-    parser.add_argument("--size", type=float, metavar="METRES", help="length of the elements [m]")
-    parser.add_argument("--height", type=float, metavar="METRES", help="height of a Tetrapod [m]; 1 if not given")
-    parser.add_argument("--coarse", action="store_true", help="the coarse mesh, as it is in cases/fracture/meshes")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="file to write instead of runs/meshes/NAME.msh")
+    parser.add_argument("name", nargs="?", choices=MESHES, metavar="NAME", help="name of the mesh; see --list")
+    parser.add_argument("--size", type=float, metavar="METRES", help="mesh size [m]")
+    parser.add_argument("--height", type=float, metavar="METRES", help="height of a Tetrapod [m]; default 1")
+    parser.add_argument("--coarse", action="store_true", help="make the coarse mesh, as in cases/fracture/meshes")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="output file; default runs/meshes/NAME.msh")
     parser.add_argument("--all", action="store_true", help="make every mesh")
     parser.add_argument("--list", action="store_true", help="list the meshes")
     options = parser.parse_args()
@@ -52,24 +52,24 @@ def main():
             print(f"{name:24}{1e3 * entry.size:7.1f} mm, coarse {1e3 * entry.coarse:5.1f} mm  {summary(entry)}")
     elif options.all:
         if options.size or options.height or options.out:
-            parser.error("--size, --height and --out are for one mesh")
+            parser.error("--size, --height and --out need the NAME of one mesh; they do not work with --all")
         for name in MESHES:
             make(name, options.coarse)
     elif options.name:
         if options.height and not MESHES[options.name].has_height():
-            parser.error(f"{options.name} has one height only")
+            parser.error(f"the height of {options.name} is fixed; omit --height")
         make(options.name, options.coarse, options.size, options.height, options.out)
     else:
         parser.error("give the NAME of a mesh, --all or --list")
 
 
 def summary(entry):
-    """First line of what the entry's function says about itself."""
+    """First line of the docstring of the entry's function."""
     return entry.build.__doc__.splitlines()[0]
 
 
 def make(name, coarse=False, size=None, height=None, out=None):
-    """Builds, meshes and writes one mesh, and prints what is in it."""
+    """Builds, meshes and writes one mesh, and prints its properties."""
     out = out or (COARSE_FOLDER / f"{name}-coarse.msh" if coarse else FOLDER / f"{name}.msh")
     out.parent.mkdir(parents=True, exist_ok=True)
     gmsh.initialize(interruptible=False)
@@ -93,14 +93,14 @@ def make(name, coarse=False, size=None, height=None, out=None):
 
 
 def set_options():
-    """The same mesh at every call: one thread, fixed seed."""
+    """Sets the options of Gmsh; one thread and a fixed seed give the same mesh in every run."""
     options = {
         "General.Terminal": 0,
         "General.NumThreads": 1,
         "Mesh.RandomSeed": 1,
         "Mesh.MshFileVersion": 4.1,
         "Mesh.SaveAll": 0,
-        # A short edge stays one edge.
+        # Do not split short edges.
         "Mesh.MinimumCurveNodes": 2,
         # Frontal Delaunay on surfaces, Delaunay in volumes.
         "Mesh.Algorithm": 6,
@@ -116,7 +116,7 @@ def set_options():
 
 
 def name_groups(scene):
-    """Physical groups: only what has a name is written."""
+    """Defines the physical groups; Gmsh writes only entities with a name."""
     for body in scene.bodies:
         gmsh.model.addPhysicalGroup(3, body.solids, name=body.name)
         for name, faces in body.cracks.items():
@@ -128,14 +128,14 @@ def name_groups(scene):
 
 
 def set_sizes(scene):
-    """Elements of the size of their body."""
+    """Sets the mesh size of each body."""
     for body in scene.bodies:
         points = gmsh.model.getBoundary([(3, solid) for solid in body.solids], False, False, recursive=True)
         gmsh.model.mesh.setSize(points, ASKED * body.size)
 
 
 def mesh():
-    """Tetrahedra, improved in rounds."""
+    """Generates the tetrahedra and optimises them in rounds."""
     gmsh.model.mesh.generate(3)
     for _ in range(ROUNDS):
         gmsh.model.mesh.optimize("")
@@ -152,12 +152,12 @@ def corners_of(body):
 
 
 def describe(body, tets):
-    """Number of tetrahedra, volume and how far it is from the exact one, edges and least angle in one line."""
+    """Number of tetrahedra, volume and its error, edge lengths and smallest angle in one line."""
     edges, volume = quality.edge_lengths(tets), quality.volumes(tets).sum()
     return (
         f"{len(tets):7} tetrahedra, {volume:.6g} m3 ({100 * (volume / body.volume - 1):+.2f} %), "
-        f"edges {1e3 * edges.mean():.4g} mm on average and {1e3 * edges.min():.4g} mm at least, "
-        f"angles {quality.dihedral_angles(tets).min():.1f} degrees at least"
+        f"mean edge {1e3 * edges.mean():.4g} mm, shortest {1e3 * edges.min():.4g} mm, "
+        f"smallest angle {quality.dihedral_angles(tets).min():.1f} degrees"
     )
 
 

@@ -1,16 +1,16 @@
-"""Convex polyhedra from their corners, and solids of OpenCASCADE from those."""
+"""Convex polyhedra from their corners, and their OpenCASCADE solids."""
 
 from itertools import combinations
 
 import gmsh
 import numpy as np
 
-# Corners closer to a plane than this share of the body's extent lie in it.
+# Distance below which a corner lies in a plane, relative to the extent of the body.
 IN_PLANE = 1e-9
 
 
 class Polyhedron:
-    """Convex hull of points: `corners` [m]; `faces`, each a ring of corner numbers, counter-clockwise from outside."""
+    """Convex hull of points: `corners` [m]; `faces`, rings of corner indices, counter-clockwise seen from outside."""
 
     def __init__(self, points):
         points = np.unique(np.round(np.asarray(points, float), 12), axis=0)
@@ -30,7 +30,7 @@ class Polyhedron:
         return total / 6.0
 
     def solid(self):
-        """Tag of a new volume of the same shape."""
+        """Tag of a new volume with this shape."""
         occ = gmsh.model.occ
         points = [occ.addPoint(*corner) for corner in self.corners]
         lines = {}
@@ -46,7 +46,7 @@ class Polyhedron:
 
 
 def _hull_faces(points):
-    """Rings of the faces of the convex hull, by trying the plane of every three points: there are few."""
+    """Rings of the faces of the convex hull. It tries the plane of every three points; there are few points."""
     tolerance = IN_PLANE * np.ptp(points, axis=0).max()
     rings = {}
     for a, b, c in combinations(range(len(points)), 3):
@@ -66,7 +66,7 @@ def _hull_faces(points):
 
 
 def _ring(points, on_face, normal):
-    """Corners of a face in turn about the outward normal, without those inside it or on its sides."""
+    """Corners of a face, ordered around the outward normal, without points inside the face or on its sides."""
     middle = points[on_face].mean(axis=0)
     along = points[on_face[0]] - middle
     across = np.cross(normal, along)

@@ -6,7 +6,7 @@ import numpy as np
 
 
 def volumes(tets):
-    """Volumes [m3] of tetrahedra, an array (n, 4, 3) of corners [m]; negative if one is turned inside out."""
+    """Volumes [m3] of tetrahedra, an array (n, 4, 3) of corners [m]; negative for an inverted tetrahedron."""
     a, b, c = (tets[:, k] - tets[:, 0] for k in (1, 2, 3))
     return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
 

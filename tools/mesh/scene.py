@@ -1,36 +1,36 @@
-"""What a mesh is made of: bodies, and the named parts of their boundaries.
+"""Contents of a mesh: bodies, and the named parts of their boundaries.
 
-Lengths in metres, x along the unit or beam, y across, z upwards, as everywhere in breakwater.
+Lengths are in metres; x is along the unit or beam, y across, z upwards, as everywhere in breakwater.
 """
 
 from dataclasses import dataclass, field
 
 import gmsh
 
-# How far from its plane or centre a face may be found [m]: bounding boxes of OpenCASCADE are 1e-7 m too large.
+# Tolerance of the search for a face by its plane or centre [m]: bounding boxes of OpenCASCADE are 1e-7 m too large.
 FOUND = 2e-6
-# Gap of bodies that are about to hit each other [m]: far below an element, above the rounding of any coordinate.
+# Gap between bodies before an impact [m]: far smaller than an element, larger than rounding errors of coordinates.
 IMPACT_GAP = 1e-4
-# Gap of bodies that rest on each other [m]: so small that nothing falls noticeably before it is carried.
+# Gap between bodies at rest on each other [m]: the fall through it is negligible.
 RESTING_GAP = 1e-6
 
 
 @dataclass
 class Body:
-    """One thing that moves on its own: a physical volume."""
+    """A body that moves independently: a physical volume."""
 
     name: str
-    # Tags of its solids: one, or the parts that it is cut into where a face inside it is needed.
+    # Tags of the solids: one, or several parts if a face inside the body is needed.
     solids: list
-    # Volume by the closed form [m3].
+    # Exact volume [m3].
     volume: float
-    # Length of the elements [m].
+    # Mesh size [m].
     size: float
     # Pre-cracks by name: tags of faces between two of the solids.
     cracks: dict = field(default_factory=dict)
 
     def faces(self):
-        """Tags of the faces of its boundary."""
+        """Tags of the boundary faces."""
         return [tag for _, tag in gmsh.model.getBoundary([(3, solid) for solid in self.solids], oriented=False)]
 
     def faces_at(self, axis, value):
@@ -43,18 +43,18 @@ class Body:
         return _some(filter(lies_in_plane, self.faces()), f"{self.name}: face at {value} of axis {axis}")
 
     def face_about(self, centre):
-        """Tag of the face with this centre of area, in a list."""
+        """Tag of the face with this centroid, in a list."""
         return _about(2, self.faces(), centre)
 
     def curve_about(self, centre):
-        """Tag of the curve with this middle, in a list."""
+        """Tag of the curve with this midpoint, in a list."""
         curves = {tag for _, tag in gmsh.model.getBoundary([(2, f) for f in self.faces()], False, False)}
         return _about(1, curves, centre)
 
 
 @dataclass
 class Scene:
-    """Bodies, and named sets of their boundaries: surfaces, or curves where only a line of nodes is held or moved."""
+    """Bodies and named sets of their boundaries: surfaces, or curves where only a line of nodes is fixed or moved."""
 
     bodies: list
     surfaces: dict = field(default_factory=dict)
@@ -72,12 +72,12 @@ def _about(dimension, tags, centre):
 def _some(found, what):
     found = list(found)
     if not found:
-        raise LookupError(f"{what}: there is none")
+        raise LookupError(f"{what}: not found")
     return found
 
 
 def extruded(profile, y):
-    """Tag of the solid over a polygon of corners (x, z), from y[0] to y[1]; every side of the polygon is a face."""
+    """Tag of the solid extruded from a polygon (x, z), from y[0] to y[1]; every side of the polygon gives a face."""
     occ = gmsh.model.occ
     points = [occ.addPoint(x, y[0], z) for x, z in profile]
     sides = [occ.addLine(a, b) for a, b in zip(points, points[1:] + points[:1])]
@@ -86,19 +86,19 @@ def extruded(profile, y):
 
 
 def solid_of(entities):
-    """Tag of the one volume among (dimension, tag) pairs."""
+    """Tag of the only volume among (dimension, tag) pairs."""
     [solid] = [tag for dimension, tag in entities if dimension == 3]
     return solid
 
 
 def profile_area(profile):
-    """Area of a polygon of corners (x, z) [m2]."""
+    """Area of a polygon (x, z) [m2]."""
     pairs = zip(profile, profile[1:] + profile[:1])
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs)) / 2
 
 
 def sides_of(body, name):
-    """The sets of a base that is held by its sides: bottom, left and right (-x, +x), front and back (-y, +y)."""
+    """Sets of a base that is fixed at its sides: bottom, left and right (-x, +x), front and back (-y, +y)."""
     low, high = (gmsh.model.getBoundingBox(3, body.solids[0])[k : k + 3] for k in (0, 3))
     at = {"left": (0, low[0]), "right": (0, high[0]), "front": (1, low[1]), "back": (1, high[1]), "bottom": (2, low[2])}
     return {f"{name}_{side}": body.faces_at(axis, value) for side, (axis, value) in at.items()}

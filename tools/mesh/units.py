@@ -1,4 +1,4 @@
-"""Solids of the armour units about their own axes: Dolos, Core-Loc, Tetrapod."""
+"""Solids of the armour units in body axes: Dolos, Core-Loc, Tetrapod."""
 
 import math
 
@@ -10,28 +10,28 @@ from scene import solid_of
 
 
 def octagon(width, chamfer):
-    """Corners of a square of the given width whose corners are cut: the cut takes `chamfer` of each side."""
+    """Corners of a square section of the given width with chamfers of leg `chamfer`."""
     w, s = width / 2, width / 2 - chamfer
     return [(w, -s), (w, s), (s, w), (-s, w), (-w, s), (-w, -s), (-s, -w), (s, -w)]
 
 
 def united(solids):
-    """Tag of the union of solids, without seams between faces of one plane."""
+    """Tag of the union of solids, without seams between coplanar faces."""
     first, *others = [(3, solid) for solid in solids]
     entities, _ = gmsh.model.occ.fuse([first], others)
     return solid_of(entities)
 
 
 class Dolos:
-    """Dolos of height H with its stem along x, the fluke at -x across (along y), that at +x upright.
+    """Dolos of height H: the stem along x, the fluke at -x along y, the fluke at +x upright.
 
-    Ratios of Burcharth (1981b), kept by Guo et al. (section 3, Figure 8): width of the stem a/H = 0.36, width of the
-    flukes at their ends b/H = 0.20, chamfer c/H = 0.056. c is taken for all three places where a Dolos has chamfers:
-    along the stem, at the fluke's ends, and as the leg of the haunch between stem and fluke, the "chamfer connection"
-    of sections 3.1.3 and 3.3.2. As in breakwater's own Dolos the flukes are `a` wide in their middle, taper evenly to
-    both ends, and their chamfers grow with their width.
+    Ratios of Burcharth (1981b), also used by Guo et al. (section 3, Figure 8): width of the stem a/H = 0.36, width of
+    the flukes at their ends b/H = 0.20, chamfer c/H = 0.056. c applies to all chamfers: along the stem, at the fluke
+    ends, and as the leg of the haunch between stem and fluke, the "chamfer connection" of sections 3.1.3 and 3.3.2. As
+    in breakwater's own Dolos, the flukes have the width `a` in the middle and taper linearly to both ends. Their
+    chamfers are proportional to the width.
 
-    The haunch makes a hub of each crossing: the convex hull of the stem's section where the haunch begins and the
+    With the haunches, each crossing is a hub: the convex hull of the stem's section where the haunch begins and the
     fluke's sections where it ends. The volume is 0.1854 H^3, 2.1 % more than the 0.675 (a/H)^1.285 H^3 of a Dolos
     without haunches: 5.42 t at Burcharth's H = 2.32 m and 2340 kg/m3; his units had 5.4 t.
     """
@@ -41,20 +41,20 @@ class Dolos:
     def __init__(self, height):
         self.height = height
         self.half_stem = self.STEM / 2 * height
-        # Where the axis of a fluke crosses that of the stem.
+        # Distance of a fluke's axis from the middle of the unit.
         self.crossing = height / 2 - self.half_stem
-        # Where the haunches begin on the stem and end on the fluke, from the middle of the unit.
+        # Distances of the start of the haunch on the stem and of its end on the fluke from their middles.
         self.haunch_on_stem = self.crossing - self.half_fluke(self.half_stem) - self.CHAMFER * height
         self.haunch_on_fluke = self.half_stem + self.CHAMFER * height
-        # Half of the flat between the chamfers of the stem.
+        # Half of the flat width between the chamfers of the stem.
         self.half_flat = self.half_stem - self.CHAMFER * height
-        # Half of the flat between the chamfers in the middle of a fluke.
+        # Half of the flat width between the chamfers in the middle of a fluke.
         self.half_fluke_flat = self.half_stem * (1 - 2 * self.CHAMFER / self.END)
         self.blocks = self._blocks()
         self.volume = sum(block.volume() for block in self.blocks)
 
     def half_fluke(self, along):
-        """Half of the width of a fluke [m] at a distance from its middle [m]."""
+        """Half of a fluke's width [m] at a distance from its middle [m]."""
         return self.half_stem + (self.END / 2 * self.height - self.half_stem) * abs(along) / (self.height / 2)
 
     def solid(self):
@@ -62,13 +62,13 @@ class Dolos:
         return united(block.solid() for block in self.blocks)
 
     def _blocks(self):
-        """Convex blocks that share whole faces: stem, two hubs, four arms of the flukes."""
+        """Convex blocks with common faces: stem, two hubs, four arms of the flukes."""
         h = self.haunch_on_fluke
         stem = [(self.haunch_on_stem, *p) for p in octagon(2 * self.half_stem, self.CHAMFER * self.height)]
         section = self._fluke_section
         hub = stem + [p for along in (-h, 0.0, h) for p in section(along)]
         arms = [section(side * h) + section(side * self.height / 2) for side in (-1, 1)]
-        # The other end is this one turned by half a circle about z and by a quarter about x.
+        # The other end is this one rotated by 180 degrees about z and by 90 degrees about x.
         other = np.array([[-1, 0, 0], [0, 0, 1], [0, 1, 0]])
         ends = [np.array(part) for part in (hub, *arms)]
         return [
@@ -83,19 +83,19 @@ class Dolos:
 
 
 class CoreLoc:
-    """Core-Loc of size C: members 0.354 C wide in their middle, 0.189 C at their ends, chamfers of 0.1146 of the width.
+    """Core-Loc of size C: members 0.354 C wide in the middle, 0.189 C at the ends, chamfers of 0.1146 of the width.
 
-    Two members stand upright at both sides along y, the third lies along x between them. Assumed: the dimensions, such
+    Two members stand upright on both sides in y; the third lies along x between them. The dimensions are assumed, such
     that the unit of 3.31 m has the 8 m3 of section 4.1. breakwater's own Core-Loc, with 0.362 C and 0.181 C, has the
-    same volume, but edges of 0.014 C where its chamfers meet; here no edge is shorter than 0.030 C, the chamfers at
-    the ends.
+    same volume but edges of 0.014 C where its chamfers meet. Here the shortest edges are 0.030 C, the chamfers at the
+    ends.
     """
 
     MIDDLE, END, CHAMFER = 0.354, 0.189, 0.1146
 
     def __init__(self, size):
         self.size = size
-        # 0.2206 C^3, the volume that the dimensions were chosen for.
+        # 0.2206 C^3, for which the dimensions were chosen.
         self.volume = 0.2206 * size**3
 
     def solid(self):
@@ -118,9 +118,9 @@ class CoreLoc:
 
 
 class Tetrapod:
-    """Tetrapod of height H (Danel & Greslou 1962) about its centre, one leg up: four cones from the centre to the tips.
+    """Tetrapod of height H (Danel & Greslou 1962), centred, one leg up: four cones from the centre to the tips.
 
-    Tip radius 0.151 H, base radius 0.235 H, leg 0.477 H long, 0.644 H from the centre to a tip.
+    Tip radius 0.151 H, base radius 0.235 H, leg length 0.477 H, 0.644 H from the centre to a tip.
     """
 
     TIP, BASE, LEG, REACH = 0.151, 0.235, 0.477, 0.644
@@ -129,7 +129,7 @@ class Tetrapod:
         self.height = height
         # 0.2799 H^3.
         self.volume = 0.2799 * height**3
-        # Lowest point of the three lower legs below the centre: the tips' lower rims.
+        # Depth of the lowest points below the centre: the lower rims of the tips.
         self.foot = (self.REACH / 3 + self.TIP * math.sqrt(8) / 3) * height
 
     def solid(self):

@@ -1,45 +1,45 @@
-//! A dry case as written: units on a bed without water.
+//! The file of a dry test as the user writes it: units on a bed without water.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{ContactFile, FrictionFile, HandoverFile, MaterialFile, MoundFile, Sides, StopFile, UnitsFile};
 
-/// A dry case: units on a bed, a test of their contact, no water.
+/// A dry test: units on a bed without water, for a tilt, drop or settling test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryFile {
-    /// Where the JSON schema lies, for editors (`breakwater schema --dry` prints it). Not used by the solver.
+    /// Path of the JSON schema, for editors (`breakwater schema --dry` prints it). The solver ignores it.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// One line that names the case.
+    /// Name of the case in reports, one line.
     pub title: String,
-    /// What had to be assumed because no source gives it.
+    /// Assumptions: values that no source gives. The report lists them.
     #[serde(default)]
     pub assumptions: Vec<String>,
-    /// What is done with the units.
+    /// The test.
     pub dry: DryTestFile,
-    /// Bed and mound.
+    /// Bed, mound and terrain.
     pub flume: DryFlumeFile,
-    /// What closes the place.
+    /// Extent of the test area and its boundaries.
     pub domain: DryDomainFile,
     /// Gravitational acceleration [m/s2].
     #[serde(default = "default_gravity_m_s2")]
     pub gravity_m_s2: f64,
     /// The units.
     pub units: UnitsFile,
-    /// Elastic constants by material name.
+    /// Materials of units and bed, with their elastic constants.
     pub materials: Vec<MaterialFile>,
-    /// Friction of each pair of materials that can touch.
+    /// Friction for each pair of materials that can touch.
     pub friction: Vec<FrictionFile>,
-    /// Contact between units and with the bed.
+    /// Contact between units, and between units and the bed.
     #[serde(default)]
     pub contact: ContactFile,
-    /// What is done with the hardest impacts of the units: are they broken?
-    // Left out where it is not used, so that such cases keep their hash.
+    /// Breakage analysis: re-runs the hardest impacts at prototype scale with breakable units.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fracture: Option<HandoverFile>,
-    /// What is written, and how often.
+    /// Output files and their intervals.
     #[serde(default)]
     pub output: DryOutputFile,
     /// When the run ends.
@@ -50,19 +50,19 @@ fn default_gravity_m_s2() -> f64 {
     9.81
 }
 
-/// What is done with the units.
+/// Kind of dry test.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum DryTestFile {
-    /// They are let go where they are.
+    /// Settling test: the units are released from their initial poses.
     Settle {},
-    /// They are lifted and let go.
+    /// Drop test: the units are lifted and released.
     Drop(DropFile),
-    /// The bed is tilted slowly, its shoreward end down, until they slide.
+    /// Tilt test: the bed is tilted slowly, its shoreward end down, until the units slide.
     Tilt(TiltFile),
 }
 
-/// A drop.
+/// A drop test.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DropFile {
@@ -70,17 +70,17 @@ pub struct DropFile {
     pub height_m: f64,
 }
 
-/// A slope test.
+/// A tilt test.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TiltFile {
-    /// How fast the slope grows [degrees/s]; the test is the finer the slower it is.
+    /// Rate at which the slope grows [degrees/s]; a slower tilt resolves the sliding angle better.
     #[serde(default = "default_rate_deg_s")]
     pub rate_deg_s: f64,
-    /// Largest slope [degrees].
+    /// Largest slope; the test ends there [degrees].
     #[serde(default = "default_to_deg")]
     pub to_deg: f64,
-    /// A unit faster than this slides [m/s].
+    /// Speed above which a unit counts as sliding [m/s].
     #[serde(default = "default_slide_speed_m_s")]
     pub slide_speed_m_s: f64,
 }
@@ -97,30 +97,30 @@ fn default_slide_speed_m_s() -> f64 {
     2e-4
 }
 
-/// Bed and mound of a dry case.
+/// Bed, mound and terrain of a dry test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryFlumeFile {
-    /// Corner points [x, z] of the bed [m], x rising.
+    /// Corner points [x, z] of the bed [m]; x must increase.
     pub bed_m: Vec<[f64; 2]>,
     /// A trapezoidal mound on the bed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mound: Option<MoundFile>,
-    /// A triangle surface on or over the bed: rock, a survey, a model of a mound.
+    /// A triangulated surface on or above the bed: rubble, a survey, a model of a mound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub terrain: Option<TerrainFile>,
     /// Material of bed, mound, terrain and walls, one of `materials`.
     pub material: String,
 }
 
-/// An STL file of a surface to stand on, ASCII or binary, open or closed; its path is seen from the folder of the case
-/// file, its triangles are counter-clockwise seen from where the units are.
+/// An STL file of a surface that carries units, ASCII or binary, open or closed. Seen from the units, its triangles
+/// must run counter-clockwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TerrainFile {
-    /// The file.
+    /// Path of the file, relative to the folder of the case file.
     pub path: String,
-    /// Metres in a unit of length of the file: 1, or 0.001 for millimetres.
+    /// Length unit of the file in metres: 1, or 0.001 for millimetres.
     #[serde(default = "default_scale")]
     pub scale: f64,
 }
@@ -129,29 +129,29 @@ fn default_scale() -> f64 {
     1.0
 }
 
-/// What closes the place of a dry case; walls stand at both ends.
+/// Test area of a dry test. Walls stand at both ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryDomainFile {
-    /// Seaward and shoreward end [m].
+    /// x of the seaward and of the shoreward end [m].
     pub x_m: [f64; 2],
-    /// Width across [m].
+    /// Width of the area in y [m].
     pub width_m: f64,
-    /// What closes it across: `periodic` or `walls`.
+    /// Boundaries at the two sides: `periodic` or `walls`.
     pub sides: Sides,
-    /// Top of the walls [m]; no unit may stand higher at the start.
+    /// Top of the walls [m]; no unit may be higher at the start.
     pub top_z_m: f64,
 }
 
-/// What a dry run writes, and how often.
+/// Output files of a dry test and their intervals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DryOutputFile {
-    /// Interval of the moving surfaces of the units [s]; 0 writes none.
+    /// Interval of the unit surfaces [s]; 0 for none.
     pub units_interval_s: f64,
-    /// Interval of motion and energy [s].
+    /// Interval of the tables of motion and energy [s].
     pub series_interval_s: f64,
-    /// Interval of the checkpoints in simulated time [s]; 0 writes none.
+    /// Interval of the checkpoints in simulated time [s]; 0 for none.
     pub checkpoint_interval_s: f64,
 }
 

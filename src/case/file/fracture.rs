@@ -1,30 +1,30 @@
-//! A fracture case as written: deformable bodies that touch and crack.
+//! The file of a fracture case as the user writes it: deformable bodies that touch and crack.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{LandmarkFile, SectionFile};
 
-/// A fracture case: tetrahedral bodies, what moves and holds them, how strong they are.
+/// A fracture case: bodies of tetrahedra with their constraints, loads and strength.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FractureFile {
-    /// Where the JSON schema lies, for editors (`breakwater schema --fracture` prints it). Not used by the solver.
+    /// Path of the JSON schema, for editors (`breakwater schema --fracture` prints it). The solver ignores it.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// One line that names the case.
+    /// Name of the case in reports, one line.
     pub title: String,
-    /// What had to be assumed because no source gives it.
+    /// Assumptions: values that no source gives. The report lists them.
     #[serde(default)]
     pub assumptions: Vec<String>,
-    /// The mesh and how it is computed.
+    /// Mesh and numerical method.
     pub fracture: MethodFile,
-    /// Acceleration of gravity [m/s2].
+    /// Gravitational acceleration [x, y, z] [m/s2].
     #[serde(default)]
     pub gravity_m_s2: [f64; 3],
-    /// The bodies of the mesh, each once.
+    /// The bodies: one entry for each physical volume of the mesh.
     pub bodies: Vec<FractureBodyFile>,
-    /// Boundary sets of the mesh that are held or moved.
+    /// Constraints: boundary sets of the mesh that are held or moved.
     #[serde(default)]
     pub constraints: Vec<ConstraintFile>,
     /// Loads on the bodies.
@@ -32,69 +32,70 @@ pub struct FractureFile {
     pub loads: Vec<LoadFile>,
     /// Materials of the bodies.
     pub materials: Vec<FractureMaterialFile>,
-    /// Friction between bodies; pairs that are not named are smooth.
+    /// Friction between bodies; pairs that are not listed have none.
     #[serde(default)]
     pub friction: Vec<BodyFrictionFile>,
-    /// Places with names, to tell by where cracks begin.
+    /// Landmarks: named boxes. The report names the landmark nearest to the start of a crack.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub landmarks: Vec<LandmarkFile>,
-    /// What is written, and how often.
+    /// Output files and their intervals.
     pub output: FractureOutputFile,
     /// When the run ends.
     pub stop: FractureStopFile,
 }
 
-/// The mesh and how it is computed.
+/// Mesh and numerical method.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MethodFile {
-    /// MSH 4.1 file, seen from the folder of the case file.
+    /// Path of the mesh (MSH 4.1), relative to the folder of the case file.
     pub mesh: String,
-    /// Metres in a unit of length of the mesh.
+    /// Length unit of the mesh in metres: 1, or 0.001 for millimetres.
     #[serde(default = "one")]
     pub scale: f64,
-    /// How tetrahedra hold together before they crack.
+    /// Joints between the tetrahedra before they crack.
     #[serde(default)]
     pub joints: Joints,
-    /// Stiffness of the joints p_0 over Young's modulus [-]; 50 for `intrinsic`, 10 for `tied` joints.
+    /// Joint penalty: stiffness p_0 of the joints over Young's modulus [-]. Default: 50 for `intrinsic`, 10 for `tied`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_penalty: Option<f64>,
-    /// Range over which a joint softens.
+    /// Opening over which a joint softens.
     #[serde(default)]
     pub softening: Softening,
-    /// Stiffness of contact p over Young's modulus [-].
+    /// Contact penalty: stiffness p of the contacts over Young's modulus [-].
     #[serde(default = "one")]
     pub contact_penalty: f64,
-    /// Share of the longest stable step [-].
+    /// Time step as a share of the longest stable time step [-].
     #[serde(default = "default_step_share")]
     pub step_share: f64,
-    /// Time step [s], if it is to be shorter than that.
+    /// Upper limit of the time step [s]; by default only `step_share` limits it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dt_s: Option<f64>,
 }
 
-/// How tetrahedra hold together before they crack.
+/// Joints between the tetrahedra before they crack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Joints {
-    /// Joints between all of them from the start (Guo, Latham and Xiang).
+    /// Elastic joints between all tetrahedra from the start (Guo, Latham and Xiang).
     #[default]
     Intrinsic,
-    /// They share their nodes until the strength is reached: no compliance of joints, a longer step; on elements that are
-    /// not small against the crack's own zone they carry too much (docs/validation.md).
+    /// Tetrahedra share their nodes until the stress reaches the strength. The joints add no compliance and the time
+    /// step is longer. Elements must be small compared with the fracture process zone, or the strength comes out too
+    /// high (docs/validation.md).
     Tied,
-    /// Nothing cracks: the elastic twin of a run.
+    /// Nothing cracks: an elastic run, for comparison.
     Unbreakable,
 }
 
-/// Range over which a joint softens.
+/// Opening over which a joint softens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Softening {
-    /// The area under the curve is the fracture energy.
+    /// Such that the area under the softening curve is the fracture energy.
     #[default]
     Exact,
-    /// max(2 delta_p, 3 G_f / f) as the published programs have it: dissipates 1.16 G_f.
+    /// max(2 delta_p, 3 G_f / f), as in the published programs: dissipates 1.16 G_f.
     Published,
 }
 
@@ -102,23 +103,23 @@ pub enum Softening {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FractureBodyFile {
-    /// Name of its physical volume in the mesh.
+    /// Name of the body's physical volume in the mesh.
     pub name: String,
-    /// Its material, one of `materials`.
+    /// Material of the body, one of `materials`.
     pub material: String,
-    /// Whether it can crack; its material needs its strength then.
+    /// Whether the body can crack; its material then needs `strength`.
     #[serde(default)]
     pub cracks: bool,
-    /// Whether it is not deformed: all its nodes move as one. It cannot crack then.
+    /// Whether the body is rigid: its nodes move together. A rigid body cannot crack.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rigid: bool,
-    /// Velocity at the start [m/s], of the point `pivot_m`.
+    /// Initial velocity of the point `pivot_m` [m/s].
     #[serde(default)]
     pub velocity_m_s: [f64; 3],
-    /// Angular velocity at the start [rad/s].
+    /// Initial angular velocity [rad/s].
     #[serde(default)]
     pub angular_velocity_rad_s: [f64; 3],
-    /// A point on the axis of that rotation [m].
+    /// A point on the axis of rotation [m].
     #[serde(default)]
     pub pivot_m: [f64; 3],
 }
@@ -129,8 +130,8 @@ pub struct FractureBodyFile {
 pub struct ConstraintFile {
     /// Name of the physical surface, curve or point in the mesh.
     pub set: String,
-    /// Velocity along x, y, z [m/s], or rows of time [s] and velocity; `null` leaves it free. If nodes of a rigid body are
-    /// held, the body is.
+    /// Velocity along x, y and z [m/s]; rows of time [s] and velocity [m/s] for a velocity that varies; `null` for a
+    /// free direction. Holding nodes of a rigid body holds the whole body.
     pub velocity_m_s: [Option<VelocityFile>; 3],
 }
 
@@ -138,65 +139,66 @@ pub struct ConstraintFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "must be a velocity [m/s], rows [[time [s], velocity [m/s]], ...], or null")]
 pub enum VelocityFile {
-    /// Always the same [m/s].
+    /// Constant velocity [m/s].
     Constant(f64),
-    /// Rows of time [s] and velocity [m/s]; linear between, constant before the first and after the last.
+    /// Rows of time [s] and velocity [m/s]: linear between rows, constant before the first and after the last row.
     History(Vec<[f64; 2]>),
 }
 
-/// A load. Histories are linear between their rows, constant before the first and after the last.
+/// A load. Histories are linear between rows, constant before the first and after the last row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum LoadFile {
-    /// A stress vector on undeformed faces; it keeps its direction.
+    /// A traction on undeformed faces, with a constant direction.
     Traction {
         /// Name of the physical surface in the mesh.
         set: String,
-        /// Force over undeformed area [Pa].
+        /// Force per undeformed area [x, y, z] [Pa].
         stress_pa: [f64; 3],
-        /// Rows of time [s] and factor [-]; without it, the load is constant.
+        /// Rows of time [s] and load factor [-]; by default the load is constant.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         history: Option<Vec<[f64; 2]>>,
     },
-    /// A pressure normal to faces.
+    /// A pressure, normal to the faces.
     Pressure {
         /// Name of the physical surface in the mesh.
         set: String,
-        /// Pressure [Pa], positive where it presses.
+        /// Pressure [Pa], positive in compression.
         pressure_pa: f64,
-        /// Faces whose area and normal count.
+        /// Configuration that gives area and normal of the faces.
         #[serde(default)]
         on: LoadedFaces,
-        /// Rows of time [s] and factor [-]; without it, the load is constant.
+        /// Rows of time [s] and load factor [-]; by default the load is constant.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         history: Option<Vec<[f64; 2]>>,
     },
-    /// A force, and perhaps a moment, about a place of a body: a recorded impact.
+    /// A force, and optionally a moment, at a point of a body: a recorded impact.
     Force {
         /// Name of the body.
         body: String,
-        /// The place in the undeformed body [m].
+        /// The point in the undeformed body [m].
         place_m: [f64; 3],
-        /// The faces with their middle within this radius of the place take the force [m]; if there is none, the nearest
-        /// face does.
+        /// Radius around the point [m]. The force acts on the faces whose centre lies within it, or on the nearest face
+        /// if there is none.
         #[serde(default)]
         radius_m: f64,
-        /// Axes of the components.
+        /// Axes of the components in `history`.
         #[serde(default)]
         axes: LoadAxes,
-        /// Rows of time [s] and force [N], t, F_x, F_y, F_z; or of these and the moment about the place [N m], M_x, M_y, M_z.
+        /// Rows [t, F_x, F_y, F_z] of time [s] and force [N], or rows [t, F_x, F_y, F_z, M_x, M_y, M_z] with the moment
+        /// about the point [N m].
         history: Vec<Vec<f64>>,
     },
 }
 
-/// Faces whose area and normal count for a pressure.
+/// Configuration that gives area and normal of the faces under a pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LoadedFaces {
-    /// As they are at the moment: a fluid.
+    /// The deformed faces: pressure of a fluid.
     #[default]
     Deformed,
-    /// As they were at the start.
+    /// The faces at the start.
     Undeformed,
 }
 
@@ -204,14 +206,14 @@ pub enum LoadedFaces {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LoadAxes {
-    /// Those of space.
+    /// Fixed axes x, y, z.
     #[default]
     Space,
-    /// Those of the body at the start, which turn with it.
+    /// Axes that are x, y, z at the start and rotate with the body.
     Body,
 }
 
-/// A material.
+/// A material of bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FractureMaterialFile {
@@ -226,7 +228,7 @@ pub struct FractureMaterialFile {
     /// Viscosity of the material [Pa s].
     #[serde(default)]
     pub viscosity_pa_s: f64,
-    /// Strength, for bodies that crack.
+    /// Strength; required for bodies that can crack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strength: Option<StrengthFile>,
 }
@@ -239,11 +241,11 @@ pub struct StrengthFile {
     pub tensile_pa: f64,
     /// Cohesion c [Pa].
     pub cohesion_pa: f64,
-    /// Angle of internal friction [degrees].
+    /// Angle of internal friction phi [degrees].
     pub friction_angle_deg: f64,
-    /// Fracture energy in opening G_f [J/m2].
+    /// Fracture energy G_f in opening (mode I) [J/m2].
     pub fracture_energy_j_m2: f64,
-    /// Fracture energy in sliding [J/m2]; without it, that in opening.
+    /// Fracture energy in sliding (mode II) [J/m2]; by default equal to `fracture_energy_j_m2`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sliding_energy_j_m2: Option<f64>,
 }
@@ -252,29 +254,30 @@ pub struct StrengthFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyFrictionFile {
-    /// The two bodies; the same one twice for its crack faces.
+    /// Names of the two bodies; the same name twice for the crack faces of a body.
     pub between: [String; 2],
-    /// Coulomb's coefficient [-].
+    /// Coulomb friction coefficient [-].
     pub coefficient: f64,
 }
 
-/// What a fracture run writes, and how often.
+/// Output files of a fracture run and their intervals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FractureOutputFile {
-    /// Interval of surfaces, cracks and cut plane [s]; 0 writes none, and the report has no pictures.
+    /// Interval of surfaces, cracks and section [s]; 0 for none, and the report then has no pictures.
     pub surfaces_interval_s: f64,
-    /// Interval of the energy book [s].
+    /// Interval of the energy balance [s].
     pub energy_interval_s: f64,
-    /// Interval of the state that `breakwater resume` goes on from [s]; 0 writes none. Without it, a fiftieth of the
+    /// Interval of the checkpoints from which `breakwater resume` continues [s]; 0 for none. Default: a fiftieth of the
     /// duration.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoint_interval_s: Option<f64>,
-    /// Interval of all tetrahedra with their stresses [s]; 0, as without it, writes none.
+    /// Interval of the snapshots of all tetrahedra with their stresses [s]; 0, the default, for none.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub tets_interval_s: f64,
-    /// Plane of the pictures of the stress; without it, upright along x through the middle of the bodies that can crack.
+    /// Plane of the stress pictures; by default the vertical plane along x through the middle of the bodies that can
+    /// crack.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<SectionFile>,
 }

@@ -1,26 +1,26 @@
-//! Places that a fracture case names: landmarks of the units, and the plane that they are cut by for pictures.
+//! Landmarks and the section of a fracture case as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A place with a name: a box about it, in the mesh as it stands at the start. Where cracks begin is told by these.
+/// A landmark: a named box in the undeformed mesh. The report uses it to say where cracks begin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LandmarkFile {
-    /// Its name in words, such as "upper stem-fluke corner".
+    /// Name in words, such as "upper stem-fluke corner".
     pub name: String,
-    /// Lowest corner of the box [m].
+    /// Lower corner of the box [m].
     pub low_m: [f64; 3],
-    /// Highest corner of the box [m]; that of a point is its lowest, too.
+    /// Upper corner of the box [m]; equal to `low_m` for a point.
     pub high_m: [f64; 3],
 }
 
-/// A plane that the bodies are cut by.
+/// A section: a plane that cuts the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SectionFile {
-    /// A point in it [m], in the mesh as it stands at the start.
+    /// A point in the plane [m], in the undeformed mesh.
     pub point_m: [f64; 3],
-    /// Its normal, of any length; it is looked at along this direction.
+    /// Normal of the plane, of any length. The pictures look along it.
     pub normal: [f64; 3],
 }

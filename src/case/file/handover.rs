@@ -1,47 +1,48 @@
-//! The hand-over of impacts to the fracture of units, as written.
+//! The breakage analysis as the user writes it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Joints, StrengthFile};
 
-/// What is done with the hardest impacts of a run: they are computed again with units that deform and crack.
+/// Breakage analysis: the hardest impacts of a run are re-run at prototype scale with units that deform and crack.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HandoverFile {
-    /// Lengths of the prototype over those of the case [-]; 1 takes the units as they are. Velocities and times scale
-    /// with its root, masses with its cube (Froude).
+    /// Length scale, prototype over case [-]; 1 keeps the size of the units. Velocities and times scale with its square
+    /// root, masses with its cube (Froude).
     #[serde(default = "one")]
     pub scale: f64,
-    /// MSH 4.1 mesh of one unit in its body axes, of any size, seen from the folder of the case file.
+    /// Path of a mesh (MSH 4.1) of one unit, relative to the folder of the case file. The mesh is in the unit's body
+    /// axes and may have any size.
     pub mesh: String,
-    /// Concrete of the prototype's units. Their density follows from the mass in `units`.
+    /// Concrete of the prototype units. Their density follows from the mass in `units`.
     pub material: HandoverMaterialFile,
-    /// What they fall on: bed and mound as an elastic block; without it, of the units' concrete.
+    /// Material of bed and mound, modelled as an elastic block; by default the concrete of the units.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<BaseFile>,
-    /// Coulomb's coefficient of units on bed and neighbours, and of crack faces [-].
+    /// Coulomb friction coefficient of units on the bed, on other units and of crack faces [-].
     #[serde(default = "default_friction")]
     pub friction: f64,
-    /// How an impact is computed again.
+    /// How an impact is re-run.
     #[serde(default)]
     pub way: HandoverWay,
-    /// Which impacts are.
+    /// Which impacts are re-run.
     #[serde(default)]
     pub select: SelectFile,
-    /// How tetrahedra hold together before they crack.
+    /// Joints between the tetrahedra before they crack.
     #[serde(default)]
     pub joints: Joints,
-    /// Time after the blow, in the prototype [s]; without it, 1.5 times as long as the blow lasts by Hertz, and at least
-    /// 10 heights of the unit over the speed of sound.
+    /// Simulated time from the start of the impact, at prototype scale [s]. Default: 1.5 times the duration of the
+    /// impact after Hertz, and at least 10 times the unit's height over the speed of sound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
-    /// Impacts computed at the same time; without it, as many as there are threads.
+    /// Number of impacts that are computed at the same time; by default the number of threads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cores: Option<usize>,
 }
 
-/// Concrete of the prototype.
+/// Concrete of the prototype units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HandoverMaterialFile {
@@ -52,11 +53,11 @@ pub struct HandoverMaterialFile {
     /// Viscosity of the material [Pa s].
     #[serde(default)]
     pub viscosity_pa_s: f64,
-    /// Its strength.
+    /// Strength of the concrete.
     pub strength: StrengthFile,
 }
 
-/// What bed and mound of the prototype are made of.
+/// Material of bed and mound of the prototype.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BaseFile {
@@ -68,30 +69,30 @@ pub struct BaseFile {
     pub poisson_ratio: f64,
 }
 
-/// How an impact is computed again.
+/// How an impact is re-run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum HandoverWay {
-    /// Both bodies collide again, from their poses and velocities just before.
+    /// Both bodies collide again, with the poses and velocities just before the impact.
     #[default]
     ReEnact,
-    /// The recorded forces of all contacts drive the unit alone.
+    /// The recorded contact forces load the unit on its own.
     LoadHistory,
-    /// Both, one after the other.
+    /// Both methods, one after the other.
     Both,
 }
 
-/// Which impacts are handed over.
+/// Which impacts are re-run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SelectFile {
-    /// What makes an impact hard.
+    /// Measure of hardness.
     #[serde(default)]
     pub by: Hardness,
-    /// So many at most, the hardest first; without it, all that were kept.
+    /// Largest number of impacts, the hardest first. Without it, all recorded impacts are re-run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<usize>,
-    /// Only those with at least this much, in the case, not the prototype: a force [N], a velocity [m/s] or an energy [J].
+    /// Smallest hardness, at the scale of the case: a force [N], a velocity [m/s] or an energy [J], as `by` says.
     #[serde(default)]
     pub at_least: f64,
 }
@@ -102,16 +103,16 @@ impl Default for SelectFile {
     }
 }
 
-/// What makes an impact hard.
+/// Measure of the hardness of an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Hardness {
-    /// The largest force.
+    /// Largest contact force.
     #[default]
     PeakForce,
-    /// The velocity at which the surfaces meet.
+    /// Velocity at which the surfaces approach each other.
     ApproachVelocity,
-    /// The kinetic energy of the approach.
+    /// Kinetic energy of the approach.
     KineticEnergy,
 }
 

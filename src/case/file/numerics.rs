@@ -1,44 +1,44 @@
-//! The SPH scheme, as written.
+//! The SPH scheme as the user writes it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Constants of the SPH scheme; the defaults are those of Mitsui et al. (2023).
+/// Options and constants of the SPH scheme. Defaults and equation numbers follow Mitsui et al. (2023), unless noted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct NumericsFile {
-    /// h / (sqrt(3) dp) [-].
+    /// Smoothing factor h / (sqrt(3) dp) [-], with smoothing length h.
     pub smoothing_factor: f64,
-    /// How the water resists shear.
+    /// Viscosity model.
     pub viscosity: Viscosity,
-    /// Artificial viscosity alpha [-] (equation 3); of no meaning for the other viscosities.
+    /// Coefficient alpha of artificial viscosity [-] (equation 3); the other models ignore it.
     pub viscosity_alpha: f64,
-    /// Kinematic viscosity nu [m2/s]; of no meaning for artificial viscosity.
+    /// Kinematic viscosity nu [m2/s]; artificial viscosity ignores it.
     pub kinematic_viscosity_m2_s: f64,
-    /// How differences of density that are noise are smoothed.
+    /// Density diffusion, which smooths noise in the density.
     pub density_diffusion: DensityDiffusion,
-    /// Density diffusion delta [-] (equation 4).
+    /// Coefficient delta of density diffusion [-] (equation 4).
     pub diffusion_delta: f64,
-    /// Coefficient A of particle shifting [-]; 0: none, 1 to 6: usual.
+    /// Coefficient A of particle shifting [-]; 0 for none, usually 1 to 6.
     pub shifting_coefficient: f64,
     /// Courant number [-].
     pub cfl: f64,
-    /// How walls, wavemaker and units act on the water.
+    /// Boundary condition of walls, wavemaker and units.
     pub boundary: Boundary,
-    /// Velocity that boundary particles show to the water; by default free slip under mDBC.
+    /// Velocity condition at walls. Default: `free_slip` with `mdbc`, `original` (as in the published runs) with `dbc`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
-    // This and the next are left out where they are usual: the fingerprints of older cases stay.
-    /// Whether water slides along the surfaces of units too; of `wall_slip` `free_slip` only. false: they hold it.
+    // This key and the next are not written at their defaults, so that the hash of older cases does not change.
+    /// Whether `free_slip` holds for units, too; false: no slip on units. Only with `wall_slip` `free_slip`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
-    /// Whether bed, walls and other units press on a unit through gaps that hold no water particle, as the water there
-    /// would; false: water alone acts on units, as far as described that of the published runs. Of mDBC only.
+    /// Whether the water pressure acts on a unit through gaps that are too narrow for water particles. false: only
+    /// water particles act on units, as in the published runs (as far as described). Only with `mdbc`.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
-    /// Layers of particles in walls and bed.
+    /// Number of particle layers in walls and bed.
     pub boundary_layers: u32,
-    /// Time for which the units are held while the water comes to rest round them [s].
+    /// Time at the start for which the units are held while the water around them settles [s].
     pub hold_units_s: f64,
 }
 
@@ -63,17 +63,17 @@ impl Default for NumericsFile {
     }
 }
 
-/// How the water resists shear.
+/// Viscosity model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Viscosity {
     /// Artificial viscosity (Monaghan 1992), equation 3.
     Artificial,
-    /// Viscosity of the fluid (Lo & Shao 2002): too little friction in waves.
+    /// Laminar viscosity (Lo & Shao 2002); gives too little friction in waves.
     Laminar,
-    /// The same with sub-particle-scale turbulence (Dalrymple & Rogers 2006).
+    /// Laminar viscosity with sub-particle-scale turbulence (Dalrymple & Rogers 2006).
     LaminarSps,
-    /// Viscosity of the fluid (Monaghan & Gingold 1983): right at a free surface too.
+    /// Laminar viscosity (Monaghan & Gingold 1983); also correct at the free surface.
     LaminarMonaghanGingold,
 }
 
@@ -81,34 +81,34 @@ pub enum Viscosity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DensityDiffusion {
-    /// None.
+    /// No density diffusion.
     None,
-    /// Of the whole density (Molteni & Colagrossi 2009).
+    /// Diffusion of the total density (Molteni & Colagrossi 2009).
     MolteniColagrossi,
-    /// Of the density beyond the hydrostatic one (Fourtakas et al. 2019), equation 4.
+    /// Diffusion of the density minus its hydrostatic part (Fourtakas et al. 2019), equation 4.
     Fourtakas,
     /// Delta-SPH with renormalised gradients (Antuono et al. 2010).
     Antuono,
 }
 
-/// Velocity that boundary particles show to the water.
+/// Velocity condition at walls: the velocity that boundary particles take in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WallSlip {
-    /// That of the wall (English et al. 2022).
+    /// Velocity of the wall (English et al. 2022).
     Original,
-    /// Such that the water sticks to the wall.
+    /// No slip: the water sticks to the wall.
     NoSlip,
-    /// Such that the water slides along the wall.
+    /// Free slip: the water slides along the wall.
     FreeSlip,
 }
 
-/// Boundary condition of the SPH walls.
+/// Boundary condition of walls, wavemaker and units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Boundary {
-    /// Dynamic boundary condition (Crespo et al. 2007).
+    /// Dynamic boundary condition, DBC (Crespo et al. 2007).
     Dbc,
-    /// Modified dynamic boundary condition with ghost nodes (English et al. 2022).
+    /// Modified dynamic boundary condition with ghost nodes, mDBC (English et al. 2022).
     Mdbc,
 }

@@ -1,60 +1,61 @@
-//! What stands in the flume, as written: armour units, their materials and contact, gauges.
+//! Armour units, materials, contact and gauges as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Armour units, all alike: one row across the flume, or at the places given.
+/// Armour units, all of the same shape and mass: a row across the flume, given centres or poses, or armour layers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsFile {
     /// Shape of a unit.
     pub shape: Shape,
-    /// Height H of a Tetrapod standing on three legs, of a Dolos or a grooved cube; size C of a Core-Loc [m].
+    /// Height H of a Tetrapod on three legs, of a Dolos or of a grooved cube; size C of a Core-Loc [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// Edges of a cuboid along x, y and z [m].
+    /// Edge lengths of a cuboid along x, y and z [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_m: Option<[f64; 3]>,
-    /// Width of a Dolos' stem over its height [-]; without it, 0.34.
+    /// Waist ratio of a Dolos: width of the stem over the height [-]. Default: 0.34.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waist_ratio: Option<f64>,
-    /// Files of a unit that is not in the catalogue.
+    /// STL files of a unit, for the shape `stl`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stl: Option<StlFile>,
     /// Mass of a unit [kg].
     pub mass_kg: f64,
-    /// Material, one of `materials`.
+    /// Material of the units, one of `materials`.
     pub material: String,
     /// Number of units in the row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
-    /// Where each unit is, one by one, in the place of a row.
+    /// Pose of each unit, instead of a row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<Vec<PoseFile>>,
-    /// File with the poses, as `breakwater place` writes it; seen from the folder of the case file.
+    /// Placement file from `breakwater place`, which lists the poses. Its path is relative to the folder of the case
+    /// file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement_file: Option<String>,
-    /// Armour layers on a slope; `breakwater place` works out where their units come to rest and writes the
-    /// `placement_file`, without which the case cannot be run.
+    /// Armour layers on a slope. `breakwater place` lowers their units onto the slope one by one and writes the
+    /// `placement_file`, which a run needs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armour: Option<ArmourFile>,
-    /// Distance between the units' axes [m].
+    /// Distance between the axes of neighbouring units in the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
-    /// Place of the row [m].
+    /// x of the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_m: Option<f64>,
-    /// Centres [x, y, z] of the units one by one [m], in the place of `count`, `pitch_m`, `x_m` and `first_y_m`. Units
-    /// may stand on each other.
+    /// Centre [x, y, z] of each unit [m], instead of `count`, `pitch_m`, `x_m` and `first_y_m`. Units may stand on each
+    /// other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centres_m: Option<Vec<[f64; 3]>>,
-    /// Place of the first unit across the flume [m]; without it, the row is centred.
+    /// y of the first unit of the row [m]; by default the row is centred.
     #[serde(default)]
     pub first_y_m: Option<f64>,
-    /// How the units are turned about the vertical.
+    /// Rotation of the units of the row about the vertical axis.
     #[serde(default)]
     pub orientation: Orientation,
-    /// A unit is damaged when it has moved further than this [m]; without it, its height.
+    /// Displacement above which a unit counts as damaged [m]. Default: the height of the unit.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
 }
@@ -63,18 +64,18 @@ pub struct UnitsFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ArmourFile {
-    /// Seaward and shoreward end of the layers [m].
+    /// x of the seaward and of the shoreward end of the layers [m].
     pub x_m: [f64; 2],
     /// Number of layers.
     #[serde(default = "default_armour_layers")]
     pub layers: u32,
-    /// Units of all layers on an area D_n^2 of the slope [-]; Tetrapods in two layers 1.04, Dolosse 0.83, cubes 1.17
-    /// (Shore Protection Manual 1984).
+    /// Packing density: units of all layers per area D_n^2 of the slope [-]. Two layers of Tetrapods 1.04, of Dolosse
+    /// 0.83, of cubes 1.17 (Shore Protection Manual 1984).
     pub packing_density: f64,
-    /// How the units are turned.
+    /// Rotation of the units.
     #[serde(default)]
     pub orientation: ArmourOrientation,
-    /// Seed of what is random.
+    /// Seed of the random rotations.
     #[serde(default)]
     pub seed: u64,
 }
@@ -83,24 +84,24 @@ fn default_armour_layers() -> u32 {
     2
 }
 
-/// How the units of an armour layer are turned when they are placed.
+/// Rotation of the units of an armour layer before they are lowered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArmourOrientation {
-    /// At random, all directions equally likely.
+    /// Random; all rotations are equally likely.
     #[default]
     Random,
-    /// Standing, neighbours turned by half a circle.
+    /// Upright; neighbours differ by 180 degrees about the vertical axis.
     Alternating,
 }
 
-/// Place and rotation of a unit.
+/// Pose of a unit: position and rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PoseFile {
     /// Centre of mass [x, y, z] [m].
     pub centre_m: [f64; 3],
-    /// Rotation from the unit's own axes, a unit quaternion [x, y, z, w]; without it, none.
+    /// Rotation from the unit's own axes, a unit quaternion [x, y, z, w]. Default: no rotation.
     #[serde(default = "no_rotation")]
     pub quaternion_xyzw: [f64; 4],
 }
@@ -109,13 +110,13 @@ fn no_rotation() -> [f64; 4] {
     [0.0, 0.0, 0.0, 1.0]
 }
 
-/// Poses of units, as `breakwater place` writes them.
+/// Placement file: the poses that `breakwater place` writes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlacementFile {
-    /// The case that they were made for.
+    /// Title of the case.
     pub title: String,
-    /// Units to the area of the slope, over D_n^-2 [-], if they were placed on one.
+    /// Packing density reached: units per area D_n^2 of the slope [-], for armour layers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packing_density: Option<f64>,
     /// The poses.
@@ -128,20 +129,20 @@ pub struct PlacementFile {
 pub enum Shape {
     /// Tetrapod (Danel & Greslou 1962).
     Tetrapod,
-    /// Block with three pairs of plane faces.
+    /// Cuboid.
     Cuboid,
     /// Dolos (Merrifield 1974).
     Dolos,
     /// Core-Loc (Melby & Turk 1997).
     CoreLoc,
-    /// Cube with a groove down each side, Antifer block.
+    /// Cube with a groove in each side: Antifer block.
     GroovedCube,
-    /// Any unit, from STL files.
+    /// Any shape, from STL files.
     Stl,
 }
 
 impl Shape {
-    /// Name in case files.
+    /// Returns the name in case files.
     pub fn key(self) -> &'static str {
         match self {
             Self::Tetrapod => "tetrapod",
@@ -154,17 +155,17 @@ impl Shape {
     }
 }
 
-/// STL files of a unit, ASCII or binary; paths are seen from the folder of the case file. The unit stands as in the file,
-/// z upwards.
+/// STL files of a unit, ASCII or binary. Paths are relative to the folder of the case file. The files show the upright
+/// unit, z upwards.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StlFile {
     /// Closed surface of the unit.
     pub path: String,
-    /// Metres in a unit of length of the files: 1, or 0.001 for millimetres.
+    /// Length unit of the files in metres: 1, or 0.001 for millimetres.
     #[serde(default = "default_scale")]
     pub scale: f64,
-    /// Surfaces of the convex parts that fill the unit; without them it is decomposed.
+    /// Surfaces of convex parts that together fill the unit. Default: the program decomposes the unit itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
 }
@@ -173,30 +174,30 @@ fn default_scale() -> f64 {
     1.0
 }
 
-/// How the units of a row are turned about the vertical.
+/// Rotation of the units of a row about the vertical axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Orientation {
-    /// Neighbours are turned by half a circle; the first has a leg seaward (SPH1 of Mitsui et al.).
+    /// Neighbours differ by 180 degrees; the first unit has a leg pointing seaward (SPH1 of Mitsui et al.).
     #[default]
     Alternating,
-    /// Neighbours are turned by half a circle; the first has a leg shoreward (SPH2).
+    /// Neighbours differ by 180 degrees; the first unit has a leg pointing shoreward (SPH2).
     AlternatingReversed,
-    /// Every unit has a leg seaward.
+    /// Every unit has a leg pointing seaward.
     Seaward,
-    /// Every unit has a leg shoreward.
+    /// Every unit has a leg pointing shoreward.
     Shoreward,
 }
 
-/// Elastic constants of a material in contact.
+/// A material of units or bed: its constants in contact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
     /// Name used by `units.material`, `flume.material` and `friction`.
     pub name: String,
-    /// Young's modulus in contact [Pa]. A softer value than the real one lengthens the contact and the time step.
+    /// Young's modulus in contact [Pa]. A smaller value than the real one makes contacts and time steps longer.
     pub young_modulus_pa: f64,
-    /// Measured stiffness of a contact between two bodies of the material [N/m], for the linear law.
+    /// Measured stiffness of a contact between two bodies of this material [N/m], for the contact law `linear`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_stiffness_n_m: Option<f64>,
     /// Poisson's ratio [-].
@@ -205,33 +206,33 @@ pub struct MaterialFile {
     pub restitution: f64,
 }
 
-/// Friction of a pair of materials.
+/// Friction between two materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionFile {
-    /// The two materials; the same one twice for units against units.
+    /// Names of the two materials; the same name twice for contacts between units.
     pub between: [String; 2],
-    /// Coulomb's coefficient [-], at rest if that of motion is given as well.
+    /// Coulomb friction coefficient [-]; the static one if `kinetic_coefficient` is given.
     pub coefficient: f64,
-    /// Coulomb's coefficient while sliding [-]; without it, the same as at rest.
+    /// Coulomb friction coefficient of sliding contacts [-]. Default: `coefficient`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinetic_coefficient: Option<f64>,
-    /// Coefficient of rolling resistance [-]: the moment over force and rounding radius.
+    /// Rolling resistance coefficient [-]: moment over normal force and rounding radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_coefficient: Option<f64>,
-    /// Coefficient of restitution of the pair [-]; without it, the smaller one of the two materials.
+    /// Coefficient of restitution of the pair [-]. Default: the smaller value of the two materials.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
 }
 
-/// Contact between units and with the bed.
+/// Contact between units, and between units and the bed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContactFile {
-    /// Rounding radius of a unit's edges as a share of its height; also the radius of Hertz's law [-].
+    /// Rounding radius of a unit's edges over its height [-]; it is also the radius in Hertz's law.
     pub rounding_share: f64,
-    /// Law of the contacts.
-    // Left out at its default, so that cases that do not use it keep their hash.
+    /// Contact law.
+    // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(skip_serializing_if = "ContactLawName::is_default")]
     pub law: ContactLawName,
 }
@@ -242,17 +243,17 @@ impl Default for ContactFile {
     }
 }
 
-/// Law of the contacts.
+/// Contact law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ContactLawName {
-    /// Hertz in the normal, Mindlin's spring with its history in the tangential direction.
+    /// Hertz in the normal direction; Mindlin's spring with history in the tangential direction.
     #[default]
     HertzMindlin,
-    /// Springs of the measured stiffness `contact_stiffness_n_m` of the materials.
+    /// Linear springs with the measured stiffness `contact_stiffness_n_m` of the materials.
     Linear,
-    /// As the published runs had it: every contact with a radius of 0.1 m and a tangential spring of one step, so that
-    /// units creep.
+    /// Law of the published runs (Chrono 4.0): every contact has a radius of 0.1 m, and its tangential spring lasts
+    /// only one time step, so that units creep.
     Chrono4,
 }
 
@@ -262,11 +263,11 @@ impl ContactLawName {
     }
 }
 
-/// A point at which the water is measured.
+/// A gauge: a point at which the water is measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum GaugeFile {
-    /// Surface elevation above the still water [m]; also written by the flume model.
+    /// Elevation of the free surface above the still water level [m]. The flume model writes it, too.
     Elevation(ElevationFile),
     /// Pressure [Pa].
     Pressure(PointFile),
@@ -274,15 +275,15 @@ pub enum GaugeFile {
     Velocity(PointFile),
 }
 
-/// A gauge of the surface elevation.
+/// A gauge for the elevation of the free surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ElevationFile {
-    /// Name in tables and plots.
+    /// Name in tables and charts.
     pub name: String,
-    /// Place along the flume [m].
+    /// x of the gauge, along the flume [m].
     pub x_m: f64,
-    /// Place across the flume [m]; without it, the middle.
+    /// y of the gauge, across the flume [m]. Default: the middle.
     #[serde(default)]
     pub y_m: Option<f64>,
 }
@@ -291,15 +292,15 @@ pub struct ElevationFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointFile {
-    /// Name in tables and plots.
+    /// Name in tables and charts.
     pub name: String,
-    /// Place at the start [m].
+    /// Initial position [x, y, z] [m].
     pub at_m: [f64; 3],
-    /// Unit that the point moves with, counted from 1.
+    /// Number of the unit that the gauge moves with, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_unit: Option<u32>,
-    /// Way of a point that moves: times from the start of the particles [s] and displacements [m], [t, x, y, z] each;
-    /// it moves straight between them and stays at the last.
+    /// Path of a moving gauge: rows [t, x, y, z] of the time from the start of the particles [s] and the displacement
+    /// [m]. The gauge moves linearly between rows and stays at the last one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub way: Vec<[f64; 4]>,
 }

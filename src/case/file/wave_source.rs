@@ -1,32 +1,31 @@
-//! Where a wave of another program lies, as written.
+//! A wave from another program as the user writes it.
 
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A wave from another program: the velocity of its water over height and time where the wavemaker stands.
+/// A wave from another program: the velocity of its water at the wavemaker, over height and time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GivenWaveFile {
-    /// The files.
+    /// The files of the other program.
     pub source: WaveSourceFile,
-    /// Speed at which the wave travels [m/s]. With it the rows of the wavemaker move as water that leaves the place
-    /// where the velocity is known; without it they move with the velocity at that place, and their stroke is too
-    /// short.
+    /// Celerity of the wave [m/s]. With it, the rows of the wavemaker follow the moving water. Without it, they move
+    /// with the velocity at a fixed position, and their stroke is too short.
     #[serde(default)]
     pub celerity_m_s: Option<f64>,
 }
 
-/// Files with velocities; paths are seen from the folder of the case file.
+/// Files with velocities. Paths are relative to the folder of the case file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "format", deny_unknown_fields)]
 pub enum WaveSourceFile {
-    /// A `_velx` file of DualSPHysics' multi-layer piston; `breakwater wave` writes one, too.
+    /// A `_velx` file of DualSPHysics' multi-layer piston. `breakwater wave` writes such files, too.
     Dualsphysics(VelxFile),
-    /// Tables of SWASH.
+    /// Tables from SWASH.
     Swash(SwashFile),
-    /// Probes or a sampled line of OpenFOAM.
+    /// Probes or a sampled line from OpenFOAM.
     Openfoam(OpenfoamFile),
 }
 
@@ -34,66 +33,66 @@ pub enum WaveSourceFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VelxFile {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
 }
 
-/// Tables of SWASH for one point.
+/// Tables from SWASH for one point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SwashFile {
-    /// The table with `TSEC` and `WATL`.
+    /// Table with the columns `TSEC` and `WATL`.
     pub level: SwashTableFile,
-    /// The table with `TSEC` and `VELK`; it may be the same file.
+    /// Table with the columns `TSEC` and `VELK`; it may be the same file.
     pub velocity: SwashTableFile,
-    /// Thicknesses of the layers as shares of the depth from the surface down; without them all are equal.
+    /// Layer thicknesses over the depth [-], from the surface downwards. Default: equal layers.
     #[serde(default)]
     pub layer_shares: Vec<f64>,
 }
 
-/// One table of SWASH.
+/// One table from SWASH.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SwashTableFile {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Its columns in their order, needed where no header names them: `tsec`, `watl`, `velk1`, `velk2` (x of a layer,
-    /// the first at the surface), `velx` (averaged over the depth), `-` for anything else.
+    /// Columns in order, required if the file has no header: `tsec`, `watl`, `velk1`, `velk2` (x velocity of a layer,
+    /// layer 1 at the surface), `velx` (depth-averaged), `-` for any other column.
     #[serde(default)]
     pub columns: Vec<String>,
 }
 
-/// Axis of OpenFOAM's mesh that points up.
+/// Vertical axis of OpenFOAM's mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum UpFile {
-    /// y.
+    /// y points upwards.
     Y,
-    /// z.
+    /// z points upwards.
     #[default]
     Z,
 }
 
-/// Probes over the height at one place, or a line there that was sampled at each time.
+/// Probes over the height at one position, or a vertical line that was sampled at each time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpenfoamFile {
-    /// The folder of the function object, e.g. `postProcessing/probes`, with one folder for each start of the run; of a
-    /// line, one for each time.
+    /// Folder of the function object, e.g. `postProcessing/probes`. It has one subfolder per start of the run for
+    /// probes, one per time for a line.
     pub folder: PathBuf,
-    /// Name of the line; without it there are probes.
+    /// Name of the line; leave it out for probes.
     #[serde(default)]
     pub line: Option<String>,
-    /// Name of the velocity.
+    /// Name of the velocity field.
     #[serde(default = "default_velocity")]
     pub velocity: String,
-    /// Name of the share of water, by which samples in air are left out; sampled at the same points.
+    /// Name of the field with the water fraction, sampled at the same points; samples in air are ignored.
     #[serde(default)]
     pub water: Option<String>,
-    /// Axis that points up.
+    /// Vertical axis.
     #[serde(default)]
     pub up: UpFile,
-    /// Level of OpenFOAM's origin [m], in the z of `flume.bed_m`.
+    /// Level of the origin of OpenFOAM's mesh [m], in the z of `flume.bed_m`.
     #[serde(default)]
     pub origin_z_m: f64,
 }

@@ -1,4 +1,4 @@
-//! The wave and what makes it, as written.
+//! The wave and the wavemaker as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ pub enum WaveFile {
     Solitary(SolitaryFile),
     /// Regular waves.
     Regular(RegularFile),
-    /// A sea of many periods.
+    /// Irregular waves.
     Irregular(IrregularFile),
     /// A wave from another program.
     File(GivenWaveFile),
@@ -27,50 +27,51 @@ impl Default for WaveFile {
     }
 }
 
-/// A solitary wave: made at the seaward end of the flume and carried to the domain by the flume model, or made by a
-/// piston at the seaward end of the domain.
+/// A solitary wave. The flume model carries it from the seaward end of the flume to the domain, or a piston at the
+/// seaward end of the domain generates it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolitaryFile {
-    /// Height above the still water in the depth at the piston [m].
+    /// Wave height above the still water level, at the depth where the wave is generated [m].
     pub height_m: f64,
-    /// Shape of the wave, and with it what makes it.
+    /// Theory of the wave, which also decides how it is generated.
     #[serde(default)]
     pub theory: SolitaryTheory,
 }
 
-/// Regular waves: waves of permanent form that flow into the flume and are carried to the domain by the flume model, or
-/// made by a piston or a flap at the seaward end of the domain. They grow from still water.
+/// Regular waves, which grow from still water. The flume model carries waves of permanent form from the seaward end of
+/// the flume to the domain, or a piston or a flap at the seaward end of the domain generates them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegularFile {
-    /// Height from trough to crest [m].
+    /// Wave height, trough to crest [m].
     pub height_m: f64,
-    /// Period [s].
+    /// Wave period [s].
     pub period_s: f64,
-    /// Periods over which the waves grow from nothing [-].
+    /// Length of the ramp over which the waves grow, in periods [-].
     #[serde(default = "default_ramp_periods")]
     pub ramp_periods: f64,
 }
 
-/// A sea with a JONSWAP spectrum that flows into the flume and is carried to the domain by the flume model.
+/// Irregular waves with a JONSWAP spectrum. The flume model carries them from the seaward end of the flume to the
+/// domain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IrregularFile {
-    /// Significant height H_s = 4 sqrt(m_0) [m].
+    /// Significant wave height H_s = 4 sqrt(m_0) [m].
     pub significant_height_m: f64,
-    /// Period of the spectrum's peak [s].
+    /// Peak period T_p of the spectrum [s].
     pub peak_period_s: f64,
-    /// Peak enhancement gamma [-]: 3.3 on average, 1 for Pierson & Moskowitz's spectrum.
+    /// Peak enhancement factor gamma [-]: 3.3 on average, 1 for the Pierson-Moskowitz spectrum.
     #[serde(default = "default_peak_enhancement")]
     pub peak_enhancement: f64,
-    /// Number from which the phases are drawn: the same number gives the same sea.
+    /// Seed of the random phases; the same seed gives the same waves.
     #[serde(default = "default_seed")]
     pub seed: u64,
-    /// Time after which the sea repeats itself, in peak periods [-].
+    /// Time after which the waves repeat, in peak periods [-].
     #[serde(default = "default_repeat_periods")]
     pub repeat_periods: f64,
-    /// Peak periods over which the waves grow from nothing [-].
+    /// Length of the ramp over which the waves grow, in peak periods [-].
     #[serde(default = "default_ramp_periods")]
     pub ramp_periods: f64,
 }
@@ -91,28 +92,28 @@ fn default_repeat_periods() -> f64 {
     200.0
 }
 
-/// Shape of a solitary wave.
+/// Theory of a solitary wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolitaryTheory {
-    /// Made by a piston that follows k = sqrt(3H / 4d^3) (Goring & Raichlen 1980).
+    /// Piston motion with k = sqrt(3H / 4d^3) (Goring & Raichlen 1980).
     Boussinesq,
-    /// Made by a piston that follows k = sqrt(3H / 4d^2(d+H)), nearer to the exact wave (Guizien & Barthelemy 2002).
+    /// Piston motion with k = sqrt(3H / 4d^2(d+H)), closer to the exact wave (Guizien & Barthelemy 2002).
     #[default]
     Rayleigh,
-    /// Of third order (Grimshaw 1971), flowing into the flume at its seaward end.
+    /// Third-order wave (Grimshaw 1971), which flows into the flume at its seaward end.
     ThirdOrder,
 }
 
-/// What makes the wave in the particles; it stands at the seaward end of the domain.
+/// Wavemaker at the seaward end of the particle domain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WavemakerFile {
-    /// A piston in rows that follow the water of the layered flume model (multi-layer piston); for all waves.
+    /// Multi-layer piston: its rows follow the water of the flume model or of the wave files; for all waves.
     MlPiston(PistonFile),
-    /// A rigid piston that moves by wave theory in the depth where it stands; for solitary and regular waves.
+    /// Rigid piston that follows wave theory for the depth at its position; for solitary and regular waves.
     Piston(PistonFile),
-    /// A paddle that turns about a hinge, by first-order theory; for regular waves.
+    /// Flap that rotates about a hinge, after first-order theory; for regular waves.
     Flap(FlapFile),
 }
 
@@ -123,27 +124,27 @@ impl Default for WavemakerFile {
 }
 
 impl WavemakerFile {
-    /// Whether it is what a case without this section has.
+    /// Whether it is the default.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// What a piston, rigid or in rows, does with the waves that come back to it.
+/// Options of a rigid or multi-layer piston.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
-    /// Distance of a gauge that moves with the piston [m]; what it shows beyond the wave that is made comes back, and
-    /// the piston takes it up. Without it the piston sends it out again.
+    /// Distance from the piston to an absorption gauge, which moves with it [m]. The piston absorbs reflected waves:
+    /// the measured elevation minus the generated wave. By default it reflects them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
 }
 
-/// A paddle that turns about a hinge.
+/// A flap that rotates about a hinge.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlapFile {
-    /// Level of the hinge [m], in the z of `flume.bed_m`; it may lie below the bed. Below a hinge over the bed stands a
-    /// wall.
+    /// Level of the hinge [m], in the z of `flume.bed_m`. It may lie below the bed. If it lies above the bed, a wall
+    /// closes the gap.
     pub hinge_z_m: f64,
 }

@@ -1,4 +1,4 @@
-//! Bodies of a fracture case and their materials.
+//! Validates the bodies of a fracture case and their materials.
 
 use std::ops::Range as TetRange;
 
@@ -13,13 +13,13 @@ use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Body;
 
-/// p_0 over E where the case does not give it [-]: the published practice for joints that hold from the start. Tied ones
-/// need less, for only joints that have come free are soft; but what their springs have then is given to the body. In the
-/// drop test of a Dolos (50 mm) that is 54 J of 680 J with 2, 11 J with 10, 4 J with 30, and from 10 on the cracks are
-/// the same.
+/// Default joint penalty p_0 / E of intrinsic and of tied joints [-]. The first is published practice.
+/// Tied joints need less, because only released joints are soft. But the body gains the energy of their springs on
+/// release: 54 J of 680 J with 2, 11 J with 10, 4 J with 30 in the drop test of a Dolos (50 mm). From 10 on the cracks
+/// are the same.
 const PENALTY: [f64; 2] = [50.0, 10.0];
 
-/// The bodies in the order of the mesh.
+/// Returns the bodies in the order of the mesh.
 pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
     let before = check.count();
     let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
@@ -42,26 +42,26 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
         }
     }
     let mut bodies = Vec::new();
-    for of_mesh in &mesh.mesh.bodies {
-        match file.bodies.iter().position(|body| body.name == of_mesh.name) {
+    for mesh_body in &mesh.mesh.bodies {
+        match file.bodies.iter().position(|body| body.name == mesh_body.name) {
             Some(index) => {
                 let body = &file.bodies[index];
-                bodies.extend(validate_body(index, body, file, of_mesh.tets.clone(), check));
+                bodies.extend(validate_body(index, body, file, mesh_body.tets.clone(), check));
             }
             None => {
                 let advice = "every physical volume of the mesh needs its entry";
-                check.refuse("bodies", "(missing)", format!("an entry named {:?}", of_mesh.name), advice);
+                check.refuse("bodies", "(missing)", format!("an entry named {:?}", mesh_body.name), advice);
             }
         }
     }
     (check.count() == before).then_some(bodies)
 }
 
-/// Concrete of units whose density follows from their mass.
+/// Validates concrete of units whose density follows from their mass.
 pub(in super::super) fn validate_concrete(path: &str, material: &HandoverMaterialFile, check: &mut Checker) {
     let material = FractureMaterialFile {
         name: String::new(),
-        // Sound: it comes from elsewhere.
+        // A valid placeholder: this entry has no density.
         density_kg_m3: 1.0,
         young_modulus_pa: material.young_modulus_pa,
         poisson_ratio: material.poisson_ratio,
@@ -71,8 +71,8 @@ pub(in super::super) fn validate_concrete(path: &str, material: &HandoverMateria
     validate_material(path, &material, check);
 }
 
-fn validate_material(of: &str, material: &FractureMaterialFile, check: &mut Checker) {
-    let path = |key: &str| format!("{of}.{key}");
+fn validate_material(entry: &str, material: &FractureMaterialFile, check: &mut Checker) {
+    let path = |key: &str| format!("{entry}.{key}");
     check.number(&path("density_kg_m3"), material.density_kg_m3, from(1.0).up_to(1e5), "kg/m3", "concrete has 2340");
     check.number(
         &path("young_modulus_pa"),
@@ -84,13 +84,13 @@ fn validate_material(of: &str, material: &FractureMaterialFile, check: &mut Chec
     check.number(&path("poisson_ratio"), material.poisson_ratio, from(0.0).up_to(0.45), "", "concrete has 0.2");
     check.number(&path("viscosity_pa_s"), material.viscosity_pa_s, from(0.0).up_to(1e9), "Pa s", "0 for none");
     let Some(strength) = &material.strength else { return };
-    let path = |key: &str| format!("{of}.strength.{key}");
+    let path = |key: &str| format!("{entry}.strength.{key}");
     let StrengthFile { tensile_pa, cohesion_pa, friction_angle_deg, fracture_energy_j_m2, sliding_energy_j_m2 } =
         *strength;
     check.number(&path("tensile_pa"), tensile_pa, above(0.0).up_to(1e10), "Pa", "concrete has 3.3e6");
     check.number(&path("friction_angle_deg"), friction_angle_deg, from(0.0).below(90.0), "degrees", "concrete has 30");
     let least = tensile_pa * friction_angle_deg.to_radians().tan();
-    let advice = "at the tensile strength something must be left of the shear strength";
+    let advice = "the shear strength must be positive at the tensile strength";
     check.number(&path("cohesion_pa"), cohesion_pa, above(least).up_to(1e11), "Pa", advice);
     check.number(&path("fracture_energy_j_m2"), fracture_energy_j_m2, above(0.0).up_to(1e7), "J/m2", "concrete has 50");
     if let Some(energy) = sliding_energy_j_m2 {
@@ -99,7 +99,7 @@ fn validate_material(of: &str, material: &FractureMaterialFile, check: &mut Chec
             energy,
             above(0.0).up_to(1e7),
             "J/m2",
-            "leave it out for that in opening",
+            "leave it out to use fracture_energy_j_m2",
         );
     }
 }
@@ -114,14 +114,14 @@ fn validate_body(
     let Some(material) = file.materials.iter().find(|material| material.name == body.material) else {
         let allowed = "the name of one of `materials`";
         let path = format!("bodies[{index}].material");
-        check.refuse(&path, format!("{:?}", body.material), allowed, "add the material or mend the name");
+        check.refuse(&path, format!("{:?}", body.material), allowed, "add the material or correct the name");
         return None;
     };
     let motion = [body.velocity_m_s, body.angular_velocity_rad_s, body.pivot_m];
     for (values, key) in motion.iter().zip(["velocity_m_s", "angular_velocity_rad_s", "pivot_m"]) {
         for (axis, value) in values.iter().enumerate() {
             let path = format!("bodies[{index}].{key}[{axis}]");
-            check.number(&path, *value, from(-1e4).up_to(1e4), "", "a number of that size");
+            check.number(&path, *value, from(-1e4).up_to(1e4), "", "check the number and its unit");
         }
     }
     let elastic = Elastic {
@@ -132,7 +132,7 @@ fn validate_body(
     };
     if body.rigid && body.cracks {
         let path = format!("bodies[{index}].rigid");
-        check.refuse(&path, "true", "false for a body that cracks", "a rigid body has no stresses: leave one out");
+        check.refuse(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
     }
     let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
     let cohesion = match &material.strength {
@@ -140,7 +140,7 @@ fn validate_body(
         None if body.cracks => {
             let advice = "give tensile strength, cohesion, friction angle and fracture energy";
             let path = format!("bodies[{index}].cracks");
-            check.refuse(&path, "true", format!("false, for {:?} has no strength", material.name), advice);
+            check.refuse(&path, "true", format!("false, because {:?} has no strength", material.name), advice);
             None
         }
         _ => None,
@@ -171,7 +171,7 @@ fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> 
 }
 
 impl StrengthFile {
-    /// The strength as the solver has it.
+    /// Returns the strength as the solver uses it.
     pub(in super::super) fn of_material(&self) -> Strength {
         Strength {
             tensile: self.tensile_pa,

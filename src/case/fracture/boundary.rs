@@ -1,4 +1,4 @@
-//! Friction between the bodies of a fracture case, and what holds or moves them.
+//! Validates friction between the bodies of a fracture case, and their constraints.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::FaceSet;
 use crate::femdem::setup::Constraint;
 
-/// Coefficients between the bodies, in the order of the mesh.
+/// Returns the friction coefficients between the bodies, in the order of the mesh.
 pub(super) fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
     let count = mesh.mesh.bodies.len();
     let mut table = vec![vec![0.0; count]; count];
@@ -27,14 +27,14 @@ pub(super) fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
                 &format!("friction[{index}].between"),
                 format!("{between:?}"),
                 "names of two bodies of the mesh",
-                "the same one twice stands for its crack faces",
+                "the same name twice stands for the crack faces of a body",
             ),
         }
     }
     table
 }
 
-/// Nodes of a named set of the mesh, ascending.
+/// Returns the nodes of a named set of the mesh in ascending order.
 fn nodes_of(name: &str, mesh: &PreparedMesh) -> Option<Vec<u32>> {
     if let Some(set) = mesh.mesh.node_sets.iter().find(|set| set.name == name) {
         return Some(set.nodes.clone());
@@ -48,11 +48,11 @@ fn nodes_of(name: &str, mesh: &PreparedMesh) -> Option<Vec<u32>> {
     Some(nodes.into_iter().collect())
 }
 
-/// Constraints of the sets; a node of several sets has the components of all of them, of the last one that gives each.
+/// Returns the constraints of the sets. A node of several sets takes each component from the last set that gives it.
 pub(super) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
     let mut histories: Vec<History<1>> = Vec::new();
-    // Numbers of the histories of each node.
-    let mut of_node: Vec<[Option<u32>; 3]> = vec![[None; 3]; mesh.mesh.nodes.len()];
+    // Indices into `histories` for each node.
+    let mut histories_of_node: Vec<[Option<u32>; 3]> = vec![[None; 3]; mesh.mesh.nodes.len()];
     for (index, constraint) in file.constraints.iter().enumerate() {
         let Some(nodes) = nodes_of(&constraint.set, mesh) else {
             let surfaces = mesh.faces.boundaries.iter().map(|set| set.name.as_str());
@@ -70,12 +70,12 @@ pub(super) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut 
                 histories.push(history);
                 histories.len() - 1
             });
-            nodes.iter().for_each(|node| of_node[*node as usize][axis] = Some(number as u32));
+            nodes.iter().for_each(|node| histories_of_node[*node as usize][axis] = Some(number as u32));
         }
     }
     let mut kinds: Vec<[Option<u32>; 3]> = Vec::new();
     let mut constraints: Vec<Constraint> = Vec::new();
-    for (node, kind) in of_node.into_iter().enumerate().filter(|(_, kind)| kind.iter().any(Option::is_some)) {
+    for (node, kind) in histories_of_node.into_iter().enumerate().filter(|(_, kind)| kind.iter().any(Option::is_some)) {
         match kinds.iter().position(|known| *known == kind) {
             Some(index) => constraints[index].nodes.push(node as u32),
             None => {
@@ -91,11 +91,11 @@ pub(super) fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut 
 fn velocity(given: &VelocityFile, path: &str, check: &mut Checker) -> Option<History<1>> {
     let range = || from(-1e4).up_to(1e4);
     match given {
-        VelocityFile::Constant(v) => check.number(path, *v, range(), "m/s", "0 holds it").then(|| History::from(*v)),
+        VelocityFile::Constant(v) => check.number(path, *v, range(), "m/s", "0 fixes it").then(|| History::from(*v)),
         VelocityFile::History(rows) => {
             let mut good = true;
             for (row, [_, v]) in rows.iter().enumerate() {
-                good &= check.number(&format!("{path}[{row}][1]"), *v, range(), "m/s", "0 holds it");
+                good &= check.number(&format!("{path}[{row}][1]"), *v, range(), "m/s", "0 fixes it");
             }
             factor(rows, path, check).filter(|_| good)
         }

@@ -1,4 +1,4 @@
-//! Loads of a fracture case.
+//! Validates the loads of a fracture case.
 
 use glam::DVec3;
 
@@ -10,10 +10,10 @@ use crate::femdem::loads::{Load, Surface};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::Exterior;
 
-/// Largest stress of a load [Pa] and largest force and moment [N, N m].
+/// Largest stress [Pa], force [N] and moment [N m] of a load.
 const MOST: f64 = 1e12;
 
-/// The loads; those with errors are left out.
+/// Returns the loads without errors.
 pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Load> {
     let each = file.loads.iter().enumerate();
     each.filter_map(|(index, load)| {
@@ -50,7 +50,7 @@ pub(super) fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Che
     .collect()
 }
 
-/// Faces of a named boundary.
+/// Returns the faces of a named boundary.
 fn faces_of(name: &str, path: &str, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Exterior>> {
     let found = mesh.faces.boundaries.iter().find(|set| set.name == name);
     if found.is_none() {
@@ -62,7 +62,7 @@ fn faces_of(name: &str, path: &str, mesh: &PreparedMesh, check: &mut Checker) ->
     found.map(|set| set.faces.iter().map(|face| mesh.faces.exteriors[*face as usize]).collect())
 }
 
-/// Faces of a body about a place.
+/// Returns the faces of a body around a position.
 fn loaded_faces(
     name: &str,
     place_m: [f64; 3],
@@ -75,11 +75,11 @@ fn loaded_faces(
     if body.is_none() {
         let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
         let allowed = format!("one of {}", names.join(", "));
-        check.refuse(&format!("{path}.body"), format!("{name:?}"), allowed, "the body that takes the force");
+        check.refuse(&format!("{path}.body"), format!("{name:?}"), allowed, "name the body on which the force acts");
     }
     let mut good = true;
     for (axis, x) in place_m.iter().enumerate() {
-        good &= check.number(&format!("{path}.place_m[{axis}]"), *x, from(-1e4).up_to(1e4), "m", "in metres");
+        good &= check.number(&format!("{path}.place_m[{axis}]"), *x, from(-1e4).up_to(1e4), "m", "write it in metres");
     }
     let advice = "0 loads the nearest face";
     good &= check.number(&format!("{path}.radius_m"), radius_m, from(0.0).up_to(1e3), "m", advice);
@@ -91,18 +91,18 @@ fn loaded_faces(
             &format!("{path}.place_m"),
             format!("{place_m:?}"),
             format!(
-                "at most {} m from the surface of {name:?}, the length of the face there or the radius; it is {} m",
+                "at most {} m from the surface of {name:?} (the face length or the radius); it is {} m away",
                 show(farthest),
                 show(near.distance)
             ),
-            "the place is that in the undeformed mesh",
+            "give the position in the undeformed mesh",
         );
         return None;
     }
     Some(near.faces)
 }
 
-/// Factor of a load: 1 without a history.
+/// Returns the factor of a load: 1 without a history.
 fn given_factor(rows: Option<&[[f64; 2]]>, path: &str, check: &mut Checker) -> Option<History<1>> {
     let Some(rows) = rows else { return Some(History::from(1.0)) };
     let path = format!("{path}.history");
@@ -111,12 +111,12 @@ fn given_factor(rows: Option<&[[f64; 2]]>, path: &str, check: &mut Checker) -> O
     factor(rows, &path, check).filter(|_| good)
 }
 
-/// History of one value; its times must rise.
+/// Returns the history of one value; its times must rise.
 pub(super) fn factor(rows: &[[f64; 2]], path: &str, check: &mut Checker) -> Option<History<1>> {
     rising(rows.iter().map(|[t, value]| (*t, [*value])).collect(), path, check)
 }
 
-/// History of force and moment.
+/// Returns the history of force and moment.
 fn forces(rows: &[Vec<f64>], path: &str, check: &mut Checker) -> Option<History<6>> {
     let path = format!("{path}.history");
     let mut all = Vec::with_capacity(rows.len());
@@ -142,20 +142,20 @@ fn rising<const N: usize>(rows: Vec<(f64, [f64; N])>, path: &str, check: &mut Ch
     let finite = times.iter().all(|t| t.is_finite());
     let history = History::new(rows).filter(|_| finite);
     if history.is_none() {
-        let at = times.windows(2).position(|pair| pair[1].is_nan() || pair[0] >= pair[1]);
+        let bad = times.windows(2).position(|pair| pair[1].is_nan() || pair[0] >= pair[1]);
         let value =
-            at.map_or("no row".to_owned(), |at| format!("{} s after {} s", show(times[at + 1]), show(times[at])));
+            bad.map_or("no row".to_owned(), |row| format!("{} s after {} s", show(times[row + 1]), show(times[row])));
         check.refuse(path, value, "at least one row, each later than the one before", "sort the rows by time");
     }
     history
 }
 
-/// Whether all numbers are of a size that a load can have.
+/// Checks that all numbers have a size that a load can have.
 fn numbers(values: &[f64], path: &str, unit: &str, check: &mut Checker) -> bool {
     let mut good = true;
     for (index, value) in values.iter().enumerate() {
         let path = if values.len() == 1 { path.to_owned() } else { format!("{path}[{index}]") };
-        good &= check.number(&path, *value, from(-MOST).up_to(MOST), unit, "a number of that size");
+        good &= check.number(&path, *value, from(-MOST).up_to(MOST), unit, "check the number and its unit");
     }
     good
 }
@@ -167,7 +167,7 @@ mod tests {
     use super::super::super::file::FractureFile;
     use super::super::FractureCase;
 
-    /// A case with one bar and the given boundary conditions.
+    /// Returns a case with one bar and the given boundary conditions.
     fn case(rigid: bool, constraints: Value, loads: Value) -> Result<FractureCase, String> {
         let file = json!({
             "title": "bar",
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn boundary_conditions_become_those_of_the_world() {
+    fn loads_and_constraints_reach_the_solver_setup() {
         let loads = json!([
             { "kind": "traction", "set": "right", "stress_pa": [1e6, 0, 0], "history": [[0, 0], [1e-3, 1]] },
             { "kind": "pressure", "set": "right", "pressure_pa": 1e5, "on": "undeformed" },
@@ -202,14 +202,14 @@ mod tests {
         let found = case(false, constraints.clone(), loads.clone()).unwrap();
         assert_eq!((found.setup.loads.len(), found.setup.constraints.len()), (3, 1));
         assert_eq!(found.setup.constraints[0].at(5e-4), [Some(0.0), None, Some(-0.05)]);
-        // What a run keeps is the same case.
+        // The saved case has the same loads.
         let kept: FractureFile = serde_json::from_str(&found.text).unwrap();
         assert_eq!(kept.loads.len(), 3);
         assert!(case(true, constraints, loads).unwrap().setup.bodies[0].rigid);
     }
 
     #[test]
-    fn errors_name_the_key_and_what_is_allowed() {
+    fn errors_name_the_key_and_the_allowed_values() {
         let refused = |constraints: Value, loads: Value| case(false, constraints, loads).unwrap_err();
         let force = |history: Value, place: Value| {
             refused(json!([]), json!([{ "kind": "force", "body": "bar", "place_m": place, "history": history }]))

@@ -1,4 +1,4 @@
-//! Landmarks and cut plane of a fracture case.
+//! Validates the landmarks and the cut plane of a fracture case.
 
 use glam::DVec3;
 
@@ -7,51 +7,51 @@ use super::super::file::{FractureFile, LandmarkFile};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Setup;
 
-/// A place with a name.
+/// A named box in the undeformed bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landmark {
-    /// Its name in words.
+    /// Name in words.
     pub name: String,
-    /// Lowest and highest corner of a box about it [m].
+    /// Lowest and highest corner of the box [m].
     pub corners: [DVec3; 2],
 }
 
 impl Landmark {
-    /// Distance of a place from the box [m]; zero inside.
+    /// Returns the distance of a point from the box [m]; zero inside.
     pub fn distance(&self, place: DVec3) -> f64 {
         let [low, high] = self.corners;
         place.distance(place.clamp(low, high))
     }
 }
 
-/// A plane that the bodies are cut by, as they stand at the start.
+/// A plane that cuts the undeformed bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// A point in it [m].
+    /// Point in the plane [m].
     pub point: DVec3,
-    /// Its normal, of length one.
+    /// Unit normal.
     pub normal: DVec3,
 }
 
 impl Plane {
-    /// Height of a place over it [m].
+    /// Returns the height of a point above the plane [m].
     pub fn height(&self, place: DVec3) -> f64 {
         self.normal.dot(place - self.point)
     }
 }
 
 pub(super) fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
-    let of = |(index, landmark): (usize, &LandmarkFile)| {
+    let validate = |(index, landmark): (usize, &LandmarkFile)| {
         let path = |key: &str| format!("landmarks[{index}].{key}");
         if landmark.name.trim().is_empty() {
-            let advice = "name the place as a reader would";
+            let advice = "write a name that readers understand";
             check.refuse(&path("name"), format!("{:?}", landmark.name), "some words", advice);
         }
         for axis in 0..3 {
             let (low, high) = (landmark.low_m[axis], landmark.high_m[axis]);
-            let advice = "a coordinate of the mesh";
+            let advice = "write a coordinate of the undeformed mesh";
             check.number(&path(&format!("low_m[{axis}]")), low, from(-1e4).up_to(1e4), "m", advice);
-            let advice = "at least that of low_m";
+            let advice = "high_m must not be below low_m";
             check.number(&path(&format!("high_m[{axis}]")), high, from(low).up_to(1e4), "m", advice);
         }
         Landmark {
@@ -59,11 +59,11 @@ pub(super) fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmar
             corners: [landmark.low_m, landmark.high_m].map(DVec3::from_array),
         }
     };
-    file.landmarks.iter().enumerate().map(of).collect()
+    file.landmarks.iter().enumerate().map(validate).collect()
 }
 
-/// The plane of the case; without one, that through the middle of the bodies that can crack, or of all of them, upright
-/// along x.
+/// Returns the cut plane of the case. The default is normal to y through the centroid of the bodies that can crack, or
+/// of all bodies if none can.
 pub(super) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
     let Some(given) = file.output.section else {
         let cracks = |tet: usize| setup.bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&tet));
@@ -71,9 +71,9 @@ pub(super) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, c
         let (mut volume, mut moment) = (0.0, DVec3::ZERO);
         for (_, tet) in mesh.mesh.tets.iter().enumerate().filter(|(number, _)| all || cracks(*number)) {
             let [a, b, c, d] = tet.map(|node| mesh.mesh.nodes[node as usize]);
-            let of_tet = (b - a).cross(c - a).dot(d - a) / 6.0;
-            volume += of_tet;
-            moment += (a + b + c + d) * (0.25 * of_tet);
+            let tet_volume = (b - a).cross(c - a).dot(d - a) / 6.0;
+            volume += tet_volume;
+            moment += (a + b + c + d) * (0.25 * tet_volume);
         }
         return Plane { point: moment / volume.max(f64::MIN_POSITIVE), normal: DVec3::Y };
     };
@@ -81,7 +81,7 @@ pub(super) fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, c
     let advice = "[0, 1, 0] cuts along x and z";
     check.number("output.section.normal (its length)", normal.length(), above(0.0).up_to(1e6), "", advice);
     for (axis, value) in given.point_m.into_iter().enumerate() {
-        let advice = "a point in the middle of a unit";
+        let advice = "write a point inside a body";
         check.number(&format!("output.section.point_m[{axis}]"), value, from(-1e4).up_to(1e4), "m", advice);
     }
     Plane { point: DVec3::from_array(given.point_m), normal: normal.normalize_or(DVec3::Y) }
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_told_by_its_distance_from_the_box() {
+    fn landmark_distance_is_measured_from_its_box() {
         let corners = [DVec3::new(0.0, -0.1, 0.2), DVec3::new(0.1, 0.1, 0.2)];
         let landmark = Landmark { name: "corner".to_owned(), corners };
         assert_eq!(landmark.distance(DVec3::new(0.05, 0.0, 0.2)), 0.0);

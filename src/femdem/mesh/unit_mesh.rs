@@ -1,18 +1,18 @@
-//! Tetrahedra of a unit: brought to its size, checked against its surface, posed.
+//! Tetrahedra of a unit: scaled to its size, checked against its surface, moved to a pose.
 
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::femdem::mesh::{Body, Mesh, PreparedMesh, TriangleSet};
 use crate::geometry::armour_unit::ArmourUnit;
 
-/// Nodes of the outside may lie so far from the unit's surface, over its height [-]: faces of coarse meshes cut across
-/// round legs, their nodes do not.
+/// Largest distance of surface nodes from the unit's surface over its height [-]. Faces of coarse meshes cut across
+/// round legs, but their nodes do not.
 const OFF_SURFACE: f64 = 0.02;
 
-/// The volume of the mesh may differ from the unit's by this share: coarse meshes of round legs lack some per cent.
+/// Largest difference in volume between mesh and unit [-]: coarse meshes of round legs lack a few per cent.
 const OFF_VOLUME: f64 = 0.06;
 
-/// Mesh of one unit in body axes, in the size of the case [m].
+/// Mesh of one unit in body axes, at the size of the case [m].
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnitMesh {
     mesh: Mesh,
@@ -22,26 +22,26 @@ pub struct UnitMesh {
     edge: f64,
 }
 
-/// Where a unit is and how it moves; SI units.
+/// Pose and scale of a unit; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// Its rotation.
+    /// Rotation.
     pub rotation: DQuat,
-    /// Place of the origin of its body axes [m].
+    /// Position of the origin of the body axes [m].
     pub position: DVec3,
     /// Factor on the lengths of the mesh [-].
     pub scale: f64,
 }
 
 impl UnitMesh {
-    /// Bring a mesh to the size of a unit.
+    /// Scales a mesh to the size of a unit.
     ///
     /// # Errors
-    /// If it is not one of the unit, in words that say why.
+    /// If it is not a mesh of the unit; the text gives the reason.
     pub fn fit(prepared: PreparedMesh, unit: &ArmourUnit) -> Result<Self, String> {
         let PreparedMesh { mut mesh, faces, quality } = prepared;
         let [_] = &mesh.bodies[..] else {
-            return Err(format!("it has {} bodies; the mesh of one unit alone is needed", mesh.bodies.len()));
+            return Err(format!("it has {} bodies; it must have only one, the unit", mesh.bodies.len()));
         };
         let reach = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let scale = reach(unit.solid().vertices()) / reach(&mesh.nodes);
@@ -50,16 +50,16 @@ impl UnitMesh {
         let volume = quality[0].volume * scale.powi(3);
         if (volume / expected - 1.0).abs() > OFF_VOLUME {
             let percent = 100.0 * (volume / expected - 1.0);
-            return Err(format!("brought to the unit's size it has {percent:+.1} % of its volume more: another unit?"));
+            return Err(format!("scaled to the unit's size, its volume differs by {percent:+.1} %: another unit?"));
         }
         for face in &faces.exteriors {
             for node in face.nodes.map(|k| mesh.tets[face.tet as usize][usize::from(k)]) {
-                let place = mesh.nodes[node as usize];
-                let off = unit.solid().signed_distance(place).abs() / unit.height();
+                let point = mesh.nodes[node as usize];
+                let off = unit.solid().signed_distance(point).abs() / unit.height();
                 if off > OFF_SURFACE {
                     return Err(format!(
-                        "brought to the unit's size, node {} of its outside lies {:.1} % of the height off the unit's \
-                         surface; its origin must be the centre of mass and its axes the unit's (breakwater unit --gmsh)",
+                        "scaled to the unit's size, its surface node {} lies {:.1} % of the height off the unit's \
+                         surface; its origin must be the centre of mass, its axes the unit's (breakwater unit --gmsh)",
                         mesh.node_tags[node as usize],
                         100.0 * off
                     ));
@@ -72,10 +72,10 @@ impl UnitMesh {
         Ok(Self::measured(mesh, volume, quality[0].edge_mean * scale))
     }
 
-    /// Name of the body in the cases that are written.
+    /// Name of the body in the fracture cases.
     pub const NAME: &str = "unit";
 
-    /// Mass properties as the computation has them: a quarter of each tetrahedron at each of its corners.
+    /// Computes the mass properties as the solver does: a quarter of each tetrahedron at each of its corners.
     fn measured(mesh: Mesh, volume: f64, edge: f64) -> Self {
         let mut shares = vec![0.0; mesh.nodes.len()];
         for (number, tet) in mesh.tets.iter().enumerate() {
@@ -93,46 +93,46 @@ impl UnitMesh {
         Self { mesh, volume, centre, inertia, edge }
     }
 
-    /// Volume of the tetrahedra [m3].
+    /// Returns the volume of the tetrahedra [m3].
     pub fn volume(&self) -> f64 {
         self.volume
     }
 
-    /// Mean edge [m].
+    /// Returns the mean edge length [m].
     pub fn edge(&self) -> f64 {
         self.edge
     }
 
-    /// Tetrahedra.
+    /// Returns the number of tetrahedra.
     pub fn tets(&self) -> usize {
         self.mesh.tets.len()
     }
 
-    /// Centre of mass of the nodes [m].
+    /// Returns the centre of mass of the nodes [m].
     pub fn centre(&self, pose: &Pose) -> DVec3 {
         pose.place(self.centre)
     }
 
-    /// Angular velocity that gives the nodes the angular momentum of a rigid body with the inertia tensor `inertia` in body
-    /// axes, for its mass 1 kg [m2], that turns at `omega` [rad/s].
+    /// Returns the angular velocity that gives the nodes the angular momentum of a rigid body [rad/s]. The rigid body
+    /// has the inertia tensor per mass `inertia` in body axes [m2] and the angular velocity `omega` [rad/s].
     pub fn angular_velocity(&self, inertia: DMat3, rotation: DQuat, omega: DVec3) -> DVec3 {
         let in_body = rotation.inverse() * omega;
         rotation * ((self.inertia * (1.0 / self.volume)).inverse() * (inertia * in_body))
     }
 
-    /// Kinetic energy [J] of the nodes with the given mass of all [kg] and factor of lengths.
+    /// Returns the kinetic energy [J] of the nodes with the total mass `mass` [kg] at the scale of the pose.
     pub fn kinetic_energy(&self, mass: f64, pose: &Pose, velocity: DVec3, omega: DVec3) -> f64 {
         let in_body = pose.rotation.inverse() * omega;
         let inertia = self.inertia * (mass * pose.scale * pose.scale / self.volume);
         0.5 * (mass * velocity.length_squared() + in_body.dot(inertia * in_body))
     }
 
-    /// The mesh at a place, its body named.
+    /// Returns the mesh at a pose, with the name of its body.
     pub fn posed(&self, pose: &Pose, name: &str) -> Mesh {
         let nodes = self.mesh.nodes.iter().map(|node| pose.place(*node)).collect();
         let bodies = vec![Body { name: name.to_owned(), tets: 0..self.mesh.tets.len() }];
         let sets = self.mesh.sets.iter().map(|set| TriangleSet {
-            // Two units have their own cracks.
+            // The cracks of two units need different names.
             name: if name == Self::NAME { set.name.clone() } else { format!("{}_{name}", set.name) },
             triangles: set.triangles.clone(),
         });
@@ -141,13 +141,13 @@ impl UnitMesh {
 }
 
 impl Pose {
-    /// Where a point of the body axes is [m].
+    /// Transforms a point from body axes to space [m].
     pub fn place(&self, point: DVec3) -> DVec3 {
         self.position + self.rotation * (point * self.scale)
     }
 }
 
-/// Two meshes as one.
+/// Joins two meshes into one.
 pub fn together(mut first: Mesh, second: Mesh) -> Mesh {
     let (nodes, tets) = (first.nodes.len() as u32, first.tets.len());
     first.nodes.extend(second.nodes);

@@ -2,7 +2,7 @@
 
 use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
 use super::{Comparison, WaveComparison};
-use crate::{case::Series, report::run::page};
+use crate::{case::Series, report::page::page};
 
 /// The whole page.
 pub fn html(comparison: &Comparison) -> String {

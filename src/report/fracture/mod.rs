@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{
     output::{OutputError, write_atomically},
-    report::run::page,
+    report::page::page,
 };
 
 use folder::FractureFolder;

@@ -5,7 +5,7 @@ use super::{charts, pictures, tables};
 use crate::report::plot::{escape, short};
 use crate::{
     output::OutputError,
-    report::run::{clock, grouped, section},
+    report::page::{clock, grouped, section},
 };
 
 /// What stands between `<main>` and `</main>`.

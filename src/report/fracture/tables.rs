@@ -1,8 +1,8 @@
 //! Cracks, pieces and bodies as tables.
 
 use super::folder::{FractureFolder, place_in_words};
+use crate::report::page::grouped;
 use crate::report::plot::{escape, short};
-use crate::report::run::grouped;
 
 /// Rows of a table at most; `summary.json` has all.
 const MOST: usize = 20;

@@ -18,12 +18,10 @@ mod window;
 
 use std::path::{Path, PathBuf};
 
-use super::plot::{CHART_STYLE, escape};
 use crate::output::{OutputError, write_atomically};
+use crate::report::page::page;
 use folder::RunFolder;
 use moments::Moments;
-
-pub use sections::{clock, grouped, section};
 
 /// Writes `report.html` into the run folder from the files that are there; only `summary.json` must be. Where the water
 /// of a moment is there, `picture.svg` too.
@@ -39,15 +37,4 @@ pub fn write_report(run_dir: &Path) -> Result<PathBuf, OutputError> {
     let path = run_dir.join("report.html");
     write_atomically(&path, page(&run.summary.title, &sections::body(&run, moments.as_ref())).as_bytes())?;
     Ok(path)
-}
-
-/// A whole page with the style sheet in it.
-pub fn page(title: &str, body: &str) -> String {
-    let title = escape(title);
-    let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css")].concat();
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{style}</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n"
-    )
 }

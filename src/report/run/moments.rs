@@ -125,7 +125,7 @@ impl<'a> Moments<'a> {
         let letters = self.run.summary.title.chars().count().max(1) as f64;
         let title_size = TITLE_SIZE.min((width - 2.0 * MARGIN) / (LETTER * letters));
         let words = format!("Flume time {} s. {}.", short(moment.time_s, 2), moment.words);
-        let style = [include_str!("picture.css"), include_str!("shades.css")].concat();
+        let style = [include_str!("picture.css"), include_str!("../shades.css")].concat();
         let drawing = self.drawing("window", moment);
         let legend = self.scale.legend([58.0, drawing_height + 6.0], 340.0);
         Some(format!(

@@ -4,7 +4,10 @@ use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use super::moments::Moments;
 use super::{breakage, charts, views};
-use crate::output::{Summary, UnitSummary};
+use crate::{
+    output::{Summary, UnitSummary},
+    report::page::{clock, grouped, section},
+};
 
 /// What stands between `<main>` and `</main>`.
 pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
@@ -21,11 +24,6 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     html += &assumptions(&run.summary);
     html += &facts(&run.summary);
     html + &files(run)
-}
-
-/// A section with its heading; nothing if there is no content.
-pub fn section(heading: &str, content: &str) -> String {
-    if content.is_empty() { String::new() } else { format!("<section>\n<h2>{heading}</h2>\n{content}</section>\n") }
 }
 
 fn header(summary: &Summary) -> String {
@@ -345,42 +343,7 @@ fn files(run: &RunFolder) -> String {
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
 }
 
-/// A whole number with thin spaces between groups of three figures.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push('\u{2009}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// A duration [s] in the unit that suits it.
-pub fn clock(seconds: f64) -> String {
-    match seconds {
-        s if s < 100.0 => format!("{} s", short(s, 1)),
-        s if s < 5400.0 => format!("{} min", short(s / 60.0, 1)),
-        s => format!("{} h", short(s / 3600.0, 2)),
-    }
-}
-
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_grouped_and_times_readable() {
-        assert_eq!(grouped(17541570), "17\u{2009}541\u{2009}570");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(clock(12.34), "12.3 s");
-        assert_eq!(clock(107_640.0), "29.9 h");
-    }
 }

@@ -1,8 +1,8 @@
-//! Armour layers: units are lowered onto a slope one by one until they touch, let go, and settle.
+//! Placing of armour layers: units are lowered onto a slope one by one until they touch, then released, and settle.
 //!
-//! A crane does it in the same order: row by row from the toe upwards, layer by layer. The number of units follows from
-//! the packing density phi: N = phi A / D_n^2 on the area A of the slope. They are lowered at the nodes of a staggered
-//! grid; where they come to rest is mechanics.
+//! The order is that of a crane: layer by layer, row by row from the toe upwards. The number of units follows from
+//! the packing density phi: N = phi A / D_n^2 on the area A of the slope. The units are lowered at the nodes of a
+//! staggered grid; contact forces determine where they come to rest.
 
 mod lower;
 mod slots;
@@ -18,15 +18,15 @@ use crate::{
 use lower::lowered;
 use slots::{Slot, rows};
 
-/// Time between two looks at the units [s].
-const LOOK: f64 = 1e-3;
-/// After a row was let go, it settles for so long [s] at least and at most.
+/// Time between two checks of the units [s].
+const CHECK_INTERVAL: f64 = 1e-3;
+/// Shortest and longest settling time of a row [s].
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
-/// Speed over sqrt(g H) below which the next row may come [-].
+/// Speed over sqrt(g H) below which the next row is placed [-].
 const ROW_SPEED: f64 = 0.15;
-/// At the end the layers settle for so long at most [s].
+/// Longest settling time after the last row [s].
 const LAST_TIME: f64 = 10.0;
-/// Speed over sqrt(g H) below which they are at rest [-].
+/// Speed over sqrt(g H) below which the units are at rest [-].
 const REST_SPEED: f64 = 1e-4;
 
 /// Why a layer cannot be placed.
@@ -34,8 +34,8 @@ const REST_SPEED: f64 = 1e-4;
 pub enum PlacementError {
     /// There is no room for a unit.
     #[error(
-        "unit {unit} finds no free place over x = {x:.3}, y = {y:.3} m: the packing density is too high, or the walls \
-         are too near"
+        "unit {unit} cannot be placed at x = {x:.3}, y = {y:.3} m: there is no room; reduce the packing density or \
+         move the walls"
     )]
     NoRoom {
         /// Number from 1.
@@ -45,7 +45,7 @@ pub enum PlacementError {
         /// Where it was lowered [m].
         y: f64,
     },
-    /// The contact went astray.
+    /// The contact solver became unstable.
     #[error(transparent)]
     Rigid(#[from] RigidError),
 }
@@ -55,26 +55,26 @@ pub enum PlacementError {
 pub struct Placement {
     /// The units at rest.
     pub units: Vec<BodyState>,
-    /// Units of which the centre has come to lie outside the ends of the layers.
+    /// Number of units whose centre came to rest outside the ends of the layers.
     pub rolled_off: usize,
     /// Units on the slope over A / D_n^2 [-].
     pub packing_density: f64,
     /// Deepest overlap over the height of a unit [-].
     pub deepest_overlap: f64,
-    /// Kinetic energy over the potential energy that was lost since the units were let go [-].
+    /// Kinetic energy over the potential energy lost since the units were released [-].
     pub unrest: f64,
     /// Speed of the fastest unit at the end [m/s].
     pub fastest: f64,
     /// Simulated time [s].
     pub time: f64,
-    /// Substeps of the contact.
+    /// Number of substeps of the contact solver.
     pub substeps: u64,
-    /// Contacts at the end.
+    /// Number of contacts at the end.
     pub contacts: usize,
 }
 
 impl Placement {
-    /// The poses as a file.
+    /// Returns the poses as a placement file.
     pub fn file(&self, title: &str) -> PlacementFile {
         let pose = |state: &BodyState| PoseFile {
             centre_m: state.position.to_array(),
@@ -88,17 +88,16 @@ impl Placement {
     }
 }
 
-/// Place the layers of a job; `tell` hears how many units are placed, and the
-/// simulated time [s].
+/// Places the layers of a job; `report` receives the number of placed units and the simulated time [s].
 ///
 /// # Errors
-/// If there is no room for a unit, or the contact goes astray.
-pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize, f64)) -> Result<Placement, PlacementError> {
+/// If there is no room for a unit, or the contact solver becomes unstable.
+pub fn place(job: &PlacementJob, mut report: impl FnMut(usize, f64)) -> Result<Placement, PlacementError> {
     let setup = rigid_setup(&job.units, &job.site, &job.materials, job.contact.law, job.gravity);
     let mut world = RigidWorld::new(RigidSetup { bodies: Vec::new(), ..setup })?;
     let height = job.units.shape.height();
     let scale = (job.gravity * height).sqrt();
-    let mut let_go = 0.0;
+    let mut potential_at_release = 0.0;
     for row in rows(job) {
         for slot in &row {
             let unit = world.states().len() + 1;
@@ -106,20 +105,20 @@ pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize, f64)) -> Result<Pla
             let from = DVec3::new(x, y, highest(&world, &job.site, x) + 2.0 * height);
             let state = lowered(&world, from, rotation, job.site.profile.z(x), height)
                 .ok_or(PlacementError::NoRoom { unit, x, y })?;
-            let_go += job.units.mass * job.gravity * state.position.z;
+            potential_at_release += job.units.mass * job.gravity * state.position.z;
             world.add(state);
-            tell(unit, world.time());
+            report(unit, world.time());
         }
         let begun = world.time();
         while world.time() - begun < ROW_TIME[0]
             || (fastest(&world, height) > ROW_SPEED * scale && world.time() - begun < ROW_TIME[1])
         {
-            go_on(&mut world)?;
+            advance(&mut world)?;
         }
     }
     let begun = world.time();
     while fastest(&world, height) > REST_SPEED * scale && world.time() - begun < LAST_TIME {
-        go_on(&mut world)?;
+        advance(&mut world)?;
     }
     let units = world.states().to_vec();
     let [x0, x1] = job.armour.x;
@@ -129,7 +128,7 @@ pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize, f64)) -> Result<Pla
         rolled_off,
         packing_density: (units.len() - rolled_off) as f64 / job.area(),
         deepest_overlap: world.deepest_overlap() / height,
-        unrest: energy.kinetic / (let_go - energy.potential).max(f64::MIN_POSITIVE),
+        unrest: energy.kinetic / (potential_at_release - energy.potential).max(f64::MIN_POSITIVE),
         fastest: fastest(&world, height),
         time: world.time(),
         substeps: world.substeps(),
@@ -138,18 +137,18 @@ pub fn place(job: &PlacementJob, mut tell: impl FnMut(usize, f64)) -> Result<Pla
     })
 }
 
-fn go_on(world: &mut RigidWorld) -> Result<(), RigidError> {
+fn advance(world: &mut RigidWorld) -> Result<(), RigidError> {
     let loads = vec![Load::default(); world.states().len()];
-    world.advance(LOOK, &loads)
+    world.advance(CHECK_INTERVAL, &loads)
 }
 
-/// Speed of the fastest unit, that of its tips if it turns [m/s].
+/// Returns the largest speed of any unit, including rotation at its tips [m/s].
 fn fastest(world: &RigidWorld, height: f64) -> f64 {
     let speed = |state: &BodyState| state.velocity.length() + 0.5 * height * state.angular_velocity.length();
     world.states().iter().map(speed).fold(0.0, f64::max)
 }
 
-/// Highest centre of a unit, or the ground at x [m].
+/// Returns the level of the highest unit centre, or of the ground at x if that is higher [m].
 fn highest(world: &RigidWorld, site: &Site, x: f64) -> f64 {
     world.states().iter().map(|state| state.position.z).fold(site.highest_at(x), f64::max)
 }

@@ -1,4 +1,4 @@
-//! Where the units of an armour layer are lowered: the nodes of a staggered grid on the slope.
+//! Positions at which the units of an armour layer are lowered: the nodes of a staggered grid on the slope.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use crate::{
     random::SplitMix64,
 };
 
-/// Place [m] and rotation in which a unit is lowered.
+/// Position [m] and rotation in which a unit is lowered.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slot {
     pub x: f64,
@@ -17,10 +17,10 @@ pub(super) struct Slot {
     pub rotation: DQuat,
 }
 
-/// Distance from a wall in which no unit starts, over its height [-]: the reach of a leg from the centre.
+/// Smallest distance of a unit from a wall over its height [-]: the reach of a leg from the centre.
 const FROM_WALL: f64 = 0.68;
 
-/// The rows of all layers in the order in which they are placed: layer by layer, each from its lower end upwards.
+/// Returns the rows in the order of placing: layer by layer, each from its lower end upwards.
 pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
     let (armour, unit) = (&job.armour, job.units.shape.unit());
     let mut random = SplitMix64::new(armour.seed);
@@ -32,7 +32,7 @@ pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
     let length = length_of(&slope);
     let mut rows = Vec::new();
     for layer in 0..layers {
-        // What the division leaves over goes into the first layers.
+        // The remainder of the division goes into the first layers.
         let count = all / layers + usize::from(layer < all % layers);
         let pitch = (length * width / count.max(1) as f64).sqrt();
         let across = ((width / pitch).round() as usize).max(1);
@@ -40,7 +40,7 @@ pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
         let mut of_layer: Vec<Vec<Slot>> = Vec::new();
         for row in 0..along {
             let in_row = across.min(count - row * across);
-            // Rows and layers lie over the gaps of those below.
+            // Rows and layers lie over the gaps of the rows below.
             let shift = if (row + layer).is_multiple_of(2) { 0.25 } else { 0.75 };
             let x = along_slope(&slope, (row as f64 + 0.5) / along as f64 * length);
             let slot = |column: usize| {
@@ -54,7 +54,7 @@ pub(super) fn rows(job: &PlacementJob) -> Vec<Vec<Slot>> {
             };
             of_layer.push((0..in_row).map(slot).collect());
         }
-        // From the toe upwards.
+        // Place from the toe upwards.
         if slope[0][1] > slope[slope.len() - 1][1] {
             of_layer.reverse();
         }
@@ -67,7 +67,7 @@ fn length_of(slope: &[[f64; 2]]) -> f64 {
     slope.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum()
 }
 
-/// x at a distance [m] along the slope from its seaward end.
+/// Returns x at a distance along the slope from its seaward end [m].
 fn along_slope(slope: &[[f64; 2]], distance: f64) -> f64 {
     let mut left = distance;
     for piece in slope.windows(2) {
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn distances_run_along_the_slope() {
-        // A flat piece of 2 m, then 3-4-5.
+        // A horizontal part of 2 m, then a slope with sides 3, 4 and 5 m.
         let slope = [[1.0, 0.0], [3.0, 0.0], [7.0, 3.0]];
         assert!((length_of(&slope) - 7.0).abs() < 1e-12);
         assert!((along_slope(&slope, 1.0) - 2.0).abs() < 1e-12);

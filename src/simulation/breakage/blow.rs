@@ -1,4 +1,4 @@
-//! An impact in the prototype.
+//! An impact at prototype scale.
 
 use glam::DVec3;
 
@@ -9,27 +9,27 @@ use crate::femdem::mesh::unit_mesh::Pose;
 use crate::output::Impact;
 use crate::rigid::{BodyState, Material, effective_young_modulus, impact_overlap};
 
-/// An impact of the model with what it becomes in the prototype.
+/// A recorded impact with its scale factors to the prototype.
 #[derive(Debug, Clone, Copy)]
 pub struct Blow<'a> {
     /// The units of the run.
     pub model: &'a Model,
-    /// What the case asks for.
+    /// Settings of the breakage analysis.
     pub handover: &'a Handover,
-    /// The impact as recorded.
+    /// The recorded impact.
     pub impact: &'a Impact,
-    /// Lengths, velocities, masses.
+    /// Scale factors of lengths, velocities and masses.
     pub froude: Froude,
-    /// Force and duration.
+    /// Scale factors of force and duration.
     pub scale: BlowScale,
-    /// How long the prototype's blow lasts by Hertz's law [s].
+    /// Duration of the impact in the prototype by Hertz's law [s].
     pub duration: f64,
 }
 
-/// A unit just before the impact, in the prototype; the origin is the place of contact.
+/// Motion of a unit just before the impact, at prototype scale; the origin is the contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
-    /// Where it is.
+    /// Pose of the unit.
     pub pose: Pose,
     /// Velocity of its centre of mass [m/s].
     pub velocity: DVec3,
@@ -37,7 +37,7 @@ pub struct Mover {
     pub angular_velocity: DVec3,
 }
 
-/// What a unit has on both sides of the hand-over: the rigid body at the scale of the prototype, and its nodes.
+/// Mass, momentum and energy of a unit: first of the rigid body at prototype scale, second of the nodes of its mesh.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Balance {
     /// Mass [kg].
@@ -49,7 +49,7 @@ pub struct Balance {
 }
 
 impl<'a> Blow<'a> {
-    /// An impact of a run.
+    /// Scales an impact of a run to the prototype.
     pub fn new(model: &'a Model, handover: &'a Handover, impact: &'a Impact) -> Self {
         let froude = Froude { scale: handover.scale };
         let event = &impact.event;
@@ -60,7 +60,7 @@ impl<'a> Blow<'a> {
         let prototype = effective_young_modulus(&unit, if on_unit { &unit } else { &base });
         let scale = match model.law {
             ContactLawName::HertzMindlin => froude.blow(recorded, prototype),
-            // Their stiffness is that of the model, whatever the prototype is made of.
+            // These laws have a given stiffness that does not depend on the prototype's material.
             ContactLawName::Linear | ContactLawName::Chrono4 => {
                 BlowScale { force: froude.mass(), time: froude.velocity() }
             }
@@ -69,13 +69,13 @@ impl<'a> Blow<'a> {
         Self { model, handover, impact, froude, scale, duration }
     }
 
-    /// The unit that was recorded, and its partner if that is a unit.
+    /// Returns the recorded unit, and its partner if that is a unit.
     pub fn movers(&self) -> (Mover, Option<Mover>) {
         let event = &self.impact.event;
         (self.mover(&event.before), event.partner_before.as_ref().map(|before| self.mover(before)))
     }
 
-    /// A body of the model, in the prototype.
+    /// Scales the motion of a body to the prototype.
     fn mover(&self, before: &BodyState) -> Mover {
         let origin = DVec3::from_array(self.impact.event.point);
         let Froude { scale } = self.froude;
@@ -87,22 +87,22 @@ impl<'a> Blow<'a> {
         }
     }
 
-    /// Mass of a unit [kg].
+    /// Returns the mass of a unit in the prototype [kg].
     pub fn mass(&self) -> f64 {
         self.model.mass * self.froude.mass()
     }
 
-    /// Density that gives its tetrahedra this mass [kg/m3].
+    /// Returns the density that gives the tetrahedra of a unit its mass [kg/m3].
     pub fn density(&self) -> f64 {
         self.model.mass / self.handover.mesh.volume()
     }
 
-    /// Angular velocity of the nodes with the angular momentum of the rigid unit [rad/s].
+    /// Returns the angular velocity that gives the nodes the angular momentum of the rigid unit [rad/s].
     pub fn angular_velocity(&self, mover: &Mover) -> DVec3 {
         self.handover.mesh.angular_velocity(self.model.gyration, mover.pose.rotation, mover.angular_velocity)
     }
 
-    /// What is the same on both sides, and what nearly is.
+    /// Compares mass, momentum and energy of the rigid body and of the nodes. Only the energy may differ a little.
     pub fn balance(&self, mover: &Mover) -> Balance {
         let mass = self.mass();
         let in_body = mover.pose.rotation.inverse() * mover.angular_velocity;
@@ -117,7 +117,7 @@ impl<'a> Blow<'a> {
         }
     }
 
-    /// How long the fracture computation goes on after the bodies touch [s].
+    /// Returns the time that is simulated after first contact [s].
     pub fn time_after(&self) -> f64 {
         let unit = &self.handover.material;
         let celerity = (unit.young_modulus_pa / self.density()).sqrt();
@@ -126,16 +126,16 @@ impl<'a> Blow<'a> {
     }
 }
 
-/// A run ends so many blows after the bodies touch [-]: three feet share a blow, and it is shorter then.
+/// Simulated time after first contact over the duration of the impact [-]; three feet share an impact and shorten it.
 const LASTS: f64 = 1.5;
 
-/// Times that a wave runs along the unit before a run ends [-].
+/// Simulated time after first contact over the travel time of a wave along the unit, at least [-].
 const WAVES: f64 = 10.0;
 
-/// Speed of approach taken at least, over sqrt(g H) [-]: a body set down has no blow.
+/// Smallest speed of approach in Hertz's law, over sqrt(g H) [-]: a body that is set down has none.
 const SLOWEST: f64 = 1e-3;
 
-/// Duration of a Hertzian impact of elastic bodies at a speed v: 2.943 overlap / v (Johnson 1985, section 11.4).
+/// Duration of a Hertzian impact of elastic bodies at a speed v over overlap / v [-] (Johnson 1985, section 11.4).
 const HERTZ: f64 = 2.943;
 
 fn hertz_duration(model: &Model, handover: &Handover, approach: f64, on_unit: bool, modulus: f64) -> f64 {
@@ -147,7 +147,7 @@ fn hertz_duration(model: &Model, handover: &Handover, approach: f64, on_unit: bo
 }
 
 impl Handover {
-    /// Elastic constants of the prototype's units and of what they fall on.
+    /// Returns the elastic constants of the prototype's units and of the bed.
     fn materials(&self) -> [Material; 2] {
         let unit = &self.material;
         let unit = [unit.young_modulus_pa, unit.poisson_ratio];

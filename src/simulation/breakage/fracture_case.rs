@@ -1,4 +1,4 @@
-//! The fracture case of a scene: a file that `breakwater fracture` runs and that people change.
+//! The fracture case of a scene: a file that `breakwater fracture` runs and that users can edit.
 
 use std::path::Path;
 
@@ -13,20 +13,20 @@ use crate::femdem::mesh::unit_mesh::UnitMesh;
 use crate::femdem::mesh::{Mesh, msh};
 use crate::output::{OutputError, write_atomically};
 
-/// Moments of a run at which its surfaces are written.
+/// Number of times at which a run writes its surfaces.
 const PICTURES: f64 = 20.0;
 
-/// Rows of its energy book.
+/// Number of rows of its energy balance.
 const ROWS: f64 = 400.0;
 
-/// Bodies, loads and duration of an impact that is computed again; lengths from the place of contact.
+/// Bodies, loads and duration of an impact that is re-run; positions are relative to the contact point.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// All bodies.
+    /// Mesh of all bodies.
     pub mesh: Mesh,
-    /// How each moves.
+    /// Motion of each body.
     pub parts: Vec<Part>,
-    /// What acts on them.
+    /// Loads on the bodies.
     pub loads: Vec<LoadFile>,
     /// Simulated time [s].
     pub duration: f64,
@@ -35,27 +35,27 @@ pub struct Scene {
 /// A body of a scene.
 #[derive(Debug, Clone)]
 pub struct Part {
-    /// Its name in the mesh.
+    /// Name in the mesh.
     pub name: &'static str,
     /// Velocity of its centre of mass [m/s].
     pub velocity: DVec3,
     /// Angular velocity [rad/s].
     pub angular_velocity: DVec3,
-    /// Its centre of mass [m].
+    /// Centre of mass [m].
     pub pivot: DVec3,
-    /// The set that is held, of a part of the bed; a unit is free and can crack.
+    /// Fixed set of a block of the bed; `None` for a unit, which is free and can crack.
     pub held: Option<&'static str>,
 }
 
 impl Part {
-    /// A block of the bed, held at a set of faces.
+    /// Returns a block of the bed, fixed at a set of faces.
     pub fn held(name: &'static str, set: &'static str) -> Self {
         let still = DVec3::ZERO;
         Self { name, velocity: still, angular_velocity: still, pivot: still, held: Some(set) }
     }
 }
 
-/// The case of a scene; `mesh` is the name of its mesh file.
+/// Returns the case of a scene; `mesh` is the name of its mesh file.
 pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFile {
     let handover = blow.handover;
     let units = handover.material.clone();
@@ -133,24 +133,24 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
 }
 
 fn assumptions(blow: &Blow) -> Vec<String> {
-    let mut words = vec![format!(
-        "Froude's law at the scale {}: lengths, root of it for velocities and times, cube for masses; gravity and density as \
-         in the model. Contact is that of the prototype's concrete: the blow is computed again, not scaled.",
+    let mut assumptions = vec![format!(
+        "Froude's law at the scale {}: lengths by the scale, velocities and times by its root, masses by its cube; \
+         gravity and density as in the model. Contact follows from the prototype's concrete, not from scaled forces.",
         blow.froude.scale
     )];
     let [opening, _] = blow.handover.characteristic_lengths();
     let edge = blow.handover.mesh.edge() * blow.froude.length();
     if edge > 0.25 * opening {
-        words.push(format!(
-            "Elements of {edge:.2} m are larger than {:.3} m, a quarter of E G_f / f_t^2: that it cracks and where is \
-             told, not how cracks run on.",
+        assumptions.push(format!(
+            "Elements of {edge:.2} m are larger than {:.3} m, a quarter of E G_f / f_t^2: the results show whether and \
+             where the unit cracks, but not how cracks run.",
             0.25 * opening
         ));
     }
-    words
+    assumptions
 }
 
-/// Write case and mesh into a folder, under a name without ending.
+/// Writes case and mesh into a folder; `name` is the file name without extension.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -163,7 +163,7 @@ pub fn write(blow: &Blow, scene: &Scene, title: String, dir: &Path, name: &str) 
     write_atomically(&path, text.as_bytes())
 }
 
-/// Whether a body of a case is a unit.
+/// Returns whether a body of a case is a unit.
 pub fn is_unit(name: &str) -> bool {
     name == UnitMesh::NAME || name == super::reenact::PARTNER
 }

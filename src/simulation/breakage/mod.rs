@@ -1,20 +1,20 @@
-//! From impact to crack: the hardest impacts of a run are computed again with units that deform and break.
+//! Breakage analysis: the hardest impacts of a run are re-run at prototype scale with units that deform and break.
 //!
-//! A laboratory unit never breaks; one fifty times larger, of the same concrete, may. So an impact is handed over at the
-//! scale of the prototype ([`froude`]), either by letting both bodies collide again from the poses and velocities that
-//! they had just before ([`reenact`]), or by letting the recorded forces act on the unit alone ([`load_history`]).
+//! A laboratory unit never breaks, but a unit of the same concrete fifty times larger may. So impacts are re-run at
+//! prototype scale ([`froude`]) in one of two ways. Either both bodies collide again from their poses and velocities
+//! just before the impact ([`reenact`]), or the recorded forces act on the unit alone ([`load_history`]).
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | [`froude`] | lengths, velocities, forces of the prototype; how a blow changes |
-//! | [`selection`] | which impacts are handed over |
-//! | [`model`] | what the impacts come from, and nominal stresses of the units |
+//! | [`froude`] | scale factors of lengths, velocities and forces; scaling of an impact |
+//! | [`selection`] | which impacts are re-run |
+//! | [`model`] | the units of the run and their nominal stresses |
 //! | [`base`] | a block of the bed |
-//! | [`blow`] | an impact in the prototype: speeds, duration, what is the same on both sides |
+//! | [`blow`] | an impact at prototype scale: velocities, duration, mass, momentum and energy |
 //! | [`reenact`], [`load_history`] | the two ways: meshes, bodies and loads of a fracture case |
-//! | [`fracture_case`] | the case file of both |
-//! | [`run`] | the cases written and computed |
-//! | [`results`] | what came of it, a row for each unit |
+//! | [`fracture_case`] | the case file of both ways |
+//! | [`run`] | writes and runs the cases |
+//! | [`results`] | results for each unit |
 
 pub mod base;
 pub mod blow;

@@ -1,4 +1,4 @@
-//! What the impacts come from: the units of a run, as far as the hand-over needs them.
+//! The units of a run, as far as the breakage analysis needs them.
 
 use glam::{DMat3, DVec3};
 
@@ -14,30 +14,30 @@ use crate::rigid::{BodyState, Material};
 pub struct Model {
     /// Shape of a unit.
     pub shape: UnitShape,
-    /// Its mass [kg].
+    /// Mass of a unit [kg].
     pub mass: f64,
     /// Inertia tensor in body axes over the mass [m2].
     pub gyration: DMat3,
-    /// How many units there are.
+    /// Number of units.
     pub count: usize,
-    /// Material of the units in contact.
+    /// Contact properties of the units.
     pub material: Material,
-    /// Material of the bed in contact.
+    /// Contact properties of the bed.
     pub ground: Material,
-    /// Law of contact.
+    /// Contact law.
     pub law: ContactLawName,
     /// Acceleration of gravity [m/s2].
     pub gravity: f64,
 }
 
 impl Model {
-    /// The units of a case with water; none if it has none.
+    /// Returns the units of a flume case; `None` if it has none.
     pub fn of_case(case: &Case) -> Option<Self> {
         let units = case.units.as_ref()?;
         Some(Self::of_units(units, &case.materials, case.contact.law, case.fluid.gravity))
     }
 
-    /// The units of a dry case.
+    /// Returns the units of a dry test.
     pub fn of_dry(case: &DryCase) -> Self {
         Self::of_units(&case.units, &case.materials, case.contact.law, case.gravity)
     }
@@ -59,13 +59,14 @@ impl Model {
         }
     }
 
-    /// Whether an impact can be one of these units: its numbers are finite, and its place is on the units.
+    /// Returns whether an impact can belong to these units: all numbers are finite, and the contact point is near the
+    /// units.
     pub fn can_have(&self, impact: &Impact) -> bool {
         let event = &impact.event;
         let mut states = [Some(event.before), event.partner_before].into_iter().flatten();
         let on_unit = |state: BodyState| {
             let moves = state.velocity.is_finite() && state.angular_velocity.is_finite();
-            // NaN is not less than anything.
+            // False for NaN.
             let near = (DVec3::from_array(event.point) - state.position).length() < 2.0 * self.shape.height();
             moves && near && state.rotation.is_normalized()
         };
@@ -78,13 +79,13 @@ impl Model {
             && samples
     }
 
-    /// Sections at which a unit breaks; none are known of units from STL.
+    /// Returns the sections at which a unit breaks; empty for units from STL.
     pub fn sections(&self) -> Vec<Section> {
         self.shape.kind.sections()
     }
 
-    /// Largest nominal stress [Pa] that recorded impacts mean to each unit of the prototype: peak force of a blow by Hertz's
-    /// law, in the sections of the unit by the theory of bars, its inertia left out; 0 for units without impacts.
+    /// Computes the largest nominal stress of the recorded impacts in each unit, at prototype scale [Pa].
+    /// Peak force by Hertz's law, stresses in the sections by beam theory without inertia; 0 for units without impacts.
     pub fn nominal_stresses(&self, handover: &Handover, impacts: &Impacts) -> Vec<f64> {
         let mut stresses = vec![0.0f64; self.count];
         let sections = self.sections();
@@ -101,21 +102,21 @@ impl Model {
     }
 }
 
-/// A unit's part in an impact.
+/// Role of a unit in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Role {
     /// Number of the unit from 0.
     pub unit: usize,
-    /// Place of contact in its body axes [m].
+    /// Contact point in body axes [m].
     pub place: DVec3,
-    /// From axes of space to its own.
+    /// Rotation from space axes to body axes.
     pub to_body: glam::DQuat,
     /// Factor on the recorded force: 1, or -1 for the partner.
     pub sign: f64,
 }
 
 impl Role {
-    /// Parts of the one or two units in an impact.
+    /// Returns the roles of the one or two units in an impact.
     pub fn of(impact: &Impact) -> impl Iterator<Item = Self> {
         let event = &impact.event;
         let body = Self {
@@ -134,7 +135,7 @@ impl Role {
 }
 
 impl UnitKind {
-    /// Sections at which a unit breaks; none are known of units from STL.
+    /// Returns the sections at which a unit breaks; empty for units from STL.
     pub fn sections(&self) -> Vec<Section> {
         use crate::geometry::{core_loc, cuboid, dolos, tetrapod};
         match self {
@@ -142,7 +143,7 @@ impl UnitKind {
             Self::Dolos { height, waist } => dolos::sections(*height, *waist),
             Self::CoreLoc { size } => core_loc::sections(*size),
             Self::Cuboid { edges } => cuboid::sections(DVec3::from_array(*edges)),
-            // The grooves, which take a twentieth of the section, left out.
+            // Without the grooves, which take a twentieth of the section.
             Self::GroovedCube { height } => cuboid::sections(DVec3::splat(*height)),
             Self::Stl(_) => Vec::new(),
         }

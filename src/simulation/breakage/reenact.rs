@@ -1,4 +1,4 @@
-//! An impact computed again: both bodies collide from the poses and velocities that they had just before.
+//! Re-run of an impact by collision: both bodies collide from their poses and velocities just before the impact.
 
 use glam::DVec3;
 
@@ -8,16 +8,16 @@ use super::fracture_case::{Part, Scene};
 use crate::femdem::mesh::Mesh;
 use crate::femdem::mesh::unit_mesh::{UnitMesh, together};
 
-/// Cells of the bed over the mean edge of the unit's mesh [-]; each is cut into 24 tetrahedra.
+/// Cell length of the bed over the mean edge of the unit's mesh [-]; each cell is cut into 24 tetrahedra.
 const BASE_CELL: f64 = 2.0;
 
-/// Longest wait for the bodies to touch over the time that is computed after it [-].
+/// Largest time before first contact over the time that is simulated after it [-].
 const LONGEST_WAIT: f64 = 3.0;
 
 /// Name of the other unit.
 pub const PARTNER: &str = "partner";
 
-/// Scene of the collision, at the place of contact.
+/// Returns the scene of the collision; the origin is the contact point.
 pub fn scene(blow: &Blow) -> Scene {
     let height = blow.model.shape.height() * blow.froude.length();
     let normal = DVec3::from_array(blow.impact.event.normal).normalize_or(DVec3::Z);
@@ -27,13 +27,13 @@ pub fn scene(blow: &Blow) -> Scene {
     let (mesh, parts, gap) = match partner {
         Some(partner) => {
             let other = blow.handover.mesh.posed(&partner.pose, PARTNER);
-            let near = |mesh: &Mesh| -> Vec<f64> {
+            let levels_near_contact = |mesh: &Mesh| -> Vec<f64> {
                 let within = mesh.nodes.iter().filter(|node| node.length() < ABOUT * height);
                 within.map(|node| node.dot(normal)).collect()
             };
-            let lowest = near(&mesh).into_iter().fold(f64::INFINITY, f64::min);
-            let highest = near(&other).into_iter().fold(f64::NEG_INFINITY, f64::max);
-            // Without nodes about the place of contact, the bodies stay where they are.
+            let lowest = levels_near_contact(&mesh).into_iter().fold(f64::INFINITY, f64::min);
+            let highest = levels_near_contact(&other).into_iter().fold(f64::NEG_INFINITY, f64::max);
+            // Without nodes near the contact point, the bodies keep their positions.
             let overlap = if (highest - lowest).is_finite() { highest - lowest } else { 0.0 };
             let most = ROUNDED_OFF * height;
             let back = (overlap + GAP * height).clamp(-most, most);
@@ -41,21 +41,21 @@ pub fn scene(blow: &Blow) -> Scene {
             (together(shifted(mesh, normal * back), other), parts, most)
         }
         None => {
-            let moves = |node: DVec3| mover.velocity + mover.angular_velocity.cross(node - mover.pose.position);
-            let way = |node: DVec3| moves(node) * blow.time_after();
-            let seat = Seat::below(&mesh.nodes, way, mover.pose.position, normal, height);
+            let velocity = |node: DVec3| mover.velocity + mover.angular_velocity.cross(node - mover.pose.position);
+            let path = |node: DVec3| velocity(node) * blow.time_after();
+            let seat = Seat::below(&mesh.nodes, path, mover.pose.position, normal, height);
             let cell = BASE_CELL * blow.handover.mesh.edge() * blow.froude.length();
             let base = Part::held(base::NAME, base::BOTTOM);
             (together(mesh, seat.block(normal, cell)), vec![unit, base], seat.gap)
         }
     };
     let approach = blow.impact.event.approach_normal.max(0.0) * blow.froude.velocity();
-    // A body that hardly approaches is not waited for.
+    // Do not wait for a body that hardly approaches.
     let before = if approach > 0.0 { (gap / approach).min(LONGEST_WAIT * blow.time_after()) } else { 0.0 };
     Scene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
 }
 
-/// A unit that moves as it was recorded.
+/// Returns a unit with its recorded motion.
 pub fn part(blow: &Blow, name: &'static str, mover: &Mover) -> Part {
     Part {
         name,

@@ -1,4 +1,4 @@
-//! What came of the impacts, a row for each unit: how far it moved, how hard it was hit, whether it broke.
+//! Results of the breakage analysis for each unit: displacement, hardest impact, and whether it broke.
 
 use std::path::Path;
 
@@ -9,26 +9,26 @@ use super::fracture_case::is_unit;
 use super::model::{Model, Role};
 use super::reenact::PARTNER;
 use crate::case::{Handover, HandoverWay};
-use crate::output::{CsvSeries, Impacts, OutputError, columns, write_atomically};
+use crate::output::{BreakageSummary, CsvSeries, Impacts, OutputError, columns, write_atomically};
 use crate::simulation::fracture::summary::FractureSummary;
 
-/// A unit is broken when its heaviest piece has less than this share of its mass [-]: what is chipped off at an edge or
-/// crushed under a foot does not count.
+/// A unit is broken if its heaviest piece has less than this share of its mass [-]. Chipped edges and crushed feet do
+/// not count as broken.
 pub const BROKEN: f64 = 0.95;
 
-/// How far a unit moved.
+/// Displacement of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
     /// Displacement [m].
     pub displacement: f64,
-    /// Whether it is further than the damage distance.
+    /// Whether the displacement exceeds the damage distance.
     pub damaged: bool,
 }
 
-/// `breakage.json`.
+/// Content of `breakage.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Breakage {
-    /// Lengths of the prototype over those of the run [-].
+    /// Prototype length over length in the run [-].
     pub scale: f64,
     /// Share of the units that moved further than the damage distance [-].
     pub damaged_ratio: f64,
@@ -36,85 +36,92 @@ pub struct Breakage {
     pub broken_ratio: f64,
     /// The units.
     pub units: Vec<UnitBreakage>,
-    /// The impacts that were computed again, the hardest first.
+    /// The impacts that were re-run, the hardest first.
     pub impacts: Vec<Outcome>,
 }
 
-/// A unit. Forces, stresses and areas are those of the prototype.
+/// Breakage of a unit. Forces, stresses and areas are at prototype scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitBreakage {
     /// Number from 1.
     pub unit: usize,
     /// Displacement in the run [m].
     pub displacement_m: f64,
-    /// Whether that is further than the damage distance.
+    /// Whether the displacement exceeds the damage distance.
     pub damaged: bool,
-    /// Hardest impact recorded, as in the prototype by Hertz's law [N]; 0 without one.
+    /// Largest force of the recorded impacts, scaled by Hertz's law [N]; 0 without impacts.
     pub peak_force_n: f64,
-    /// Largest stress that the recorded impacts mean by the theory of bars [Pa]; none for units from STL.
+    /// Largest nominal stress of the recorded impacts by beam theory [Pa]; none for units from STL.
     pub nominal_stress_pa: Option<f64>,
-    /// Largest first principal stress computed [Pa]; none if none of its impacts was handed over.
+    /// Largest computed first principal stress [Pa]; none if no impact of the unit was re-run.
     pub sigma_1_pa: Option<f64>,
-    /// Largest area of cracks [m2].
+    /// Largest crack area of all impacts [m2].
     pub crack_area_m2: Option<f64>,
-    /// Most pieces.
+    /// Largest number of pieces of all impacts.
     pub pieces: Option<usize>,
-    /// Share of the heaviest piece in its mass, the least of all impacts [-].
+    /// Mass of the heaviest piece over the mass of the unit, the smallest of all impacts [-].
     pub heaviest_share: Option<f64>,
-    /// Whether it broke: that share is below 0.95.
+    /// Whether the unit broke: `heaviest_share` is below 0.95.
     pub broken: Option<bool>,
 }
 
-/// An impact that was computed again.
+/// An impact that was re-run at prototype scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// Name of its case and folder in `impacts/`.
     pub name: String,
-    /// How it was computed.
+    /// How it was re-run.
     pub way: HandoverWay,
     /// Number of the unit from 1.
     pub unit: usize,
-    /// Number of the unit that it hit; none for bed and walls.
+    /// Number of the other unit from 1; none for bed and walls.
     pub partner: Option<usize>,
-    /// When, in the run [s].
+    /// Time in the run [s].
     pub t_s: f64,
     /// Velocity of approach in the run [m/s].
     pub approach_m_s: f64,
     /// Largest force in the run [N].
     pub peak_force_n: f64,
-    /// What it becomes in the prototype by Hertz's law [N].
+    /// Largest force scaled to the prototype by Hertz's law [N].
     pub prototype_force_n: f64,
-    /// How long the blow lasts there by that law [s].
+    /// Duration of the impact in the prototype by Hertz's law [s].
     pub blow_s: f64,
-    /// Mass, momentum and energy of the unit as the run and as the fracture computation have them, at the prototype's scale.
+    /// Mass, momentum and energy of the unit in the run and in the fracture run, at prototype scale.
     pub balance: Balance,
-    /// What was found for the unit and its partner.
+    /// Results for the unit and its partner.
     pub found: Vec<Found>,
-    /// Largest residual of the energy book over the largest kinetic energy [-].
+    /// Largest residual of the energy balance over the largest kinetic energy [-].
     pub energy_residual_ratio: Option<f64>,
-    /// Why the computation went astray, if it did.
+    /// Why the fracture run failed, if it did.
     pub failure: Option<String>,
 }
 
-/// What an impact did to a unit of the prototype.
+/// Effect of an impact on a unit of the prototype.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// Number from 1.
     pub unit: usize,
     /// Largest first principal stress [Pa].
     pub sigma_1_pa: f64,
-    /// Area of its cracks [m2].
+    /// Crack area [m2].
     pub crack_area_m2: f64,
-    /// Pieces, 1 for a whole unit.
+    /// Number of pieces; 1 for a unit in one piece.
     pub pieces: usize,
-    /// Share of the heaviest piece in its mass [-].
+    /// Mass of the heaviest piece over the mass of the unit [-].
     pub heaviest_share: f64,
-    /// Change of its momentum by the end [N s].
+    /// Change of momentum until the end of the fracture run [N s].
     pub impulse_n_s: [f64; 3],
 }
 
+impl From<&Breakage> for BreakageSummary {
+    fn from(breakage: &Breakage) -> Self {
+        let Breakage { scale, damaged_ratio, broken_ratio, .. } = *breakage;
+        Self { scale, damaged_ratio, broken_ratio }
+    }
+}
+
 impl Outcome {
-    /// The outcome of a blow whose computation ended with a summary or went astray.
+    /// Returns the outcome of an impact whose fracture run ended with a summary or with an error.
     pub fn of(
         name: &str,
         way: HandoverWay,
@@ -124,7 +131,7 @@ impl Outcome {
     ) -> Self {
         let touched = |summary: &FractureSummary| way == HandoverWay::LoadHistory || summary.impact_s.is_some();
         let ended = match ended {
-            Ok(summary) if !touched(&summary) => Err("the bodies did not touch; give a longer duration_s".to_owned()),
+            Ok(summary) if !touched(&summary) => Err("the bodies did not touch: increase duration_s".to_owned()),
             ended => ended,
         };
         let event = &blow.impact.event;
@@ -133,7 +140,7 @@ impl Outcome {
         let found = |summary: &FractureSummary| {
             let (mover, other) = blow.movers();
             let bodies = summary.bodies.iter().filter(|body| is_unit(&body.name));
-            let of = |body: &crate::simulation::fracture::summary::BodySummary| {
+            let result = |body: &crate::simulation::fracture::summary::BodySummary| {
                 let is_partner = body.name == PARTNER;
                 let pieces: Vec<_> = summary.fragments.iter().filter(|piece| piece.body == body.name).collect();
                 let heaviest = pieces.iter().map(|piece| piece.mass_kg).fold(0.0, f64::max);
@@ -143,13 +150,13 @@ impl Outcome {
                     unit: if is_partner { partner.unwrap_or(unit) } else { unit },
                     sigma_1_pa: body.peak.sigma_1_pa,
                     crack_area_m2: body.crack_area_m2,
-                    // Where nothing can crack there are no pieces.
+                    // Bodies that cannot crack have no fragments.
                     pieces: pieces.len().max(1),
                     heaviest_share: if pieces.is_empty() { 1.0 } else { heaviest / body.mass_kg },
                     impulse_n_s: std::array::from_fn(|axis| body.mass_kg * (body.velocity_m_s[axis] - before[axis])),
                 }
             };
-            bodies.map(of).collect()
+            bodies.map(result).collect()
         };
         Self {
             name: name.to_owned(),
@@ -168,26 +175,26 @@ impl Outcome {
         }
     }
 
-    /// In a line.
+    /// Describes the outcome in one line.
     pub fn in_words(&self) -> String {
         if let Some(failure) = &self.failure {
             return format!("not computed: {failure}");
         }
-        let of = |found: &Found| {
+        let describe = |found: &Found| {
             let state = state_in_words(found.heaviest_share < BROKEN, found.crack_area_m2);
             format!(
-                "unit {} {state}, sigma_1 {:.2} MPa, {:.3} m2 of cracks, {} pieces",
+                "unit {} {state}, sigma_1 {:.2} MPa, crack area {:.3} m2, pieces: {}",
                 found.unit,
                 found.sigma_1_pa * 1e-6,
                 found.crack_area_m2,
                 found.pieces
             )
         };
-        self.found.iter().map(of).collect::<Vec<_>>().join("; ")
+        self.found.iter().map(describe).collect::<Vec<_>>().join("; ")
     }
 }
 
-/// Broken, cracked or whole.
+/// Returns "broken", "cracked, not broken" or "whole".
 pub fn state_in_words(broken: bool, crack_area: f64) -> &'static str {
     match (broken, crack_area > 0.0) {
         (true, _) => "broken",
@@ -199,10 +206,10 @@ pub fn state_in_words(broken: bool, crack_area: f64) -> &'static str {
 impl Breakage {
     /// Name of the file in a run's folder.
     pub const FILE: &str = "breakage.json";
-    /// Name of its table.
+    /// Name of the table in a run's folder.
     pub const TABLE: &str = "breakage.csv";
 
-    /// The units of a run with what was found.
+    /// Collects the results of the impacts for each unit of a run.
     pub fn of(model: &Model, handover: &Handover, impacts: &Impacts, moved: &[Moved], outcomes: Vec<Outcome>) -> Self {
         let mut peaks = vec![0.0f64; moved.len()];
         for impact in &impacts.impacts {
@@ -215,7 +222,7 @@ impl Breakage {
         let is_known = !model.sections().is_empty();
         let unit = |(index, moved): (usize, &Moved)| {
             let found = || outcomes.iter().flat_map(|outcome| &outcome.found).filter(|f| f.unit == index + 1);
-            let most = |of: fn(&Found) -> f64| found().map(of).reduce(f64::max);
+            let largest = |value: fn(&Found) -> f64| found().map(value).reduce(f64::max);
             let share = found().map(|found| found.heaviest_share).reduce(f64::min);
             UnitBreakage {
                 unit: index + 1,
@@ -223,16 +230,16 @@ impl Breakage {
                 damaged: moved.damaged,
                 peak_force_n: peaks[index],
                 nominal_stress_pa: is_known.then_some(nominal[index]),
-                sigma_1_pa: most(|found| found.sigma_1_pa),
-                crack_area_m2: most(|found| found.crack_area_m2),
+                sigma_1_pa: largest(|found| found.sigma_1_pa),
+                crack_area_m2: largest(|found| found.crack_area_m2),
                 pieces: found().map(|found| found.pieces).max(),
                 heaviest_share: share,
                 broken: share.map(|share| share < BROKEN),
             }
         };
         let units: Vec<UnitBreakage> = moved.iter().enumerate().map(unit).collect();
-        let ratio = |is: fn(&UnitBreakage) -> bool| {
-            units.iter().filter(|unit| is(unit)).count() as f64 / units.len().max(1) as f64
+        let ratio = |is_counted: fn(&UnitBreakage) -> bool| {
+            units.iter().filter(|unit| is_counted(unit)).count() as f64 / units.len().max(1) as f64
         };
         Self {
             scale: handover.scale,
@@ -243,10 +250,10 @@ impl Breakage {
         }
     }
 
-    /// Read `breakage.json` of a run folder, `None` if there is none.
+    /// Reads `breakage.json` of a run folder; `None` if there is none.
     ///
     /// # Errors
-    /// If it cannot be read or is not what it should be.
+    /// If the file cannot be read or has the wrong format.
     pub fn read_if_present(dir: &Path) -> Result<Option<Self>, OutputError> {
         let path = dir.join(Self::FILE);
         if !path.exists() {
@@ -256,7 +263,7 @@ impl Breakage {
         serde_json::from_str(&text).map(Some).map_err(OutputError::json(&path))
     }
 
-    /// Write `breakage.json` and `breakage.csv`.
+    /// Writes `breakage.json` and `breakage.csv`.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -266,20 +273,20 @@ impl Breakage {
         text.push('\n');
         write_atomically(&path, text.as_bytes())?;
         let mut table = CsvSeries::create(&dir.join(Self::TABLE), &columns::BREAKAGE)?;
-        let yes = |given: bool| f64::from(u8::from(given));
+        let as_number = |value: bool| f64::from(u8::from(value));
         for unit in &self.units {
-            let or_nothing = |value: Option<f64>| value.unwrap_or(f64::NAN);
+            let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
             table.append(&[
                 unit.unit as f64,
                 unit.displacement_m,
-                yes(unit.damaged),
+                as_number(unit.damaged),
                 unit.peak_force_n,
-                or_nothing(unit.nominal_stress_pa),
-                or_nothing(unit.sigma_1_pa),
-                or_nothing(unit.crack_area_m2),
-                or_nothing(unit.pieces.map(|pieces| pieces as f64)),
-                or_nothing(unit.heaviest_share),
-                or_nothing(unit.broken.map(yes)),
+                or_nan(unit.nominal_stress_pa),
+                or_nan(unit.sigma_1_pa),
+                or_nan(unit.crack_area_m2),
+                or_nan(unit.pieces.map(|pieces| pieces as f64)),
+                or_nan(unit.heaviest_share),
+                or_nan(unit.broken.map(as_number)),
             ])?;
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Impacts of a finished run written as fracture cases, and computed.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -13,8 +13,7 @@ use super::model::Model;
 use super::selection::select;
 use super::{load_history, reenact};
 use crate::case::{FractureCase, Handover, HandoverWay};
-use crate::output::{Impacts, OutputError};
-use crate::report::fracture::write_fracture_report;
+use crate::output::{Impacts, OutputError, driver::Control};
 use crate::simulation::breakage::results::{Breakage, Moved, Outcome};
 use crate::simulation::fracture::run::{run, world};
 use crate::simulation::fracture::summary::FractureSummary;
@@ -28,6 +27,12 @@ pub enum HandoverError {
     /// A file cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The user stopped the analysis.
+    #[error("stopped by the user; continue with: breakwater breakage {}", dir.display())]
+    Interrupted {
+        /// Folder of the run.
+        dir: PathBuf,
+    },
     /// No threads.
     #[error("no threads for the fracture computations: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -51,7 +56,7 @@ pub fn hand_over(
     handover: &Handover,
     moved: &[Moved],
     dir: &Path,
-    quiet: bool,
+    control: &Control,
 ) -> Result<Breakage, HandoverError> {
     let file = dir.join(Impacts::FILE);
     let impacts = Impacts::read(&file)?;
@@ -71,7 +76,7 @@ pub fn hand_over(
     }
     let threads = rayon::current_num_threads();
     let at_once = handover.cores.unwrap_or(threads).min(jobs.len()).max(1);
-    let outcomes = compute(&jobs, &folder, at_once, (threads / at_once).max(1), quiet)?;
+    let outcomes = compute(&jobs, &folder, at_once, (threads / at_once).max(1), control)?;
     let breakage = Breakage::of(model, handover, &impacts, moved, outcomes);
     breakage.write(dir)?;
     Ok(breakage)
@@ -123,7 +128,7 @@ impl Job<'_> {
     }
 
     /// Computes the case in the folder, or reads what was computed before.
-    fn outcome(&self, folder: &Path, threads: usize) -> Result<Outcome, HandoverError> {
+    fn outcome(&self, folder: &Path, threads: usize, control: &Control) -> Result<Outcome, HandoverError> {
         let file = folder.join(format!("{}.json", self.name));
         let out = folder.join(&self.name);
         let told = |ended: Result<FractureSummary, String>| {
@@ -140,12 +145,15 @@ impl Job<'_> {
             return Ok(told(Ok(summary)));
         }
         fresh(&out)?;
+        let silent = Control { quiet: true, ..control.clone() };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
         let ended = pool.install(|| {
-            let summary = world(&case).and_then(|world| run(&case, world, &out, true)).map_err(|e| e.to_string())?;
-            write_fracture_report(&out).map_err(|error| error.to_string())?;
-            Ok(summary)
+            let world = world(&case).map_err(|error| error.to_string())?;
+            run(&case, world, &out, &silent).map_err(|error| error.to_string())
         });
+        if control.stop.load(Ordering::Relaxed) {
+            return Err(HandoverError::Interrupted { dir: folder.parent().unwrap_or(folder).to_owned() });
+        }
         Ok(told(ended))
     }
 }
@@ -164,7 +172,7 @@ fn compute(
     folder: &Path,
     at_once: usize,
     threads: usize,
-    quiet: bool,
+    control: &Control,
 ) -> Result<Vec<Outcome>, HandoverError> {
     let next = AtomicUsize::new(0);
     let found: Vec<Mutex<Option<Result<Outcome, HandoverError>>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
@@ -175,8 +183,8 @@ fn compute(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     jobs.get(index).zip(found.get(index))
                 } {
-                    let outcome = job.outcome(folder, threads);
-                    if let (false, Ok(outcome)) = (quiet, &outcome) {
+                    let outcome = job.outcome(folder, threads, control);
+                    if let (false, Ok(outcome)) = (control.quiet, &outcome) {
                         eprintln!("  {}: {}", job.title(), outcome.in_words());
                     }
                     if let Ok(mut slot) = slot.lock() {

@@ -1,10 +1,10 @@
-//! Which impacts are handed over.
+//! Selects the impacts that are re-run at prototype scale.
 
 use crate::case::{Hardness, Selection};
 use crate::output::{Impact, Impacts};
 use crate::rigid::Feature;
 
-/// How hard an impact is.
+/// Returns the quantity by which impacts are ranked.
 pub fn hardness(impact: &Impact, by: Hardness) -> f64 {
     match by {
         Hardness::PeakForce => impact.event.peak_force,
@@ -13,13 +13,13 @@ pub fn hardness(impact: &Impact, by: Hardness) -> f64 {
     }
 }
 
-/// The impacts to hand over, the hardest first, as indices into the list. Of contacts of the same bodies at the same time,
-/// as when a unit lands on three feet, the hardest stands for all: the collision computed again has them all.
+/// Returns the impacts to re-run as indices into the list, the hardest first.
+/// When a unit lands on three feet, only the hardest contact counts: re-running the collision includes all of them.
 pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
     let all = &impacts.impacts;
     let score = |index: &usize| hardness(&all[*index], selection.by);
     let mut order: Vec<usize> = (0..all.len()).filter(|index| score(index) >= selection.at_least).collect();
-    // Of equally hard ones the first in the file, the one with the larger force.
+    // The sort is stable: of equal impacts, the first in the file comes first, which has the larger force.
     order.sort_by(|a, b| score(b).total_cmp(&score(a)));
     let mut chosen: Vec<usize> = Vec::new();
     for index in order {
@@ -33,16 +33,16 @@ pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
     chosen
 }
 
-/// Whether two contacts of the same bodies begin within the duration of one another.
+/// Returns whether two contacts belong to the same bodies and begin within the duration of the longer impact.
 pub fn same_collision(a: &Impact, b: &Impact) -> bool {
     let bodies = |impact: &Impact| {
         let (body, partner) = (Some(impact.event.body), impact.event.partner_unit());
         let wall = if let Feature::Wall { wall, .. } = impact.event.partner { Some(wall) } else { None };
         ([body.max(partner), body.min(partner)], wall)
     };
-    let blow = |impact: &Impact| impact.event.peak_time - impact.event.start;
-    let together = 2.0 * blow(a).max(blow(b));
-    bodies(a) == bodies(b) && (a.event.start - b.event.start).abs() <= together
+    let rise_time = |impact: &Impact| impact.event.peak_time - impact.event.start;
+    let duration = 2.0 * rise_time(a).max(rise_time(b));
+    bodies(a) == bodies(b) && (a.event.start - b.event.start).abs() <= duration
 }
 
 #[cfg(test)]
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn the_hardest_come_first_and_a_landing_on_three_feet_counts_once() {
+    fn hardest_impacts_come_first_and_a_landing_on_several_feet_counts_once() {
         let list = vec![
             impact(0, 1.0, 50.0, 0.3),
             impact(0, 1.0005, 49.0, 0.3),

@@ -7,12 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::{DryRun, Measured};
 use crate::{
     case::{Handover, SiteTerrain},
-    output::{Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, write_atomically},
-    rigid::{ContactEvent, RigidSnapshot},
-    simulation::flume::{
-        recorder::{contact_row, is_due},
-        snapshots::{Frame, UNIT_FIELDS},
+    output::{
+        Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, is_due, write_atomically,
     },
+    rigid::{ContactEvent, RigidSnapshot},
+    simulation::flume::snapshots::{Frame, UNIT_FIELDS},
 };
 
 /// Where each output stands.
@@ -124,6 +123,11 @@ impl DryRecorder {
         })
     }
 
+    /// Folder of the run.
+    pub fn dir(&self) -> &Path {
+        &self.dir
+    }
+
     /// Write what is due now.
     ///
     /// # Errors
@@ -215,7 +219,7 @@ impl DryRecorder {
             run.measured.contacts[between] += 1;
             run.measured.peak_force = run.measured.peak_force.max(event.peak_force);
         }
-        self.contacts.append_rows(events.iter().map(|event| contact_row(event, 0.0)))
+        self.contacts.append_rows(events.iter().map(|event| columns::contact_row(event, 0.0)))
     }
 
     fn record_surfaces(&mut self, run: &DryRun) -> Result<(), OutputError> {

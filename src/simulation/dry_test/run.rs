@@ -1,97 +1,91 @@
-//! The loop of a dry run.
+//! A dry test from its case, or from a checkpoint, to its summary.
 
-use std::{path::Path, sync::Arc, time::Instant};
-
-use thiserror::Error;
-
-use super::{
-    DryRun,
-    recorder::DryRecorder,
-    summary::{DrySummary, Ended},
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
 };
+
+use super::{DryRun, recorder::DryRecorder, summary::DrySummary};
 use crate::{
     case::{DryCase, DryTest},
-    output::{OutputError, progress::Progress},
-    rigid::RigidError,
+    output::{
+        OutputError, Stopped,
+        driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
+    },
 };
 
-/// Why a dry run ended early.
-#[derive(Debug, Error)]
-pub enum DryError {
-    /// The units cannot stand where the case puts them.
-    #[error(transparent)]
-    Setup(RigidError),
-    /// The computation went astray.
-    #[error("{reason}\nThe state is kept in {kept}; the last regular checkpoint is not touched.")]
-    Failed {
-        /// What happened.
-        reason: RigidError,
-        /// Where the state lies.
-        kept: String,
-    },
-    /// A file cannot be written or read.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-}
-
-/// Run a dry case into an existing, empty folder.
+/// Run a dry test into an existing, empty folder.
 ///
 /// # Errors
-/// If the units start too deep in something, go too deep later, or a file cannot be written.
-pub fn run(case: Arc<DryCase>, dir: &Path, quiet: bool) -> Result<DrySummary, DryError> {
-    let run = DryRun::new(case).map_err(DryError::Setup)?;
+/// If the units start too deep in something or go too deep later, a file cannot be written, or the user stops the run.
+pub fn run(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
+    let run = DryRun::new(case).map_err(RunError::setup)?;
     let recorder = DryRecorder::create(&run, dir)?;
-    drive(run, recorder, dir, quiet)
+    drive(RecordedRun { run, recorder }, dir, control)
 }
 
-/// Go on with a dry run from its last checkpoint.
+/// Continue a dry test from its last checkpoint.
 ///
 /// # Errors
-/// As [`run`], and if the checkpoint is not one of the case.
-pub fn resume(case: Arc<DryCase>, dir: &Path, quiet: bool) -> Result<DrySummary, DryError> {
-    let mut run = DryRun::new(case).map_err(DryError::Setup)?;
+/// As [`run`], and if the checkpoint does not belong to the case.
+pub fn resume(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
+    let mut run = DryRun::new(case).map_err(RunError::setup)?;
     let recorder = DryRecorder::reopen(&mut run, dir)?;
-    drive(run, recorder, dir, quiet)
+    drive(RecordedRun { run, recorder }, dir, control)
 }
 
-fn drive(mut run: DryRun, mut recorder: DryRecorder, dir: &Path, quiet: bool) -> Result<DrySummary, DryError> {
-    let begun = Instant::now();
-    let mut progress = Progress::new(run.case.stop.duration, run.time(), run.world.substeps(), quiet);
-    loop {
-        if let Some(stopped) = stop_rule(&run) {
-            recorder.record_end(&mut run)?;
-            progress.finish();
-            let summary = DrySummary::of(&run, stopped, begun.elapsed().as_secs_f64());
-            summary.write(dir)?;
-            return Ok(summary);
+/// A dry test with its open files.
+struct RecordedRun {
+    run: DryRun,
+    recorder: DryRecorder,
+}
+
+impl Run for RecordedRun {
+    type Summary = DrySummary;
+
+    fn clock(&self) -> Clock {
+        Clock { time: self.run.time(), end: self.run.case.stop.duration, steps: self.run.world.substeps() }
+    }
+
+    fn step(&mut self, session: Session) -> Result<Step<DrySummary>, StepFailure> {
+        if let Some(stopped) = stop_rule(&self.run) {
+            self.recorder.record_end(&mut self.run)?;
+            let summary = DrySummary::of(&self.run, stopped, session.wall);
+            summary.write(self.recorder.dir())?;
+            return Ok(Step::Ended(summary));
         }
-        recorder.record_due(&mut run)?;
-        if let Err(reason) = run.advance(run.case.stop.duration) {
-            let kept = match recorder.record_state(&run, DryRecorder::FAILED) {
-                Ok(()) => dir.join(DryRecorder::FAILED).display().to_string(),
-                Err(error) => format!("no file ({error})"),
-            };
-            return Err(DryError::Failed { reason, kept });
+        if session.stop {
+            self.recorder.record_state(&self.run, DryRecorder::CHECKPOINT)?;
+            return Ok(Step::Stopped);
         }
-        let fastest = run.fastest();
-        progress.update(run.time(), run.world.substeps(), || {
-            format!("{} contacts, fastest unit {fastest:.4} m/s", run.world.contact_count())
-        });
+        self.recorder.record_due(&mut self.run)?;
+        self.run.advance(self.run.case.stop.duration).map_err(StepFailure::failure)?;
+        Ok(Step::Made)
+    }
+
+    fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
+        self.recorder.record_state(&self.run, DryRecorder::FAILED)?;
+        Ok(self.recorder.dir().join(DryRecorder::FAILED))
+    }
+
+    fn details(&self) -> String {
+        let (contacts, fastest) = (self.run.world.contact_count(), self.run.fastest());
+        format!("{contacts} contacts, fastest unit {fastest:.4} m/s")
     }
 }
 
-/// Whether the run is over, and why.
-fn stop_rule(run: &DryRun) -> Option<Ended> {
+/// Why the run is over, if it is.
+fn stop_rule(run: &DryRun) -> Option<Stopped> {
     let (stop, time) = (&run.case.stop, run.time());
     // The sum of the steps may fall short of the duration by rounding.
     if time >= stop.duration - 1e-9 {
-        return Some(Ended::Duration);
+        return Some(Stopped::Duration);
     }
     if let DryTest::Tilt { to, .. } = run.case.test
         && (run.slope() >= to || run.measured.slides_at.iter().all(Option::is_some))
     {
-        return Some(Ended::TestOver);
+        return Some(Stopped::TestOver);
     }
     let (rule, since) = (stop.at_rest.as_ref()?, run.measured.at_rest_since?);
-    (time >= rule.not_before && time - since >= rule.hold).then_some(Ended::AtRest)
+    (time >= rule.not_before && time - since >= rule.hold).then_some(Stopped::AtRest)
 }

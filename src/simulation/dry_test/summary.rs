@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::DryRun;
-use crate::output::{Execution, OutputError, write_atomically};
+use crate::output::{Execution, OutputError, Stopped, write_atomically};
 
 /// `summary.json` of a dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,7 +19,7 @@ pub struct DrySummary {
     /// Simulated time [s].
     pub simulated_s: f64,
     /// Why it ended.
-    pub stopped: Ended,
+    pub stopped: Stopped,
     /// Substeps of the contact.
     pub substeps: u64,
     /// Contacts that exist at the end.
@@ -50,18 +50,6 @@ pub struct DrySummary {
     pub execution: Execution,
 }
 
-/// Why a dry run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Ended {
-    /// The simulated time of the case file is over.
-    Duration,
-    /// The units had come to rest.
-    AtRest,
-    /// A slope test: all units slide, or the slope is the largest.
-    TestOver,
-}
-
 /// A unit of a dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DryUnit {
@@ -88,7 +76,7 @@ impl DrySummary {
     pub const FILE: &str = "summary.json";
 
     /// Summary of a run that has ended after `wall_s` seconds of computing.
-    pub fn of(run: &DryRun, stopped: Ended, wall_s: f64) -> Self {
+    pub fn of(run: &DryRun, stopped: Stopped, wall_s: f64) -> Self {
         let (measured, energy) = (&run.measured, run.world.energy());
         let unit = |number: usize| {
             let (start, end) = (&run.start[number], &run.world.states()[number]);

@@ -7,12 +7,19 @@ use serde_json::{Map, Value};
 use super::{
     Simulation, Units,
     checkpoint::{self, Checkpoint},
-    recorder::{Recorder, RecorderState},
+    recorder::Recorder,
+    recorder_state::RecorderState,
     rest::Rest,
-    run::{RunError, RunOptions, drive},
+    run::{FlumeRun, RunOptions},
     setup::SetupError,
 };
-use crate::{case::Case, output::Summary};
+use crate::{
+    case::Case,
+    output::{
+        Summary,
+        driver::{RunError, drive},
+    },
+};
 
 /// Units that have moved less than this share of their height stand still: rolling and sliding begin after it.
 pub const STILL: f64 = 0.01;
@@ -31,7 +38,7 @@ impl<'a> Start<'a> {
     /// # Errors
     /// If the other run has no checkpoint, is one of another case, or its units have moved.
     pub fn at(case: Arc<Case>, from: &'a Path, options: &RunOptions) -> Result<Self, RunError> {
-        let refused = |why: String| RunError::NoStart { from: from.display().to_string(), why };
+        let refused = |why: String| RunError::setup(format!("{}: the run cannot begin there: {why}", from.display()));
         if !from.join(Checkpoint::FILE).exists() {
             return Err(refused(format!("there is no {}", Checkpoint::FILE)));
         }
@@ -39,9 +46,9 @@ impl<'a> Start<'a> {
         if other.start_hash != case.start_hash {
             return Err(refused(difference(&case.text, &other.text)));
         }
-        let mut simulation = Simulation::on(&options.device, case)?;
+        let mut simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
         let outputs = checkpoint::read_of(&mut simulation, from, &other.hash)?;
-        simulation.load().map_err(SetupError::Device)?;
+        simulation.load().map_err(|error| RunError::setup(SetupError::Device(error)))?;
         let (time, height) = (simulation.flume_time(), simulation.units.as_ref().map(|units| units.shape.height()));
         let moved = simulation.units.iter().flat_map(Units::displacements).fold(0.0, f64::max);
         if height.is_some_and(|height| moved > STILL * height) {
@@ -63,7 +70,7 @@ impl<'a> Start<'a> {
         let Self { simulation, outputs, from } = self;
         let recorder = Recorder::branch(&simulation, from, dir, outputs)?;
         Checkpoint::of(&simulation, recorder.state()).write(dir, Checkpoint::FILE)?;
-        drive(simulation, recorder, dir, options)
+        drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
     }
 }
 

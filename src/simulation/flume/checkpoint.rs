@@ -10,7 +10,7 @@ use hdf5_metno::{File, Group};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::{
-    Simulation, mean_loads::MeanLoads, recorder::RecorderState, statistics::Statistics,
+    Simulation, mean_loads::MeanLoads, recorder_state::RecorderState, statistics::Statistics,
     water_at_impacts::WaterAtImpacts,
 };
 use crate::{

@@ -228,7 +228,7 @@ pub(super) mod tests {
     /// Steps until the run cannot go on; what it says.
     fn failure(simulation: &mut Simulation) -> String {
         for _ in 0..3 {
-            let done = simulation.begin_step().and_then(|dt| simulation.finish_step(dt));
+            let done = simulation.step();
             if let Err(failure) = done {
                 return failure.to_string();
             }
@@ -243,8 +243,7 @@ pub(super) mod tests {
     #[test]
     fn a_state_that_is_no_number_stops_the_run() {
         let mut simulation = tank();
-        let dt = simulation.begin_step().unwrap();
-        simulation.finish_step(dt).unwrap();
+        simulation.step().unwrap();
         let (id, place) = (simulation.water.id[400], simulation.water.position[400]);
         let named = format!("water particle {id} at x = {:.3}, y = {:.3}, z = {:.3} m", place.x, place.y, place.z);
         // At the end of a step, in the speed of one particle, while the place of another is lost already.

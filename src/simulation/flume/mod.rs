@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | make a simulation of a case |
 //! | [`incoming`] | make its wave, in the flume model or by a paddle |
-//! | this one | one step, in the order of the algorithm |
+//! | [`step`] | one time step, in the order of the algorithm |
 //! | `impermeable` | keeping water out of solids |
 //! | `zones` | water that goes over to a velocity of its own at the ends of the domain |
 //! | `absorb` | a piston that takes up the waves that come back |
@@ -35,12 +35,14 @@ mod impermeable;
 pub mod incoming;
 pub mod mean_loads;
 pub mod recorder;
+pub mod recorder_state;
 pub mod rest;
 pub mod run;
 pub mod scheme;
 pub mod setup;
 pub mod snapshots;
 pub mod statistics;
+pub mod step;
 pub mod summary;
 pub mod water_at_impacts;
 mod zones;
@@ -56,14 +58,11 @@ use crate::{
     sph::{
         backend::{Backend, DeviceError},
         particles::{bed::Outline, boundary::Boundary, water::Water},
-        power::Powers,
         rates::Rate,
-        sampling::Sampler,
     },
     waves::{absorption::AbsorptionState, record::FlumeRecord, wavemaker::Wavemaker},
 };
 use absorb::move_wavemaker;
-use failure::Failure;
 use mean_loads::MeanLoads;
 use statistics::Statistics;
 use water_at_impacts::WaterAtImpacts;
@@ -118,91 +117,6 @@ pub struct Units {
 }
 
 impl Simulation {
-    /// First half of a step: neighbours, boundary densities and rates of the present state. Gauges can be read after
-    /// it. Returns the time step [s].
-    ///
-    /// # Errors
-    /// If the state has become impossible.
-    pub fn begin_step(&mut self) -> Result<f64, Failure> {
-        self.solver.sort(&mut self.water, &self.boundary);
-        self.solver.list(&self.water, &self.boundary);
-        self.solver.boundary_densities(&mut self.boundary);
-        self.solver.rates();
-        let limits = self.solver.limits()?;
-        let dt = limits.time_step(self.solver.parameters());
-        if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
-            self.fetch()?;
-            return Err(failure::not_finite(self));
-        }
-        if self.steps == 0 {
-            // There is no half step yet that the first row of the series could show the loads of.
-            self.sum_unit_loads(0.0)?;
-        }
-        Ok(dt)
-    }
-
-    /// Second half of a step of length `dt` [s]: predictor, rates at the half step, corrector, loads,
-    /// impermeable surfaces, units.
-    ///
-    /// # Errors
-    /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the
-    /// bed.
-    pub fn finish_step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.absorb(dt);
-        let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);
-        let half_time = self.flume_time() + 0.5 * dt;
-        self.solver.predict(dt, &self.water, &mut self.boundary, &mut |boundary| {
-            move_wavemaker(boundary, wavemaker.as_ref(), absorbed, half_time, 0.5 * dt);
-            if let Some(units) = units {
-                units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
-            }
-        });
-        self.solver.rates();
-        self.solver.correct(dt, &mut self.water, &mut self.boundary);
-        self.relax_in_zones(dt);
-        self.sum_unit_loads(dt)?;
-        self.keep_water_out(dt)?;
-        self.solver.sort_ahead();
-        self.advance_units(dt)?;
-        self.time += dt;
-        self.steps += 1;
-        self.statistics.count_step(dt);
-        self.place_boundary();
-        self.watch_water()
-    }
-
-    /// Forces and torques of the water on the units at the half step.
-    fn sum_unit_loads(&mut self, dt: f64) -> Result<(), Failure> {
-        let Some(units) = &mut self.units else { return Ok(()) };
-        let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
-        let loads = self.solver.unit_loads(&self.boundary, &centres)?;
-        // In two dimensions the particles are a slice of each unit.
-        let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
-        let load = |(force, torque)| Load { force: slices * force, torque: slices * torque };
-        units.fluid_loads = loads.into_iter().map(load).collect();
-        Ok(())
-    }
-
-    /// The units' bodies over a step under the loads of the water; at first they are held.
-    fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
-        let Some(units) = &mut self.units else { return Ok(()) };
-        if self.time >= self.case.numerics.hold_units {
-            let Units { world, fluid_loads, water_at_impacts, .. } = units;
-            let since = world.time();
-            if let Err(error) = world.advance(dt, fluid_loads) {
-                return Err(failure::of_units(self, error));
-            }
-            if world.impacts_with_peak_after(since).next().is_some() {
-                self.solver.fetch_boundary_densities(&mut self.boundary)?;
-            }
-            water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters().tait);
-        } else if self.time >= 0.5 * self.case.numerics.hold_units {
-            self.statistics.count_still_loads(&units.fluid_loads);
-        }
-        units.mean_loads.add(dt, &units.fluid_loads, units.world.contact_loads());
-        Ok(())
-    }
-
     /// Put wavemaker and units where they are now.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
@@ -235,29 +149,9 @@ impl Simulation {
         }
     }
 
-    /// The water, to be measured; valid after [`Self::begin_step`] and [`Self::fetch`].
-    pub fn sampler(&self) -> Sampler<'_> {
-        let parameters = self.solver.parameters();
-        Sampler {
-            grid: self.solver.grid(),
-            bins: self.solver.water_bins(),
-            water: &self.water,
-            kernel: parameters.kernel,
-            tait: parameters.tait,
-        }
-    }
-
     /// What computes the water.
     pub fn solver(&self) -> &dyn Backend {
         &*self.solver
-    }
-
-    /// Who gives energy to the water and who takes it now; valid as [`Self::sampler`].
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn powers(&mut self) -> Result<Powers, DeviceError> {
-        self.solver.powers(&self.water)
     }
 
     /// Rates of the water found last, in the order of its arrays once they are fetched.
@@ -300,15 +194,5 @@ impl Units {
     pub fn displacements(&self) -> Vec<f64> {
         let moved = |(now, start): (&BodyState, &BodyState)| (now.position - start.position).truncate().length();
         self.states().iter().zip(&self.start).map(moved).collect()
-    }
-}
-
-/// A body after a time [s] at its present velocities.
-fn drifted(state: &BodyState, dt: f64) -> BodyState {
-    let turn = glam::DQuat::from_scaled_axis(state.angular_velocity * dt);
-    BodyState {
-        position: state.position + dt * state.velocity,
-        rotation: (turn * state.rotation).normalize(),
-        ..*state
     }
 }

@@ -11,36 +11,23 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use serde::{Deserialize, Serialize};
-
 use super::{
     Simulation, Units,
     checkpoint::Checkpoint,
+    recorder_state::RecorderState,
     snapshots::{Frame, SURFACES_FILE, SnapshotFiles, WATER_FILE},
+    step::PreparedStep,
     water_at_impacts::pressure_places,
 };
 use crate::{
     case::{Case, Gauge, Handover, Quantity, ROWS_FILE, Reference, Wave},
-    output::{CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, write_atomically},
-    report::wave_page::write_flume_gauges,
+    output::{
+        CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, is_due, write_atomically,
+        write_flume_gauges,
+    },
     rigid::{ContactEvent, RecordedContact},
     sph::power::Powers,
 };
-
-/// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct RecorderState {
-    /// Rows of the series.
-    series: u64,
-    /// Steps of the moving surfaces.
-    surfaces: u64,
-    /// Steps of the water.
-    water: u64,
-    /// Checkpoints.
-    pub checkpoints: u64,
-    /// Bytes of the tables.
-    bytes: [u64; 5],
-}
 
 /// Open output files of a run.
 pub struct Recorder {
@@ -144,26 +131,26 @@ impl Recorder {
         &self.state
     }
 
-    /// Write what is due at the present time, between the two halves of a step of length `dt` [s].
+    /// Write what is due at the present time.
     ///
     /// # Errors
     /// If a file cannot be written, a snapshot or checkpoint given before could not, or the device is lost.
-    pub fn record_due(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
+    pub fn record_due(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         self.writer.check()?;
-        let (time, case) = (simulation.time, simulation.case.clone());
+        let (time, case) = (now.time, now.case.clone());
         if self.is_anything_due(&case, time) {
-            simulation.fetch()?;
+            now.fetch()?;
         }
         if is_due(self.state.series, Some(case.output.series_interval), time) {
-            self.record_series(simulation, dt)?;
+            self.record_series(now)?;
             self.state.series += 1;
         }
         if is_due(self.state.surfaces, case.output.units_interval, time) {
-            self.record_surfaces(simulation)?;
+            self.record_surfaces(now)?;
             self.state.surfaces += 1;
         }
         if is_due(self.state.water, case.output.fluid_interval, time) {
-            self.record_water(simulation)?;
+            self.record_water(now)?;
             self.state.water += 1;
         }
         self.note_lengths();
@@ -171,37 +158,46 @@ impl Recorder {
         if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
             // Its number is part of it.
             self.state.checkpoints += 1;
-            self.record_checkpoint(simulation)?;
+            self.record_checkpoint(now)?;
         }
         Ok(())
     }
 
-    /// Write everything once more at the end of the run, and wait until all of it is in the files; `dt` is the length
-    /// of the step that would come [s].
+    /// Write everything once more at the end of the run, and wait until all of it is in the files.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn record_end(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
-        simulation.fetch()?;
-        // Before a row of its own and the end of contacts that go on: the run may go on from here.
-        self.record_checkpoint(simulation)?;
-        self.record_series(simulation, dt)?;
-        if simulation.case.output.units_interval.is_some() {
-            self.record_surfaces(simulation)?;
+    pub fn record_end(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        now.fetch()?;
+        // Before a last row and the end of lasting contacts: a longer run may continue from here.
+        self.record_checkpoint(now)?;
+        self.record_series(now)?;
+        if now.case.output.units_interval.is_some() {
+            self.record_surfaces(now)?;
         }
-        if simulation.case.output.fluid_interval.is_some() {
-            self.record_water(simulation)?;
+        if now.case.output.fluid_interval.is_some() {
+            self.record_water(now)?;
         }
-        if let Some(units) = &simulation.units {
-            let offset = contact_clock(simulation, units);
+        if let Some(units) = &now.units {
+            let offset = contact_clock(now, units);
             let running: Vec<ContactEvent> = units.world.running_events().copied().collect();
             for event in &running {
-                self.contacts.append(&contact_row(event, offset))?;
+                self.contacts.append(&columns::contact_row(event, offset))?;
             }
-            impacts_of(simulation, units, offset).write(&self.dir.join(Impacts::FILE))?;
-            running.iter().for_each(|event| count_contact(simulation, event));
+            impacts_of(now, units, offset).write(&self.dir.join(Impacts::FILE))?;
+            running.iter().for_each(|event| count_contact(now, event));
         }
         self.writer.drain()
+    }
+
+    /// Write a checkpoint of a run that the user stops, and wait until it is in its file.
+    ///
+    /// # Errors
+    /// If a file cannot be written, or the device is lost.
+    pub fn record_interruption(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        now.fetch()?;
+        self.record_checkpoint(now)?;
+        self.drain()
     }
 
     /// Wait until all snapshots and checkpoints given so far are in their files.
@@ -225,12 +221,13 @@ impl Recorder {
         self.state.bytes = tables.map(CsvSeries::bytes);
     }
 
-    fn record_series(&mut self, simulation: &mut Simulation, dt: f64) -> Result<(), OutputError> {
-        let time = simulation.flume_time();
-        self.gauges.append(&gauge_row(simulation))?;
-        let powers = simulation.powers()?;
-        self.energy.append(&energy_row(simulation, powers))?;
-        self.diagnostics.append(&simulation.diagnostics_row(dt, powers.divergence))?;
+    fn record_series(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        let (time, dt) = (now.flume_time(), now.dt());
+        self.gauges.append(&gauge_row(now))?;
+        let powers = now.powers()?;
+        self.energy.append(&energy_row(now, powers))?;
+        self.diagnostics.append(&now.diagnostics_row(dt, powers.divergence))?;
+        let simulation: &mut Simulation = now;
         let Some(units) = &mut simulation.units else { return Ok(()) };
         let events = units.world.take_events();
         let means = units.mean_loads.take();
@@ -253,7 +250,7 @@ impl Recorder {
         }
         let offset = simulation.units.as_ref().map_or(0.0, |units| contact_clock(simulation, units));
         for event in &events {
-            self.contacts.append(&contact_row(event, offset))?;
+            self.contacts.append(&columns::contact_row(event, offset))?;
             count_contact(simulation, event);
         }
         Ok(())
@@ -274,12 +271,6 @@ impl Recorder {
         let (checkpoint, dir) = (Checkpoint::of(simulation, &self.state), self.dir.clone());
         self.writer.give(move |_| checkpoint.write(&dir, Checkpoint::FILE))
     }
-}
-
-/// Whether an output that was written `count` times at an interval [s] is due.
-pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
-    // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
-    interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
 }
 
 /// Gauges that the particles can read.
@@ -346,28 +337,6 @@ fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
     let contacts = units.world.impacts();
     let impact = |contact: &RecordedContact| Impact::new(contact, offset, water.get(&contact.event.number).cloned());
     Impacts { places: pressure_places(&simulation.boundary), impacts: contacts.iter().map(impact).collect() }
-}
-
-/// A row of the contacts; `offset` leads from their clock to that of the table [s].
-pub fn contact_row(event: &ContactEvent, offset: f64) -> [f64; 15] {
-    let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
-    [
-        event.start + offset,
-        event.end + offset,
-        f64::from(event.body + 1),
-        event.partner_unit().map_or(0.0, |unit| f64::from(unit + 1)),
-        x,
-        y,
-        z,
-        event.approach_normal,
-        event.approach_tangential,
-        event.peak_force,
-        glam::DVec3::from_array(event.impulse).length(),
-        bx,
-        by,
-        bz,
-        event.rebound,
-    ]
 }
 
 fn count_contact(simulation: &mut Simulation, event: &ContactEvent) {

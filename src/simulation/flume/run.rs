@@ -1,8 +1,9 @@
-//! The loop of a run: steps, outputs, checkpoints, stop rules.
+//! A flume run from its case, or from a checkpoint, to its summary.
 
-use std::{path::Path, sync::Arc};
-
-use thiserror::Error;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use super::{
     Simulation,
@@ -12,149 +13,132 @@ use super::{
     setup::SetupError,
     summary::summarise,
 };
-use crate::output::progress::Progress;
 use crate::{
     case::Case,
-    output::{OutputError, Stopped, Summary},
-    report::run::write_report,
+    output::{
+        OutputError, Stopped, Summary,
+        driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
+    },
     rigid::BodyState,
     sph::device::Device,
 };
 
-/// Why a run ended early.
-#[derive(Debug, Error)]
-pub enum RunError {
-    /// The case cannot be set up.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// The run is to begin where another one stands, and cannot.
-    #[error("{from}: the run cannot begin there: {why}")]
-    NoStart {
-        /// Folder of the other run.
-        from: String,
-        /// Reason.
-        why: String,
-    },
-    /// A file cannot be written or read.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// The computation went astray; the state before the failing step is kept.
-    #[error("{failure}\nThe state is kept in {kept}; the last regular checkpoint is not touched.")]
-    Failed {
-        /// What happened.
-        failure: Failure,
-        /// Where the state lies.
-        kept: String,
-    },
-}
-
-/// How a run is to be made.
+/// How a run is made.
 #[derive(Debug, Clone, Default)]
 pub struct RunOptions {
-    /// No progress.
-    pub quiet: bool,
+    /// Progress, and how the user stops the run.
+    pub control: Control,
     /// What computes the water.
     pub device: Device,
-    /// End at this simulated time [s] although the case goes on: others will begin there.
+    /// End at this simulated time [s] although the case continues: other runs will begin there.
     pub until: Option<f64>,
 }
 
 /// Run a case into an existing, empty folder.
 ///
 /// # Errors
-/// If the case cannot be set up, a file cannot be written, or the computation goes astray.
+/// If the case cannot be set up, a file cannot be written, the state becomes impossible, or the user stops the run.
 pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
-    let simulation = Simulation::on(&options.device, case)?;
+    let simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
     let recorder = Recorder::create(&simulation, dir)?;
-    drive(simulation, recorder, dir, options)
+    drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
 }
 
-/// Go on with a run from its last checkpoint.
+/// Continue a run from its last checkpoint.
 ///
 /// # Errors
-/// As [`run`], and if the checkpoint is not one of the case.
+/// As [`run`], and if the checkpoint does not belong to the case.
 pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
-    let mut simulation = Simulation::on(&options.device, case)?;
+    let mut simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
     let state = checkpoint::read(&mut simulation, dir)?;
-    simulation.load().map_err(SetupError::Device)?;
+    simulation.load().map_err(|error| RunError::setup(SetupError::Device(error)))?;
     let recorder = Recorder::reopen(&simulation, dir, state)?;
-    drive(simulation, recorder, dir, options)
+    drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
 }
 
-/// Step until a stop rule holds.
-pub(super) fn drive(
-    mut simulation: Simulation,
-    mut recorder: Recorder,
-    dir: &Path,
-    options: &RunOptions,
-) -> Result<Summary, RunError> {
-    let end = options.until.map_or(simulation.case.stop.duration, |until| until.min(simulation.case.stop.duration));
-    let mut progress = Progress::new(end, simulation.time, simulation.steps, options.quiet);
-    let wall_before = simulation.statistics.wall_s;
-    let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
-    simulation.statistics.energy_start = Some(energy_start);
-    let mut warnings_shown = simulation.statistics.warnings.len();
-    loop {
-        let mut dt = match simulation.begin_step() {
-            Ok(dt) => dt,
-            Err(failure) => return Err(keep_failed(&mut simulation, &mut recorder, dir, failure)),
-        };
-        simulation.statistics.wall_s = wall_before + progress.wall();
-        if let Some(stopped) = stop_rule(&mut simulation, end) {
-            recorder.record_end(&mut simulation, dt)?;
-            progress.finish();
-            let summary = summarise(&simulation, stopped, dir)?;
-            summary.write(dir)?;
-            write_report(dir)?;
-            return Ok(summary);
+/// A simulation with its open files.
+pub(super) struct FlumeRun {
+    simulation: Simulation,
+    recorder: Recorder,
+    dir: PathBuf,
+    /// Simulated time at which the run ends [s].
+    end: f64,
+    /// Wall clock of earlier sessions [s].
+    wall_before: f64,
+    /// Length of the last time step [s].
+    dt: f64,
+}
+
+impl FlumeRun {
+    /// A run that ends with its case, or `until` [s] if that comes first.
+    pub(super) fn new(mut simulation: Simulation, recorder: Recorder, dir: &Path, until: Option<f64>) -> Self {
+        let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
+        simulation.statistics.energy_start = Some(energy_start);
+        Self {
+            end: until.unwrap_or(f64::INFINITY).min(simulation.case.stop.duration),
+            wall_before: simulation.statistics.wall_s,
+            dir: dir.to_owned(),
+            dt: 0.0,
+            simulation,
+            recorder,
         }
-        let checkpoints = recorder.state().checkpoints;
-        recorder.record_due(&mut simulation, dt)?;
-        if simulation.is_on_card() && recorder.state().checkpoints > checkpoints {
-            // Places in double precision are not to the last bit those of the card: go on as a resumed run will.
-            let begun = simulation.load().map_err(Failure::from).and_then(|()| simulation.begin_step());
-            dt = match begun {
-                Ok(dt) => dt,
-                Err(failure) => return Err(keep_failed(&mut simulation, &mut recorder, dir, failure)),
-            };
-        }
-        if let Err(failure) = simulation.finish_step(dt) {
-            return Err(keep_failed(&mut simulation, &mut recorder, dir, failure));
-        }
-        simulation.statistics.warnings[warnings_shown..].iter().for_each(|warning| progress.warn(warning));
-        warnings_shown = simulation.statistics.warnings.len();
-        progress.update(simulation.time, simulation.steps, || details(&simulation, dt));
     }
 }
 
-/// What progress tells besides the time.
-fn details(simulation: &Simulation, dt: f64) -> String {
-    let particles = simulation.water.len() + simulation.boundary.len();
-    let water = format!("dt {dt:.2e} s, {particles} particles");
-    let Some(units) = &simulation.units else { return water };
-    let displacements = units.displacements();
-    let mean = displacements.iter().sum::<f64>() / displacements.len().max(1) as f64;
-    format!("{water}, units moved {:.1} mm on average", 1e3 * mean)
-}
+impl Run for FlumeRun {
+    type Summary = Summary;
 
-/// Keep the state of a failed run beside the last good checkpoint, and the outputs up to it.
-fn keep_failed(simulation: &mut Simulation, recorder: &mut Recorder, dir: &Path, failure: Failure) -> RunError {
-    if matches!(failure, Failure::Device(_)) {
-        return RunError::Failed { failure, kept: "no file (it was on the device)".to_owned() };
+    fn clock(&self) -> Clock {
+        Clock { time: self.simulation.time, end: self.end, steps: self.simulation.steps }
     }
-    let mut write = |recorder: &mut Recorder| {
-        simulation.fetch()?;
-        recorder.drain()?;
-        Checkpoint::of(simulation, recorder.state()).write(dir, Checkpoint::FAILED_FILE)
-    };
-    let kept = match write(recorder) {
-        Ok(()) => dir.join(Checkpoint::FAILED_FILE).display().to_string(),
-        Err(error) => format!("no file ({error})"),
-    };
-    RunError::Failed { failure, kept }
+
+    fn step(&mut self, session: Session) -> Result<Step<Summary>, StepFailure> {
+        let mut now = self.simulation.begin_step().map_err(StepFailure::failure)?;
+        now.statistics.wall_s = self.wall_before + session.wall;
+        if let Some(stopped) = stop_rule(&mut now, self.end) {
+            self.recorder.record_end(&mut now)?;
+            let summary = summarise(&now, stopped, &self.dir)?;
+            summary.write(&self.dir)?;
+            return Ok(Step::Ended(summary));
+        }
+        if session.stop {
+            self.recorder.record_interruption(&mut now)?;
+            return Ok(Step::Stopped);
+        }
+        let checkpoints = self.recorder.state().checkpoints;
+        self.recorder.record_due(&mut now)?;
+        if now.is_on_card() && self.recorder.state().checkpoints > checkpoints {
+            // The checkpoint does not hold the card's positions to the last bit: continue as a resumed run will.
+            now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;
+            now = self.simulation.begin_step().map_err(StepFailure::failure)?;
+        }
+        self.dt = now.dt();
+        now.finish().map_err(StepFailure::failure)?;
+        Ok(Step::Made)
+    }
+
+    fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
+        self.simulation.fetch()?;
+        self.recorder.drain()?;
+        Checkpoint::of(&self.simulation, self.recorder.state()).write(&self.dir, Checkpoint::FAILED_FILE)?;
+        Ok(self.dir.join(Checkpoint::FAILED_FILE))
+    }
+
+    fn details(&self) -> String {
+        let Simulation { water, boundary, units, .. } = &self.simulation;
+        let water = format!("dt {:.2e} s, {} particles", self.dt, water.len() + boundary.len());
+        let Some(units) = units else { return water };
+        let displacements = units.displacements();
+        let mean = displacements.iter().sum::<f64>() / displacements.len().max(1) as f64;
+        format!("{water}, units moved {:.1} mm on average", 1e3 * mean)
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.simulation.statistics.warnings
+    }
 }
 
-/// Whether the run, which ends at a simulated time [s] at the latest, is over, and why.
+/// Why a run that lasts until `end` [s] at most is over, if it is.
 fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     if simulation.time >= end {
         return Some(Stopped::Duration);
@@ -163,7 +147,7 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     // The tips of a unit are about half its height away from its centre.
     let tips = 0.5 * units.shape.height();
     let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
-    // Units that have just begun to move have not got far yet.
+    // Units that have just begun to move have not gone far yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
     // Units that the wave has not reached are at rest, too.

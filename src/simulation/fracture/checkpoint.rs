@@ -1,7 +1,6 @@
-//! State of a fracture run to and from HDF5, to the last bit.
+//! Writes the state of a fracture run to HDF5 and reads it back bit for bit.
 //!
-//! Arrays are datasets; what else there is is one JSON text, in which every number is the shortest text that reads back
-//! to the same bits.
+//! Arrays are datasets; the rest is one JSON text. Each number in it is the shortest text that gives the same bits.
 
 use std::path::Path;
 
@@ -31,30 +30,30 @@ pub const FILE: &str = "checkpoint.h5";
 /// Name of the state at which a run failed.
 pub const FAILED_FILE: &str = "failed.h5";
 
-/// Layout of the file; raised when it changes.
+/// Version of the file layout; incremented when the layout changes.
 const VERSION: u32 = 3;
 
-/// Where a run stands besides its world.
+/// State of a run in addition to its world.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RunState {
-    /// What the loop has watched.
+    /// Quantities that the loop tracks.
     pub watched: Watched,
-    /// What the energy book came to at the start [J].
+    /// Total of the energy balance at the start [J].
     pub total_at_start: Option<f64>,
-    /// Rows of the energy book.
+    /// Number of rows of the energy balance.
     pub rows: u64,
-    /// Steps of each of the files for ParaView.
+    /// Number of time steps in each of the ParaView files.
     pub frames: u64,
-    /// Checkpoints.
+    /// Number of checkpoints.
     pub checkpoints: u64,
-    /// Lengths of the energy books of all and of each body [bytes].
+    /// Lengths of the tables of the energy balance and of the bodies [bytes].
     pub bytes: [u64; 2],
     /// Lengths of the other files.
     pub detail: DetailLengths,
 }
 
 impl RunState {
-    /// Notes a row of the energy book; returns its residual against the start [J].
+    /// Records a row of the energy balance; returns its residual relative to the start [J].
     pub fn note(&mut self, book: &Ledger) -> f64 {
         let residual = book.total() - *self.total_at_start.get_or_insert(book.total());
         let watched = &mut self.watched;
@@ -76,10 +75,10 @@ struct Header {
     world: Scalars,
 }
 
-/// Write the state of a run of the case to a file.
+/// Writes the state of a run of the case to a file.
 ///
 /// # Errors
-/// If the file cannot be written; one of before is then untouched.
+/// If the file cannot be written; an existing file is then unchanged.
 pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) -> Result<(), OutputError> {
     let state = world.snapshot();
     let header = Header { version: VERSION, case_hash: case.hash.clone(), run: run.clone(), world: state.scalars() };
@@ -87,10 +86,10 @@ pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) ->
     write_state(path, &text, |file| write_arrays(file, &state))
 }
 
-/// Put a world at its start into the state of a checkpoint of the same case; returns where the run stands.
+/// Restores a checkpoint of the same case into a world at its start; returns the state of the run.
 ///
 /// # Errors
-/// If there is no checkpoint, it is damaged, or one of another case.
+/// If the checkpoint is missing, damaged or of another case.
 pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunState, OutputError> {
     let (text, mut state) = read_state(path, read_arrays)?;
     let Header { version, case_hash, run, world: scalars } =
@@ -100,10 +99,10 @@ pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunSt
         return Err(OutputError::content(path, what));
     }
     if case_hash != case.hash {
-        return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh beside it"));
+        return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh next to it"));
     }
     state.set_scalars(scalars);
-    let damaged = |what| OutputError::content(path, format!("is damaged: {what}; start the run again"));
+    let damaged = |what| OutputError::content(path, format!("is damaged: {what}; rerun the case"));
     world.restore(state).map_err(damaged)?;
     Ok(run)
 }

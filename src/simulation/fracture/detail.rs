@@ -1,4 +1,4 @@
-//! What a fracture run tells besides energy and surfaces: failed faces as a table, the cut plane, all tetrahedra.
+//! Outputs of a fracture run besides energy and surfaces: table of failed faces, cut plane, all tetrahedra.
 
 use std::path::Path;
 
@@ -26,36 +26,36 @@ const TET_FIELDS: [(&str, FieldKind); 5] = [
     ("body", FieldKind::Integer),
     ("fragment", FieldKind::Integer),
 ];
-/// Bytes of a tetrahedron in a moment of `tets.vtkhdf`: fields, offset and type, and its share of place and velocity of
-/// the nodes, of which meshes like those of tools/mesh have a fifth of the tetrahedra.
+/// Bytes per tetrahedron and output time in `tets.vtkhdf`: fields, offset and type, and its share of node positions and
+/// velocities. Meshes of tools/mesh have one node per five tetrahedra.
 const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
-/// Bytes of its connectivity.
+/// Bytes of connectivity per tetrahedron.
 const CONNECTIVITY_BYTES: f64 = 32.0;
 
-/// How long the files were at a checkpoint.
+/// Lengths of the files at a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct DetailLengths {
-    /// Bytes of `cracks.csv`.
+    /// Length of `cracks.csv` [bytes].
     pub cracks_bytes: u64,
-    /// Rows of `cracks.csv`.
+    /// Number of rows of `cracks.csv`.
     pub cracks: usize,
-    /// Steps of `section.vtkhdf`; 0 if there is none.
+    /// Number of time steps in `section.vtkhdf`; 0 without this file.
     pub section_steps: usize,
-    /// Steps of `tets.vtkhdf`; 0 if there is none.
+    /// Number of time steps in `tets.vtkhdf`; 0 without this file.
     pub tets_steps: usize,
 }
 
-/// Open files.
+/// Open output files.
 pub struct DetailRecorder {
     cracks: CsvSeries,
-    /// Failed faces in the table.
-    told: usize,
+    /// Number of failed faces in the table.
+    recorded: usize,
     section: Option<(Section, PolyDataSeries)>,
     tets: Option<(f64, TetSeries)>,
 }
 
 impl DetailRecorder {
-    /// New files in the run folder.
+    /// Creates the files in the run folder.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -64,16 +64,16 @@ impl DetailRecorder {
         let tets = |interval| Ok::<_, OutputError>((interval, TetSeries::create(&dir.join(TETS_FILE), &TET_FIELDS)?));
         Ok(Self {
             cracks: CsvSeries::create(&dir.join(CRACKS_FILE), &columns::CRACKS)?,
-            told: 0,
+            recorded: 0,
             section: case.surfaces_interval.map(section).transpose()?.map(|series| (cut(case), series)),
             tets: case.tets_interval.map(tets).transpose()?,
         })
     }
 
-    /// The files of an interrupted run, cut where they were at a checkpoint.
+    /// Opens the files of an interrupted run and cuts them to their lengths at a checkpoint.
     ///
     /// # Errors
-    /// If a file cannot be opened, or is shorter.
+    /// If a file cannot be opened, or is shorter than at the checkpoint.
     pub fn reopen(case: &FractureCase, dir: &Path, lengths: &DetailLengths) -> Result<Self, OutputError> {
         let (path, steps) = (dir.join(SECTION_FILE), lengths.section_steps);
         let section = |_| PolyDataSeries::open_and_truncate(&path, Cells::Triangles, &SECTION_FIELDS, steps);
@@ -83,23 +83,23 @@ impl DetailRecorder {
         };
         Ok(Self {
             cracks: CsvSeries::open_truncated(&dir.join(CRACKS_FILE), lengths.cracks_bytes)?,
-            told: lengths.cracks,
+            recorded: lengths.cracks,
             section: case.surfaces_interval.map(section).transpose()?.map(|series| (cut(case), series)),
             tets: case.tets_interval.map(tets).transpose()?,
         })
     }
 
-    /// How long the files are now.
+    /// Returns the current lengths of the files.
     pub fn lengths(&self) -> DetailLengths {
         DetailLengths {
             cracks_bytes: self.cracks.bytes(),
-            cracks: self.told,
+            cracks: self.recorded,
             section_steps: self.section.as_ref().map_or(0, |(_, series)| series.steps()),
             tets_steps: self.tets.as_ref().map_or(0, |(_, series)| series.steps()),
         }
     }
 
-    /// Append the faces that have failed since the last call.
+    /// Appends the faces that failed since the last call.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -110,12 +110,12 @@ impl DetailRecorder {
             let mode = if failure.by_sliding { 2.0 } else { 1.0 };
             [failure.time, x, y, z, failure.area, mode, f64::from(world.tets.body[tet])]
         };
-        self.cracks.append_rows(world.failures[self.told..].iter().map(row))?;
-        self.told = world.failures.len();
+        self.cracks.append_rows(world.failures[self.recorded..].iter().map(row))?;
+        self.recorded = world.failures.len();
         Ok(())
     }
 
-    /// Append the cut plane as it is now.
+    /// Appends the current state of the cut plane.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -123,7 +123,7 @@ impl DetailRecorder {
         self.section.as_mut().map_or(Ok(()), |(section, series)| section.record(world, series))
     }
 
-    /// Append all tetrahedra as they are now, where the interval of the case or the end of the run asks for it.
+    /// Appends the current state of all tetrahedra if the output interval has passed or the run is `over`.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -137,7 +137,7 @@ impl DetailRecorder {
     }
 }
 
-/// Size of `tets.vtkhdf` [bytes], as long as no nodes come apart; 0 if the case asks for none.
+/// Estimates the size of `tets.vtkhdf` without cracks [bytes]; 0 if the case does not request the file.
 pub fn tets_bytes(case: &FractureCase) -> f64 {
     let moments = case.tets_interval.map_or(0.0, |interval| (case.duration / interval).ceil() + 1.0);
     let tets = case.setup.tets.len() as f64;

@@ -1,4 +1,4 @@
-//! Why a fracture run cannot go on, in words: which part of the mesh, where, when, and what is probably behind it.
+//! Messages for fracture runs that fail: which part of the mesh, where, when, and the likely cause.
 
 use std::fmt;
 
@@ -10,21 +10,21 @@ use crate::{
     femdem::{watch::StepError, world::World},
 };
 
-/// Share of the celerity [-] above which the corners of a tetrahedron move as in no impact of units: strains of a tenth.
+/// Speed over wave speed [-] that no impact of units reaches: it means strains of a tenth.
 const FAST: f64 = 0.1;
 
-/// What is usually behind motion that is no motion of a solid.
-const UNSTABLE: &str = "likely causes: speeds in the case that are no speeds of units, a time step too long for the worst \
-     tetrahedra there (lower fracture.step_share), or loads and contacts too stiff for the mesh (lower \
-     fracture.contact_penalty, refine)";
+/// Usual causes of an unstable run.
+const UNSTABLE: &str = "likely causes: velocities in the case that are too high for units, a time step too long for \
+     the worst tetrahedra there (lower fracture.step_share), or loads and contacts too stiff for the mesh (lower \
+     fracture.contact_penalty, refine the mesh)";
 
-/// A tetrahedron or a node as messages name it, by its number in the mesh file.
+/// A tetrahedron or node in a message, with its number in the mesh file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     kind: &'static str,
     tag: u64,
     body: String,
-    /// Where it was at the start [m].
+    /// Position at the start [m].
     place: DVec3,
 }
 
@@ -50,46 +50,46 @@ impl fmt::Display for Part {
     }
 }
 
-/// Why a run cannot go on. Times [s] count from the start.
+/// Why a run failed. Times are simulated times [s].
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Failure {
-    /// A tetrahedron was turned inside out.
+    /// A tetrahedron is inverted.
     #[error(
-        "after {:.5} ms (step {step}) {tet} was turned inside out, its corners moving with up to {speed:.3e} m/s: {cause}",
+        "after {:.5} ms (step {step}) {tet} is inverted; its corners move at up to {speed:.3e} m/s: {cause}",
         time * 1e3
     )]
     Inverted { time: f64, step: u64, tet: Part, speed: f64, cause: &'static str },
-    /// A place is no longer a number.
+    /// A position is not a finite number.
     #[error(
-        "after {:.5} ms (step {step}) the place of {node} is no longer a finite number: the run has become unstable; {UNSTABLE}",
+        "after {:.5} ms (step {step}) the position of {node} is not a finite number: the run is unstable; {UNSTABLE}",
         time * 1e3
     )]
     NotFinite { time: f64, step: u64, node: Part },
     /// A node is faster than any wave.
     #[error(
-        "after {:.5} ms (step {step}) {node} moves with {speed:.3e} m/s, more than the {limit:.3e} m/s that twice the celerity \
-         and the motion of the case allow: the run has become unstable; {UNSTABLE}", time * 1e3
+        "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s from \
+         twice the wave speed and the motion of the case: the run is unstable; {UNSTABLE}", time * 1e3
     )]
     TooFast { time: f64, step: u64, node: Part, speed: f64, limit: f64 },
-    /// A node has flown away.
+    /// A node is far from the mesh.
     #[error(
-        "after {:.5} ms (step {step}) {node} has gone {distance:.3} m from the middle of the mesh, more than the {limit:.3} m \
-         that 50 diagonals and the motion of the case allow: a piece flew off that touches nothing any more (end the run \
-         earlier with stop.duration_s), or a body is missing that should stop it, or a contact threw it out (lower \
+        "after {:.5} ms (step {step}) {node} is {distance:.3} m from the middle of the mesh, more than the limit of \
+         {limit:.3} m from 50 diagonals and the motion of the case: a piece flies off freely (end the run earlier with \
+         stop.duration_s), a body that should stop it is missing, or a contact threw it out (lower \
          fracture.step_share)", time * 1e3
     )]
     Escaped { time: f64, step: u64, node: Part, distance: f64, limit: f64 },
-    /// Two tetrahedra are too deep in each other.
+    /// Two tetrahedra overlap too much.
     #[error(
-        "after {:.5} ms (step {step}) {first} and {second} overlap by {:.0} % of the smaller one: the contact is too soft for \
-         the impact; raise fracture.contact_penalty, or refine the mesh there, and check the velocities of the case",
+        "after {:.5} ms (step {step}) {first} and {second} overlap by {:.0} % of the smaller one: the contact is too \
+         soft for the impact; raise fracture.contact_penalty or refine the mesh, and check the velocities of the case",
         time * 1e3, 100.0 * share
     )]
     TooDeep { time: f64, step: u64, first: Part, second: Part, share: f64 },
 }
 
 impl Failure {
-    /// What an error of the world means for the run of a case, at its step of that number.
+    /// Turns an error of the solver into a message about the case; `step` is the number of the time step.
     pub fn of(case: &FractureCase, world: &World, step: u64, error: StepError) -> Self {
         let node = |number| Part::node(case, world, number);
         match error {
@@ -117,13 +117,13 @@ impl Failure {
 fn cause_of_inversion(world: &World, tet: usize, speed: f64) -> &'static str {
     let body = &world.setup().bodies[usize::from(world.tets.body[tet])];
     if speed > FAST * body.elastic.celerity() {
-        "that is a tenth of the celerity and more; the velocities of the case are no speeds of units, or the time step is too \
-         long for it (lower fracture.step_share)"
+        "that is more than a tenth of the wave speed; the velocities of the case are too high for units, or the time \
+         step is too long (lower fracture.step_share)"
     } else if world.contacts.presses(tet as u32) {
-        "another one presses it; the impact crushes elements of that size: refine the mesh there, or lower \
+        "another tetrahedron presses on it; the impact crushes elements of that size: refine the mesh there, or lower \
          fracture.contact_penalty"
     } else {
-        "it was pulled or sheared flat, often a sliver beside a crack: mesh again with Mesh.Optimize = 1, refine there, or give \
-         the material some viscosity"
+        "it was stretched or sheared flat, often as a sliver next to a crack: remesh with Mesh.Optimize = 1, refine \
+         there, or give the material some viscosity"
     }
 }

@@ -1,4 +1,4 @@
-//! Pieces that bodies have broken into.
+//! Pieces into which the bodies broke.
 
 use std::path::Path;
 
@@ -13,9 +13,9 @@ const FILE: &str = "fragments.csv";
 /// A piece of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fragment {
-    /// Number of the body.
+    /// Index of the body.
     pub body: usize,
-    /// Tetrahedra.
+    /// Number of tetrahedra.
     pub tets: usize,
     /// Mass [kg].
     pub mass: f64,
@@ -30,18 +30,19 @@ pub struct Fragment {
 pub struct Pieces {
     /// Pieces of the bodies that can crack, the heaviest first.
     pub fragments: Vec<Fragment>,
-    /// For every tetrahedron the number of its piece, counted from 1; 0 in bodies that cannot crack.
+    /// Piece of each tetrahedron, counted from 1; 0 in bodies that cannot crack.
     pub of_tet: Vec<u32>,
 }
 
-/// Pieces of the bodies that can crack, the heaviest first: what unbroken faces hold together.
+/// Finds the pieces of the bodies that can crack: tetrahedra connected by unbroken faces. The heaviest piece comes
+/// first.
 pub fn pieces(world: &World) -> Pieces {
     let setup = world.setup();
     let mut leader: Vec<u32> = (0..setup.tets.len() as u32).collect();
     for (interface, bond) in setup.interfaces.iter().zip(&world.joints.bond) {
         if *bond != Bond::Broken {
             let [a, b] = interface.tets.map(|tet| first_of(&mut leader, tet));
-            // The lower number leads, whatever the order.
+            // The lower index leads, so that the result does not depend on the order.
             leader[a.max(b) as usize] = a.min(b);
         }
     }
@@ -72,7 +73,7 @@ pub fn pieces(world: &World) -> Pieces {
     Pieces { fragments: fragments.into_iter().map(|(_, fragment)| fragment).collect(), of_tet }
 }
 
-/// Write `fragments.csv` into the run folder: the pieces at the end of a run.
+/// Writes `fragments.csv` into the run folder: the pieces at the end of a run.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -85,12 +86,12 @@ pub fn write_fragments(fragments: &[Fragment], dir: &Path) -> Result<(), OutputE
     CsvSeries::create(&dir.join(FILE), &columns::FRAGMENTS)?.append_rows(fragments.iter().enumerate().map(row))
 }
 
-/// First tetrahedron of a piece; the way to it becomes shorter.
+/// Returns the first tetrahedron of a piece (union-find with path halving).
 fn first_of(leader: &mut [u32], tet: u32) -> u32 {
-    let mut at = tet;
-    while leader[at as usize] != at {
-        leader[at as usize] = leader[leader[at as usize] as usize];
-        at = leader[at as usize];
+    let mut current = tet;
+    while leader[current as usize] != current {
+        leader[current as usize] = leader[leader[current as usize] as usize];
+        current = leader[current as usize];
     }
-    at
+    current
 }

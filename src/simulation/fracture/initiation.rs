@@ -1,30 +1,30 @@
-//! Where cracks began, in order of time.
+//! Positions at which cracks began, in order of time.
 
 use glam::DVec3;
 
 use crate::femdem::world::{Failure, World};
 
-/// A crack begins where the nearest face that failed before is further away than so many edges [-]: one that grows
-/// advances by an element at a time.
+/// Distance from the nearest failed face over the edge length [-] beyond which a new crack begins. A growing crack
+/// advances by one element at a time.
 const APART: f64 = 4.0;
 
-/// A place where a crack began.
+/// Beginning of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Initiation {
     /// The first face that failed there.
     pub first: Failure,
-    /// Number of the body.
+    /// Index of the body.
     pub body: usize,
-    /// Area that belongs to this beginning by the end: of the faces that failed nearer to it than to others [m2].
+    /// Area of all failed faces that belong to this crack at the end [m2].
     pub area: f64,
 }
 
-/// Beginnings of the cracks of a world. Faces failing one after another within four edges are one crack.
+/// Finds the beginnings of the cracks. Faces that fail one after another within four edge lengths belong to one crack.
 pub fn initiations(world: &World) -> Vec<Initiation> {
     let setup = world.setup();
     let mut found: Vec<(Initiation, Vec<DVec3>)> = Vec::new();
     for failure in &world.failures {
-        // Of an equilateral triangle.
+        // Edge length of an equilateral triangle of the same area.
         let reach = APART * (failure.area * 4.0 / 3f64.sqrt()).sqrt();
         let distance = |(_, places): &(Initiation, Vec<DVec3>)| {
             places.iter().map(|place| place.distance(failure.place)).fold(f64::MAX, f64::min)

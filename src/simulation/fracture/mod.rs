@@ -1,16 +1,16 @@
-//! Fracture runs: what `breakwater fracture` does with a case.
+//! Fracture runs: the work of `breakwater fracture`.
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | [`run`] | the loop with its outputs |
+//! | [`run`] | a run from its case or checkpoint to its summary |
 //! | [`recorder`] | tables, surfaces and cracks |
-//! | [`checkpoint`] | the state of a run, to go on from |
-//! | [`failure`] | why a run cannot go on, in words |
-//! | [`detail`] | failed faces as a table, cut plane, tetrahedra |
-//! | [`section`] | where the cut plane meets the tetrahedra |
-//! | [`fragments`] | pieces that bodies have broken into |
-//! | [`initiation`] | where cracks began, in order |
-//! | [`summary`] | the run in a few numbers |
+//! | [`checkpoint`] | state of a run, for resuming it |
+//! | [`failure`] | messages for runs that fail |
+//! | [`detail`] | table of failed faces, cut plane, tetrahedra |
+//! | [`section`] | intersection of the cut plane with the tetrahedra |
+//! | [`fragments`] | pieces into which the bodies broke |
+//! | [`initiation`] | positions at which cracks began |
+//! | [`summary`] | summary of a run |
 
 pub mod checkpoint;
 pub mod detail;

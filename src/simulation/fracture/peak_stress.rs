@@ -1,4 +1,4 @@
-//! Where and when the tension was largest.
+//! Position and time of the largest tension.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -7,35 +7,35 @@ use super::recorder::principal;
 use crate::femdem::element::{self, Moduli};
 use crate::femdem::world::World;
 
-/// Largest first principal stress of a body, of all moments of the energy book.
+/// Largest first principal stress of a body over all rows of the energy balance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PeakStress {
     /// sigma_1 of a tetrahedron, tension positive [Pa].
     pub sigma_1_pa: f64,
-    /// When [s].
+    /// Time [s].
     pub t_s: f64,
     /// Centroid of the tetrahedron in the undeformed body [m].
     pub place_m: [f64; 3],
 }
 
-/// Largest first principal stress in each body now: elastic Cauchy stress [Pa], and the tetrahedron that has it.
+/// Returns the largest first principal stress in each body now: elastic Cauchy stress [Pa], and its tetrahedron.
 pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
-    let of = |body: &crate::femdem::setup::Body| {
+    let largest = |body: &crate::femdem::setup::Body| {
         let moduli = Moduli::from(&body.elastic);
         let sigma_1 = |tet: usize| {
             let places = world.tets.nodes[tet].map(|node| world.nodes.place[node as usize]);
             (principal(element::stress(&world.tets.shape[tet], &moduli, &places))[0], tet)
         };
-        // Of equal ones the first, whatever the order in which threads find them.
+        // Of equal stresses the first tetrahedron, so that the result does not depend on the threads.
         let larger = |a: (f64, usize), b: (f64, usize)| {
             if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) { b } else { a }
         };
         body.tets.clone().into_par_iter().map(sigma_1).reduce(|| (f64::NEG_INFINITY, usize::MAX), larger)
     };
-    world.setup().bodies.iter().map(of).collect()
+    world.setup().bodies.iter().map(largest).collect()
 }
 
-/// Carry the largest stresses of the bodies on over a moment [s].
+/// Updates the largest stresses of the bodies with those at the time `time` [s].
 pub fn carry_on(peaks: &mut Vec<PeakStress>, world: &World, now: &[(f64, usize)], time: f64) {
     let setup = world.setup();
     let peak = |(sigma_1, tet): &(f64, usize)| {

@@ -1,4 +1,4 @@
-//! Tables of a fracture run, and its surfaces and cracks for ParaView.
+//! Writes the tables of a fracture run, and its surfaces and cracks for ParaView.
 
 use std::path::Path;
 
@@ -32,12 +32,12 @@ pub struct FractureRecorder {
     energy: CsvSeries,
     bodies: CsvSeries,
     surfaces: Option<[PolyDataSeries; 2]>,
-    /// Failed faces, cut plane, tetrahedra.
+    /// Outputs of failed faces, cut plane and tetrahedra.
     pub detail: DetailRecorder,
 }
 
 impl FractureRecorder {
-    /// New files in the run folder, and those that do not change.
+    /// Creates the files in the run folder and writes those that do not change.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -58,10 +58,10 @@ impl FractureRecorder {
         })
     }
 
-    /// The files of an interrupted run, cut to where they stood at its checkpoint.
+    /// Opens the files of an interrupted run and cuts them to their lengths at its checkpoint.
     ///
     /// # Errors
-    /// If a file is missing or shorter than it was.
+    /// If a file is missing or shorter than at the checkpoint.
     pub fn reopen(case: &FractureCase, dir: &Path, state: &RunState) -> Result<Self, OutputError> {
         let steps = state.frames as usize;
         let series = |_| -> Result<[PolyDataSeries; 2], OutputError> {
@@ -78,12 +78,12 @@ impl FractureRecorder {
         })
     }
 
-    /// Lengths of the energy books of all and of each body [bytes].
+    /// Returns the lengths of the tables of the energy balance and of the bodies [bytes].
     pub fn bytes(&self) -> [u64; 2] {
         [&self.energy, &self.bodies].map(CsvSeries::bytes)
     }
 
-    /// Append a row for each body at a moment [s], with its energies and its largest stress.
+    /// Appends a row for each body at a time [s], with its energies and its largest stress.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -99,7 +99,7 @@ impl FractureRecorder {
         })
     }
 
-    /// Append a row of the energy book of a moment [s], and the faces that have failed since the row before.
+    /// Appends a row of the energy balance at a time [s], and the faces that failed since the last row.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -124,7 +124,7 @@ impl FractureRecorder {
         ])
     }
 
-    /// Append the outsides of the bodies, the crack faces and the cut plane as they are now.
+    /// Appends the current surfaces of the bodies, the crack faces and the cut plane.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -177,12 +177,12 @@ impl FractureRecorder {
     }
 }
 
-/// Every three points are a triangle.
+/// Returns triangles of three successive points each.
 fn corners_in_threes(points: usize) -> Vec<[u32; 3]> {
     (0..points as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()
 }
 
-/// Principal values of a symmetric tensor, the largest first (Smith 1961).
+/// Computes the principal values of a symmetric tensor, the largest first (Smith 1961).
 pub fn principal(t: DMat3) -> [f64; 3] {
     let mean = (t.x_axis.x + t.y_axis.y + t.z_axis.z) / 3.0;
     let deviator = t - DMat3::IDENTITY * mean;
@@ -210,7 +210,7 @@ mod tests {
         for given in [[5.0, 2.0, -7.0], [3.0, 3.0, -1.0], [4.0, 4.0, 4.0], [0.0, 0.0, 0.0]] {
             let tensor = turn * DMat3::from_diagonal(DVec3::from_array(given)) * turn.transpose();
             let found = principal(tensor);
-            // The angle of a double root is known to the root of rounding.
+            // Tolerance: the angle of a double root is accurate to the square root of the rounding error.
             assert!(found.iter().zip(given).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?} {given:?}");
         }
     }

@@ -1,6 +1,6 @@
-//! The loop of a fracture run.
+//! A fracture run from its case, or from a checkpoint, to its summary.
 
-use std::{path::Path, time::Instant};
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -14,145 +14,184 @@ use super::{
 };
 use crate::{
     case::FractureCase,
-    femdem::{watch::StepError, world::World},
-    output::{OutputError, progress::Progress},
-    simulation::flume::recorder::is_due,
+    femdem::{energy::Ledger, watch::StepError, world::World},
+    output::{
+        OutputError,
+        driver::{Clock, Control, Run, RunError, Session, Step, StepFailure, drive},
+        is_due,
+    },
 };
 
-/// Why a fracture run ended early.
+/// The time step of the case is longer than the mesh allows.
 #[derive(Debug, Error)]
-pub enum FractureError {
-    /// The time step of the case is not stable.
-    #[error(
-        "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable step of this mesh; leave it out"
-    )]
-    Step {
-        /// As given [s].
-        given: f64,
-        /// The longest one [s].
-        longest: f64,
-    },
-    /// The computation went astray.
-    #[error("{failure}\nThe state is kept in {kept}; the last regular checkpoint is not touched.")]
-    Failed {
-        /// What happened.
-        failure: Box<Failure>,
-        /// Where the state lies.
-        kept: String,
-    },
-    /// A file cannot be written or read.
-    #[error(transparent)]
-    Output(#[from] OutputError),
+#[error(
+    "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable step of this mesh; leave it out"
+)]
+pub struct UnstableStep {
+    /// As given [s].
+    pub given: f64,
+    /// The longest stable one [s].
+    pub longest: f64,
 }
 
 /// The world of a case at its start.
 ///
 /// # Errors
 /// If the time step of the case is not stable.
-pub fn world(case: &FractureCase) -> Result<World, FractureError> {
+pub fn world(case: &FractureCase) -> Result<World, UnstableStep> {
     let mut world = World::new(case.setup.clone(), case.step_share);
     if let Some(given) = case.dt {
         let longest = world.dt / case.step_share;
         if given > longest {
-            return Err(FractureError::Step { given, longest });
+            return Err(UnstableStep { given, longest });
         }
         world.dt = given;
     }
     Ok(world)
 }
 
-/// Steps between two looks at places and contacts: these cost as much as a tenth of a step.
-const LOOK: u64 = 100;
+/// Steps between two checks of positions and contacts: a check costs as much as a tenth of a step.
+const STEPS_BETWEEN_CHECKS: u64 = 100;
 
 /// Run a fracture case, whose world is at its start, into an existing, empty folder.
 ///
 /// # Errors
-/// If the computation goes astray or a file cannot be written.
-pub fn run(case: &FractureCase, world: World, dir: &Path, quiet: bool) -> Result<FractureSummary, FractureError> {
+/// If a file cannot be written, the state becomes impossible, or the user stops the run.
+pub fn run(case: &FractureCase, world: World, dir: &Path, control: &Control) -> Result<FractureSummary, RunError> {
     let recorder = FractureRecorder::create(case, dir)?;
-    drive(case, world, recorder, RunState::default(), dir, quiet)
+    drive(FractureRun::new(case, world, recorder, RunState::default(), dir), dir, control)
 }
 
-/// Go on with a fracture run from its last checkpoint; `world` is that of its case at the start.
+/// Continue a fracture run from its last checkpoint; `world` is that of its case at the start.
 ///
 /// # Errors
-/// As [`run`], and if the checkpoint is damaged or not one of the case.
+/// As [`run`], and if the checkpoint is damaged or does not belong to the case.
 pub fn resume(
     case: &FractureCase,
     mut world: World,
     dir: &Path,
-    quiet: bool,
-) -> Result<FractureSummary, FractureError> {
+    control: &Control,
+) -> Result<FractureSummary, RunError> {
     let state = checkpoint::read(case, &mut world, &dir.join(checkpoint::FILE))?;
     let recorder = FractureRecorder::reopen(case, dir, &state)?;
-    drive(case, world, recorder, state, dir, quiet)
+    drive(FractureRun::new(case, world, recorder, state, dir), dir, control)
 }
 
-fn drive(
-    case: &FractureCase,
-    mut world: World,
-    mut recorder: FractureRecorder,
-    mut state: RunState,
-    dir: &Path,
-    quiet: bool,
-) -> Result<FractureSummary, FractureError> {
-    let (begun, wall_before) = (Instant::now(), state.watched.wall);
-    let mut progress = Progress::new(case.duration, world.time, state.watched.steps, quiet);
-    loop {
-        state.watched.wall = wall_before + begun.elapsed().as_secs_f64();
-        let over = world.time >= case.duration;
-        let row_due = over || world.time >= state.rows as f64 * case.energy_interval;
-        let frame_due =
-            case.surfaces_interval.is_some_and(|interval| over || world.time >= state.frames as f64 * interval);
-        if frame_due {
-            recorder.record_surfaces(case, &world)?;
-            state.frames += 1;
+/// A world with its open files.
+struct FractureRun<'a> {
+    case: &'a FractureCase,
+    world: World,
+    recorder: FractureRecorder,
+    state: RunState,
+    dir: &'a Path,
+    /// Wall clock of earlier sessions [s].
+    wall_before: f64,
+}
+
+impl<'a> FractureRun<'a> {
+    fn new(case: &'a FractureCase, world: World, recorder: FractureRecorder, state: RunState, dir: &'a Path) -> Self {
+        let wall_before = state.watched.wall;
+        Self { case, world, recorder, state, dir, wall_before }
+    }
+
+    fn failure(&self, error: StepError) -> StepFailure {
+        StepFailure::failure(Box::new(Failure::of(self.case, &self.world, self.state.watched.steps, error)))
+    }
+
+    /// Makes a step that also adds up the energies, and writes them.
+    fn step_with_row(&mut self) -> Result<Ledger, StepFailure> {
+        let time = self.world.time;
+        let (book, bodies) = self.world.step_with_books().map_err(|error| self.failure(error))?;
+        let residual = self.state.note(&book);
+        self.recorder.record_energy(&self.world, time, &book, residual)?;
+        let stresses = largest_stresses(&self.world);
+        carry_on(&mut self.state.watched.peaks, &self.world, &stresses, time);
+        self.recorder.record_bodies(time, &bodies, &stresses)?;
+        (self.state.rows, self.state.bytes) = (self.state.rows + 1, self.recorder.bytes());
+        Ok(book)
+    }
+
+    fn record_surfaces(&mut self) -> Result<(), OutputError> {
+        self.recorder.record_surfaces(self.case, &self.world)?;
+        self.state.frames += 1;
+        Ok(())
+    }
+
+    /// Writes the outputs that are due and makes one time step.
+    fn advance(&mut self) -> Result<(), StepFailure> {
+        let time = self.world.time;
+        if self.case.surfaces_interval.is_some_and(|interval| time >= self.state.frames as f64 * interval) {
+            self.record_surfaces()?;
         }
-        recorder.detail.record_tets_if_due(&world, over)?;
-        let time = world.time;
-        let stepped = if row_due { world.step_with_books().map(Some) } else { world.step().map(|()| None) };
-        let book = stepped.map_err(|error| failed(case, &world, &state, dir, error))?;
-        if let Some((book, bodies)) = book {
-            let residual = state.note(&book);
-            recorder.record_energy(&world, time, &book, residual)?;
-            let stresses = largest_stresses(&world);
-            carry_on(&mut state.watched.peaks, &world, &stresses, time);
-            recorder.record_bodies(time, &bodies, &stresses)?;
-            (state.rows, state.bytes) = (state.rows + 1, recorder.bytes());
-            if over {
-                progress.finish();
-                let fragments = pieces(&world).fragments;
-                write_fragments(&fragments, dir)?;
-                let summary = FractureSummary::of(case, &world, &book, &state.watched, &fragments);
-                summary.write(dir)?;
-                return Ok(summary);
-            }
+        self.recorder.detail.record_tets_if_due(&self.world, false)?;
+        if time >= self.state.rows as f64 * self.case.energy_interval {
+            self.step_with_row()?;
+        } else {
+            self.world.step().map_err(|error| self.failure(error))?;
         }
-        state.watched.steps += 1;
-        if state.watched.impact.is_none() && world.contacts.between_bodies(&world.tets) {
-            state.watched.impact = Some(world.time - world.dt);
+        self.state.watched.steps += 1;
+        if self.state.watched.impact.is_none() && self.world.contacts.between_bodies(&self.world.tets) {
+            self.state.watched.impact = Some(self.world.time - self.world.dt);
         }
-        // The first one is due at the first interval: the start can be made anew from the case.
-        let checkpoint_due = is_due(state.checkpoints + 1, case.checkpoint_interval, world.time);
-        if checkpoint_due || state.watched.steps.is_multiple_of(LOOK) {
-            world.watch().map_err(|error| failed(case, &world, &state, dir, error))?;
+        // The first checkpoint is due after the first interval: the case itself holds the start.
+        let checkpoint_due = is_due(self.state.checkpoints + 1, self.case.checkpoint_interval, self.world.time);
+        if checkpoint_due || self.state.watched.steps.is_multiple_of(STEPS_BETWEEN_CHECKS) {
+            self.world.watch().map_err(|error| self.failure(error))?;
         }
         if checkpoint_due {
-            state.checkpoints += 1;
-            state.detail = recorder.detail.lengths();
-            checkpoint::write(case, &world, &state, &dir.join(checkpoint::FILE))?;
+            self.state.checkpoints += 1;
+            self.write_checkpoint()?;
         }
-        let (failed, touching) = (world.failures.len(), world.contacts.touching);
-        progress.update(world.time, state.watched.steps, || format!("{failed} faces failed, {touching} pairs touch"));
+        Ok(())
+    }
+
+    /// Writes the last outputs; the energies of the end take one more step.
+    fn finish(&mut self) -> Result<FractureSummary, StepFailure> {
+        if self.case.surfaces_interval.is_some() {
+            self.record_surfaces()?;
+        }
+        self.recorder.detail.record_tets_if_due(&self.world, true)?;
+        let book = self.step_with_row()?;
+        let fragments = pieces(&self.world).fragments;
+        write_fragments(&fragments, self.dir)?;
+        let summary = FractureSummary::of(self.case, &self.world, &book, &self.state.watched, &fragments);
+        summary.write(self.dir)?;
+        Ok(summary)
+    }
+
+    fn write_checkpoint(&mut self) -> Result<(), OutputError> {
+        self.state.detail = self.recorder.detail.lengths();
+        checkpoint::write(self.case, &self.world, &self.state, &self.dir.join(checkpoint::FILE))
     }
 }
 
-/// Keeps the state of a run that has gone astray.
-fn failed(case: &FractureCase, world: &World, state: &RunState, dir: &Path, error: StepError) -> FractureError {
-    let path = dir.join(checkpoint::FAILED_FILE);
-    let kept = match checkpoint::write(case, world, state, &path) {
-        Ok(()) => path.display().to_string(),
-        Err(error) => format!("no file ({error})"),
-    };
-    FractureError::Failed { failure: Box::new(Failure::of(case, world, state.watched.steps, error)), kept }
+impl Run for FractureRun<'_> {
+    type Summary = FractureSummary;
+
+    fn clock(&self) -> Clock {
+        Clock { time: self.world.time, end: self.case.duration, steps: self.state.watched.steps }
+    }
+
+    fn step(&mut self, session: Session) -> Result<Step<FractureSummary>, StepFailure> {
+        self.state.watched.wall = self.wall_before + session.wall;
+        if self.world.time >= self.case.duration {
+            return self.finish().map(Step::Ended);
+        }
+        if session.stop {
+            self.write_checkpoint()?;
+            return Ok(Step::Stopped);
+        }
+        self.advance()?;
+        Ok(Step::Made)
+    }
+
+    fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
+        let path = self.dir.join(checkpoint::FAILED_FILE);
+        checkpoint::write(self.case, &self.world, &self.state, &path)?;
+        Ok(path)
+    }
+
+    fn details(&self) -> String {
+        format!("{} faces failed, {} pairs touch", self.world.failures.len(), self.world.contacts.touching)
+    }
 }

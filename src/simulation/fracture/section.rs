@@ -1,4 +1,4 @@
-//! The cut plane of a fracture run: a plane of the undeformed bodies that moves with them.
+//! The cut plane of a fracture run: a plane through the undeformed bodies that deforms with them.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::femdem::setup::Setup;
 use crate::femdem::world::World;
 use crate::output::{FieldKind, FieldValues, OutputError, PolyDataSeries};
 
-/// Point fields of the file of the cut plane.
+/// Point fields of the cut plane file.
 pub const SECTION_FIELDS: [(&str, FieldKind); 4] = [
     ("velocity", FieldKind::Vector),
     ("sigma_1", FieldKind::Scalar),
@@ -22,41 +22,41 @@ pub const SECTION_FIELDS: [(&str, FieldKind); 4] = [
 struct EdgePoint {
     /// The two vertices.
     ends: [u8; 2],
-    /// Where between them, 0 to 1.
+    /// Position between them, 0 to 1.
     share: f64,
 }
 
-/// Triangles in which a plane cuts the tetrahedra.
+/// Triangles in which the plane cuts the tetrahedra.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
     triangles: Vec<(u32, [EdgePoint; 3])>,
 }
 
 impl Section {
-    /// The cut through the bodies as they stand at the start. Seen against the normal, triangles run anticlockwise.
+    /// Cuts the undeformed bodies. Triangles run anticlockwise seen against the normal.
     pub fn new(setup: &Setup, plane: &Plane) -> Self {
         let mut triangles = Vec::new();
         for (number, tet) in setup.tets.iter().enumerate() {
             let corners = tet.map(|node| setup.nodes[node as usize]);
             let height = corners.map(|corner| plane.height(corner));
             let (above, below): (Vec<u8>, Vec<u8>) = (0..4).partition(|k| height[usize::from(*k)] >= 0.0);
-            let on = |a: u8, b: u8| {
+            let cut = |a: u8, b: u8| {
                 let [h_a, h_b] = [a, b].map(|k| height[usize::from(k)]);
                 EdgePoint { ends: [a, b], share: h_a / (h_a - h_b) }
             };
             let polygon = match (above.as_slice(), below.as_slice()) {
-                ([one], [a, b, c]) | ([a, b, c], [one]) => vec![on(*one, *a), on(*one, *b), on(*one, *c)],
-                ([a, b], [c, d]) => vec![on(*a, *c), on(*a, *d), on(*b, *d), on(*b, *c)],
+                ([one], [a, b, c]) | ([a, b, c], [one]) => vec![cut(*one, *a), cut(*one, *b), cut(*one, *c)],
+                ([a, b], [c, d]) => vec![cut(*a, *c), cut(*a, *d), cut(*b, *d), cut(*b, *c)],
                 _ => continue,
             };
             for k in 2..polygon.len() {
                 let mut triangle = [polygon[0], polygon[k - 1], polygon[k]];
-                let [a, b, c] = triangle.map(|point| point.of(corners));
+                let [a, b, c] = triangle.map(|point| point.value(corners));
                 let normal = (b - a).cross(c - a);
                 if normal.dot(plane.normal) < 0.0 {
                     triangle.swap(1, 2);
                 }
-                // A plane through an edge leaves triangles without area.
+                // A plane through an edge gives triangles without area.
                 if normal.length() > 1e-9 * (corners[1] - corners[0]).length_squared() {
                     triangles.push((number as u32, triangle));
                 }
@@ -65,7 +65,7 @@ impl Section {
         Self { triangles }
     }
 
-    /// Append the cut as it is now.
+    /// Appends the current state of the cut.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -81,8 +81,8 @@ impl Section {
             let stress = element::stress(&world.tets.shape[*tet as usize], &moduli, &places);
             let [sigma_1, _, sigma_3] = principal(stress);
             for point in triangle {
-                points.push(single(point.of(places)));
-                velocity.push(single(point.of(velocities)));
+                points.push(single(point.value(places)));
+                velocity.push(single(point.value(velocities)));
                 first.push(sigma_1 as f32);
                 difference.push((sigma_1 - sigma_3) as f32);
                 body.push(i32::from(number));
@@ -100,7 +100,8 @@ impl Section {
 }
 
 impl EdgePoint {
-    fn of(&self, at_vertices: [DVec3; 4]) -> DVec3 {
+    /// Interpolates a field from its values at the vertices.
+    fn value(&self, at_vertices: [DVec3; 4]) -> DVec3 {
         let [a, b] = self.ends.map(|k| at_vertices[usize::from(k)]);
         a.lerp(b, self.share)
     }
@@ -114,26 +115,26 @@ mod tests {
     use crate::femdem::mesh::prepare;
     use crate::femdem::setup::Body;
 
-    /// Area of the cut through a box, and whether all of it looks along the normal.
+    /// Returns the area of the cut through a box; checks that all triangles face along the normal.
     fn area(plane: Plane) -> f64 {
         let mesh = prepare(block(DVec3::new(0.4, 0.3, 0.2), [4, 3, 2], Pattern::Diagonal)).unwrap();
         let elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisson_ratio: 0.2, viscosity: 0.0 };
         let setup = Setup::of_mesh(&mesh, vec![Body::at_rest(0..mesh.mesh.tets.len(), elastic)]);
         let section = Section::new(&setup, &plane);
-        let of = |(tet, triangle): &(u32, [EdgePoint; 3])| {
+        let triangle_area = |(tet, triangle): &(u32, [EdgePoint; 3])| {
             let corners = setup.tets[*tet as usize].map(|node| setup.nodes[node as usize]);
-            let [a, b, c] = triangle.map(|point| point.of(corners));
+            let [a, b, c] = triangle.map(|point| point.value(corners));
             0.5 * (b - a).cross(c - a).dot(plane.normal)
         };
-        section.triangles.iter().map(of).inspect(|area| assert!(*area > 0.0)).sum()
+        section.triangles.iter().map(triangle_area).inspect(|area| assert!(*area > 0.0)).sum()
     }
 
     #[test]
-    fn a_cut_has_the_area_of_the_body_there() {
+    fn cut_has_the_cross_section_area_of_the_body() {
         let through = |point: [f64; 3], normal: DVec3| {
             area(Plane { point: DVec3::from_array(point), normal: normal.normalize() })
         };
-        // Rounding; the second plane lies in faces of the tetrahedra, and counts those of one side.
+        // Tolerance: rounding. The second plane lies in faces of tetrahedra; only those of one side count.
         assert!((through([0.0, 0.13, 0.0], DVec3::Y) - 0.08).abs() < 1e-12);
         assert!((through([0.0, 0.1, 0.0], DVec3::Y) - 0.08).abs() < 1e-12);
         // Along the diagonal of x and z.

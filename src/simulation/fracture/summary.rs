@@ -1,4 +1,4 @@
-//! A fracture run in a few numbers.
+//! Summary of a fracture run.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::output::{Execution, OutputError, write_atomically};
 
 const SUMMARY_FILE: &str = "summary.json";
 
-/// `summary.json` of a fracture run.
+/// Content of `summary.json` of a fracture run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FractureSummary {
     /// Title of the case.
@@ -22,27 +22,28 @@ pub struct FractureSummary {
     pub breakwater_version: String,
     /// Fingerprint of case and mesh.
     pub case_hash: String,
-    /// Tetrahedra.
+    /// Number of tetrahedra.
     pub tets: usize,
-    /// Faces between those of bodies that can crack.
+    /// Number of faces between tetrahedra in bodies that can crack.
     pub joints: usize,
     /// Simulated time [s].
     pub simulated_s: f64,
     /// Time step [s].
     pub dt_s: f64,
-    /// Steps.
+    /// Number of time steps.
     pub steps: u64,
-    /// Tetrahedra times steps over wall clock [1/s].
+    /// Tetrahedra times time steps per wall-clock time [1/s].
     pub tet_steps_per_s: f64,
-    /// Largest residual of the energy book over the largest kinetic energy [-].
+    /// Largest residual of the energy balance over the largest kinetic energy [-].
     pub energy_residual_ratio: f64,
-    /// The same, of the kinetic energy at the start; none if it was at rest.
+    /// Largest residual of the energy balance over the kinetic energy at the start [-]; none if the bodies were at
+    /// rest.
     pub energy_residual_of_start: Option<f64>,
-    /// When two bodies first touched [s]; none if they did not.
+    /// Time at which two bodies first touched [s]; none if they did not.
     pub impact_s: Option<f64>,
     /// Area of the faces that failed [m2].
     pub crack_area_m2: f64,
-    /// Energy that the failed faces took, less what their springs had when they came free, over their area times G_f [-];
+    /// Energy dissipated in failed faces, less the energy of their springs on release, over their area times G_f [-];
     /// none if nothing failed.
     pub energy_over_g_f: Option<f64>,
     /// Energies at the end [J].
@@ -51,58 +52,58 @@ pub struct FractureSummary {
     pub bodies: Vec<BodySummary>,
     /// Pieces of the bodies that can crack, the heaviest first.
     pub fragments: Vec<FragmentSummary>,
-    /// Where cracks began, in order of time.
+    /// Beginnings of the cracks, in order of time.
     pub initiation: Vec<InitiationSummary>,
-    /// What had to be assumed.
+    /// Assumptions listed in the case file.
     pub assumptions: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// Time and machine.
+    /// Wall-clock time and machine.
     pub execution: Execution,
 }
 
 /// Energies at the end of a run [J].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EnergyAtEnd {
-    /// Of motion.
+    /// Kinetic energy.
     pub kinetic: f64,
-    /// Of strain, in joints and in contacts.
+    /// Elastic energy of strain, joints and contacts.
     pub stored: f64,
-    /// In gravity, zero at the start.
+    /// Potential energy in gravity, zero at the start.
     pub gravity: f64,
-    /// Lost by viscosity.
+    /// Dissipated by viscosity.
     pub viscous: f64,
-    /// Lost by fracture.
+    /// Dissipated by fracture.
     pub fracture: f64,
-    /// Lost by friction.
+    /// Dissipated by friction.
     pub friction: f64,
-    /// Given by constraints.
+    /// Work of constraints and loads.
     pub work: f64,
-    /// What the springs of tied joints had when they came free.
+    /// Energy of the springs of tied joints on release.
     pub freed: f64,
 }
 
-/// A body.
+/// Summary of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodySummary {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its mass [kg].
+    /// Mass [kg].
     pub mass_kg: f64,
-    /// Velocity of its centre of mass at the end [m/s].
+    /// Velocity of the centre of mass at the end [m/s].
     pub velocity_m_s: [f64; 3],
-    /// Where and when the tension was largest.
+    /// Largest tension.
     pub peak: PeakStress,
-    /// Area of its faces that failed [m2].
+    /// Area of the failed faces [m2].
     pub crack_area_m2: f64,
 }
 
-/// A piece of a body.
+/// Summary of a piece of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FragmentSummary {
-    /// The body.
+    /// Name of the body.
     pub body: String,
-    /// Tetrahedra.
+    /// Number of tetrahedra.
     pub tets: usize,
     /// Mass [kg].
     pub mass_kg: f64,
@@ -112,46 +113,46 @@ pub struct FragmentSummary {
     pub velocity_m_s: [f64; 3],
 }
 
-/// A place where a crack began.
+/// Summary of the beginning of a crack.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InitiationSummary {
-    /// When [s].
+    /// Time [s].
     pub t_s: f64,
     /// Time since two bodies first touched [s].
     pub since_impact_s: Option<f64>,
-    /// The body.
+    /// Name of the body.
     pub body: String,
-    /// Where, in the undeformed body [m].
+    /// Position in the undeformed body [m].
     pub place: [f64; 3],
-    /// The nearest landmark of the case.
+    /// Nearest landmark of the case.
     pub near: Option<String>,
-    /// Distance from it [m]; zero inside its box.
+    /// Distance from the landmark [m]; zero inside its box.
     pub distance_m: Option<f64>,
     /// `opening` (mode I) or `sliding` (mode II).
     pub mode: String,
-    /// Area of the crack by the end [m2].
+    /// Area of the crack at the end [m2].
     pub area_m2: f64,
 }
 
-/// What the loop has watched.
+/// Quantities that the loop tracks.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Watched {
-    /// Steps.
+    /// Number of time steps.
     pub steps: u64,
-    /// Largest residual [J].
+    /// Largest residual of the energy balance [J].
     pub residual: f64,
-    /// Kinetic energy at the start, and the largest [J].
+    /// Kinetic energy at the start, and the largest one [J].
     pub kinetic: [f64; 2],
-    /// When two bodies first touched [s].
+    /// Time at which two bodies first touched [s].
     pub impact: Option<f64>,
     /// Largest tension in each body.
     pub peaks: Vec<PeakStress>,
-    /// Wall clock, before an interruption and after it [s].
+    /// Wall-clock time, including the time before interruptions [s].
     pub wall: f64,
 }
 
 impl FractureSummary {
-    /// The summary of a run that ended with these fragments.
+    /// Summarizes a run that ended with these fragments.
     pub fn of(case: &FractureCase, world: &World, book: &Ledger, watched: &Watched, fragments: &[Fragment]) -> Self {
         let area = world.crack_area();
         let taken: f64 = world.failures.iter().map(|failure| failure.dissipated - failure.freed).sum();
@@ -228,22 +229,22 @@ impl FractureSummary {
         }
     }
 
-    /// The body of a name.
+    /// Returns the body called `name`.
     pub fn body(&self, name: &str) -> Option<&BodySummary> {
         self.bodies.iter().find(|body| body.name == name)
     }
 
-    /// Read `summary.json` of a run folder.
+    /// Reads `summary.json` of a run folder.
     ///
     /// # Errors
-    /// If the file is missing or is not that of a fracture run.
+    /// If the file is missing or does not belong to a fracture run.
     pub fn read(dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(SUMMARY_FILE);
         let text = std::fs::read_to_string(&path).map_err(OutputError::io(&path))?;
         serde_json::from_str(&text).map_err(OutputError::json(&path))
     }
 
-    /// Write `summary.json` into the run folder.
+    /// Writes `summary.json` into the run folder.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -255,7 +256,7 @@ impl FractureSummary {
     }
 }
 
-/// Velocity of the centre of mass of a body [m/s]: its density is the same everywhere.
+/// Computes the velocity of the centre of mass of a body of uniform density [m/s].
 fn mean_velocity(world: &World, body: usize) -> DVec3 {
     let (mut flow, mut volume) = (DVec3::ZERO, 0.0);
     for tet in world.setup().bodies[body].tets.clone() {

@@ -1,4 +1,4 @@
-//! Graphics cards: finding, opening, buffers, reading back.
+//! Graphics cards: detection, opening, buffers, reading back.
 
 use std::{
     fmt,
@@ -11,27 +11,27 @@ use wgpu::{Backends, BufferDescriptor, BufferUsages, DeviceDescriptor, DeviceTyp
 
 use crate::sph::backend::DeviceError;
 
-/// Largest number of groups of a dispatch in one dimension, on every card.
+/// Largest number of workgroups of a dispatch in one dimension that every card supports.
 const MOST_GROUPS: u64 = 65_535;
 
 /// `VK_MEMORY_HEAP_DEVICE_LOCAL_BIT`.
 #[cfg(not(target_vendor = "apple"))]
 const DEVICE_LOCAL: u32 = 1;
 
-/// What is known of a card without opening it.
+/// Properties of a card, known without opening it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CardInfo {
-    /// Its name.
+    /// Name of the card.
     pub name: String,
-    /// Vulkan, Metal or Dx12, and the driver.
+    /// Graphics interface (Vulkan, Metal or Dx12) and driver.
     pub interface: String,
-    /// Whether it is a program on the processor and no card.
+    /// Whether it is a software renderer on the processor.
     pub is_software: bool,
-    /// Largest piece of memory that a shader can see [bytes].
+    /// Largest buffer that a shader can bind [bytes].
     pub largest_binding: u64,
-    /// Largest piece of memory [bytes].
+    /// Largest buffer [bytes].
     pub largest_buffer: u64,
-    /// All of its memory [bytes], where the system tells it.
+    /// Total memory [bytes], if the system reports it.
     pub memory: Option<u64>,
 }
 
@@ -41,7 +41,7 @@ pub struct Card {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     info: Arc<CardInfo>,
-    /// What went wrong since it was opened, if anything.
+    /// First failure since the card was opened.
     trouble: Arc<Mutex<Option<Trouble>>>,
 }
 
@@ -61,7 +61,7 @@ fn adapters() -> Vec<wgpu::Adapter> {
     let instance = Instance::default();
     let mut adapters =
         pollster::block_on(instance.enumerate_adapters(Backends::VULKAN | Backends::METAL | Backends::DX12));
-    // Cards of their own before those in the processor, programs that stand for one last.
+    // Discrete cards first, then integrated ones, software renderers last.
     adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
         DeviceType::DiscreteGpu => 0,
         DeviceType::VirtualGpu => 1,
@@ -84,10 +84,10 @@ fn describe(adapter: &wgpu::Adapter) -> CardInfo {
     }
 }
 
-/// Memory of a card that Vulkan shows: its largest heap of its own [bytes]. Cards also show that of the host.
+/// Returns the size of the largest device-local heap that Vulkan reports [bytes]; cards also list heaps of host memory.
 fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
     #[cfg(not(target_vendor = "apple"))]
-    // SAFETY: the handles are only asked for the sizes of the heaps, while the adapter is alive.
+    // SAFETY: the handles are used only to query the heap sizes, while the adapter is alive.
     return unsafe {
         let vulkan = adapter.as_hal::<wgpu::hal::api::Vulkan>()?;
         let instance = vulkan.shared_instance().raw_instance();
@@ -100,12 +100,12 @@ fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
 }
 
 impl Card {
-    /// All cards that the system shows, those of hardware first; their numbers are their places here.
+    /// Returns all cards of the system, hardware first; the index of a card is its number.
     pub fn all() -> Vec<CardInfo> {
         adapters().iter().map(describe).collect()
     }
 
-    /// Open a card by its number.
+    /// Opens a card by its number.
     ///
     /// # Errors
     /// If there is no such card, or it does not open.
@@ -113,17 +113,17 @@ impl Card {
         let adapters = adapters();
         let adapter = adapters.get(number).ok_or_else(|| {
             let count = match adapters.len() {
-                0 => "there is no graphics card here, and no driver that stands for one".to_owned(),
+                0 => "there is no graphics card and no software renderer".to_owned(),
                 1 => "there is one device, gpu:0".to_owned(),
                 n => format!("there are {n} devices, gpu:0 to gpu:{}", n - 1),
             };
-            DeviceError::Missing(format!("--device gpu:{number}: {count}; breakwater devices shows them"))
+            DeviceError::Missing(format!("--device gpu:{number}: {count}; run breakwater devices for a list"))
         })?;
         let info = describe(adapter);
-        let has = adapter.limits();
+        let supported = adapter.limits();
         let limits = Limits {
-            max_storage_buffer_binding_size: has.max_storage_buffer_binding_size,
-            max_buffer_size: has.max_buffer_size,
+            max_storage_buffer_binding_size: supported.max_storage_buffer_binding_size,
+            max_buffer_size: supported.max_buffer_size,
             ..Limits::default()
         };
         let descriptor = DeviceDescriptor {
@@ -135,20 +135,20 @@ impl Card {
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
             .map_err(|error| DeviceError::Missing(format!("{}: {error}", info.name)))?;
         let trouble = Arc::new(Mutex::new(None));
-        let note = |trouble: &Arc<Mutex<Option<Trouble>>>| {
+        let recorder = |trouble: &Arc<Mutex<Option<Trouble>>>| {
             let trouble = trouble.clone();
             move |what: Trouble| {
                 trouble.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(what);
             }
         };
-        let on_error = note(&trouble);
+        let on_error = recorder(&trouble);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             on_error(match error {
                 wgpu::Error::OutOfMemory { .. } => Trouble::Memory("an allocation failed".to_owned()),
                 error => Trouble::Lost(error.to_string()),
             });
         }));
-        let on_loss = note(&trouble);
+        let on_loss = recorder(&trouble);
         device.set_device_lost_callback(move |reason, message| {
             if reason != wgpu::DeviceLostReason::Destroyed {
                 on_loss(Trouble::Lost(message));
@@ -157,20 +157,20 @@ impl Card {
         Ok(Self { device, queue, info: Arc::new(info), trouble })
     }
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(&self) -> &str {
         &self.info.name
     }
 
-    /// What is known of it.
+    /// Returns its properties.
     pub fn info(&self) -> &CardInfo {
         &self.info
     }
 
-    /// What has gone wrong since it was opened.
+    /// Checks that the card has not failed since it was opened.
     ///
     /// # Errors
-    /// If anything has.
+    /// The first failure.
     pub(super) fn check(&self) -> Result<(), DeviceError> {
         let device = self.info.name.clone();
         match self.trouble.lock().unwrap_or_else(PoisonError::into_inner).clone() {
@@ -180,16 +180,16 @@ impl Card {
         }
     }
 
-    /// Memory for `count` values that shaders read and write, which the host fills and reads back.
+    /// Creates a buffer of `count` values for shaders to read and write; the host can write it and read it back.
     ///
     /// # Errors
-    /// If the card cannot have such a piece of memory.
+    /// If the card does not support a buffer of this size or has too little memory left.
     pub(super) fn buffer<T: Pod>(&self, label: &'static str, count: usize) -> Result<wgpu::Buffer, DeviceError> {
         let size = (count.max(1) * size_of::<T>()) as u64;
         let most = self.info.largest_binding.min(self.info.largest_buffer);
         if size > most {
             let what = format!(
-                "{label} needs a piece of {:.2} GB, and it gives at most {:.2} GB",
+                "a buffer ({label}) needs {:.2} GB, and the card allows at most {:.2} GB per buffer",
                 size as f64 / 1e9,
                 most as f64 / 1e9
             );
@@ -202,7 +202,7 @@ impl Card {
         Ok(buffer)
     }
 
-    /// Memory for the same with its values.
+    /// Creates a buffer filled with `values`.
     ///
     /// # Errors
     /// As [`Self::buffer`].
@@ -212,7 +212,7 @@ impl Card {
         Ok(buffer)
     }
 
-    /// Memory for constants.
+    /// Creates a uniform buffer that holds `value`.
     pub(super) fn uniform<T: Pod>(&self, label: &'static str, value: &T) -> wgpu::Buffer {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let size = size_of::<T>() as u64;
@@ -222,14 +222,14 @@ impl Card {
         buffer
     }
 
-    /// Write values from the place `first` on, before anything that is submitted later.
+    /// Writes values from index `first` on, before any command that is submitted later.
     pub(super) fn write<T: Pod>(&self, buffer: &wgpu::Buffer, first: usize, values: &[T]) {
         if !values.is_empty() {
             self.queue.write_buffer(buffer, (first * size_of::<T>()) as u64, bytemuck::cast_slice(values));
         }
     }
 
-    /// Do what `encoder` holds, and read `count` values from the place `first` of a buffer on afterwards.
+    /// Executes the commands in `encoder`, then reads `count` values of a buffer from index `first` on.
     ///
     /// # Errors
     /// If the device is lost.
@@ -264,25 +264,25 @@ impl Card {
         Ok(values)
     }
 
-    /// A place for commands.
+    /// Creates an empty command list.
     pub(crate) fn encoder(&self) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("step") })
     }
 
-    /// Give commands to the card.
+    /// Submits commands to the card.
     pub(crate) fn submit(&self, encoder: wgpu::CommandEncoder) {
         self.queue.submit([encoder.finish()]);
     }
 
-    /// Wait until everything that was submitted is done.
+    /// Waits until all submitted commands are finished.
     ///
     /// # Errors
     /// If the device is lost.
     pub(crate) fn wait(&self) -> Result<(), DeviceError> {
         self.check()?;
-        // wgpu panics where it finds a device lost while it waits.
+        // wgpu panics if the device is lost during the wait.
         let wait = AssertUnwindSafe(|| self.device.poll(wgpu::PollType::wait_indefinitely()));
-        let waited = catch_unwind(wait).map_err(|_| self.lost("while waiting for it"))?;
+        let waited = catch_unwind(wait).map_err(|_| self.lost("the device was lost during a wait"))?;
         waited.map_err(|error| self.lost(error))?;
         self.check()
     }
@@ -292,7 +292,7 @@ impl Card {
     }
 }
 
-/// Groups of a dispatch over `threads` in groups of `size`, in two dimensions where one is too short.
+/// Returns the number of workgroups of `size` for `threads`, in two dimensions where one dimension is too short.
 pub(crate) fn groups(threads: usize, size: usize) -> [u32; 2] {
     let all = (threads.div_ceil(size) as u64).max(1);
     let rows = all.div_ceil(MOST_GROUPS);
@@ -304,23 +304,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn too_much_memory_is_refused_with_the_way_out() {
+    fn too_large_buffers_are_refused_with_advice() {
         let Ok(card) = Card::open(0) else { return println!("skipped: no card") };
-        let numbers = (card.info.largest_binding / 16 + 1) as usize;
-        let message = card.buffer::<[f32; 4]>("the test", numbers).unwrap_err().to_string();
-        for part in [card.name(), "the test needs a piece of", "raise domain.dp_m"] {
+        let count = (card.info.largest_binding / 16 + 1) as usize;
+        let message = card.buffer::<[f32; 4]>("the test", count).unwrap_err().to_string();
+        for part in [card.name(), "a buffer (the test) needs", "raise domain.dp_m"] {
             assert!(message.contains(part), "{message}");
         }
     }
 
     #[test]
-    fn a_card_that_is_not_there_is_refused() {
+    fn missing_cards_are_refused() {
         let message = Card::open(99).unwrap_err().to_string();
         assert!(message.contains("--device gpu:99: there") && message.contains("breakwater devices"), "{message}");
     }
 
     #[test]
-    fn dispatches_hold_all_threads_within_the_limit() {
+    fn dispatches_cover_all_threads_within_the_limit() {
         for threads in [0, 1, 64, 65, 64 * 65_535, 64 * 65_535 + 1, 2_000_000_000] {
             let [x, y] = groups(threads, 64);
             assert!(u64::from(x) <= MOST_GROUPS && u64::from(y) <= MOST_GROUPS);

@@ -1,4 +1,4 @@
-//! Constants of the scheme as `parameters.wgsl` has them.
+//! Constants of the scheme in the layout of `parameters.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -12,7 +12,7 @@ use crate::sph::{
     viscosity::Viscosity,
 };
 
-/// `Parameters` of the shaders; the same fields in the same order.
+/// `Parameters` of the shaders, with the same fields in the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Constants {
@@ -50,15 +50,15 @@ pub struct Constants {
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct StepConstants {
-    /// Length of the step [s].
+    /// Time step [s].
     pub dt: f32,
-    /// Kernel support, and how far a particle can have gone since it was sorted [m].
+    /// Kernel support plus the distance that a particle can have moved since sorting [m].
     pub reach: f32,
 }
 
 impl Constants {
-    /// Constants for numbers of particles: water, boundary, and bed, walls and wavemaker among that. No particle may
-    /// leave the box `bounds` [m].
+    /// Creates the constants. `particles` counts the water, the boundary, and within it bed, walls and wavemaker. No
+    /// particle may leave the box `bounds` [m].
     pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 3]) -> Self {
         let [water, boundary, walls] = particles.map(|n| n as u32);
         let Parameters { kernel, tait, gravity, .. } = *parameters;
@@ -97,33 +97,33 @@ impl Constants {
         }
     }
 
-    /// Whether what leaves on one side enters on the other.
+    /// Returns whether the flume is periodic across its width.
     pub fn is_periodic(&self) -> bool {
         self.width > 0.0
     }
 
-    /// The same without viscosity and diffusion, and with the water as the only target: pressure on the water alone.
+    /// Returns the constants for the pressure on the water alone: no viscosity, no diffusion, no boundary targets.
     pub fn of_pressure_alone(self) -> Self {
         let [hydrostatic, curvature] = Diffusion::none().hydrostatic();
         Self { boundary: 0, alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }
     }
 }
 
-/// Coefficients of p in (rho - rho0) / rho0, from the first power on [Pa]. For gamma = 7 the series ends there; for
-/// other exponents what is left out is 1e-9 of p at a compression of 5 %.
+/// Returns the coefficients of p in powers of (rho - rho0) / rho0, from the first power on [Pa]. For gamma = 7 the
+/// series is complete; for other exponents the truncation error is 1e-9 of p at a compression of 5 %.
 fn pressure_series(tait: &Tait) -> [f32; 8] {
     let binomials = binomials(tait.gamma);
     let stiffness = tait.c0 * tait.c0 * tait.rho0 / tait.gamma;
     std::array::from_fn(|k| (stiffness * binomials[k + 1]) as f32)
 }
 
-/// Coefficients of c in (rho - rho0) / rho0, from the zeroth power on [m/s].
+/// Returns the coefficients of c in powers of (rho - rho0) / rho0, from the zeroth power on [m/s].
 fn sound_series(tait: &Tait) -> [f32; 8] {
     let binomials = binomials(0.5 * (tait.gamma - 1.0));
     std::array::from_fn(|k| (tait.c0 * binomials[k]) as f32)
 }
 
-/// (exponent over k) for k from 0 to 8.
+/// Returns the binomial coefficients (exponent over k) for k from 0 to 8.
 fn binomials(exponent: f64) -> [f64; 9] {
     let mut all = [1.0; 9];
     for k in 1..9 {
@@ -136,19 +136,19 @@ fn binomials(exponent: f64) -> [f64; 9] {
 mod tests {
     use super::*;
 
-    fn horner(series: &[f32; 8], e: f64) -> f64 {
+    fn evaluate_series(series: &[f32; 8], e: f64) -> f64 {
         series.iter().rev().fold(0.0, |sum, &a| sum * e + f64::from(a))
     }
 
     #[test]
-    fn series_are_the_equation_of_state() {
+    fn series_match_the_equation_of_state() {
         for gamma in [7.0, 6.3] {
             let tait = Tait { rho0: 1000.0, c0: 15.0, gamma };
             for e in [-0.05, -1e-3, 1e-6, 2e-3, 0.05] {
                 let rho = tait.rho0 * (1.0 + e);
-                // 1e-6: coefficients in single precision, and rounding of p near rho0 in double.
-                assert!((horner(&pressure_series(&tait), e) * e / tait.pressure(rho) - 1.0).abs() < 1e-6);
-                assert!((horner(&sound_series(&tait), e) / tait.sound_speed(rho) - 1.0).abs() < 1e-6);
+                // 1e-6: single-precision coefficients, and rounding of p near rho0 in double precision.
+                assert!((evaluate_series(&pressure_series(&tait), e) * e / tait.pressure(rho) - 1.0).abs() < 1e-6);
+                assert!((evaluate_series(&sound_series(&tait), e) / tait.sound_speed(rho) - 1.0).abs() < 1e-6);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! What lies on a card, and the kernels that work on it.
+//! Buffers on a card, and the kernels bound to them.
 
 use super::{
     card::{Card, CardInfo},
@@ -9,27 +9,27 @@ use super::{
 };
 use crate::sph::backend::DeviceError;
 
-/// Bytes of a record.
+/// Size of a record [bytes].
 const RECORD: usize = 48;
 
-/// Bytes of a water particle on the card: place, bin, velocity, half step, rates, record; sorting and its share of the
-/// bins, of which there are about as many as particles where half of the domain is air.
-const OF_PARTICLE: usize = 6 * 16 + RECORD + 3 * 4 + 2 * 2 * 4;
+/// Memory per water particle on the card [bytes]: offset, bin, velocity, half step, rates, record, sorting and its
+/// share of the bins. If half of the domain is air, there are about as many bins as particles.
+const BYTES_PER_PARTICLE: usize = 6 * 16 + RECORD + 3 * 4 + 2 * 2 * 4;
 
-/// Particles that fit on a card.
+/// Returns the number of particles that fit on a card.
 pub fn most_particles(card: &CardInfo) -> u64 {
-    let in_a_piece = card.largest_binding.min(card.largest_buffer) / RECORD as u64;
-    // A tenth is left to the system.
-    card.memory.map_or(in_a_piece, |bytes| in_a_piece.min(bytes / 10 * 9 / OF_PARTICLE as u64))
+    let in_one_buffer = card.largest_binding.min(card.largest_buffer) / RECORD as u64;
+    // A tenth of the memory is reserved for the system.
+    card.memory.map_or(in_one_buffer, |bytes| in_one_buffer.min(bytes / 10 * 9 / BYTES_PER_PARTICLE as u64))
 }
 
-/// Memory and bound kernels.
+/// Buffers on the card and kernels bound to them.
 pub(super) struct Memory {
     pub is_periodic: bool,
     pub water: usize,
     pub boundary: usize,
     walls: usize,
-    /// All bytes on the card.
+    /// Total memory on the card [bytes].
     pub bytes: usize,
     pub parameters: wgpu::Buffer,
     pub step: wgpu::Buffer,
@@ -38,7 +38,7 @@ pub(super) struct Memory {
     pub motion: wgpu::Buffer,
     pub half_offset: wgpu::Buffer,
     half_motion: wgpu::Buffer,
-    /// Of the water, then of the boundary in its own order.
+    /// Rates of the water, then of the boundary in its own order.
     pub rates: wgpu::Buffer,
     pub limits: wgpu::Buffer,
     pub extremes: wgpu::Buffer,
@@ -55,14 +55,14 @@ pub(super) struct Memory {
     pub boundary_records: Bound,
     pub densities: Bound,
     pub all_rates: Bound,
-    /// Rates of the water by pressure alone, into the memory of the half step.
+    /// Writes the rates of the water from pressure alone to the half-step buffer.
     pub pressure_rates: Bound,
     pub predict: Bound,
     pub correct: Bound,
 }
 
 impl Memory {
-    /// Memory for particles (water, boundary, bed and walls among it) and bins.
+    /// Creates the buffers. The particle counts are those of the water, the boundary, and within it the walls.
     pub fn new(
         card: &Card,
         constants: &Constants,
@@ -73,28 +73,28 @@ impl Memory {
         let parameters = card.uniform("parameters", constants);
         let pressure_alone = card.uniform("parameters of pressure alone", &constants.of_pressure_alone());
         let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
-        // The largest piece first: if the card refuses one, it is this.
-        let records = card.buffer::<[f32; RECORD / 4]>("the particles' records", water + boundary)?;
-        let offset = card.buffer::<[f32; 4]>("the water's places", water)?;
-        let cell = card.buffer::<[i32; 4]>("the water's bins", water)?;
-        let motion = card.buffer::<[f32; 4]>("the water's velocities", water)?;
-        let half_offset = card.buffer::<[f32; 4]>("the water's places at the half step", water)?;
-        let half_motion = card.buffer::<[f32; 4]>("the water's velocities at the half step", water)?;
-        let rates = card.buffer::<[f32; 4]>("the rates", water + boundary)?;
+        // The largest buffer first: if any buffer is too large, this one is.
+        let records = card.buffer::<[f32; RECORD / 4]>("particle records", water + boundary)?;
+        let offset = card.buffer::<[f32; 4]>("water positions", water)?;
+        let cell = card.buffer::<[i32; 4]>("water bins", water)?;
+        let motion = card.buffer::<[f32; 4]>("water velocities", water)?;
+        let half_offset = card.buffer::<[f32; 4]>("water positions at the half step", water)?;
+        let half_motion = card.buffer::<[f32; 4]>("water velocities at the half step", water)?;
+        let rates = card.buffer::<[f32; 4]>("rates", water + boundary)?;
         let limits = card.buffer::<u32>("limits", 2)?;
         let unused_limits = card.buffer::<u32>("limits", 2)?;
         let extremes = card.buffer::<u32>("extremes", 5)?;
-        let boundary_offset = card.buffer::<[f32; 4]>("the boundary's places", boundary)?;
-        let boundary_cell = card.buffer::<[i32; 4]>("the boundary's bins", boundary)?;
-        let boundary_motion = card.buffer::<[f32; 4]>("the boundary's velocities", boundary)?;
-        let boundary_density = card.buffer::<f32>("the boundary's densities", boundary)?;
-        let to_surface = card.buffer::<[f32; 4]>("the ways to surfaces", boundary)?;
+        let boundary_offset = card.buffer::<[f32; 4]>("boundary positions", boundary)?;
+        let boundary_cell = card.buffer::<[i32; 4]>("boundary bins", boundary)?;
+        let boundary_motion = card.buffer::<[f32; 4]>("boundary velocities", boundary)?;
+        let boundary_density = card.buffer::<f32>("boundary densities", boundary)?;
+        let to_surface = card.buffer::<[f32; 4]>("vectors to surfaces", boundary)?;
         let sort = Sort::new(card, &parameters, &cell, water, bins)?;
         let boundary_sort = Sort::new(card, &parameters, &boundary_cell, boundary, bins)?;
 
         let shader = Shader::new(card, RECORDS);
         let bind = |name, buffers: &[(u32, &wgpu::Buffer)]| shader.kernel(name).bind(card, buffers);
-        // The rates' memory is free while the water is sorted.
+        // Sorting reuses the rates and half-step buffers, which are free at that time.
         let permute = bind(
             "permute",
             &[
@@ -108,10 +108,10 @@ impl Memory {
                 (8, &half_motion),
             ],
         );
-        let of =
+        let bind_records =
             |offset, motion| bind("of_water", &[(0, &parameters), (1, offset), (2, &cell), (3, motion), (5, &records)]);
-        let water_records = of(&offset, &motion);
-        let half_records = of(&half_offset, &half_motion);
+        let water_records = bind_records(&offset, &motion);
+        let half_records = bind_records(&half_offset, &half_motion);
         let boundary_records = bind(
             "of_boundary",
             &[
@@ -152,7 +152,7 @@ impl Memory {
             shader.kernel("correct").bind(card, &[&state_of_step[..], &[(3, &cell), (8, &extremes)]].concat());
         card.check()?;
 
-        // Places, bins, velocities, half step, rates, record; the boundary's surfaces and densities.
+        // Offset, bin, velocity, half step, rates, record; for the boundary also vector to the surface and density.
         let of_water = water * (6 * 16 + RECORD) + Sort::bytes(water, bins);
         let of_boundary = boundary * (5 * 16 + 4 + RECORD) + Sort::bytes(boundary, bins);
         Ok(Self {
@@ -190,12 +190,12 @@ impl Memory {
         })
     }
 
-    /// Whether it is made for these numbers of particles.
+    /// Returns whether the buffers were created for these numbers of particles.
     pub fn holds(&self, particles: [usize; 3]) -> bool {
         [self.water, self.boundary, self.walls] == particles
     }
 
-    /// Put in the state of water and boundary, with the boundary's rho - rho0 [kg/m3].
+    /// Writes the state of water and boundary, and the boundary's rho - rho0 [kg/m3].
     pub fn fill(
         &self,
         card: &Card,
@@ -213,15 +213,15 @@ impl Memory {
         card.write(&self.to_surface, 0, surfaces);
     }
 
-    /// Bytes that a step must at least move.
+    /// Returns the minimum memory traffic of a time step [bytes].
     pub fn least_traffic(&self) -> f64 {
-        // Sorted and copied back: twelve vectors of four; predicted: five; corrected: seven.
+        // Vectors of four numbers: twelve to sort and copy back, five in the predictor, seven in the corrector.
         let of_water = self.water * (24 * 16 + 2 * 2 * RECORD + 4 * 16);
         let of_boundary = self.boundary * (2 * 2 * RECORD + 6 * 16);
         (of_water + of_boundary) as f64
     }
 
-    /// Put the water's arrays in the order of the bins.
+    /// Sorts the water's arrays into the order of the bins.
     pub fn permute(&self, encoder: &mut wgpu::CommandEncoder) {
         self.permute.run(encoder, super::card::groups(self.water, 64));
         let size = (self.water * 16) as u64;

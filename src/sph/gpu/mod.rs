@@ -1,19 +1,19 @@
-//! The step on a graphics card, by wgpu: Vulkan, Metal or DirectX 12.
+//! The time step on a graphics card with wgpu (Vulkan, Metal or DirectX 12).
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | [`card`] | finding and opening cards, buffers, reading back |
-//! | [`constants`] | constants of the scheme as the shaders have them |
-//! | [`state`] | places as bins and offsets, to and from the card |
-//! | [`shaders`] | the shaders, each beside the Rust file of its stage |
+//! | [`card`] | detecting and opening cards, buffers, reading back |
+//! | [`constants`] | constants of the scheme in the layout of the shaders |
+//! | [`state`] | positions as bins and offsets, to and from the card |
+//! | [`shaders`] | the shaders, each next to the Rust file of its stage |
 //! | [`sort`] | the counting sort |
-//! | `memory` | what lies on the card, and the kernels bound to it |
-//! | `near` | the water near to surfaces |
-//! | [`solver`] | the verbs of a step |
+//! | `memory` | buffers on the card, and the kernels bound to them |
+//! | `near` | the water near surfaces |
+//! | [`solver`] | the operations of a time step |
 //!
-//! The state of the water stays on the card, in single precision: a place is a bin and an offset in it, whose last bit
-//! is a nanometre for bins of centimetres, so that slow particles do not stand still. Neighbours are found in the bins,
-//! row by row, by every particle for itself: there are no lists.
+//! The water stays on the card in single precision. A position is a bin and an offset in it; for bins of centimetres
+//! the last bit of the offset is a nanometre, so that slow particles still move. There are no neighbour lists: each
+//! particle searches the bins row by row.
 
 pub mod card;
 pub mod constants;

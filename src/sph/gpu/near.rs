@@ -1,4 +1,4 @@
-//! The water near to surfaces: found on the card, kept out of the surfaces by the host, which knows their shapes.
+//! The water near surfaces. The card finds it; the host, which knows the shapes, keeps it out of the surfaces.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
@@ -14,10 +14,10 @@ use crate::sph::{
     grid::Grid,
 };
 
-/// Particles that there is room for at first.
-const ROOM: usize = 4096;
+/// Initial capacity for particles near surfaces.
+const INITIAL_ROOM: usize = 4096;
 
-/// Allowance for places in single precision over the length of a flume, in particle distances.
+/// Allowance for single-precision positions along the flume, in particle spacings.
 const ALLOWANCE: f64 = 0.01;
 
 /// `Surfaces` of the shader.
@@ -38,7 +38,7 @@ pub(super) struct SurfaceConstants {
     padding: u32,
 }
 
-/// A particle as the shader gives it.
+/// A particle in the layout of the shader.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct NearParticle {
@@ -47,17 +47,17 @@ pub(super) struct NearParticle {
     motion: [f32; 4],
 }
 
-/// Search for water near to surfaces.
+/// Search for water near surfaces.
 pub(super) struct NearSearch {
     find: Kernel,
     put: Kernel,
     constants: wgpu::Buffer,
-    /// Of the velocities that are put back: `room` is their number.
+    /// Constants for writing velocities back; `room` is the number of velocities.
     put_constants: wgpu::Buffer,
     memory: SearchMemory,
 }
 
-/// The part of its memory that grows.
+/// Buffers that grow on demand, and the kernels bound to them.
 struct SearchMemory {
     shapes: wgpu::Buffer,
     shapes_room: usize,
@@ -69,13 +69,13 @@ struct SearchMemory {
 }
 
 impl NearSearch {
-    /// A search in the water of a memory.
+    /// Creates a search in the water of `memory`.
     pub fn new(card: &Card, memory: &Memory) -> Result<Self, DeviceError> {
         let shader = Shader::new(card, IMPERMEABLE).periodic(memory.is_periodic);
         let [find, put] = ["find_near", "put_velocities"].map(|name| shader.kernel(name));
         let constants = card.uniform("surfaces", &SurfaceConstants::default());
         let put_constants = card.uniform("velocities", &SurfaceConstants::default());
-        let own = SearchMemory::new(card, memory, [&find, &put], [&constants, &put_constants], [64, ROOM])?;
+        let own = SearchMemory::new(card, memory, [&find, &put], [&constants, &put_constants], [64, INITIAL_ROOM])?;
         Ok(Self { find, put, constants, put_constants, memory: own })
     }
 
@@ -85,8 +85,8 @@ impl NearSearch {
         Ok(())
     }
 
-    /// Do what `encoder` holds and find the water near to surfaces, in the order of its places; the extremes of the
-    /// step besides, see `step.wgsl`.
+    /// Executes the commands in `encoder` and finds the water near surfaces. Returns the extremes of the time step (see
+    /// `step.wgsl`) and the particles in ascending order of their indices.
     pub fn find(
         &mut self,
         card: &Card,
@@ -110,7 +110,7 @@ impl NearSearch {
             let count = extremes[4] as usize;
             if count <= self.memory.room {
                 let mut near: Vec<NearParticle> = card.read(card.encoder(), &self.memory.near, 0, count)?;
-                // They come in the order in which the card got to them.
+                // The card lists them in no fixed order.
                 near.sort_unstable_by_key(|particle| particle.cell[3]);
                 return Ok((
                     extremes,
@@ -127,7 +127,7 @@ impl NearSearch {
         }
     }
 
-    /// Put commands into `encoder` that give back the velocities of the water near to surfaces.
+    /// Adds commands to `encoder` that write back the velocities of the water near surfaces.
     pub fn put(
         &mut self,
         card: &Card,
@@ -156,8 +156,8 @@ impl SearchMemory {
         [shapes_room, room]: [usize; 2],
     ) -> Result<Self, DeviceError> {
         let shapes = card.buffer::<[f32; 4]>("shapes", shapes_room)?;
-        let near = card.buffer::<NearParticle>("the water near to surfaces", room)?;
-        let changes = card.buffer::<[u32; 4]>("the velocities near to surfaces", room)?;
+        let near = card.buffer::<NearParticle>("water near surfaces", room)?;
+        let changes = card.buffer::<[u32; 4]>("velocities near surfaces", room)?;
         let water = [(0, &memory.parameters), (2, &memory.offset), (3, &memory.cell), (4, &memory.motion)];
         let found = [(1, constants), (5, &shapes), (6, &near), (7, &memory.extremes)];
         let find = find.bind(card, &[&water[..], &found[..]].concat());
@@ -166,7 +166,7 @@ impl SearchMemory {
     }
 }
 
-/// Surfaces as the shader has them, from the low corner of the grid.
+/// Returns the surfaces in the layout of the shader, relative to the low corner of the grid.
 fn shapes_of(grid: &Grid, dp: f64, surfaces: &Surfaces) -> (SurfaceConstants, Vec<[f32; 4]>) {
     let vector = |point: DVec3, w: f64| (point - grid.low).as_vec3().extend(w as f32).to_array();
     let (low_x, low_z) = (grid.low.x, grid.low.z);

@@ -1,40 +1,40 @@
-//! The shaders. Each lies beside the Rust file of its stage; what they have in common is put before it.
+//! The shaders. Each is in the folder of the Rust file of its stage; common code is prepended.
 
 use super::card::Card;
 
-/// A shader with all that it needs.
+/// Concatenates the source files of a shader.
 macro_rules! shader {
     ($($file:literal),+) => { concat!($(include_str!($file), "\n"),+) };
 }
 
 /// The counting sort.
 pub const GRID: &str = shader!("../parameters.wgsl", "../grid.wgsl");
-/// Records of the particles.
+/// Particle records.
 pub const RECORDS: &str = shader!("../parameters.wgsl", "../records.wgsl");
-/// Densities of the boundary.
+/// Boundary densities (mDBC).
 pub const MDBC: &str = shader!("../parameters.wgsl", "../kernel.wgsl", "../neighbours.wgsl", "../mdbc.wgsl");
 /// Rates.
 pub const RATES: &str = shader!("../parameters.wgsl", "../kernel.wgsl", "../neighbours.wgsl", "../rates.wgsl");
 /// Predictor and corrector.
 pub const STEP: &str = shader!("../parameters.wgsl", "../step.wgsl");
-/// Water near to surfaces.
+/// Water near surfaces.
 pub const IMPERMEABLE: &str = shader!("../parameters.wgsl", "../impermeable.wgsl");
 
-/// A function of a shader, ready to run.
+/// A compiled function of a shader.
 #[derive(Debug)]
 pub struct Kernel {
     pipeline: wgpu::ComputePipeline,
     name: &'static str,
 }
 
-/// The same with the memory that it works on.
+/// A compiled function with its buffers.
 #[derive(Debug)]
 pub struct Bound {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
 }
 
-/// A shader of a card.
+/// A shader on a card.
 pub struct Shader<'a> {
     card: &'a Card,
     module: wgpu::ShaderModule,
@@ -42,11 +42,11 @@ pub struct Shader<'a> {
 }
 
 impl<'a> Shader<'a> {
-    /// Compile one of the shaders above.
+    /// Compiles one of the shaders above.
     pub fn new(card: &'a Card, source: &'static str) -> Self {
         let descriptor = wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) };
-        // SAFETY: the shaders are our own: threads beyond the particles return, indices are places in arrays of that length
-        // or bins clamped to the grid, and every loop ends.
+        // SAFETY: the shaders are part of this crate. Threads beyond the last particle return, indices stay within
+        // their arrays, bins are clamped to the grid, and every loop ends.
         let module = unsafe {
             let checks = if cfg!(debug_assertions) {
                 wgpu::ShaderRuntimeChecks::checked()
@@ -58,12 +58,12 @@ impl<'a> Shader<'a> {
         Self { card, module, constants: &[] }
     }
 
-    /// The same for a flume where what leaves on one side enters on the other, or not.
+    /// Sets whether the flume is periodic across its width.
     pub fn periodic(self, is_periodic: bool) -> Self {
         Self { constants: if is_periodic { &[("PERIODIC", 1.0)] } else { &[] }, ..self }
     }
 
-    /// One of its functions.
+    /// Compiles one of its functions.
     pub fn kernel(&self, name: &'static str) -> Kernel {
         let pipeline = self.card.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(name),
@@ -81,7 +81,7 @@ impl<'a> Shader<'a> {
 }
 
 impl Kernel {
-    /// The function on memory, by the numbers of the bindings.
+    /// Binds buffers to the function, each by its binding number.
     pub fn bind(&self, card: &Card, buffers: &[(u32, &wgpu::Buffer)]) -> Bound {
         let entries: Vec<wgpu::BindGroupEntry> = buffers
             .iter()
@@ -97,7 +97,7 @@ impl Kernel {
 }
 
 impl Bound {
-    /// Run it over groups of threads.
+    /// Runs the function over workgroups.
     pub fn run(&self, encoder: &mut wgpu::CommandEncoder, [x, y]: [u32; 2]) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&self.pipeline);
@@ -127,7 +127,7 @@ mod tests {
     ];
 
     #[test]
-    fn shaders_are_sound_and_bind_no_more_than_every_card_has() {
+    fn shaders_are_valid_and_stay_within_the_binding_limit_of_every_card() {
         for (name, source) in ALL {
             let module =
                 wgsl::parse_str(source).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
@@ -139,13 +139,13 @@ mod tests {
                 let storage = module.global_variables.iter().filter(|(handle, variable)| {
                     matches!(variable.space, AddressSpace::Storage { .. }) && !of_entry[*handle].is_empty()
                 });
-                assert!(storage.count() <= 8, "{name}: {} binds too much", entry.name);
+                assert!(storage.count() <= 8, "{name}: {} binds more than 8 storage buffers", entry.name);
             }
         }
     }
 
     #[test]
-    fn constants_have_the_size_that_the_shaders_expect() {
+    fn constants_have_the_size_of_the_shader_structs() {
         use super::super::{
             constants::{Constants, StepConstants},
             near::{NearParticle, SurfaceConstants},
@@ -156,13 +156,13 @@ mod tests {
             let named = module.types.iter().find(|(_, of_type)| of_type.name.as_deref() == Some(name));
             match named.map(|(_, of_type)| of_type.inner.clone()) {
                 Some(naga::TypeInner::Struct { span, .. }) => span as usize,
-                _ => panic!("{name} is no struct"),
+                _ => panic!("{name} is not a struct"),
             }
         };
         assert_eq!(size_of_struct(RATES, "Parameters"), size_of::<Constants>());
         assert_eq!(size_of_struct(RATES, "Step"), size_of::<StepConstants>());
         assert_eq!(size_of_struct(IMPERMEABLE, "Near"), size_of::<NearParticle>());
-        // Of whole vectors; the shaders need not name what fills the last one.
+        // Rounded up to whole vectors; the shaders do not declare the trailing padding.
         assert_eq!(size_of_struct(GRID, "Sort").next_multiple_of(16), size_of::<SortConstants>());
         assert_eq!(size_of_struct(IMPERMEABLE, "Surfaces").next_multiple_of(16), size_of::<SurfaceConstants>());
     }

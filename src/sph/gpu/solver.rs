@@ -1,7 +1,7 @@
-//! The verbs of a step on a card.
+//! The operations of a time step on a card.
 //!
-//! Verbs put commands into a list; the card works it off when something is read back: after the first rates the limits
-//! of the time step, after the corrector the rates of the units and the water near to surfaces.
+//! Operations append commands to a list; the card executes it when a result is read back. Results are the time step
+//! limits after the first rates, and the unit rates and the water near surfaces after the corrector.
 
 use glam::DVec3;
 
@@ -23,10 +23,10 @@ use crate::sph::{
     time_step::Limits,
 };
 
-/// Extremes before any water has been looked at; see `step.wgsl`.
-const NOTHING_SEEN: [u32; 5] = [0, u32::MAX, 0, 0, 0];
+/// Initial values of the extremes; see `step.wgsl`.
+const INITIAL_EXTREMES: [u32; 5] = [0, u32::MAX, 0, 0, 0];
 
-/// Allowance for rounding in how far particles can have gone since they were sorted.
+/// Allowance for rounding in the distance that particles can have moved since sorting.
 const ROUNDING: f64 = 1.001;
 
 /// The solver on a card.
@@ -37,28 +37,28 @@ pub struct GpuSolver {
     /// Box that no particle may leave [m].
     bounds: [DVec3; 2],
     loaded: Option<Loaded>,
-    /// Where the water's bins begin, as last fetched.
+    /// Start of each bin of the water, as last fetched.
     bins: Bins,
-    /// Commands that the card has not got yet.
+    /// Commands that are not submitted yet.
     encoder: Option<wgpu::CommandEncoder>,
-    /// What a verb could not say, being without a result.
+    /// Error of an operation that returns no result.
     trouble: Option<DeviceError>,
 }
 
-/// What there is once the numbers of particles are known.
+/// State on the card, created when the numbers of particles are known.
 struct Loaded {
     memory: Memory,
     near: NearSearch,
-    /// Largest speed of water and of boundary, at the start of the step [m/s].
+    /// Largest speed of water and of boundary at the start of the time step [m/s].
     fastest: [f64; 2],
-    /// As last read.
+    /// Extremes, as last read.
     watched: Watched,
-    /// Whether the water has been sorted already, while the host moved the units.
+    /// Whether the water is already sorted, while the host moved the units.
     is_sorted: bool,
 }
 
 impl Loaded {
-    /// Put the water in the order of the bins, if that has not been done ahead.
+    /// Sorts the water into the order of the bins, unless it is sorted already.
     fn sort_water(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if !std::mem::replace(&mut self.is_sorted, true) {
             self.memory.sort.run(encoder);
@@ -68,10 +68,10 @@ impl Loaded {
 }
 
 impl GpuSolver {
-    /// Solver for bins in the box from `low` to `high` and particles that may not leave the box `bounds` [m].
+    /// Creates a solver with bins in the box from `low` to `high`; no particle may leave the box `bounds` [m].
     ///
     /// # Errors
-    /// If cards do not compute the scheme.
+    /// If cards do not support the scheme.
     pub fn new(
         card: Card,
         parameters: Parameters,
@@ -85,7 +85,7 @@ impl GpuSolver {
         Ok(Self { card, parameters, grid, bounds, loaded: None, bins: Bins::default(), encoder: None, trouble: None })
     }
 
-    /// Wait until the card has done all that it was told, to measure it.
+    /// Submits all commands and waits until the card has finished, for time measurements.
     ///
     /// # Errors
     /// If the device is lost.
@@ -95,13 +95,13 @@ impl GpuSolver {
         self.card.wait()
     }
 
-    /// Bytes that a step must at least move: the water's state to be sorted, predicted and corrected, the records, which
-    /// are written and read twice, and rates.
+    /// Returns the minimum memory traffic of a time step [bytes]: the water's state to be sorted, predicted and
+    /// corrected, the records, which are written and read twice, and the rates.
     pub fn least_traffic(&self) -> f64 {
         self.loaded.as_ref().map_or(0.0, |loaded| loaded.memory.least_traffic())
     }
 
-    /// Bytes on the card.
+    /// Returns the memory in use on the card [bytes].
     pub fn bytes(&self) -> usize {
         self.loaded.as_ref().map_or(0, |loaded| loaded.memory.bytes)
     }
@@ -114,11 +114,11 @@ impl GpuSolver {
         if let Some(trouble) = self.trouble.clone() {
             return Err(trouble);
         }
-        self.loaded.as_mut().ok_or_else(|| DeviceError::Missing("the card has no water yet".to_owned()))
+        self.loaded.as_mut().ok_or_else(|| DeviceError::Missing("no water has been loaded onto the card".to_owned()))
     }
 
-    /// Put commands of a verb into the list.
-    fn tell(&mut self, commands: impl FnOnce(&Card, &mut Loaded, &mut wgpu::CommandEncoder)) {
+    /// Appends the commands of an operation to the list.
+    fn enqueue(&mut self, commands: impl FnOnce(&Card, &mut Loaded, &mut wgpu::CommandEncoder)) {
         let mut encoder = self.take_encoder();
         if let Some(loaded) = &mut self.loaded {
             commands(&self.card, loaded, &mut encoder);
@@ -126,7 +126,7 @@ impl GpuSolver {
         self.encoder = Some(encoder);
     }
 
-    /// Give the places of wavemaker and units, which the host moves, to the card.
+    /// Copies the state of wavemaker and units, which the host moves, to the card.
     fn upload_moving(&mut self, boundary: &Boundary) {
         let moving = boundary.piston().start..boundary.len();
         let first = moving.start;
@@ -216,7 +216,7 @@ impl Backend for GpuSolver {
     fn sort(&mut self, _: &mut Water, boundary: &Boundary) {
         self.upload_moving(boundary);
         let reach = self.parameters.kernel.support() as f32;
-        self.tell(|card, loaded, encoder| {
+        self.enqueue(|card, loaded, encoder| {
             loaded.sort_water(encoder);
             let memory = &loaded.memory;
             card.write(&memory.step, 0, &[StepConstants { dt: 0.0, reach }]);
@@ -225,18 +225,18 @@ impl Backend for GpuSolver {
         });
     }
 
-    /// Nothing to do: every particle finds its neighbours in the bins.
+    /// Does nothing: each particle searches the bins for its neighbours.
     fn list(&mut self, _: &Water, _: &Boundary) {}
 
     fn boundary_densities(&mut self, _: &mut Boundary) {
-        self.tell(|_, Loaded { memory, .. }, encoder| {
+        self.enqueue(|_, Loaded { memory, .. }, encoder| {
             memory.densities.run(encoder, groups(memory.boundary, 64));
             memory.boundary_records.run(encoder, groups(memory.boundary, 64));
         });
     }
 
     fn rates(&mut self) {
-        self.tell(|_, Loaded { memory, .. }, encoder| {
+        self.enqueue(|_, Loaded { memory, .. }, encoder| {
             encoder.clear_buffer(&memory.limits, 0, None);
             memory.all_rates.run(encoder, groups(memory.water + memory.boundary, 64));
         });
@@ -253,13 +253,13 @@ impl Backend for GpuSolver {
         move_boundary(boundary);
         self.upload_moving(boundary);
         let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
-        self.tell(|card, Loaded { memory, fastest, .. }, encoder| {
-            // After the approach to a surface has been taken away, water can have its own speed and the surface's.
+        self.enqueue(|card, Loaded { memory, fastest, .. }, encoder| {
+            // After its approach to a surface is removed, water can have its own speed plus that of the surface.
             let speed = fastest[0] + fastest[1];
             let moved = (0.5 * dt * speed).min(h);
             let reach = (support + moved) * ROUNDING;
             card.write(&memory.step, 0, &[StepConstants { dt: dt as f32, reach: reach as f32 }]);
-            card.write(&memory.extremes, 0, &NOTHING_SEEN);
+            card.write(&memory.extremes, 0, &INITIAL_EXTREMES);
             memory.predict.run(encoder, groups(memory.water, 64));
             memory.half_records.run(encoder, groups(memory.water, 64));
             memory.boundary_records.run(encoder, groups(memory.boundary, 64));
@@ -267,7 +267,7 @@ impl Backend for GpuSolver {
     }
 
     fn correct(&mut self, _: f64, _: &mut Water, _: &mut Boundary) {
-        self.tell(|_, Loaded { memory, is_sorted, .. }, encoder| {
+        self.enqueue(|_, Loaded { memory, is_sorted, .. }, encoder| {
             *is_sorted = false;
             memory.correct.run(encoder, groups(memory.water, 64));
         });
@@ -316,7 +316,7 @@ impl Backend for GpuSolver {
     }
 
     fn sort_ahead(&mut self) {
-        self.tell(|_, loaded, encoder| loaded.sort_water(encoder));
+        self.enqueue(|_, loaded, encoder| loaded.sort_water(encoder));
         let encoder = self.take_encoder();
         self.card.submit(encoder);
     }
@@ -334,10 +334,10 @@ impl Backend for GpuSolver {
 
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError> {
         let all = self.water_rates()?;
-        self.tell(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
+        self.enqueue(|_, Loaded { memory, .. }, encoder| memory.pressure_rates.run(encoder, groups(memory.water, 64)));
         let encoder = self.take_encoder();
         let memory = &self.loaded()?.memory;
-        // The half step's memory, which nothing needs now.
+        // `pressure_rates` writes to the half-step buffer, which is free now.
         let (rates, count) = (memory.half_offset.clone(), memory.water);
         let pressure_only = rates_of(&self.card.read(encoder, &rates, 0, count)?);
         Ok(Powers::of(water, &self.parameters.tait, &all, &pressure_only))
@@ -349,21 +349,21 @@ fn rates_of(values: &[[f32; 4]]) -> Vec<Rate> {
     values.iter().map(rate).collect()
 }
 
-/// Largest of the lengths; not a number if one of them is.
+/// Returns the largest length of the vectors; NaN if any of them is NaN.
 fn largest(vectors: &[DVec3]) -> f64 {
     vectors.iter().map(|v| v.length_squared()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a }).sqrt()
 }
 
-/// From what `step.wgsl` collects.
+/// Converts the extremes that `step.wgsl` collects.
 fn watched_from([fastest, lightest, densest, astray, _]: [u32; 5], rho0: f64) -> Watched {
-    let number = |ordered: u32| {
+    let decode_density = |ordered: u32| {
         let bits = if ordered & 0x8000_0000 == 0 { !ordered } else { ordered & 0x7fff_ffff };
         rho0 + f64::from(f32::from_bits(bits))
     };
     Watched {
         fastest: f64::from(f32::from_bits(fastest)),
-        lightest: number(lightest),
-        densest: number(densest),
+        lightest: decode_density(lightest),
+        densest: decode_density(densest),
         astray: astray != 0,
     }
 }
@@ -373,8 +373,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ordered_numbers_are_read_back() {
-        // As `ordered` in the shader makes them.
+    fn extremes_of_the_shader_are_decoded() {
+        // Same encoding as `ordered` in the shader.
         let ordered = |value: f32| {
             let bits = value.to_bits();
             if bits & 0x8000_0000 == 0 { bits | 0x8000_0000 } else { !bits }

@@ -1,4 +1,4 @@
-//! The counting sort of particles into bins on a card, as stable as that of [`crate::sph::grid`].
+//! Stable counting sort of particles into bins on a card; it gives the same order as [`crate::sph::grid`].
 
 use bytemuck::{Pod, Zeroable};
 
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::sph::backend::DeviceError;
 
-/// Bins that a group of threads scans.
+/// Number of bins that a workgroup scans.
 const SCANNED: usize = 1024;
 
 /// `Sort` of the shader.
@@ -21,12 +21,12 @@ pub(super) struct SortConstants {
     padding: u32,
 }
 
-/// Memory and kernels for sorting one group of particles.
+/// Buffers and kernels for sorting one group of particles.
 #[derive(Debug)]
 pub struct Sort {
-    /// First place of each bin, and the number of points at the end.
+    /// Index in `order` where each bin starts, followed by the number of points.
     pub start: wgpu::Buffer,
-    /// Index of each point, bin after bin; points of one bin keep their order.
+    /// Point indices sorted by bin; points of one bin keep their order.
     pub order: wgpu::Buffer,
     counts: wgpu::Buffer,
     count: Bound,
@@ -40,10 +40,10 @@ pub struct Sort {
 }
 
 impl Sort {
-    /// A sort of as many points as `cells` holds into `bins` bins.
+    /// Creates a sort of the `points` points in `cells` into `bins` bins.
     ///
     /// # Errors
-    /// If the card has not enough memory.
+    /// If the card does not have enough memory.
     pub fn new(
         card: &Card,
         parameters: &wgpu::Buffer,
@@ -54,12 +54,12 @@ impl Sort {
         let blocks = bins.div_ceil(SCANNED);
         let [n, b, k] = [points, bins, blocks].map(|n| n as u32);
         let sort = card.uniform("sort", &SortConstants { points: n, bins: b, blocks: k, padding: 0 });
-        let counts = card.buffer::<u32>("the bins' counts", bins)?;
-        let start = card.buffer::<u32>("the bins", bins + 1)?;
-        let sums = card.buffer::<u32>("the bins' sums", blocks)?;
-        let bin_of = card.buffer::<u32>("the particles' bins", points)?;
-        let scattered = card.buffer::<u32>("the particles' places", points)?;
-        let order = card.buffer::<u32>("the particles' order", points)?;
+        let counts = card.buffer::<u32>("particle counts of bins", bins)?;
+        let start = card.buffer::<u32>("starts of bins", bins + 1)?;
+        let sums = card.buffer::<u32>("sums over bins", blocks)?;
+        let bin_of = card.buffer::<u32>("bins of particles", points)?;
+        let scattered = card.buffer::<u32>("scattered particles", points)?;
+        let order = card.buffer::<u32>("particle order", points)?;
         let shader = Shader::new(card, GRID);
         let bind = |name, buffers: &[(u32, &wgpu::Buffer)]| shader.kernel(name).bind(card, buffers);
         Ok(Self {
@@ -77,7 +77,7 @@ impl Sort {
         })
     }
 
-    /// Sort.
+    /// Appends the commands of the sort to `encoder`.
     pub fn run(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(&self.counts, 0, None);
         self.count.run(encoder, groups(self.points, 64));
@@ -88,7 +88,7 @@ impl Sort {
         self.rank.run(encoder, groups(self.points, 64));
     }
 
-    /// Bytes on the card.
+    /// Returns the memory in use on the card [bytes].
     pub fn bytes(points: usize, bins: usize) -> usize {
         4 * (3 * points + 2 * bins + bins / SCANNED)
     }
@@ -105,12 +105,12 @@ mod tests {
     };
 
     #[test]
-    fn the_order_is_that_of_the_processor() {
+    fn card_and_processor_sort_into_the_same_order() {
         let Ok(card) = Card::open(0) else { return println!("skipped: no card") };
         let size = DVec3::new(1.4, 1.0, 1.2);
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let grid = Grid::new(DVec3::ZERO, size, parameters.dp, None);
-        // More blocks of bins than a group of threads scans at once, and points that share bins.
+        // More blocks of bins than a workgroup scans at once, and points that share bins.
         assert!(grid.bins() > 300 * SCANNED);
         let spread = |i: u32, factor: u32| f64::from(i.wrapping_mul(factor) % 9973) / 9973.0;
         let mut points: Vec<DVec3> =
@@ -129,7 +129,7 @@ mod tests {
         let (constants, cells) = (card.uniform("parameters", &constants), card.filled("cells", &cells).unwrap());
         let sort = Sort::new(&card, &constants, &cells, points.len(), grid.bins()).unwrap();
         let mut encoder = card.encoder();
-        // Twice: nothing is left over from the first time.
+        // Twice, to check that the first sort leaves nothing behind.
         sort.run(&mut encoder);
         sort.run(&mut encoder);
         let order: Vec<u32> = card.read(encoder, &sort.order, 0, points.len()).unwrap();

@@ -1,4 +1,4 @@
-//! Places as bins and offsets in them, in single precision: the state of particles as a card has it.
+//! State of particles on a card, in single precision: a position is a bin and an offset in it.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -8,44 +8,44 @@ use crate::sph::{
     particles::{boundary::Boundary, water::Water},
 };
 
-/// Smallest piece of an array that is worth a task of the thread pool.
-const PIECE: usize = 4096;
+/// Smallest chunk of an array that is worth a task of the thread pool.
+const MIN_CHUNK: usize = 4096;
 
-/// Particles as a card has them, an entry a particle in every array.
+/// Particles in the layout of a card, one entry per particle in every array.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CardState {
     /// Offset in the bin [m], and rho - rho0 [kg/m3].
     pub offset: Vec<[f32; 4]>,
-    /// Bin along x, y, z, and number of the particle.
+    /// Bin along x, y, z, and identification number of the particle.
     pub cell: Vec<[i32; 4]>,
     /// Velocity [m/s] and mass [kg].
     pub motion: Vec<[f32; 4]>,
 }
 
-/// Bin along x, y and z of a point, which may lie outside the grid, and the offset from the bin's low corner [m].
+/// Returns the bin along x, y and z of a point, also outside the grid, and the offset from the bin's low corner [m].
 pub fn to_cell(grid: &Grid, point: DVec3) -> ([i32; 3], [f32; 3]) {
     let from_low = grid.wrap(point) - grid.low;
     let cell = (from_low / grid.size).floor();
     ([cell.x as i32, cell.y as i32, cell.z as i32], (from_low - cell * grid.size).as_vec3().to_array())
 }
 
-/// The point of a bin and an offset [m].
+/// Returns the point at an offset in a bin [m].
 pub fn to_point(grid: &Grid, cell: [i32; 4], offset: [f32; 4]) -> DVec3 {
     let [x, y, z, _] = cell.map(f64::from);
     grid.low + DVec3::new(x, y, z) * grid.size + Vec3::from_slice(&offset).as_dvec3()
 }
 
 impl CardState {
-    /// The water as the card gets it.
+    /// Converts the water to the layout of the card.
     pub fn of_water(grid: &Grid, rho0: f64, water: &Water) -> Self {
         let particle = |i: usize| {
             let id = water.id[i] as i32;
-            one(grid, water.position[i], water.velocity[i], water.density[i] - rho0, water.mass[i], id)
+            to_card(grid, water.position[i], water.velocity[i], water.density[i] - rho0, water.mass[i], id)
         };
         Self::collect(0..water.len(), particle)
     }
 
-    /// Boundary particles as the card gets them, and the ways to their surfaces [m].
+    /// Converts boundary particles to the layout of the card, with the vectors to their surfaces [m].
     pub fn of_boundary(
         grid: &Grid,
         rho0: f64,
@@ -54,10 +54,10 @@ impl CardState {
     ) -> (Self, Vec<[f32; 4]>) {
         let particle = |i: usize| {
             let (excess, mass) = (boundary.density[i] - rho0, rho0 * boundary.volume[i]);
-            one(grid, boundary.position[i], boundary.velocity[i], excess, mass, 0)
+            to_card(grid, boundary.position[i], boundary.velocity[i], excess, mass, 0)
         };
         let surface = |i: usize| boundary.to_surface[i].as_vec3().extend(0.0).to_array();
-        let surfaces = particles.clone().into_par_iter().with_min_len(PIECE).map(surface).collect();
+        let surfaces = particles.clone().into_par_iter().with_min_len(MIN_CHUNK).map(surface).collect();
         (Self::collect(particles, particle), surfaces)
     }
 
@@ -67,7 +67,7 @@ impl CardState {
     ) -> Self {
         let ((offset, cell), motion) = particles
             .into_par_iter()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .map(|i| {
                 let (offset, cell, motion) = particle(i);
                 ((offset, cell), motion)
@@ -76,7 +76,7 @@ impl CardState {
         Self { offset, cell, motion }
     }
 
-    /// Put the state into the host's arrays, which are made as long as it is.
+    /// Writes the state to the host's arrays, which are resized to the number of particles.
     pub fn put_into(&self, grid: &Grid, rho0: f64, water: &mut Water) {
         let count = self.cell.len();
         water.position.resize(count, DVec3::ZERO);
@@ -87,7 +87,7 @@ impl CardState {
         (&mut water.position, &mut water.velocity, &mut water.density, &mut water.mass, &mut water.id)
             .into_par_iter()
             .enumerate()
-            .with_min_len(PIECE)
+            .with_min_len(MIN_CHUNK)
             .for_each(|(i, (position, velocity, density, mass, id))| {
                 *position = to_point(grid, self.cell[i], self.offset[i]);
                 *velocity = Vec3::from_slice(&self.motion[i]).as_dvec3();
@@ -98,7 +98,7 @@ impl CardState {
     }
 }
 
-fn one(
+fn to_card(
     grid: &Grid,
     position: DVec3,
     velocity: DVec3,
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_keep_their_digits_in_a_long_flume() {
+    fn positions_keep_their_precision_in_a_long_flume() {
         let grid = Grid::new(DVec3::new(36.5, 0.0, 0.4), DVec3::new(41.0, 0.16, 1.1), 0.009, Some(0.16));
         for point in
             [DVec3::new(36.499_123_456, 0.012_345_678, 0.712_345_678), DVec3::new(40.987_654_321, 0.159_9, 2.3)]

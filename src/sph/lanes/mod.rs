@@ -1,7 +1,7 @@
-//! Single-precision numbers in the lanes of a SIMD register, and the traits that let a physical term be written once,
-//! for lanes of any width and for scalars.
+//! Single-precision SIMD lanes, and the traits for physical terms that are written once for scalars and lanes of any
+//! width.
 //!
-//! [`InstructionSet::dispatch`] is the one place where a computation meets the processor it runs on.
+//! [`InstructionSet::dispatch`] is the only function that selects code for the processor it runs on.
 
 mod portable;
 #[cfg(target_arch = "x86_64")]
@@ -11,10 +11,10 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 pub use portable::Portable;
 
-/// The largest number of lanes of any instruction set.
+/// Largest number of lanes of any instruction set.
 pub const MOST_LANES: usize = 16;
 
-/// A number that the physical terms compute with: a scalar or lanes of them.
+/// Number type of the physical terms: a scalar or SIMD lanes.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -24,21 +24,21 @@ pub trait Real:
     + Neg<Output = Self>
     + AddAssign
 {
-    /// The same value everywhere.
+    /// Returns the value in every lane.
     fn splat(value: f32) -> Self;
-    /// self * a + b.
+    /// Returns self * a + b.
     fn mul_add(self, a: Self, b: Self) -> Self;
-    /// Square root, to one unit in the last place; of zero, zero or next to it.
+    /// Returns the square root to one unit in the last place; of zero, zero or a tiny number.
     fn sqrt(self) -> Self;
-    /// The larger one.
+    /// Returns the larger value.
     fn max(self, other: Self) -> Self;
-    /// The smaller one.
+    /// Returns the smaller value.
     fn min(self, other: Self) -> Self;
-    /// Absolute value.
+    /// Returns the absolute value.
     fn abs(self) -> Self;
-    /// The nearest whole number.
+    /// Returns the nearest integer, ties to even.
     fn round(self) -> Self;
-    /// self where `switch` > 0, zero elsewhere.
+    /// Returns self where `switch` > 0, zero elsewhere.
     fn where_positive(self, switch: Self) -> Self;
 }
 
@@ -69,40 +69,40 @@ impl Real for f64 {
     }
 }
 
-/// Eight or sixteen lanes.
+/// SIMD lanes, eight or sixteen.
 pub trait Lanes: Real {
     /// Number of lanes, and of particles in a full cluster.
     const COUNT: usize;
-    /// Lanes from the first [`Self::COUNT`] values; panics if there are fewer.
+    /// Loads the first [`Self::COUNT`] values; panics if there are fewer.
     fn load(values: &[f32]) -> Self;
-    /// The values of the lanes, followed by zeros.
+    /// Returns the values of the lanes, followed by zeros.
     fn to_array(self) -> [f32; MOST_LANES];
-    /// Bit k is set where lane k is at most `limit`.
+    /// Returns a bit mask: bit k is set where lane k is at most `limit`.
     fn at_most(self, limit: Self) -> u32;
-    /// Write `base` + k for each set bit k, lowest first, to the front of `out`, which has room for
-    /// [`Self::COUNT`] numbers; what follows them there is left undefined.
+    /// Writes `base` + k for each set bit k, lowest first, to the front of `out`, which holds at least
+    /// [`Self::COUNT`] numbers. The rest of those [`Self::COUNT`] entries is undefined.
     fn list_set_bits(bits: u32, base: u32, out: &mut [u32]);
 
-    /// Lanes with the values of a function of the lane.
+    /// Returns lanes whose values are `f` of the lane index.
     #[inline(always)]
     fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
         Self::load(&std::array::from_fn::<f32, MOST_LANES, _>(f))
     }
 }
 
-/// A computation that is written for any lanes. Its `run` has to be `#[inline(always)]`: only then is it compiled for
+/// A computation that is generic over the lanes. Its `run` must be `#[inline(always)]`: only then is it compiled for
 /// the instruction set that it is dispatched to.
 pub trait WithLanes {
-    /// What it returns.
+    /// Result of the computation.
     type Output;
-    /// Compute with the given lanes.
+    /// Runs the computation with the given lanes.
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
-/// Instructions that lanes are made of.
+/// SIMD instruction set of the lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InstructionSet {
-    /// Whatever the compiler makes of arrays of eight.
+    /// Arrays of eight, vectorised by the compiler.
     #[default]
     Portable,
     /// Eight lanes of AVX2 with FMA.
@@ -112,7 +112,7 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// All of them that this processor has, best last.
+    /// Returns the instruction sets that this processor supports, best last.
     pub fn available() -> Vec<Self> {
         let mut sets = vec![Self::Portable];
         #[cfg(target_arch = "x86_64")]
@@ -127,12 +127,12 @@ impl InstructionSet {
         sets
     }
 
-    /// The one with the most lanes that this processor has.
+    /// Returns the supported instruction set with the most lanes.
     pub fn best() -> Self {
         Self::available().into_iter().next_back().unwrap_or_default()
     }
 
-    /// Number of its lanes.
+    /// Returns the number of lanes.
     pub fn lanes(self) -> usize {
         match self {
             Self::Portable | Self::Avx2 => 8,
@@ -140,12 +140,12 @@ impl InstructionSet {
         }
     }
 
-    /// Compute with this instruction set, or portably if the processor does not have it.
+    /// Runs `work` with this instruction set, or with portable lanes if the processor does not support it.
     #[inline]
     pub fn dispatch<W: WithLanes>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         match self {
-            // SAFETY: the processor is asked; the answer is cached by the standard library.
+            // SAFETY: the guard checks that the processor supports it; the standard library caches the result.
             Self::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
                 return unsafe { x86::with_avx2(work) };
             }
@@ -157,7 +157,7 @@ impl InstructionSet {
     }
 }
 
-/// Operators of a lane type from functions of two.
+/// Implements the operators of a lane type from binary functions.
 macro_rules! arithmetic {
     ($lanes:ident, $($trait:ident $method:ident $op:expr),*) => {
         $(impl std::ops::$trait for $lanes {
@@ -191,9 +191,9 @@ mod tests {
     const A: [f32; 8] = [1.0, -2.0, 3.5, 0.4, -0.6, 7.0, 1e-3, -9.0];
     const B: [f32; 8] = [2.0, 5.0, -1.5, 0.1, 0.2, -3.0, 4.0, 0.5];
 
-    struct LanesDoWhatScalarsDo;
+    struct CompareLanesWithScalars;
 
-    impl WithLanes for LanesDoWhatScalarsDo {
+    impl WithLanes for CompareLanesWithScalars {
         type Output = usize;
 
         #[inline(always)]
@@ -201,19 +201,19 @@ mod tests {
             let (a, b) = (L::from_fn(|lane| A[lane % 8]), L::from_fn(|lane| B[(lane + lane / 8) % 8]));
             for lane in 0..L::COUNT {
                 let (x, y) = (A[lane % 8], B[(lane + lane / 8) % 8]);
-                let at = |lanes: L| lanes.to_array()[lane];
-                assert_eq!(at(a * b), x * y);
-                assert!((at(a / b) - x / y).abs() <= f32::EPSILON * (x / y).abs());
-                assert_eq!(at(-a), -x);
-                // One rounding or two.
-                assert!((at(a.mul_add(b, a)) - (x * y + x)).abs() <= f32::EPSILON * (x * y).abs().max(x.abs()));
-                assert_eq!(at(a.max(b)), x.max(y));
-                assert_eq!(at(a.min(b)), x.min(y));
-                assert_eq!(at(a.abs()), x.abs());
-                assert!((at(a.abs().sqrt()) - x.abs().sqrt()).abs() <= f32::EPSILON * x.abs().sqrt());
-                assert!(at(L::splat(0.0).sqrt()) < 1e-14);
-                assert_eq!(at(a.round()), x.round_ties_even());
-                assert_eq!(at(a.where_positive(b)), if y > 0.0 { x } else { 0.0 });
+                let lane_of = |lanes: L| lanes.to_array()[lane];
+                assert_eq!(lane_of(a * b), x * y);
+                assert!((lane_of(a / b) - x / y).abs() <= f32::EPSILON * (x / y).abs());
+                assert_eq!(lane_of(-a), -x);
+                // `mul_add` rounds once or twice.
+                assert!((lane_of(a.mul_add(b, a)) - (x * y + x)).abs() <= f32::EPSILON * (x * y).abs().max(x.abs()));
+                assert_eq!(lane_of(a.max(b)), x.max(y));
+                assert_eq!(lane_of(a.min(b)), x.min(y));
+                assert_eq!(lane_of(a.abs()), x.abs());
+                assert!((lane_of(a.abs().sqrt()) - x.abs().sqrt()).abs() <= f32::EPSILON * x.abs().sqrt());
+                assert!(lane_of(L::splat(0.0).sqrt()) < 1e-14);
+                assert_eq!(lane_of(a.round()), x.round_ties_even());
+                assert_eq!(lane_of(a.where_positive(b)), if y > 0.0 { x } else { 0.0 });
                 assert_eq!(a.at_most(b) >> lane & 1 == 1, x <= y);
             }
             assert_eq!(a.at_most(b) >> (L::COUNT - 1) >> 1, 0);
@@ -227,9 +227,9 @@ mod tests {
     }
 
     #[test]
-    fn every_instruction_set_does_what_scalars_do() {
+    fn every_instruction_set_agrees_with_scalars() {
         for set in InstructionSet::available() {
-            assert_eq!(set.dispatch(LanesDoWhatScalarsDo), set.lanes());
+            assert_eq!(set.dispatch(CompareLanesWithScalars), set.lanes());
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Eight lanes for any processor.
+//! Portable lanes for any processor.
 
 use super::{Lanes, MOST_LANES, Real, arithmetic};
 
@@ -42,7 +42,7 @@ impl Lanes for Portable {
     }
 }
 
-/// [`Lanes::list_set_bits`] for eight lanes: all eight places are written, without a branch.
+/// [`Lanes::list_set_bits`] for eight lanes: writes all eight entries without a branch.
 #[inline(always)]
 pub(super) fn list_set_bits_of_byte(bits: u32, base: u32, out: &mut [u32]) {
     for (out, &bit) in out[..COUNT].iter_mut().zip(&SET_BITS[bits as usize]) {
@@ -50,7 +50,7 @@ pub(super) fn list_set_bits_of_byte(bits: u32, base: u32, out: &mut [u32]) {
     }
 }
 
-/// The positions of the set bits of each byte, lowest first.
+/// Positions of the set bits of each byte, lowest first.
 static SET_BITS: [[u8; 8]; 256] = set_bits();
 
 const fn set_bits() -> [[u8; 8]; 256] {
@@ -75,7 +75,7 @@ impl Real for Portable {
     fn splat(value: f32) -> Self {
         Self([value; COUNT])
     }
-    // `f32::mul_add` would be a slow library call on a processor without the instruction.
+    // `f32::mul_add` is a slow library call on processors without the FMA instruction.
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b

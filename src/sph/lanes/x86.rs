@@ -1,20 +1,20 @@
-//! Lanes of AVX2 and AVX-512 registers. Arrays alone were tried: the compiler scattered half of them over scalar
-//! instructions, at a third of the speed.
+//! Lanes of AVX2 and AVX-512 registers. Plain arrays reach a third of the speed: the compiler turns half of their
+//! operations into scalar instructions.
 //!
-//! SAFETY of every intrinsic in this file: [`Avx2`] and [`Avx512`] are named outside of it only by [`with_avx2`] and
-//! [`with_avx512`], whose callers have asked the processor.
+//! SAFETY of every intrinsic in this file: [`Avx2`] and [`Avx512`] are used only through [`with_avx2`] and
+//! [`with_avx512`], whose callers have checked that the processor supports them.
 
 use std::arch::x86_64::*;
 
 use super::{Lanes, MOST_LANES, Real, WithLanes, arithmetic, portable::list_set_bits_of_byte};
 
-/// Compute with AVX2 and FMA.
+/// Runs `work` with AVX2 and FMA.
 #[target_feature(enable = "avx2,fma")]
 pub fn with_avx2<W: WithLanes>(work: W) -> W::Output {
     work.run::<Avx2>()
 }
 
-/// Compute with AVX-512.
+/// Runs `work` with AVX-512.
 #[target_feature(enable = "avx512f,avx2,fma")]
 pub fn with_avx512<W: WithLanes>(work: W) -> W::Output {
     work.run::<Avx512>()
@@ -93,8 +93,8 @@ arithmetic!(
     Div div |a: Avx2, b: Avx2| Avx2(unsafe { _mm256_div_ps(a.0, b.0) })
 );
 
-/// Sixteen lanes of an AVX-512 register. Roots and quotients are estimates, corrected once by their residue: right to
-/// the last bit or one beside it. The instructions for the exact ones take longer than all other terms of a pair.
+/// Sixteen lanes of an AVX-512 register. Roots and quotients are estimates with one correction by the residual; the
+/// error is at most one unit in the last place. The exact instructions take longer than all other terms of a pair.
 #[derive(Debug, Clone, Copy)]
 pub struct Avx512(__m512);
 
@@ -121,7 +121,7 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn list_set_bits(bits: u32, base: u32, out: &mut [u32]) {
         let out = &mut out[..Self::COUNT];
-        // The slice has room for sixteen numbers. Compressing into memory would be slow on some processors.
+        // The slice has room for sixteen numbers. Compressing directly into memory is slow on some processors.
         unsafe {
             let lane = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
             let numbers = _mm512_add_epi32(lane, _mm512_set1_epi32(base as i32));
@@ -142,12 +142,12 @@ impl Real for Avx512 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(unsafe {
-            // Where the estimate would be infinite, the root is as good as zero.
+            // The bound keeps the estimate finite; below it the root is practically zero.
             let x = _mm512_max_ps(self.0, _mm512_set1_ps(1e-30));
             let estimate = _mm512_rsqrt14_ps(x);
             let root = _mm512_mul_ps(x, estimate);
-            let residue = _mm512_fnmadd_ps(root, root, x);
-            _mm512_fmadd_ps(residue, _mm512_mul_ps(_mm512_set1_ps(0.5), estimate), root)
+            let residual = _mm512_fnmadd_ps(root, root, x);
+            _mm512_fmadd_ps(residual, _mm512_mul_ps(_mm512_set1_ps(0.5), estimate), root)
         })
     }
     #[inline(always)]
@@ -183,13 +183,13 @@ arithmetic!(
     Div div |a: Avx512, b: Avx512| quotient(a, b)
 );
 
-/// For normal numbers; an infinite or zero divisor gives NaN.
+/// Returns a / b for normal numbers; an infinite or zero divisor gives NaN.
 #[inline(always)]
 fn quotient(a: Avx512, b: Avx512) -> Avx512 {
     Avx512(unsafe {
         let estimate = _mm512_rcp14_ps(b.0);
         let quotient = _mm512_mul_ps(a.0, estimate);
-        let residue = _mm512_fnmadd_ps(quotient, b.0, a.0);
-        _mm512_fmadd_ps(residue, estimate, quotient)
+        let residual = _mm512_fnmadd_ps(quotient, b.0, a.0);
+        _mm512_fmadd_ps(residual, estimate, quotient)
     })
 }

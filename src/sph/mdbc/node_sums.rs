@@ -1,4 +1,4 @@
-//! Sums over the water round each ghost node: one loop, whatever is summed.
+//! Sums over the water around each ghost node: one loop for all kinds of sums.
 
 use rayon::prelude::*;
 
@@ -10,9 +10,9 @@ use crate::sph::{
     records::Record,
 };
 
-/// A node and a water particle round it.
+/// A ghost node and a water particle near it.
 pub struct Pair<L> {
-    /// From the node to the particle [m].
+    /// Vector from the node to the particle [m].
     pub r: [L; 3],
     /// W V without the constant factor of W.
     pub wv: L,
@@ -20,20 +20,20 @@ pub struct Pair<L> {
     pub gv: L,
 }
 
-/// `N` sums over the water round a node, for which `G` numbers of the node are known.
+/// `N` sums over the water around a node; the terms use `G` given numbers of the node.
 pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
-    /// Add what a particle contributes, without constant factors.
+    /// Adds the contribution of a particle, without constant factors.
     fn add<L: Lanes>(sums: &mut [L; N], node: &[L; G], pair: &Pair<L>, b: &Record);
 
-    /// Constant factors of the sums, from those of W and of -G h^2, with lengths in h [m].
+    /// Returns the constant factors of the sums from those of W and -G h^2; lengths are in units of h [m].
     fn factors(w: f32, g: f32, h: f32) -> [f32; N];
 
-    /// From the sums, in the order of [`NodeTerms::add`].
+    /// Creates the value from the sums, in the order of [`NodeTerms::add`].
     fn of_sums(sums: [f32; N]) -> Self;
 }
 
-/// Sums for nodes, given as [`crate::sph::records::split_position`] does, what is known of each, the lists of their
-/// neighbours among the records and the length of a bin [m].
+/// Computes the sums of all nodes. `nodes` are split positions (see [`crate::sph::records::split_position`]); `known`
+/// has the given numbers of each node, `lists` its neighbours in the records. `bin_x` is the length of a bin [m].
 pub fn sum_round_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,
@@ -51,7 +51,7 @@ pub fn sum_round_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     });
 }
 
-/// The sums of one chunk of nodes.
+/// Computation of the sums of one chunk of nodes.
 struct ChunkSums<'a, S, const N: usize, const G: usize> {
     parameters: &'a Parameters,
     bin_x: f32,

@@ -1,4 +1,4 @@
-//! Boundary particles: fixed bed and walls, the rows of the wavemaker, the armour units.
+//! Boundary particles of fixed bed and walls, of the wavemaker's rows and of the armour units.
 
 use std::ops::Range;
 
@@ -6,20 +6,20 @@ use glam::DVec3;
 
 use crate::rigid::BodyState;
 
-/// Boundary particles in a fixed order: bed and walls, then the piston, then unit after unit.
+/// Boundary particles in a fixed order: bed and walls, then the piston, then one unit after the other.
 #[derive(Debug, Clone, Default)]
 pub struct Boundary {
     /// Position [m].
     pub position: Vec<DVec3>,
     /// Velocity [m/s].
     pub velocity: Vec<DVec3>,
-    /// From the particle to the surface that the water touches [m]; twice that leads to its ghost node.
+    /// Vector from the particle to the wetted surface [m]; twice this vector leads to the ghost node.
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// Whether water may slide along it: along beds flatter than 1:4 and along walls. Particles at an edge that sticks
-    /// out, and those of units and obstacles, stand for surfaces of different directions, and water that slid along all
-    /// of them would flow together in the solid.
+    /// Whether the particle allows free slip: on beds flatter than 1:4 and on walls. Particles at convex edges, of
+    /// units and of obstacles represent surfaces of several directions. Free slip along all of them would let water
+    /// converge inside the solid.
     pub slides: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct Boundary {
     piston_row: Vec<u32>,
     /// Particles of each unit.
     units: Vec<Range<usize>>,
-    /// Place of a piston particle at zero displacement, of a unit particle in the unit's axes [m].
+    /// Position of a piston particle at zero displacement; of a unit particle in the unit's axes [m].
     anchor: Vec<DVec3>,
     /// `to_surface` in the unit's axes [m].
     anchor_to_surface: Vec<DVec3>,
@@ -38,19 +38,19 @@ pub struct Boundary {
 /// One boundary particle to be added.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryParticle {
-    /// Position, for units in the unit's axes [m].
+    /// Position; for units in the unit's axes [m].
     pub position: DVec3,
-    /// From the particle to the surface [m].
+    /// Vector from the particle to the surface [m].
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
-    /// Whether water may slide along it, see [`Boundary::slides`].
+    /// Whether the particle allows free slip, see [`Boundary::slides`].
     pub slides: bool,
 }
 
 impl Boundary {
-    /// Bed and walls, then the piston with the row of each of its particles, then `units` copies of `unit`.
-    /// All start at the density `rho0` [kg/m3]; the units lie at the origin until [`Self::move_unit`].
+    /// Creates bed and walls, then the piston with the row of each of its particles, then `units` copies of `unit`.
+    /// All start at the density `rho0` [kg/m3]; the units lie at the origin until [`Self::move_unit`] moves them.
     pub fn new(
         fixed: &[BoundaryParticle],
         piston: &[(u32, BoundaryParticle)],
@@ -83,38 +83,38 @@ impl Boundary {
         self.density.push(rho0);
     }
 
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no particles.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
 
-    /// Particles of bed, walls and piston; those of the units follow.
+    /// Returns the particles of bed, walls and piston; those of the units follow.
     pub fn walls(&self) -> Range<usize> {
         0..self.piston.end
     }
 
-    /// Particles of the piston.
+    /// Returns the particles of the piston.
     pub fn piston(&self) -> Range<usize> {
         self.piston.clone()
     }
 
-    /// Particles of each unit.
+    /// Returns the particles of each unit.
     pub fn units(&self) -> &[Range<usize>] {
         &self.units
     }
 
-    /// Place of each particle of a unit in the unit's axes, and the way from there to the surface [m]; the same for all.
+    /// Returns position and vector to the surface of each unit particle, in the unit's axes [m]; all units share them.
     pub fn places_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
     }
 
-    /// Put the piston where its rows are: displacement [m] and velocity [m/s] along x of each.
+    /// Moves the piston; `rows` gives the displacement [m] and velocity [m/s] of each row along x.
     pub fn move_piston(&mut self, rows: &[[f64; 2]]) {
         for (particle, &row) in self.piston.clone().zip(&self.piston_row) {
             let [displacement, velocity] = rows[row as usize];
@@ -123,7 +123,7 @@ impl Boundary {
         }
     }
 
-    /// Put a unit where its body is.
+    /// Moves a unit to the state of its rigid body.
     pub fn move_unit(&mut self, unit: usize, motion: &BodyState) {
         for particle in self.units[unit].clone() {
             let arm = motion.rotation * self.anchor[particle];

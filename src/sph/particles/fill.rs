@@ -1,35 +1,35 @@
 //! Filling the flume with water particles.
 //!
-//! The particles stand in columns from the bed to the water surface. Each column holds as many as fit at about dp,
-//! evenly, the first and the last half a spacing from bed and surface, and each particle has the mass of its share: so
-//! there is no gap at a sloping bed that the water above would fall into (which mDBC, having no barrier of its own,
-//! answers with particles driven into the wall), and the volume is exact. The density is hydrostatic.
+//! The particles form columns from the bed to the free surface. Each column is divided evenly at about dp; its first
+//! and last particle lie half a spacing from bed and surface. Each particle has the mass of its share, so the volume
+//! is exact. There is no gap above a sloping bed: water falling into such a gap would drive particles into the wall,
+//! because mDBC has no barrier of its own. The density is hydrostatic.
 
 use glam::{DVec2, DVec3};
 
 use super::{bed::Across, water::Water};
 use crate::sph::equation_of_state::Tait;
 
-/// The space to be filled.
+/// The region to be filled with water.
 pub struct Basin<'a> {
-    /// Seaward and shoreward end [m].
+    /// x of the seaward and shoreward end [m].
     pub x: [f64; 2],
-    /// Across the flume.
+    /// Arrangement of the particles across the flume.
     pub across: Across,
-    /// Distance between particles along and up [m].
+    /// Particle spacing along x and z [m].
     pub dp: f64,
     /// Bed level z(x) [m].
     pub bed: &'a dyn Fn(f64) -> f64,
-    /// Level of the water surface z(x) [m].
+    /// Level of the free surface z(x) [m].
     pub surface: &'a dyn Fn(f64) -> f64,
-    /// Velocity of the water along and up at (x, z) [m/s].
+    /// Velocity of the water along x and z at (x, z) [m/s].
     pub velocity: &'a dyn Fn(f64, f64) -> DVec2,
     /// Gravitational acceleration [m/s2].
     pub gravity: f64,
 }
 
 impl Basin<'_> {
-    /// x of the columns [m] and the distance between them [m].
+    /// Returns the x positions of the columns and their spacing [m].
     fn columns(&self) -> (Vec<f64>, f64) {
         let length = self.x[1] - self.x[0];
         let count = (length / self.dp).round().max(1.0);
@@ -37,16 +37,16 @@ impl Basin<'_> {
         ((0..count as u32).map(|i| self.x[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
     }
 
-    /// Heights of the particles of a column between two levels [m] and the distance between them [m]; none where the
-    /// column is lower than half of dp.
+    /// Returns the heights of the particles of a column between two levels and their spacing [m]; there are none if the
+    /// column is lower than dp / 2.
     fn column(&self, bed: f64, top: f64) -> (impl Iterator<Item = f64> + use<>, f64) {
         let count = ((top - bed) / self.dp).round().max(0.0);
         let spacing = (top - bed) / count.max(1.0);
         ((0..count as u32).map(move |k| bed + (f64::from(k) + 0.5) * spacing), spacing)
     }
 
-    /// Points (x, z) of the side walls' water face, from the bed up to the level `top` [m], each with the area that it
-    /// stands for [m2].
+    /// Returns points (x, z) of the side walls' wetted face from the bed up to the level `top` [m]. Each has the area
+    /// that it represents [m2].
     pub fn side_section(&self, top: f64) -> Vec<(DVec2, f64)> {
         let (columns, dx) = self.columns();
         let mut points = Vec::new();
@@ -57,7 +57,7 @@ impl Basin<'_> {
         points
     }
 
-    /// The water at rest or moving as `velocity` says, with hydrostatic density.
+    /// Creates the water with hydrostatic density and the velocity given by `velocity`.
     pub fn fill(&self, tait: &Tait) -> Water {
         let (columns, dx) = self.columns();
         let mut water = Water::default();
@@ -71,8 +71,8 @@ impl Basin<'_> {
                     water.position.push(DVec3::new(x, (f64::from(j) + 0.5) * self.across.spacing(), z));
                     water.velocity.push(DVec3::new(velocity.x, 0.0, velocity.y));
                     water.density.push(density);
-                    // At the density there, so that the volumes m / rho fill the basin: with rho0 the water would be
-                    // too little for its pressure and sink until the gradient is too steep.
+                    // The local density makes the volumes m / rho fill the basin. With rho0 the mass would be too small
+                    // for the pressure; the water would sink until the pressure gradient is too steep.
                     water.mass.push(density * dx * self.across.spacing() * dz);
                 }
             }
@@ -82,13 +82,13 @@ impl Basin<'_> {
     }
 }
 
-/// A particle nearer to a surface than this share of the distance that it is moved to lies on it: rounding leaves it no
-/// side and no direction in which to move it.
+/// A particle nearer to a surface than this share of `least` counts as on the surface: rounding leaves no reliable side
+/// and no direction in which to move it.
 const ON_SURFACE: f64 = 1e-6;
 
-/// Take out the water inside a solid or on its surface and move what is nearer to it than `least` [m] away to that distance.
+/// Removes the water inside a solid or on its surface; moves particles nearer than `least` [m] away to that distance.
 ///
-/// `locate` gives the nearest point of the solid's surface [m] and the distance to it [m], negative inside.
+/// `locate` returns the nearest point of the solid's surface and the distance to it, negative inside [m].
 pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
     let mut keep = vec![true; water.len()];
     for (position, keep) in water.position.iter_mut().zip(&mut keep) {
@@ -107,7 +107,7 @@ pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVe
 
 fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut flags = keep.iter();
-    values.retain(|_| *flags.next().expect("one flag a particle"));
+    values.retain(|_| *flags.next().expect("one flag per particle"));
 }
 
 #[cfg(test)]
@@ -117,7 +117,7 @@ mod tests {
     const TAIT: Tait = Tait { rho0: 1000.0, c0: 20.0, gamma: 7.0 };
 
     #[test]
-    fn volume_is_exact_over_a_sloping_bed() {
+    fn filled_volume_is_exact_over_a_sloping_bed() {
         let basin = Basin {
             x: [0.0, 2.0],
             across: Across { width: 0.1, count: 5, walls: false },
@@ -131,15 +131,15 @@ mod tests {
         let volume: f64 = water.mass.iter().zip(&water.density).map(|(m, rho)| m / rho).sum();
         // 1e-9: the midpoint rule is exact for straight lines.
         assert!((volume / (0.1 * (0.3 * 2.0 - 0.2)) - 1.0).abs() < 1e-9);
-        // The shallowest column, 0.1 m, holds five: a share differs from rho0 dp^3 by a tenth, and the density from
-        // rho0 by a per cent at most.
+        // The shallowest column, 0.1 m, holds five particles: a share differs from rho0 dp^3 by at most a tenth, and
+        // the density from rho0 by at most 1 %.
         assert!(water.mass.iter().all(|m| (m / (1000.0 * 0.02_f64.powi(3)) - 1.0).abs() < 0.12));
         let deepest = water.position.iter().zip(&water.density).min_by(|a, b| a.0.z.total_cmp(&b.0.z)).unwrap();
         assert!((TAIT.pressure(*deepest.1) - 9810.0 * (0.3 - deepest.0.z)).abs() < 1e-6);
     }
 
     #[test]
-    fn solids_are_cleared() {
+    fn water_is_removed_from_solids_and_kept_at_least_distance() {
         let mut water = Water::default();
         for i in 0..100 {
             water.position.push(DVec3::X * f64::from(i) * 0.01);
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn water_on_the_surface_of_a_solid_is_taken_out() {
+    fn water_on_the_surface_of_a_solid_is_removed() {
         let mut water = Water {
             position: vec![DVec3::ZERO, DVec3::X],
             velocity: vec![DVec3::ZERO; 2],
@@ -161,7 +161,7 @@ mod tests {
             mass: vec![1.0; 2],
             ..Water::default()
         };
-        // What rounding makes of a face at x = 0: a distance too small to have a direction.
+        // A face at x = 0 after rounding: the distance is too small to give a direction.
         clear_solid(&mut water, 0.02, |p| (p + DVec3::Y * 1e-17, if p.x > 0.0 { p.x } else { 1e-17 }));
         assert_eq!(water.position, [DVec3::X]);
     }

@@ -1,4 +1,4 @@
-//! Particles: the water, and the layers of particles that stand for bed, walls, wavemaker and armour units.
+//! Particles of the water, and boundary particles of bed, walls, wavemaker and armour units.
 
 pub mod bed;
 pub mod boundary;

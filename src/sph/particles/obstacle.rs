@@ -1,15 +1,15 @@
-//! Boxes of boundary particles: fixed obstacles, and units that are cuboids.
+//! Boxes of boundary particles: fixed obstacles and cuboid units.
 //!
-//! The particles stand on a lattice that divides each edge evenly at about dp, the outermost half a spacing behind the
-//! faces, as in bed and walls. Behind an edge or a corner the nearest place of the surface is the edge or the corner,
-//! so that the ghost nodes lie on the diagonals there (English et al. 2022).
+//! The particles form a lattice that divides each edge evenly at about dp; the outermost lie half a spacing behind the
+//! faces, as in bed and walls. Particles behind an edge or corner point at it, so that their ghost nodes lie on the
+//! diagonals (English et al. 2022).
 
 use glam::DVec3;
 
 use super::boundary::BoundaryParticle;
 use crate::geometry::axis_box::AxisBox;
 
-/// Particles of a box about dp [m] apart, those no deeper than `thickness` [m] behind an open face.
+/// Returns the particles of a box, about dp [m] apart and less than `thickness` [m] behind an open face.
 pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryParticle> {
     let count = (bounds.edges() / dp).round().max(DVec3::ONE);
     let spacing = bounds.edges() / count;
@@ -30,7 +30,7 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
     particles
 }
 
-/// Bed and wall particles that an obstacle covers: their surface is no longer the bed but the foot of the obstacle.
+/// Redirects bed and wall particles that an obstacle covers: their nearest surface is the foot of the obstacle.
 pub fn cover(particles: &mut [BoundaryParticle], obstacle: &AxisBox) {
     for particle in particles {
         let surface = particle.position + particle.to_surface;
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_thin_box_is_filled_and_a_thick_one_hollow() {
+    fn thin_boxes_are_solid_and_thick_boxes_are_hollow() {
         let thin = AxisBox::free(DVec3::ZERO, DVec3::new(0.15, 0.15, 0.1));
         let particles = box_particles(&thin, 0.02, 0.06);
         // 0.15 / 0.02 rounds to 8.
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn the_surface_of_every_particle_lies_on_an_open_face() {
+    fn surface_vector_of_every_particle_ends_on_an_open_face() {
         let open = [[true; 2], [true; 2], [false, true]];
         let on_bed = AxisBox { low: DVec3::ZERO, high: DVec3::splat(0.2), open };
         for particle in box_particles(&on_bed, 0.02, 0.06) {
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bed_below_an_obstacle_looks_at_its_foot() {
+    fn bed_particles_below_an_obstacle_point_at_its_foot() {
         let open = [[true; 2], [true; 2], [false, true]];
         let obstacle = AxisBox { low: DVec3::ZERO, high: DVec3::splat(0.2), open };
         let below = |x: f64| BoundaryParticle {

@@ -4,18 +4,18 @@ use glam::DVec3;
 
 use super::boundary::BoundaryParticle;
 
-/// Particles nearer to the surface than this share of dp are moved in to it, so that a water particle never meets one
-/// on the surface itself.
+/// Smallest depth of a particle below the surface, as a share of dp. Shallower particles are moved inwards, so that no
+/// water particle meets one on the surface.
 pub const LEAST_DEPTH: f64 = 0.35;
 
-/// Places of the lattice that are tried along each axis.
-const PLACES: u32 = 4;
+/// Number of lattice offsets that are tried along each axis.
+const OFFSETS: u32 = 4;
 
-/// Particles of a cubic lattice of spacing `dp` [m] inside a solid, in the solid's axes.
+/// Returns the particles of a cubic lattice with spacing `dp` [m] inside a solid, in the solid's axes.
 ///
-/// `locate` gives the nearest point of the surface [m] and the distance to it [m], negative inside; `low` and `high`
-/// bound the solid [m]. Of several places of the lattice the one whose particle count comes nearest to `volume` / dp^3
-/// is taken, and the particles share the volume [m3] exactly.
+/// `locate` returns the nearest point of the surface and the distance to it, negative inside [m]; `low` and `high`
+/// bound the solid [m]. Of several lattice offsets, the one whose particle count is nearest to `volume` / dp^3 is used.
+/// The particles share the volume [m3] equally.
 pub fn unit_particles(
     locate: impl Fn(DVec3) -> (DVec3, f64),
     low: DVec3,
@@ -24,15 +24,15 @@ pub fn unit_particles(
     dp: f64,
 ) -> Vec<BoundaryParticle> {
     let wanted = volume / dp.powi(3);
-    let places = (0..PLACES.pow(3)).map(|n| {
-        let place = |divisor: u32| f64::from(n / divisor % PLACES) / f64::from(PLACES);
-        low + dp * (DVec3::new(place(1), place(PLACES), place(PLACES * PLACES)) - 1.0)
+    let origins = (0..OFFSETS.pow(3)).map(|n| {
+        let offset = |divisor: u32| f64::from(n / divisor % OFFSETS) / f64::from(OFFSETS);
+        low + dp * (DVec3::new(offset(1), offset(OFFSETS), offset(OFFSETS * OFFSETS)) - 1.0)
     });
-    let fillings = places.map(|origin| inside(&locate, origin, high, dp));
-    let miss = |points: &Vec<DVec3>| (points.len() as f64 - wanted).abs();
-    let points = fillings.min_by(|a, b| miss(a).total_cmp(&miss(b))).unwrap_or_default();
+    let fillings = origins.map(|origin| points_inside(&locate, origin, high, dp));
+    let count_error = |points: &Vec<DVec3>| (points.len() as f64 - wanted).abs();
+    let points = fillings.min_by(|a, b| count_error(a).total_cmp(&count_error(b))).unwrap_or_default();
     let share = volume / points.len().max(1) as f64;
-    let place = |point: DVec3| {
+    let to_particle = |point: DVec3| {
         let (nearest, distance) = locate(point);
         let depth = -distance;
         let position = if depth < LEAST_DEPTH * dp && depth > 1e-9 * dp {
@@ -42,11 +42,11 @@ pub fn unit_particles(
         };
         BoundaryParticle { position, to_surface: locate(position).0 - position, volume: share, slides: false }
     };
-    points.into_iter().map(place).collect()
+    points.into_iter().map(to_particle).collect()
 }
 
-/// Lattice points inside the solid.
-fn inside(locate: &impl Fn(DVec3) -> (DVec3, f64), origin: DVec3, high: DVec3, dp: f64) -> Vec<DVec3> {
+/// Returns the lattice points inside the solid.
+fn points_inside(locate: &impl Fn(DVec3) -> (DVec3, f64), origin: DVec3, high: DVec3, dp: f64) -> Vec<DVec3> {
     let count = ((high - origin) / dp).ceil();
     let mut points = Vec::new();
     for i in 0..count.x as u32 + 1 {
@@ -67,13 +67,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ball_keeps_its_volume_and_its_distances() {
+    fn particles_of_a_ball_fill_its_volume_and_know_their_depth() {
         let ball = |p: DVec3| (p.normalize_or(DVec3::X) * 0.05, p.length() - 0.05);
         let volume = 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
         let particles = unit_particles(ball, DVec3::splat(-0.05), DVec3::splat(0.05), volume, 0.01);
         let total: f64 = particles.iter().map(|p| p.volume).sum();
         assert!((total / volume - 1.0).abs() < 1e-12);
-        // The best of 64 places: the count misses volume / dp^3 by less than one in a hundred.
+        // The best of 64 offsets: the count differs from volume / dp^3 by less than 1 %.
         assert!((particles[0].volume / 1e-6 - 1.0).abs() < 0.01);
         for particle in &particles {
             let depth = 0.05 - particle.position.length();

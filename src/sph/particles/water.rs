@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// State of the water, one entry a particle in every array.
+/// State of the water, one entry per particle in every array.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Water {
     /// Position [m].
@@ -11,26 +11,26 @@ pub struct Water {
     pub velocity: Vec<DVec3>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
-    /// Number of the particle, which it keeps when the arrays are sorted.
+    /// Identification number, which the particle keeps when the arrays are sorted.
     pub id: Vec<u32>,
     /// Mass [kg].
     pub mass: Vec<f64>,
 }
 
 impl Water {
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
-    /// Bytes in use.
+    /// Returns the memory in use [bytes].
     pub fn bytes(&self) -> usize {
         let vectors = (self.position.capacity() + self.velocity.capacity()) * size_of::<DVec3>();
         let numbers = (self.density.capacity() + self.mass.capacity()) * size_of::<f64>();
         vectors + numbers + self.id.capacity() * size_of::<u32>()
     }
 
-    /// Whether there is no water.
+    /// Returns whether there are no particles.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

@@ -1,4 +1,4 @@
-//! The same velocity given as a file of each program must give the same table.
+//! Test: the same velocity in the file formats of all programs gives the same table.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -11,14 +11,14 @@ use super::velx;
 const PLACE: Place = Place { bed_z_m: -0.8, still_water_z_m: 0.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
 const LAYERS: usize = 8;
 
-/// Velocity under the node of a standing wave 4 m long in 0.8 m of water [m/s]; the surface rests there.
+/// Velocity under the node of a standing wave 4 m long in 0.8 m of water [m/s]; the surface there does not move.
 fn velocity(z: f64, t: f64) -> f64 {
     let k = std::f64::consts::TAU / 4.0;
     let omega = (PLACE.gravity_m_s2 * k * (k * PLACE.depth_m()).tanh()).sqrt();
     0.3 * (k * (z - PLACE.bed_z_m)).cosh() / (k * PLACE.depth_m()).cosh() * (omega * t).cos()
 }
 
-/// Middles of the layers z [m], from the bed up.
+/// Levels z of the middles of the layers [m], from the bed upwards.
 fn levels() -> Vec<f64> {
     (0..LAYERS).map(|k| PLACE.bed_z_m + (k as f64 + 0.5) * PLACE.depth_m() / LAYERS as f64).collect()
 }
@@ -65,10 +65,10 @@ fn files_of_all_programs_agree() {
         for j in 0..=20 {
             let (t, z) = (0.039 * f64::from(i), PLACE.bed_z_m + 0.04 * f64::from(j));
             let u = tables[0].velocity_m_s(z, t);
-            // The files have all digits: only levels are rounded, by z - z0 + z0.
+            // The files have all digits; only z - z0 + z0 rounds the levels.
             assert!(tables.iter().all(|table| (table.velocity_m_s(z, t) - u).abs() < 1e-6));
             if (levels()[0]..=levels()[LAYERS - 1]).contains(&z) {
-                // Straight lines over 0.1 m and 0.02 s: u'' dz^2 / 8 + u'' dt^2 / 8 is 1e-3 + 2e-4.
+                // Error of linear interpolation over 0.1 m and 0.02 s: u'' dz^2 / 8 + u'' dt^2 / 8 is 1e-3 + 2e-4.
                 assert!((u - velocity(z, t)).abs() < 1.5e-3);
             }
         }

@@ -1,10 +1,10 @@
-//! What can be wrong with a file of another program, and how it is told to the user.
+//! Errors in files of other programs.
 
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// One thing that is wrong with a file of another program: where, what, and what to do.
+/// An error in a file of another program: where, what, and what to do.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ExternalError {
     /// The file or folder cannot be read.
@@ -12,19 +12,19 @@ pub enum ExternalError {
     Read {
         /// The file or folder.
         file: PathBuf,
-        /// What the operating system says.
+        /// Message of the operating system.
         reason: String,
         /// What to do.
         advice: String,
     },
-    /// A line is not as it should be.
+    /// A line is wrong.
     #[error("{file}: line {line}: {problem}; {advice}")]
     Line {
         /// The file.
         file: PathBuf,
-        /// Line, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What is wrong.
+        /// The problem.
         problem: String,
         /// What to do.
         advice: String,
@@ -34,34 +34,34 @@ pub enum ExternalError {
     File {
         /// The file or folder.
         file: PathBuf,
-        /// What is wrong.
+        /// The problem.
         problem: String,
         /// What to do.
         advice: String,
     },
-    /// The values of a moment make no sense.
+    /// The values at one time are implausible.
     #[error("{file}: at t = {time_s} s: {problem}; {advice}")]
     Moment {
         /// The file, or the folder of files that were joined.
         file: PathBuf,
         /// Time in the file [s].
         time_s: f64,
-        /// What is wrong.
+        /// The problem.
         problem: String,
         /// What to do.
         advice: String,
     },
-    /// The file tells too little of how the velocity varies over the height.
+    /// The file has too few levels with velocities.
     #[error(
-        "{file}: at t = {time_s} s: velocities at {layers} levels in the water, at least 2 are needed; \
-         sample more levels, or allow a velocity averaged over the depth"
+        "{file}: at t = {time_s} s: {layers} level(s) in the water with a velocity; at least 2 are needed; \
+         sample more levels, or allow a depth-averaged velocity"
     )]
     TooFewLayers {
         /// The file, or the folder of files that were joined.
         file: PathBuf,
         /// Time in the file [s].
         time_s: f64,
-        /// How many levels there are.
+        /// Number of levels.
         layers: usize,
     },
 }

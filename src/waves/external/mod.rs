@@ -1,13 +1,13 @@
-//! The velocity of a wave at one place from files of other programs, and written back for them.
+//! Velocity and surface of a wave at one position, in files of other programs.
 //!
-//! | module | what it holds |
+//! | module | contents |
 //! | --- | --- |
-//! | [`table`] | velocity over height and time, which every reader gives, and the checks it must pass |
-//! | [`surface`] | the level of the surface over time |
-//! | [`velx`] | `_velx` files of DualSPHysics |
-//! | [`swash`] | tables of SWASH: water level, and velocity by layer |
-//! | [`openfoam`] | probes, sampled lines and `interfaceHeight` of OpenFOAM |
-//! | [`error`] | what can be wrong with such files |
+//! | [`table`] | velocity over height and time, the result of every reader, with its checks |
+//! | [`surface`] | surface level over time |
+//! | [`velx`] | DualSPHysics: `_velx` files |
+//! | [`swash`] | SWASH: tables of water level and layer velocities |
+//! | [`openfoam`] | OpenFOAM: probes, sampled lines and `interfaceHeight` |
+//! | [`error`] | errors in these files |
 
 pub mod comparison;
 pub mod error;

@@ -1,17 +1,17 @@
-//! Output of OpenFOAM's function objects at one place over time.
+//! Output of OpenFOAM's function objects at one position over time.
 //!
-//! Formats are those of the sources of OpenFOAM v1912 to v2312 (openfoam.com) and, for probes and `interfaceHeight`, of
-//! OpenFOAM-dev (openfoam.org), which differ only in comments.
+//! The formats follow the source code of OpenFOAM v1912 to v2312 (openfoam.com). For probes and `interfaceHeight` they
+//! also cover OpenFOAM-dev (openfoam.org), which differs only in comments.
 //!
-//! | module | what it reads |
+//! | module | files |
 //! | --- | --- |
-//! | [`probes`] | `postProcessing/<name>/<t0>/U` and `alpha.water`: one file a field, a row a time |
-//! | [`lines`] | `postProcessing/<name>/<t>/<line>_U.xy`: one folder a time, a row a point |
+//! | [`probes`] | `postProcessing/<name>/<t0>/U` and `alpha.water`: one file per field, one row per time |
+//! | [`lines`] | `postProcessing/<name>/<t>/<line>_U.xy`: one folder per time, one row per point |
 //! | [`interface_height`] | `postProcessing/<name>/<t0>/position.dat` and `height.dat` |
 //!
-//! Probes and `interfaceHeight` leave one folder for each start of the run; they are joined, and where they overlap the
-//! later start counts. Points outside the mesh have values of about 1e300 and are left out. Velocities are along x of
-//! OpenFOAM.
+//! Probes and `interfaceHeight` write one folder per start of the run. The readers join these folders; where they
+//! overlap, the later start applies. Points outside the mesh have values of about 1e300 and are left out. Velocities
+//! are along x of OpenFOAM.
 
 mod frame;
 pub mod gauges;

@@ -1,11 +1,11 @@
-//! The level of the water surface over time at one place.
+//! Surface level over time at one position.
 
 use std::path::{Path, PathBuf};
 
 use super::error::ExternalError;
 use super::table::{check_times, linear};
 
-/// Level of the surface over time.
+/// Surface level over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceSeries {
     file: PathBuf,
@@ -14,18 +14,18 @@ pub struct SurfaceSeries {
 }
 
 impl SurfaceSeries {
-    /// Levels z [m] at rising times [s] from a file.
+    /// Creates a series of levels z [m] at increasing times [s] from a file.
     ///
     /// # Errors
-    /// If the times do not rise or leave a gap, or a level is not a number.
+    /// If the times do not increase or have a gap, or a level is not a finite number.
     ///
     /// # Panics
-    /// If there is not one level for each time.
+    /// If there is not one level per time.
     pub fn new(file: &Path, times_s: Vec<f64>, z_m: Vec<f64>) -> Result<Self, ExternalError> {
-        assert_eq!(times_s.len(), z_m.len(), "a level for each time");
+        assert_eq!(times_s.len(), z_m.len(), "one level per time");
         check_times(file, &times_s)?;
         if let Some(i) = z_m.iter().position(|z| !z.is_finite()) {
-            let problem = format!("a level of {} m", z_m[i]);
+            let problem = format!("the surface level is {} m", z_m[i]);
             return Err(ExternalError::moment(file, times_s[i], problem, "correct or delete the row"));
         }
         Ok(Self { file: file.to_owned(), times_s, z_m })
@@ -53,26 +53,26 @@ impl SurfaceSeries {
         (top - 0.5 * slope * slope / curvature, time - slope / curvature)
     }
 
-    /// Levels z [m] at other times [s], on straight lines between those known.
+    /// Levels z [m] at other times [s], linearly interpolated.
     ///
     /// # Errors
-    /// If a time lies outside those known.
+    /// If a time is outside the series.
     pub fn at_times(&self, times_s: &[f64]) -> Result<Vec<f64>, ExternalError> {
         let (first, last) = (self.times_s[0], self.times_s[self.times_s.len() - 1]);
-        // Times are written with few digits, so equal ones may differ by a rounding.
+        // Times are written with few digits, so equal times may differ by rounding.
         let rounding = 1e-5 * (last - first);
-        let at = |&t: &f64| {
+        let level = |&t: &f64| {
             if t < first - rounding || t > last + rounding {
                 return Err(ExternalError::moment(
                     &self.file,
                     t,
-                    format!("velocities but no level of the surface, which is known from {first} to {last} s"),
-                    "write both over the same time",
+                    format!("a velocity without a surface level; surface levels cover {first} to {last} s"),
+                    "write both for the same times",
                 ));
             }
             Ok(linear(&self.times_s, &self.z_m, t))
         };
-        times_s.iter().map(at).collect()
+        times_s.iter().map(level).collect()
     }
 }
 
@@ -90,13 +90,13 @@ mod tests {
     }
 
     #[test]
-    fn levels_lie_on_lines_and_end_with_the_series() {
+    fn levels_are_interpolated_within_the_series_only() {
         let series = SurfaceSeries::new(Path::new("wl"), vec![0.0, 1.0, 2.0], vec![1.0, 2.0, 0.0]).unwrap();
         assert_eq!(series.at_times(&[0.0, 0.5, 2.0]).unwrap(), [1.0, 1.5, 0.0]);
         assert_eq!(
             series.at_times(&[3.0]).unwrap_err().to_string(),
-            "wl: at t = 3 s: velocities but no level of the surface, which is known from 0 to 2 s; write both over \
-             the same time"
+            "wl: at t = 3 s: a velocity without a surface level; surface levels cover 0 to 2 s; write both for \
+             the same times"
         );
     }
 }

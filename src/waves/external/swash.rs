@@ -1,21 +1,21 @@
-//! Tables of SWASH: the water level and the velocity by layer at one point over time.
+//! SWASH tables: water level and layer velocities at one point over time.
 //!
-//! They come from commands such as `TABLE 'P' NOHEADER 'level.tbl' TSEC WATL OUTPUT 0 0.1 SEC` and
-//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`, with one point in the set `'P'`. After the user
-//! manual of SWASH (11.01A, sections 4.6.2 and 5.1) and its source:
+//! Example commands are `TABLE 'P' NOHEADER 'level.tbl' TSEC WATL OUTPUT 0 0.1 SEC` and
+//! `TABLE 'P' HEADER 'velocity.tbl' TSEC VELK OUTPUT 0 0.1 SEC`. The set `'P'` must have one point. The format follows
+//! the SWASH user manual (11.01A, sections 4.6.2 and 5.1) and source code:
 //!
-//! | what | how it stands in the file |
+//! | item | format |
 //! | --- | --- |
-//! | columns | in the order of the command, separated by blanks, a row a time and point |
-//! | `HEADER` | lines that begin with `%`; one of them has the short names of the columns, the next their units |
+//! | columns | in the order of the command, separated by blanks; one row per time and point |
+//! | `HEADER` | lines that begin with `%`; one lists the short names of the columns, the next their units |
 //! | `NOHEADER` | rows only |
-//! | short names | `Tsec`, `Watlev`, `Vksi` and `X-vel` averaged over the depth, `Vksi_k` and `X-vel_k` by layer |
-//! | `VELK` | a vector: x of every layer, then y of every layer; `VKSIK` has x only, along the grid |
-//! | layers | the first at the surface; thicknesses are shares of the depth (fixed ones in metres are not read) |
-//! | `WATL` | level above the datum of the run [m], which is still water unless `SET LEVEL` or an input grid moves it |
+//! | short names | `Tsec`, `Watlev`; `Vksi` and `X-vel` are depth-averaged, `Vksi_k` and `X-vel_k` are per layer |
+//! | `VELK` | x of every layer, then y of every layer; `VKSIK` has x only, along the grid |
+//! | layers | from the surface downwards; thicknesses relative to the depth (fixed thicknesses are not supported) |
+//! | `WATL` | level above the datum of the run [m]: still water, unless `SET LEVEL` or an input grid shifts it |
 //!
-//! Columns by layer are told apart by the number in their name if it has one, else by their order. The third form,
-//! `TABLE ... SWASH`, is refused. Velocities are in m/s in the direction of x of SWASH.
+//! The number in a column name gives the layer; without a number the order does. The third form, `TABLE ... SWASH`, is
+//! rejected. Velocities are in m/s along x of SWASH.
 
 mod columns;
 mod write;
@@ -30,32 +30,32 @@ use columns::Table;
 pub use columns::{Column, velk_columns};
 pub use write::{Heading, write_level, write_velocities};
 
-/// A table file and what its columns are.
+/// A table file and its columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TableFile<'a> {
     /// The file.
     pub path: &'a Path,
-    /// Its columns in their order; only needed where a header does not name them.
+    /// Columns in file order; only needed if no header names them.
     pub columns: &'a [Column],
 }
 
 /// The tables of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tables<'a> {
-    /// The table with `TSEC` and `WATL`.
+    /// Table with `TSEC` and `WATL`.
     pub level: TableFile<'a>,
-    /// The table with `TSEC` and `VELK` or `VKSIK`; it may be the same file.
+    /// Table with `TSEC` and `VELK` or `VKSIK`; may be the same file.
     pub velocity: TableFile<'a>,
-    /// Thicknesses of the layers as shares of the depth from the surface down, as under `VERT`; none if all are equal.
+    /// Layer thicknesses relative to the depth, from the surface downwards, as in `VERT`; empty if all are equal.
     pub layer_shares: &'a [f64],
 }
 
-/// Read the tables of one point; velocities stand at the middles of the layers.
+/// Reads the tables of one point; velocities apply at the middles of the layers.
 ///
-/// The still-water level of the place is where `WATL` is 0.
+/// `WATL` = 0 is the still water level of the position.
 ///
 /// # Errors
-/// If a file cannot be read, a column is missing, a line is wrong, or the values cannot be right at the place.
+/// If a file cannot be read, a column is missing, a line is wrong, or the values are implausible at the position.
 pub fn read(tables: &Tables, place: &Place) -> Result<VelocityTable, ExternalError> {
     let level = Table::read(&tables.level)?;
     let levels = level.column(Column::Watl)?.into_iter().map(|watl| place.still_water_z_m + watl).collect();
@@ -67,30 +67,30 @@ pub fn read(tables: &Tables, place: &Place) -> Result<VelocityTable, ExternalErr
     let shares = shares(tables, layers.len())?;
     let surface_z_m = surface.at_times(&times_s)?;
     let heights_m = surface_z_m.iter().map(|&z| layer_middles(place.bed_z_m, z, &shares)).collect();
-    // Layers are counted down from the surface, levels up from the bed.
+    // Layers are counted from the surface downwards, levels from the bed upwards.
     let velocities_m_s = (0..times_s.len()).map(|i| layers.iter().rev().map(|layer| layer[i]).collect()).collect();
     VelocityTable { times_s, surface_z_m: Some(surface_z_m), heights_m, velocities_m_s }
         .checked(tables.velocity.path, place)
 }
 
-/// Shares of the layers [-]: those given, or equal ones.
+/// Relative thicknesses of the layers [-]: the given ones or equal ones.
 fn shares(tables: &Tables, layers: usize) -> Result<Vec<f64>, ExternalError> {
     if tables.layer_shares.is_empty() {
         return Ok(vec![1.0 / layers as f64; layers]);
     }
     let (given, sum) = (tables.layer_shares.len(), tables.layer_shares.iter().sum::<f64>());
-    // Percentages with few digits, as in `VERT 3 33.3% 33.3% 33.3%`, may miss 1 by a little.
+    // Rounded percentages, as in `VERT 3 33.3% 33.3% 33.3%`, do not add up to exactly 1.
     if given == layers && (sum - 1.0).abs() < 0.01 && tables.layer_shares.iter().all(|&share| share > 0.0) {
         return Ok(tables.layer_shares.iter().map(|share| share / sum).collect());
     }
     Err(ExternalError::file(
         tables.velocity.path,
-        format!("{layers} layers, but {given} shares of the depth that add up to {sum}"),
-        "give one share above zero a layer, from the surface down, that add up to 1",
+        format!("{layers} layers, but {given} layer shares that add up to {sum}"),
+        "give one positive share of the depth per layer, from the surface downwards; they must add up to 1",
     ))
 }
 
-/// Levels z [m] of the middles of the layers, from the bed up.
+/// Levels z of the middles of the layers [m], from the bed upwards.
 fn layer_middles(bed_z_m: f64, surface_z_m: f64, shares: &[f64]) -> Vec<f64> {
     let mut below = 0.0;
     let middle = |share: &f64| {
@@ -141,13 +141,13 @@ mod tests {
         let table = table();
         assert_eq!((&back.times_s, &back.velocities_m_s), (&table.times_s, &table.velocities_m_s));
         for (a, b) in back.heights_m.iter().zip(&table.heights_m) {
-            // The level above still water is the level less 0.5: a rounding.
+            // Converting to elevations above still water at z = 0.5 m and back rounds the levels.
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-15));
         }
     }
 
     #[test]
-    fn tables_with_and_without_header_come_back() {
+    fn tables_with_and_without_header_are_read_back() {
         let (_keep, level, velocity) = folder(Heading::Names);
         assert_same(&read_both(&level, &velocity, [&[], &[]]).unwrap());
         let (_keep, level, velocity) = folder(Heading::None);
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn layers_lie_from_the_surface_down() {
+    fn layers_are_counted_from_the_surface_downwards() {
         assert_eq!(layer_middles(-1.0, 1.0, &[0.5, 0.25, 0.25]), [-0.75, -0.25, 0.5]);
         let (_keep, level, velocity) = folder(Heading::Names);
         let back = read_both(&level, &velocity, [&[], &[]]).unwrap();
@@ -167,28 +167,28 @@ mod tests {
     }
 
     #[test]
-    fn a_column_that_is_missing_is_named() {
+    fn error_names_the_missing_column() {
         let (_keep, level, velocity) = folder(Heading::Names);
         let message = |level: &Path, velocity: &Path| read_both(level, velocity, [&[], &[]]).unwrap_err().to_string();
         assert!(message(&velocity, &velocity).ends_with("no column `Watlev`; add WATL to the TABLE command"));
         assert!(message(&level, &level).ends_with("no velocities; add VELK or VKSIK to the TABLE command"));
         let (_keep, level, velocity) = folder(Heading::None);
         assert!(message(&level, &velocity).ends_with(
-            "level.tbl: line 1: no header names the columns; give the columns in their order, or write with HEADER"
+            "level.tbl: line 1: no header names the columns; list the columns in file order, or write with HEADER"
         ));
     }
 
     #[test]
-    fn shares_must_fit_the_layers() {
+    fn shares_must_match_the_layers() {
         let (_keep, level, velocity) = folder(Heading::Names);
         let file = |path| TableFile { path, columns: &[] };
         let tables = Tables { level: file(&level), velocity: file(&velocity), layer_shares: &[0.5, 0.4] };
         let message = read(&tables, &PLACE).unwrap_err().to_string();
-        assert!(message.contains("3 layers, but 2 shares of the depth that add up to 0.9; give one share"));
+        assert!(message.contains("3 layers, but 2 layer shares that add up to 0.9; give one positive share"));
     }
 
     #[test]
-    fn a_velocity_averaged_over_the_depth_must_be_allowed() {
+    fn depth_averaged_velocity_must_be_allowed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("all.tbl");
         fs::write(&path, "% Tsec Watlev X-vel Y-vel\n% [sec] [m] [m/s] [m/s]\n0 0 0.1 0\n1 0 0.2 0\n2 0 0.3 0\n")

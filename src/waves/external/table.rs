@@ -1,77 +1,77 @@
-//! Velocity along x over height and time at one place: what every reader gives, after the checks that find files in
-//! other units, with holes, or of another place.
+//! Velocity along x over height and time at one position: the result of every reader. Its checks detect wrong units,
+//! gaps and files of another position.
 
 use std::path::Path;
 
 use super::error::ExternalError;
 
-/// An interval longer than this many median ones is a gap: output at every tenth step with one row lost has 2, a
-/// restart that lost its first output a few.
+/// An interval longer than this many median intervals is a gap: one lost row gives 2, a restart without its first
+/// output a few.
 const GAP: f64 = 5.0;
 
-/// Velocities above this many sqrt(g d) are taken for another unit: water leaves a breaking crest at less than 2.
+/// Limit of the velocity in units of sqrt(g d), above which the unit must be wrong; breaking crests stay below 2.
 const FASTEST: f64 = 3.0;
 
-/// Levels may lie outside the water by this share of the depth: cells at the surface are partly filled, and an
-/// overturning crest stands higher than the level that holds the same water.
+/// Distance by which levels may lie outside the water, relative to the depth: surface cells are partly filled, and an
+/// overturning crest lies above the level of equal volume.
 const OUTSIDE: f64 = 0.1;
 
-/// Velocity along x over height and time at one place, from another program.
+/// Velocity along x over height and time at one position, from another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VelocityTable {
-    /// Times [s], strictly rising.
+    /// Times [s], strictly increasing.
     pub times_s: Vec<f64>,
-    /// Level of the surface z at each time [m], where the file tells.
+    /// Surface level z at each time [m], if the file has it.
     pub surface_z_m: Option<Vec<f64>>,
-    /// Rising levels z in the water [m], a list a time.
+    /// Increasing levels z in the water [m], one list per time.
     pub heights_m: Vec<Vec<f64>>,
-    /// Velocities along x at them [m/s], a list a time.
+    /// Velocities along x at these levels [m/s], one list per time.
     pub velocities_m_s: Vec<Vec<f64>>,
 }
 
-/// What the caller knows of the place and accepts of a file.
+/// Position of a table in the case, and the number of levels that a file must have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Level of the bed z [m].
+    /// Bed level z [m].
     pub bed_z_m: f64,
-    /// Level of still water z [m].
+    /// Still water level z [m].
     pub still_water_z_m: f64,
-    /// Gravity [m/s2], above zero.
+    /// Gravitational acceleration [m/s2], above zero.
     pub gravity_m_s2: f64,
-    /// How many levels a file must have.
+    /// Required number of levels.
     pub layers: Layers,
 }
 
-/// How many levels with velocities a file must have.
+/// Required number of levels with velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layers {
-    /// At least two at every time.
+    /// At least two levels at every time.
     AtLeastTwo,
-    /// One will do: a velocity averaged over the depth.
+    /// One level is enough: a depth-averaged velocity.
     DepthAveraged,
 }
 
 impl Place {
-    /// Depth of still water [m].
+    /// Still water depth [m].
     pub fn depth_m(&self) -> f64 {
         self.still_water_z_m - self.bed_z_m
     }
 }
 
 impl VelocityTable {
-    /// The table as read from `file`, if its values can be right at the place; every reader ends here.
+    /// Returns the table read from `file` if its values are plausible at the position; the last step of every reader.
     ///
     /// # Errors
-    /// If times do not rise or leave a gap, a value is not finite, the surface lies below the bed, levels do not rise
-    /// or lie outside the water, there are too few of them, or a velocity is too high for the depth.
+    /// If times do not increase or have a gap, a value is not finite, or the surface is below the bed. If levels do not
+    /// increase, are outside the water or too few, or a velocity is too high for the depth.
     ///
     /// # Panics
-    /// If the lists are not of the same shape, or the place has no water.
+    /// If the lists differ in shape, or the position has no water.
     pub fn checked(self, file: &Path, place: &Place) -> Result<Self, ExternalError> {
         let times = self.times_s.len();
-        assert!(place.depth_m() > 0.0 && place.gravity_m_s2 > 0.0, "a place has water and gravity");
-        assert!(self.heights_m.len() == times && self.velocities_m_s.len() == times, "a list for each time");
-        assert!(self.surface_z_m.as_ref().is_none_or(|levels| levels.len() == times), "a level for each time");
+        assert!(place.depth_m() > 0.0 && place.gravity_m_s2 > 0.0, "depth and gravity are positive");
+        assert!(self.heights_m.len() == times && self.velocities_m_s.len() == times, "one list per time");
+        assert!(self.surface_z_m.as_ref().is_none_or(|levels| levels.len() == times), "one level per time");
         check_times(file, &self.times_s)?;
         for i in 0..times {
             self.check_surface(i, file, place)?;
@@ -83,26 +83,25 @@ impl VelocityTable {
 
     /// Velocity along x [m/s] at level z [m] and time t [s]: linear in height and in time, constant beyond the ends.
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
-        let at = |i: usize| linear(&self.heights_m[i], &self.velocities_m_s[i], z);
+        let velocity = |i: usize| linear(&self.heights_m[i], &self.velocities_m_s[i], z);
         let after = self.times_s.partition_point(|&time| time <= t);
         if after == 0 {
-            return at(0);
+            return velocity(0);
         }
         if after == self.times_s.len() {
-            return at(after - 1);
+            return velocity(after - 1);
         }
         let (t0, t1) = (self.times_s[after - 1], self.times_s[after]);
-        let (u0, u1) = (at(after - 1), at(after));
+        let (u0, u1) = (velocity(after - 1), velocity(after));
         u0 + (u1 - u0) * (t - t0) / (t1 - t0)
     }
 
-    /// Level of the surface z [m] at t [s], linear in time and constant beyond the ends; `None` where the file does not
-    /// tell.
+    /// Surface level z [m] at t [s], linear in time and constant beyond the ends; `None` if the file has no levels.
     pub fn surface_at_m(&self, t: f64) -> Option<f64> {
         self.surface_z_m.as_ref().map(|levels| linear(&self.times_s, levels, t))
     }
 
-    /// The surface lies above the bed and less than a depth above still water.
+    /// Checks that the surface is above the bed and at most one depth above still water.
     fn check_surface(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
         let Some(level) = self.surface_z_m.as_ref().map(|levels| levels[i]) else { return Ok(()) };
         let (bed, top) = (place.bed_z_m, place.still_water_z_m + place.depth_m());
@@ -112,12 +111,12 @@ impl VelocityTable {
         Err(ExternalError::moment(
             file,
             self.times_s[i],
-            format!("the surface lies at z = {level} m, not between the bed at {bed} m and {top} m"),
-            "check the levels of the bed and of still water, the unit, and that the place stays wet",
+            format!("the surface level z = {level} m is not between the bed, {bed} m, and {top} m"),
+            "check the bed level, the still water level and the unit; the position must stay wet",
         ))
     }
 
-    /// There are enough levels; they rise, and lie in the water.
+    /// Checks that there are enough levels, that they increase, and that they are in the water.
     fn check_heights(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
         let (t, heights) = (self.times_s[i], &self.heights_m[i]);
         let least = match place.layers {
@@ -131,8 +130,8 @@ impl VelocityTable {
             return Err(ExternalError::moment(
                 file,
                 t,
-                format!("the level z = {} m does not lie above {} m", pair[1], pair[0]),
-                "give every level once",
+                format!("the level z = {} m is not above the one before, {} m", pair[1], pair[0]),
+                "list every level once, from the bed upwards",
             ));
         }
         let surface = self.surface_z_m.as_ref().map_or(place.still_water_z_m + place.depth_m(), |levels| levels[i]);
@@ -143,42 +142,42 @@ impl VelocityTable {
             Some(z) => Err(ExternalError::moment(
                 file,
                 t,
-                format!("the level z = {z} m is not in the water between {} and {surface} m", place.bed_z_m),
-                "check the zero of z, which axis points up, the unit, and that samples in air are left out",
+                format!("the level z = {z} m is not in the water, {} to {surface} m", place.bed_z_m),
+                "check the zero of z, the vertical axis and the unit; leave out samples in air",
             )),
         }
     }
 
-    /// There is a velocity for each level, and water of this depth can have it.
+    /// Checks that every level has a velocity that is plausible in this depth.
     fn check_velocities(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
         let (t, heights, velocities) = (self.times_s[i], &self.heights_m[i], &self.velocities_m_s[i]);
-        assert_eq!(heights.len(), velocities.len(), "a velocity for each level");
+        assert_eq!(heights.len(), velocities.len(), "one velocity per level");
         let depth = place.depth_m();
         let limit = FASTEST * (place.gravity_m_s2 * depth).sqrt();
         let Some((z, u)) = heights.iter().zip(velocities).find(|(_, u)| u.is_nan() || u.abs() > limit) else {
             return Ok(());
         };
-        let at = format!("the velocity at z = {z} m is {u}");
+        let problem = format!("the velocity at z = {z} m is {u}");
         Err(if u.is_finite() {
             ExternalError::moment(
                 file,
                 t,
-                format!("{at} m/s, above 3 sqrt(g d) = {limit:.3} m/s in a depth of {depth} m"),
-                "are these mm/s or cm/s? write m/s",
+                format!("{problem} m/s, above 3 sqrt(g d) = {limit:.3} m/s in a depth of {depth} m"),
+                "check the unit: velocities must be in m/s",
             )
         } else {
-            ExternalError::moment(file, t, at, "the other program's run went wrong there; repeat it or cut the file")
+            ExternalError::moment(file, t, problem, "the other program's run failed there; rerun it or cut the file")
         })
     }
 }
 
-/// Times are at least two, finite, rising and without gaps.
+/// Checks that there are at least two times, and that they are finite, increasing and without gaps.
 pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalError> {
     if times_s.len() < 2 {
         return Err(ExternalError::file(
             file,
-            format!("values at {} times, at least 2 are needed", times_s.len()),
-            "write output over the whole time that is wanted",
+            format!("values at {} time(s); at least 2 are needed", times_s.len()),
+            "write output for the whole duration of the run",
         ));
     }
     let mut intervals = Vec::with_capacity(times_s.len() - 1);
@@ -188,7 +187,7 @@ pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalEr
             return Err(ExternalError::file(
                 file,
                 format!("t = {} s follows t = {} s", pair[1], pair[0]),
-                "times must rise; write one place a file, and cut what an earlier run left in it",
+                "times must increase; write one position per file, and delete rows of an earlier run",
             ));
         }
         intervals.push(interval);
@@ -198,13 +197,13 @@ pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalEr
         None => Ok(()),
         Some(i) => Err(ExternalError::file(
             file,
-            format!("no values between t = {} s and {} s, where {median} s is usual", times_s[i], times_s[i + 1]),
-            "repeat the output of that time, or cut the file there",
+            format!("gap between t = {} s and {} s; the median interval is {median} s", times_s[i], times_s[i + 1]),
+            "write the missing output, or cut the file there",
         )),
     }
 }
 
-/// Value at x between values at rising xs: on straight lines, constant beyond the ends.
+/// Value at x from values at increasing xs: linear, constant beyond the ends.
 pub(super) fn linear(xs: &[f64], values: &[f64], x: f64) -> f64 {
     let right = xs.partition_point(|&p| p <= x);
     if right == 0 {
@@ -248,32 +247,32 @@ mod tests {
     }
 
     #[test]
-    fn times_must_rise_without_gaps() {
+    fn times_must_increase_without_gaps() {
         let mut gap = table(9);
         gap.times_s[8] = 3.25;
         assert_eq!(
             message(gap),
-            "u.tbl: no values between t = 1.75 s and 3.25 s, where 0.25 s is usual; repeat the output of \
-             that time, or cut the file there"
+            "u.tbl: gap between t = 1.75 s and 3.25 s; the median interval is 0.25 s; write the missing output, \
+             or cut the file there"
         );
         let mut back = table(4);
         back.times_s[2] = 0.125;
         assert_eq!(
             message(back),
-            "u.tbl: t = 0.125 s follows t = 0.25 s; times must rise; write one place a file, and cut what an earlier \
-             run left in it"
+            "u.tbl: t = 0.125 s follows t = 0.25 s; times must increase; write one position per file, and delete \
+             rows of an earlier run"
         );
-        assert!(message(table(1)).starts_with("u.tbl: values at 1 times, at least 2 are needed"));
+        assert!(message(table(1)).starts_with("u.tbl: values at 1 time(s); at least 2 are needed"));
     }
 
     #[test]
-    fn velocities_must_be_in_metres_a_second() {
+    fn velocities_must_be_in_metres_per_second() {
         let mut fast = table(4);
         fast.velocities_m_s[3][1] = 300.0;
         assert_eq!(
             message(fast),
             "u.tbl: at t = 0.75 s: the velocity at z = 0.75 m is 300 m/s, above 3 sqrt(g d) = 9.396 m/s \
-             in a depth of 1 m; are these mm/s or cm/s? write m/s"
+             in a depth of 1 m; check the unit: velocities must be in m/s"
         );
         let mut broken = table(4);
         broken.velocities_m_s[1][0] = f64::NAN;
@@ -281,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_must_be_two_rising_and_in_the_water() {
+    fn levels_must_be_at_least_two_increasing_and_in_the_water() {
         let mut thin = table(4);
         (thin.heights_m[2], thin.velocities_m_s[2]) = (vec![0.5], vec![0.1]);
         assert_eq!(
@@ -291,12 +290,12 @@ mod tests {
         assert!(thin.checked(Path::new("u.tbl"), &Place { layers: Layers::DepthAveraged, ..PLACE }).is_ok());
         let mut air = table(4);
         air.surface_z_m = Some(vec![0.6; 4]);
-        assert!(message(air).contains("the level z = 0.75 m is not in the water between 0 and 0.6 m; check the zero"));
+        assert!(message(air).contains("the level z = 0.75 m is not in the water, 0 to 0.6 m; check the zero"));
         let mut twice = table(4);
         twice.heights_m[0] = vec![0.5, 0.5];
-        assert!(message(twice).contains("the level z = 0.5 m does not lie above 0.5 m"));
+        assert!(message(twice).contains("the level z = 0.5 m is not above the one before, 0.5 m"));
         let mut dry = table(4);
         dry.surface_z_m = Some(vec![1.0, -98.0, 1.0, 1.0]);
-        assert!(message(dry).contains("the surface lies at z = -98 m, not between the bed at 0 m and 2 m"));
+        assert!(message(dry).contains("the surface level z = -98 m is not between the bed, 0 m, and 2 m"));
     }
 }

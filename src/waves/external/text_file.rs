@@ -1,4 +1,4 @@
-//! A text file of numbers, whose lines can be named when they are wrong.
+//! A text file of numbers; errors give the line number.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ pub(super) struct TextFile {
 }
 
 impl TextFile {
-    /// Read the file; `advice` tells what to do if that fails.
+    /// Reads the file; `advice` says what to do if this fails.
     pub(super) fn read(path: &Path, advice: &str) -> Result<Self, ExternalError> {
         match fs::read_to_string(path) {
             Ok(text) => Ok(Self { path: path.to_owned(), text }),
@@ -24,33 +24,33 @@ impl TextFile {
         }
     }
 
-    /// Where the file lies.
+    /// Path of the file.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The lines that are not blank, with their numbers from 1.
+    /// Non-blank lines with their numbers, from 1.
     pub(super) fn lines(&self) -> impl Iterator<Item = (usize, &str)> {
         self.text.lines().enumerate().map(|(index, text)| (index + 1, text.trim())).filter(|(_, text)| !text.is_empty())
     }
 
-    /// The number that a word of a line stands for.
+    /// Parses a word of a line as a number.
     pub(super) fn number(&self, line: usize, word: &str) -> Result<f64, ExternalError> {
         let advice = if word.contains('*') {
-            "the column was too narrow for its number when it was written; write the table without header"
+            "the number was too wide for its column; write the table without header"
         } else {
             "correct or delete the line"
         };
         word.parse().map_err(|_| self.wrong(line, format!("`{word}` is not a number"), advice))
     }
 
-    /// The numbers of a line, in which round brackets only separate.
+    /// Parses the numbers of a line; round brackets count as separators.
     pub(super) fn numbers(&self, line: usize, text: &str) -> Result<Vec<f64>, ExternalError> {
         let words = text.split(|c: char| c.is_whitespace() || c == '(' || c == ')').filter(|word| !word.is_empty());
         words.map(|word| self.number(line, word)).collect()
     }
 
-    /// An error in a line.
+    /// Creates an error about a line.
     pub(super) fn wrong(&self, line: usize, problem: impl Into<String>, advice: impl Into<String>) -> ExternalError {
         ExternalError::Line { file: self.path.clone(), line, problem: problem.into(), advice: advice.into() }
     }

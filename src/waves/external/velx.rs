@@ -1,4 +1,4 @@
-//! From and to the `_velx` files of DualSPHysics ([`crate::waves::velx`]); their heights are levels z.
+//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::velx`]); their heights are levels z.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -8,10 +8,10 @@ use super::error::ExternalError;
 use super::table::{Place, VelocityTable};
 use crate::waves::velx::{Velx, VelxError};
 
-/// Read a `_velx` file.
+/// Reads a `_velx` file.
 ///
 /// # Errors
-/// If it cannot be read, a line is wrong, or the values cannot be right at the place.
+/// If it cannot be read, a line is wrong, or the values are implausible at the position.
 pub fn read(path: &Path, place: &Place) -> Result<VelocityTable, ExternalError> {
     let unreadable = |reason: std::io::Error| ExternalError::Read {
         file: path.to_owned(),
@@ -32,16 +32,16 @@ pub fn read(path: &Path, place: &Place) -> Result<VelocityTable, ExternalError> 
 }
 
 impl VelocityTable {
-    /// The table of a `_velx` file that was read from `file`; such files do not tell the level of the surface.
+    /// Table of the `_velx` data read from `file`; this format has no surface level.
     ///
     /// # Errors
-    /// If the values cannot be right at the place.
+    /// If the values are implausible at the position.
     pub fn from_velx(velx: Velx, file: &Path, place: &Place) -> Result<Self, ExternalError> {
         let Velx { times_s, heights_m, velocities_m_s, .. } = velx;
         Self { times_s, surface_z_m: None, heights_m, velocities_m_s }.checked(file, place)
     }
 
-    /// The velocities of the rows of a piston at the given levels z [m], which stands at x and y [m].
+    /// Velocities of piston rows at the levels z [m], for a piston at x and y [m].
     pub fn velx(&self, place_m: [f64; 2], row_heights_m: &[f64]) -> Velx {
         let rows = |&t: &f64| row_heights_m.iter().map(|&z| self.velocity_m_s(z, t)).collect();
         Velx {
@@ -61,7 +61,7 @@ mod tests {
     const PLACE: Place = Place { bed_z_m: 0.0, still_water_z_m: 1.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
 
     #[test]
-    fn a_file_is_read_and_written_back() {
+    fn file_is_written_back_unchanged() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a_velx.csv");
         let text = "px:;3;py:;0\ntime;pz_0;pz_1;vel_0;vel_1\n0;0.2;0.8;0.1;0.2\n0.5;0.2;0.8;0.3;0.4\n";
@@ -74,12 +74,12 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_and_a_ragged_line_are_named() {
+    fn errors_name_the_missing_file_and_the_wrong_line() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a_velx.csv");
         let message = |path: &Path| read(path, &PLACE).unwrap_err().to_string();
         assert!(message(&path).ends_with("; give the path of a `_velx` file"));
         std::fs::write(&path, "px:;3;py:;0\ntime;pz_0;vel_0\n0;0.2\n").unwrap();
-        assert!(message(&path).ends_with("line 3: 2 fields, expected 3 for 1 rows; correct or delete the line"));
+        assert!(message(&path).ends_with("line 3: 2 fields, expected 3 for 1 row(s); correct or delete the line"));
     }
 }

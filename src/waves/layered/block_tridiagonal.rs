@@ -1,8 +1,8 @@
-//! Symmetric positive definite block-tridiagonal systems, by block elimination without pivoting (Golub & Van Loan 4.5).
+//! Block tridiagonal solver for symmetric positive definite systems, without pivoting (Golub & Van Loan 4.5).
 
-/// Matrix, right-hand side and scratch of `blocks` x `blocks` blocks of size `size`.
+/// A system of `blocks` x `blocks` blocks of size `size`: matrix, right-hand side and scratch memory.
 ///
-/// Row i reads U_{i-1}^T q_{i-1} + D_i q_i + U_i q_{i+1} = r_i.
+/// Row i is U_{i-1}^T q_{i-1} + D_i q_i + U_i q_{i+1} = r_i.
 #[derive(Debug, Clone)]
 pub(super) struct BlockTridiagonal {
     size: usize,
@@ -14,7 +14,7 @@ pub(super) struct BlockTridiagonal {
 }
 
 impl BlockTridiagonal {
-    /// An empty system.
+    /// Creates a system of zeros.
     pub(super) fn new(blocks: usize, size: usize) -> Self {
         let square = blocks * size * size;
         Self {
@@ -27,34 +27,34 @@ impl BlockTridiagonal {
         }
     }
 
-    /// Set all entries to zero.
+    /// Sets all entries to zero.
     pub(super) fn clear(&mut self) {
         self.diagonal.fill(0.0);
         self.upper.fill(0.0);
         self.right.fill(0.0);
     }
 
-    /// Add to `D_block[row, column]`.
+    /// Adds to `D_block[row, column]`.
     pub(super) fn add_diagonal(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.diagonal[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Add to `U_block[row, column]`: couples unknown `row` of the block with unknown `column` of the next one.
+    /// Adds to `U_block[row, column]`, which couples unknown `row` of the block to unknown `column` of the next.
     pub(super) fn add_upper(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.upper[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Add to `r_block[row]`.
+    /// Adds to `r_block[row]`.
     pub(super) fn add_right(&mut self, block: usize, row: usize, value: f64) {
         self.right[block * self.size + row] += value;
     }
 
-    /// The unknowns, after [`Self::solve`].
+    /// Unknowns after [`Self::solve`].
     pub(super) fn unknowns(&self) -> &[f64] {
         &self.right
     }
 
-    /// Solve; the unknowns take the place of the right-hand side.
+    /// Solves the system; the unknowns overwrite the right-hand side.
     pub(super) fn solve(&mut self) {
         let blocks = self.right.len() / self.size;
         for block in 0..blocks {
@@ -87,7 +87,7 @@ impl BlockTridiagonal {
         }
         let (upper, eliminated) = (&self.upper[here..here + k * k], &mut self.eliminated_upper[here..here + k * k]);
         eliminated.copy_from_slice(upper);
-        gauss(&mut self.pivot, eliminated, &mut self.right[block * k..(block + 1) * k]);
+        solve_block(&mut self.pivot, eliminated, &mut self.right[block * k..(block + 1) * k]);
     }
 
     /// q_i = r_i - C_i q_{i+1}.
@@ -102,9 +102,9 @@ impl BlockTridiagonal {
     }
 }
 
-/// Solve the small system in place for the matrix `many` and the vector `one` on the right.
-fn gauss(matrix: &mut [f64], many: &mut [f64], one: &mut [f64]) {
-    let k = one.len();
+/// Solves a block system in place for two right-hand sides, a block and a vector, by Gaussian elimination.
+fn solve_block(matrix: &mut [f64], block: &mut [f64], vector: &mut [f64]) {
+    let k = vector.len();
     for p in 0..k {
         let inverse = 1.0 / matrix[p * k + p];
         for row in p + 1..k {
@@ -116,9 +116,9 @@ fn gauss(matrix: &mut [f64], many: &mut [f64], one: &mut [f64]) {
                 matrix[row * k + column] -= factor * matrix[p * k + column];
             }
             for column in 0..k {
-                many[row * k + column] -= factor * many[p * k + column];
+                block[row * k + column] -= factor * block[p * k + column];
             }
-            one[row] -= factor * one[p];
+            vector[row] -= factor * vector[p];
         }
     }
     for p in (0..k).rev() {
@@ -126,14 +126,14 @@ fn gauss(matrix: &mut [f64], many: &mut [f64], one: &mut [f64]) {
         for row in p + 1..k {
             let factor = matrix[p * k + row];
             for column in 0..k {
-                many[p * k + column] -= factor * many[row * k + column];
+                block[p * k + column] -= factor * block[row * k + column];
             }
-            one[p] -= factor * one[row];
+            vector[p] -= factor * vector[row];
         }
         for column in 0..k {
-            many[p * k + column] *= inverse;
+            block[p * k + column] *= inverse;
         }
-        one[p] *= inverse;
+        vector[p] *= inverse;
     }
 }
 
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn solution_satisfies_the_rows() {
+    fn solution_satisfies_every_row() {
         let (blocks, k) = (5, 3);
         let mut system = BlockTridiagonal::new(blocks, k);
         let entry = |a: usize, b: usize| 0.3 * ((a * 7 + b * 3) as f64).sin();
@@ -173,7 +173,7 @@ mod tests {
                         left += upper[((block - 1) * k + column) * k + row] * q[(block - 1) * k + column];
                     }
                 }
-                // A well conditioned 15 x 15 system: rounding only.
+                // The 15 x 15 system is well conditioned, so only rounding remains.
                 assert!((left - right[block * k + row]).abs() < 1e-12);
             }
         }

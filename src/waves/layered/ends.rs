@@ -1,23 +1,23 @@
-//! The ends of the flume: walls, the piston, the inflow of a wave, water that goes on, the sponge.
+//! Ends of the flume: wall, piston, wave inflow, radiating end and sponge.
 //!
-//! * Inflow, weakly reflecting (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming
-//!   wave, and that of a long wave that carries off what the surface has beyond the incoming one,
-//!   u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in).
-//! * Radiating end: no long wave comes in, so its characteristic carries nothing, U = 2 (sqrt(g H) - sqrt(g d)), the
-//!   difference of the layers that of the water before it. Exact for long waves of small height; the higher and the
-//!   shorter the wave, the more comes back.
-//! * Sponge: du/dt = - sigma u, sigma growing with the cube of the way into it (Israeli & Orszag 1981), a wall behind.
+//! * Weakly reflecting inflow (Blayo & Debreu 2005; Zijlema et al. 2011, section 4.4): the velocity of the incoming
+//!   wave plus that of an outgoing long wave with the excess elevation, u_m = u_in(z_m) - sqrt(g / d) (eta - eta_in).
+//! * Radiating end: the incoming characteristic is that of still water, U = 2 (sqrt(g H) - sqrt(g d)). Differences
+//!   between layers are copied from the nearest inner face. It is exact for small long waves; higher or shorter waves
+//!   are partly reflected.
+//! * Sponge: du/dt = - sigma u in front of a wall. sigma grows with the cube of the distance into the sponge (Israeli &
+//!   Orszag 1981).
 
 use super::{LayeredFlume, LayeredParameters, LeftEnd, RightEnd};
 
-/// Integral of the sponge's rate over the way, on the celerity of a long wave [-]: one that goes in and comes back
-/// keeps exp(-6) = 0.25 % of its height.
+/// Integral of the damping rate over the sponge per long-wave celerity [-]: a reflected long wave keeps exp(-6) = 0.25
+/// % of its height.
 const SPONGE_STRENGTH: f64 = 6.0;
-/// Nodes of Gauss's rule of two points on a layer from -1 to 1: exact for a cubic profile.
+/// Node of the two-point Gauss rule on [-1, 1], which is exact for a cubic velocity profile in a layer.
 const GAUSS: f64 = 0.577_350_269_189_625_8;
 
 impl LayeredFlume {
-    /// Where the piston stands at the end of the step that begins now [m].
+    /// Displacement of the piston at the end of the current time step [m].
     pub(super) fn next_paddle_m(&self) -> f64 {
         match &self.left_end {
             LeftEnd::Piston { wave, .. } => wave.piston_displacement_m(self.time_s + self.step_s),
@@ -25,7 +25,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Velocities at the outer faces at n + 1/2.
+    /// Sets the velocities at the two end faces at n + 1/2.
     pub(super) fn set_end_velocities(&mut self) {
         let (k, cells) = (self.layers, self.grid.cells());
         for m in 0..k {
@@ -45,18 +45,18 @@ impl LayeredFlume {
         }
     }
 
-    /// Mean over layer m of the incoming velocity at n + 1/2, and that of the wave that leaves [m/s].
+    /// Velocity at the inflow at n + 1/2 [m/s]: mean incoming velocity of layer m plus that of the outgoing wave.
     fn inflow_velocity(&self, m: usize) -> f64 {
         let LeftEnd::Inflow(wave) = &self.left_end else { return 0.0 };
         let t = self.time_s + 0.5 * self.step_s;
         let still = self.still_level_m - self.bed_at_left();
         let (eta, incoming) = (self.left_elevation(), wave.elevation_m(t));
         let layer = (still + incoming) / self.layers as f64;
-        let at = |node: f64| wave.velocity_m_s((m as f64 + 0.5 + 0.5 * node) * layer - still, t);
-        0.5 * (at(-GAUSS) + at(GAUSS)) - (self.gravity / still).sqrt() * (eta - incoming)
+        let velocity = |node: f64| wave.velocity_m_s((m as f64 + 0.5 + 0.5 * node) * layer - still, t);
+        0.5 * (velocity(-GAUSS) + velocity(GAUSS)) - (self.gravity / still).sqrt() * (eta - incoming)
     }
 
-    /// Surface at the left face above still water at n + 1/2 [m].
+    /// Elevation above still water at the left end face at n + 1/2 [m].
     fn left_elevation(&self) -> f64 {
         let level = |cell: usize| self.grid.bed[cell] + self.depth[cell] + 0.5 * self.step_s * self.rise_m_s[cell];
         1.5 * level(0) - 0.5 * level(1) - self.still_level_m
@@ -66,16 +66,16 @@ impl LayeredFlume {
         1.5 * self.grid.bed[0] - 0.5 * self.grid.bed[1]
     }
 
-    /// Velocity of a long wave that leaves at the right end, at n + 1/2 [m/s].
+    /// Depth-mean velocity at the radiating right end at n + 1/2 [m/s].
     fn radiated_velocity(&self) -> f64 {
         let cells = self.grid.cells();
-        let outer = |value: &dyn Fn(usize) -> f64| 1.5 * value(cells - 1) - 0.5 * value(cells - 2);
-        let still = (self.still_level_m - outer(&|cell| self.grid.bed[cell])).max(0.0);
-        let depth = outer(&|cell| self.depth[cell] + 0.5 * self.step_s * self.rise_m_s[cell]).max(0.0);
+        let extrapolate = |value: &dyn Fn(usize) -> f64| 1.5 * value(cells - 1) - 0.5 * value(cells - 2);
+        let still = (self.still_level_m - extrapolate(&|cell| self.grid.bed[cell])).max(0.0);
+        let depth = extrapolate(&|cell| self.depth[cell] + 0.5 * self.step_s * self.rise_m_s[cell]).max(0.0);
         2.0 * ((self.gravity * depth).sqrt() - (self.gravity * still).sqrt())
     }
 
-    /// Whether water passes an outer face.
+    /// Whether a face is an end through which water flows.
     pub(super) fn is_open_end(&self, face: usize) -> bool {
         if face == 0 {
             matches!(self.left_end, LeftEnd::Inflow(_))
@@ -84,7 +84,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Depth at an outer face from depths of the cells [m].
+    /// Depth at an end face, extrapolated from the cell depths [m].
     pub(super) fn end_depth(&self, face: usize, depth: &[f64]) -> f64 {
         let last = depth.len() - 1;
         let [near, far] = if face == 0 { [0, 1] } else { [last, last - 1] };
@@ -92,13 +92,13 @@ impl LayeredFlume {
     }
 }
 
-/// Rate of the sponge at places x [m]: 4 A c s^3 / L, so that its integral over the way is A c [1/s].
-pub(super) fn sponge_rates(parameters: &LayeredParameters, places: &[f64]) -> Vec<f64> {
-    let RightEnd::Sponge { length_m } = parameters.right_end else { return vec![0.0; places.len()] };
+/// Damping rates of the sponge at positions x [m]: 4 A c s^3 / L [1/s], whose integral over the sponge is A c.
+pub(super) fn sponge_rates(parameters: &LayeredParameters, positions: &[f64]) -> Vec<f64> {
+    let RightEnd::Sponge { length_m } = parameters.right_end else { return vec![0.0; positions.len()] };
     let points = parameters.profile.points();
     let start = points[points.len() - 1][0] - length_m;
     let depth = (parameters.still_level_m - parameters.profile.z(start)).max(0.0);
     let celerity = (parameters.gravity_m_s2 * depth).sqrt();
     let rate = |x: &f64| 4.0 * SPONGE_STRENGTH * celerity / length_m * ((x - start) / length_m).max(0.0).powi(3);
-    places.iter().map(rate).collect()
+    positions.iter().map(rate).collect()
 }

@@ -1,4 +1,4 @@
-//! Friction on the bed.
+//! Bed friction.
 //!
 //! ```text
 //! du_m/dt = - c_f |U| u_m / H
@@ -6,20 +6,20 @@
 //! smooth:  c_f = max(3 / Re, 0.0279 Re^(-1/4)),  Re = |U| H / nu
 //! ```
 //!
-//! with the mean velocity U over the depth H: the stress on the bed, rho c_f |U| U, shared by the layers in proportion
-//! to their motion. The model has no turbulence that would carry the stress upwards, so a stress on the lowest layer
-//! alone would let the others glide over it. Zijlema, Stelling & Smit (2011), equation 6, for one layer.
+//! with the mean velocity U over the depth H. The bed shear stress rho c_f |U| U is distributed over the layers in
+//! proportion to their velocity. The model has no turbulence that carries stress upwards: a stress on the lowest layer
+//! alone would let the other layers slide over it. Zijlema, Stelling & Smit (2011), equation 6, for one layer.
 //!
-//! The smooth bed has the stress 3 mu U / H of a laminar film, and above that Blasius's (1913) law for smooth walls,
-//! f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8): Manning's n holds where roughness decides, and
-//! would slow thin water on glass too much.
+//! On a smooth bed the stress is 3 mu U / H of a laminar film or, if larger, that of Blasius's (1913) law. Blasius's
+//! law for smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law holds for
+//! rough beds; it would slow thin water on glass too much.
 
 use super::{Friction, LayeredFlume, THIN_M};
 
 impl LayeredFlume {
-    /// Rate at which friction and sponge slow the water at a face [1/s].
+    /// Damping rate of friction and sponge at a face [1/s].
     pub(super) fn damping_rate(&self, face: usize) -> f64 {
-        let depth = self.depth_on_the_bed(face).max(THIN_M);
+        let depth = self.friction_depth(face).max(THIN_M);
         let speed = self.mean_velocity(face).abs();
         let friction = match self.friction {
             Friction::None => 0.0,
@@ -31,8 +31,8 @@ impl LayeredFlume {
         friction + self.sponge_rate[face]
     }
 
-    /// Depth that friction acts on at a face [m]: the mean of both sides, at the tongue of a run-up that of its water.
-    fn depth_on_the_bed(&self, face: usize) -> f64 {
+    /// Depth for friction at a face [m]: the mean of both sides, or the larger one next to a thin or dry cell.
+    fn friction_depth(&self, face: usize) -> f64 {
         let inner = face.clamp(1, self.grid.cells() - 1);
         let [left, right] = [self.depth[inner - 1], self.depth[inner]];
         if left.min(right) > self.hydrostatic_below_m { 0.5 * (left + right) } else { left.max(right) }
@@ -44,7 +44,7 @@ fn manning_coefficient(gravity: f64, n: f64, depth: f64) -> f64 {
     gravity * n * n / depth.cbrt()
 }
 
-/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-]; where nothing moves the coefficient does not matter.
+/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-]; finite in still water, where it has no effect.
 fn smooth_coefficient(reynolds: f64) -> f64 {
     let reynolds = reynolds.max(1e-6);
     (3.0 / reynolds).max(0.0279 * reynolds.powf(-0.25))
@@ -55,19 +55,19 @@ mod tests {
     use super::{manning_coefficient, smooth_coefficient};
 
     #[test]
-    fn smooth_bed_has_the_laws_of_film_and_pipe() {
-        // A film's mean velocity is g S H^2 / 3 nu: c_f U^2 = g H S.
+    fn smooth_bed_follows_laminar_film_and_smooth_pipe() {
+        // The mean velocity of a film is g S H^2 / 3 nu, so c_f U^2 = g H S.
         let (depth, nu, slope) = (5e-4f64, 1e-6, 0.01);
         let velocity = 9.81 * slope * depth * depth / (3.0 * nu);
         let c_f = smooth_coefficient(velocity * depth / nu);
         assert!((c_f * velocity * velocity / (9.81 * depth * slope) - 1.0).abs() < 1e-12);
-        // Darcy's f of a smooth pipe at 4 Re = 1e5 is 0.018.
+        // The Darcy friction factor of a smooth pipe at 4 Re = 1e5 is 0.018.
         assert!((8.0 * smooth_coefficient(2.5e4) - 0.018).abs() < 5e-4);
     }
 
     #[test]
     fn uniform_flow_has_mannings_velocity() {
-        // Down a slope S the weight g H S balances c_f U^2, so U = H^(2/3) S^(1/2) / n.
+        // On a slope S the weight g H S balances c_f U^2, so U = H^(2/3) S^(1/2) / n.
         let (depth, slope, n) = (0.3f64, 1e-3, 0.012);
         let velocity = (9.81 * depth * slope / manning_coefficient(9.81, n, depth)).sqrt();
         assert!((velocity - depth.powf(2.0 / 3.0) * slope.sqrt() / n).abs() < 1e-12);

@@ -1,24 +1,24 @@
-//! Cells that follow the piston: the arbitrary Lagrangian-Eulerian mapping in one dimension.
+//! Cells that follow the piston: an arbitrary Lagrangian-Eulerian (ALE) grid in one dimension.
 //!
-//! Near the piston the faces are stretched evenly, x = x0 + X (1 - x0 / L) for x0 < L; farther away they stand still.
-//! The piston is the first face, water crosses no wall, and every flux is relative to the moving faces, so the volume
-//! of the water stays what it was, to rounding, whatever the stroke. (An inflow at x = 0 with the piston's velocity
-//! would have to be told how much water the moving wall displaces, and would let the wave start at the wrong place.)
+//! Near the piston the faces move in proportion, x = x0 + X (1 - x0 / L) for x0 < L; beyond L they are fixed. The
+//! piston is the first face and all fluxes are relative to the moving faces. So the volume of water is conserved to
+//! rounding for any stroke. (An inflow at x = 0 with the piston's velocity would need a correction for the displaced
+//! water and would start the wave at the wrong position.)
 
 use crate::geometry::profile::Profile;
 
-/// Sub-intervals for the mean bed level of a cell.
+/// Number of samples for the mean bed level of a cell.
 const BED_SAMPLES: usize = 8;
 
 /// Cells from the piston to the end of the flume.
 #[derive(Debug, Clone)]
 pub(super) struct Grid {
     profile: Profile,
-    /// Faces with the piston at rest [m].
+    /// Positions of the faces with the piston at rest [m].
     reference_x: Vec<f64>,
     /// Length from the piston at rest over which the faces follow it [m].
     mapped_m: f64,
-    /// Faces [m], one more than cells; the first is the piston.
+    /// Positions of the faces [m], one more than cells; the first is the piston.
     pub face_x: Vec<f64>,
     /// Centres of the cells [m].
     pub centre_x: Vec<f64>,
@@ -26,14 +26,14 @@ pub(super) struct Grid {
     pub width: Vec<f64>,
     /// Mean bed level of the cells [m].
     pub bed: Vec<f64>,
-    /// Velocity of the faces over the present step [m/s].
+    /// Velocity of the faces during the current time step [m/s].
     pub face_velocity: Vec<f64>,
-    /// Faces with an index below this one can move.
+    /// Number of faces, from the piston, that can move.
     moving_faces: usize,
 }
 
 impl Grid {
-    /// Cells of about `cell_m` over the whole profile, the faces of the first `mapped_m` following the piston.
+    /// Creates cells of about `cell_m` over the whole profile; the faces within `mapped_m` follow the piston.
     pub fn new(profile: Profile, cell_m: f64, mapped_m: f64) -> Self {
         let points = profile.points();
         let (start, end) = (points[0][0], points[points.len() - 1][0]);
@@ -66,7 +66,7 @@ impl Grid {
         self.profile.z(x)
     }
 
-    /// Distance between the centres on both sides of a face [m]; the cell's width at the ends.
+    /// Distance between the cell centres on both sides of a face [m]; the cell width at the ends.
     pub fn spacing(&self, face: usize) -> f64 {
         if face == 0 || face == self.cells() {
             return self.width[face.min(self.cells() - 1)];
@@ -74,14 +74,14 @@ impl Grid {
         self.centre_x[face] - self.centre_x[face - 1]
     }
 
-    /// Set the velocity with which the faces go to where a piston displaced by `paddle_m` wants them after `dt`.
+    /// Sets the velocities that move the faces within `dt` to their positions for a piston displacement `paddle_m`.
     pub fn aim(&mut self, paddle_m: f64, dt: f64) {
         for face in 0..self.moving_faces {
             self.face_velocity[face] = (self.mapped(face, paddle_m) - self.face_x[face]) / dt;
         }
     }
 
-    /// Move the faces to their places for a piston displaced by `paddle_m`.
+    /// Moves the faces to their positions for a piston displacement `paddle_m`.
     pub fn arrive(&mut self, paddle_m: f64) {
         for face in 0..self.moving_faces {
             self.face_x[face] = self.mapped(face, paddle_m);
@@ -89,13 +89,13 @@ impl Grid {
         (0..self.moving_faces.min(self.cells())).for_each(|i| self.measure(i));
     }
 
-    /// Place of a face for a piston displaced by `paddle_m`.
+    /// Position of a face for a piston displacement `paddle_m` [m].
     fn mapped(&self, face: usize, paddle_m: f64) -> f64 {
         let x = self.reference_x[face];
         x + paddle_m * (1.0 - (x - self.reference_x[0]) / self.mapped_m)
     }
 
-    /// Centre, width and bed of a cell from its faces.
+    /// Updates centre, width and bed level of a cell from its faces.
     fn measure(&mut self, cell: usize) {
         let (left, right) = (self.face_x[cell], self.face_x[cell + 1]);
         self.width[cell] = right - left;

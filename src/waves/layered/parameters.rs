@@ -1,103 +1,102 @@
-//! What a [`super::LayeredFlume`] is made of.
+//! Parameters of a [`super::LayeredFlume`].
 
 use crate::geometry::profile::Profile;
 use crate::waves::incoming::IncomingWave;
 use crate::waves::solitary::SolitaryWave;
 
-/// The flume, its grid, its ends and what takes energy out of the water.
+/// Flume, grid, ends and dissipation.
 #[derive(Debug, Clone)]
 pub struct LayeredParameters {
     /// Bed from the left end (the piston at rest) to the right end.
     pub profile: Profile,
-    /// Still-water level z [m].
+    /// Still water level z [m].
     pub still_level_m: f64,
-    /// Gravity [m/s2].
+    /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
     /// Number of layers K.
     pub layers: usize,
-    /// Width of a cell [m]: not below a twentieth of the depth, where waves as short as the grid are no longer
-    /// resolved by a few layers.
+    /// Cell width [m], at least 1/20 of the depth: a few layers cannot resolve the shortest waves of a finer grid.
     pub cell_m: f64,
     /// Time step [s].
     pub step_s: f64,
-    /// What stands at the left end.
+    /// Left end.
     pub left_end: LeftEnd,
-    /// What stands at the right end.
+    /// Right end.
     pub right_end: RightEnd,
-    /// Vertical accelerations.
+    /// Pressure model.
     pub pressure: Pressure,
-    /// Friction on the bed.
+    /// Bed friction.
     pub friction: Friction,
-    /// Breaking of waves.
+    /// Wave breaking.
     pub breaking: Breaking,
 }
 
-/// The seaward end of a flume.
+/// Seaward end of a flume.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LeftEnd {
     /// A wall.
     Wall,
-    /// A piston that makes a solitary wave; its stroke starts at t = 0.
+    /// A piston that generates a solitary wave; its stroke starts at t = 0.
     Piston {
-        /// The wave, its depth that at the piston.
+        /// The wave; its depth is the depth at the piston.
         wave: SolitaryWave,
         /// Length in front of the piston over which the cells follow it [m].
         mapped_m: f64,
     },
-    /// Water that flows in and out with a wave; what comes back from the flume leaves through it.
+    /// An inflow boundary: the wave enters and returning waves leave through it.
     Inflow(IncomingWave),
 }
 
-/// The shoreward end of a flume.
+/// Shoreward end of a flume.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RightEnd {
-    /// A wall; the shore may lie before it.
+    /// A wall; the shore may lie in front of it.
     Wall,
-    /// Water that goes on: long waves leave, see `ends`. The end must stand in water.
+    /// An open end through which long waves leave (see `ends`). It must be wet.
     Radiating,
-    /// A wall behind water whose motion is damped over this length [m], see `ends`.
+    /// A sponge layer in front of a wall (see `ends`).
     Sponge {
-        /// Length of the damped water [m].
+        /// Length of the sponge [m].
         length_m: f64,
     },
 }
 
-/// What the pressure answers to.
+/// Pressure model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pressure {
-    /// Weight and vertical accelerations: waves disperse.
+    /// With vertical accelerations: waves disperse.
     NonHydrostatic,
-    /// Weight alone, the shallow-water equations, for comparison with their solutions.
+    /// Shallow-water equations, for comparison with their solutions.
     Hydrostatic,
 }
 
-/// Friction on the bed.
+/// Bed friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Friction {
-    /// None.
+    /// No friction.
     None,
-    /// A hydraulically smooth bed, as of a laboratory flume; see `friction`.
+    /// A hydraulically smooth bed, as in a laboratory flume; see `friction`.
     SmoothBed {
         /// Kinematic viscosity nu [m2/s]; 1e-6 for water.
         viscosity_m2_s: f64,
     },
-    /// A rough bed, by Manning's law; see `friction`.
+    /// A rough bed with Manning's law; see `friction`.
     Manning {
         /// Manning's n [s m^(-1/3)]: 0.010 glass, 0.012 planed wood, 0.013 smooth concrete (Chow 1959, table 5-6).
         n_s_m13: f64,
     },
 }
 
-/// What happens where a front becomes too steep for a single-valued surface.
+/// Breaking of fronts that become too steep for a single-valued surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Breaking {
-    /// Nothing: the front steepens as far as the grid resolves it.
+    /// No breaking model: fronts steepen as far as the grid resolves them.
     Unlimited,
-    /// The front turns hydrostatic and becomes a bore (Smit, Zijlema & Stelling 2013).
+    /// Breaking fronts are hydrostatic and become bores (Smit, Zijlema & Stelling 2013).
     HydrostaticFront {
-        /// Rate of rise over sqrt(g H) at which a front begins to break [-].
+        /// Rate of rise of the surface over sqrt(g H) above which a cell starts to break [-].
         starts: f64,
-        /// The same at which it still breaks, next to a cell that does [-].
+        /// Rate of rise over sqrt(g H) above which a cell breaks if it or a neighbour broke before [-].
         lasts: f64,
     },
 }

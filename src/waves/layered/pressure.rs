@@ -1,24 +1,24 @@
 //! Non-hydrostatic pressure: Keller box in the vertical (Stelling & Zijlema 2003; Zijlema & Stelling 2005).
 //!
-//! Unknown q at the bottom of each layer, q = 0 at the surface, linear in a layer. Pressure force on the momentum:
+//! The unknown is q at the bottom of each layer, linear within a layer and zero at the surface. The accelerations are
 //!
 //! ```text
 //! du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
 //! ```
 //!
-//! with z_m the middle of layer m and q_bar_m the mean of its two interfaces. Continuity is imposed as the exact
-//! transpose of that force, which is, at the interface between layers m-1 and m,
+//! with z_m the middle of layer m and q_bar_m the mean over its two interfaces. Continuity is the exact transpose of
+//! this force. At the interface between layers m-1 and m it is
 //!
 //! ```text
 //! w_m - w_{m-1} + [dx(h u)_{m-1} + dx(h u)_m] / 2 + u_{m-1} dx z_{m-1} - u_m dx z_m = 0
 //! ```
 //!
-//! (at the bed: w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0), so that pressure does no work on the water, the system is
-//! symmetric and positive definite, and corners of the bed are harmless.
+//! and at the bed w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0. Hence pressure does no work on the water, the system is
+//! symmetric and positive definite, and corners of the bed cause no trouble.
 
 use super::LayeredFlume;
 
-/// Weights of q at a face, layer m: bottom and top on the left, bottom and top on the right [1/m].
+/// Weights of q for layer m at a face [1/m]: bottom and top on the left, bottom and top on the right.
 #[derive(Debug, Clone, Copy)]
 struct Gradient {
     left: [f64; 2],
@@ -26,7 +26,7 @@ struct Gradient {
 }
 
 impl Gradient {
-    /// dx q at constant height: spacing dx [m], slope dx z of the layer's middle [-], depth h of the layer [m].
+    /// Weights of dx q at constant z: spacing dx [m], slope dx z of the middle of the layer [-], layer depth h [m].
     fn new(spacing: f64, slope: f64, layer_depth: f64) -> Self {
         let (a, e) = (0.5 / spacing, 0.5 * slope / layer_depth);
         Self { left: [-a + e, -a - e], right: [a + e, a - e] }
@@ -34,7 +34,7 @@ impl Gradient {
 }
 
 impl LayeredFlume {
-    /// Correct the provisional u and w so that they satisfy continuity.
+    /// Corrects the provisional u and w so that they satisfy continuity.
     pub(super) fn correct_with_pressure(&mut self) {
         self.assemble();
         self.system.solve();
@@ -42,26 +42,26 @@ impl LayeredFlume {
         self.follow_where_hydrostatic();
     }
 
-    /// Depth of one layer at a face for pressure [m].
+    /// Depth of one layer at a face [m].
     fn layer_depth_at(&self, face: usize) -> f64 {
         self.mean_depth[face] / self.layers as f64
     }
 
-    /// Slope of the middle of layer m at a face between cells [-].
+    /// Slope of the middle of layer m at an inner face [-].
     fn slope_at(&self, face: usize, m: usize) -> f64 {
         let share = (m as f64 + 0.5) / self.layers as f64;
         let middle = |cell: usize| self.grid.bed[cell] + share * self.depth[cell];
         (middle(face) - middle(face - 1)) / self.grid.spacing(face)
     }
 
-    /// Weights of q at a face: at an end those of the nearest inner face's slope, without a far side.
+    /// Weights of q at a face; an end face takes the slope of the nearest inner face.
     fn gradient_at(&self, face: usize, m: usize) -> Gradient {
         let last = self.grid.cells();
         let slope = self.slope_at(face.clamp(1, last - 1), m);
         Gradient::new(self.grid.spacing(face), slope, self.layer_depth_at(face))
     }
 
-    /// The system A q dt = C(u*, w*).
+    /// Assembles the system A q dt = C(u*, w*).
     fn assemble(&mut self) {
         let (k, cells) = (self.layers, self.grid.cells());
         self.system.clear();
@@ -79,7 +79,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Contributions of layer m at a face, weighted with its water h dx.
+    /// Adds the contributions of layer m at a face, weighted with its volume h dx.
     fn assemble_face(&mut self, face: usize, m: usize) {
         let (k, cells) = (self.layers, self.grid.cells());
         let gradient = self.gradient_at(face, m);
@@ -88,17 +88,17 @@ impl LayeredFlume {
         let left = face.checked_sub(1).filter(|&c| self.active[c]);
         let right = Some(face).filter(|&c| c < cells && self.active[c]);
         let interfaces = [m, m + 1];
-        let movable = face > 0 && face < cells;
+        let is_inner = face > 0 && face < cells;
         for (cell, own) in [(left, gradient.left), (right, gradient.right)] {
             let Some(cell) = cell else { continue };
             for (a, &row) in interfaces.iter().enumerate().filter(|(_, row)| **row < k) {
                 self.system.add_right(cell, row, mass * own[a] * u);
-                for (b, &column) in interfaces.iter().enumerate().filter(|(_, c)| movable && **c < k) {
+                for (b, &column) in interfaces.iter().enumerate().filter(|(_, c)| is_inner && **c < k) {
                     self.system.add_diagonal(cell, row, column, mass * own[a] * own[b]);
                 }
             }
         }
-        if let (Some(left), Some(_), true) = (left, right, movable) {
+        if let (Some(left), Some(_), true) = (left, right, is_inner) {
             for (a, &row) in interfaces.iter().enumerate().filter(|(_, row)| **row < k) {
                 for (b, &column) in interfaces.iter().enumerate().filter(|(_, c)| **c < k) {
                     self.system.add_upper(left, row, column, mass * gradient.left[a] * gradient.right[b]);
@@ -107,7 +107,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Contributions of w_m in a cell.
+    /// Adds the contributions of w_m in a cell.
     fn assemble_cell(&mut self, cell: usize, m: usize) {
         let k = self.layers;
         let width = self.grid.width[cell];
@@ -123,7 +123,7 @@ impl LayeredFlume {
         }
     }
 
-    /// u and w after the pressure's impulse q dt.
+    /// Applies the pressure impulse q dt to u and w.
     fn apply_pressure(&mut self) {
         let (k, cells) = (self.layers, self.grid.cells());
         for face in 1..cells {
@@ -155,7 +155,7 @@ impl LayeredFlume {
         [q[cell * k + m], if m + 1 < k { q[cell * k + m + 1] } else { 0.0 }]
     }
 
-    /// Where pressure is hydrostatic, w follows from u by continuity.
+    /// Sets w from continuity in the hydrostatic cells.
     pub(super) fn follow_where_hydrostatic(&mut self) {
         for cell in 0..self.grid.cells() {
             if !self.active[cell] {
@@ -164,7 +164,7 @@ impl LayeredFlume {
         }
     }
 
-    /// w of all layers of a cell from continuity, bed upwards.
+    /// Sets w of all layers of a cell from continuity, from the bed upwards.
     pub(super) fn follow(&mut self, cell: usize) {
         let k = self.layers;
         if self.depth[cell] < super::THIN_M {
@@ -184,8 +184,8 @@ impl LayeredFlume {
     /// dx(h u)_m and the mean of u_m dx z_m over both faces of a cell [m/s].
     fn outflow_and_climb(&self, cell: usize, m: usize) -> [f64; 2] {
         let (k, last) = (self.layers, self.grid.cells());
-        let carried = |face: usize| self.layer_depth_at(face) * self.u[face * k + m];
+        let flux = |face: usize| self.layer_depth_at(face) * self.u[face * k + m];
         let climb = |face: usize| self.u[face * k + m] * self.slope_at(face.clamp(1, last - 1), m);
-        [(carried(cell + 1) - carried(cell)) / self.grid.width[cell], 0.5 * (climb(cell) + climb(cell + 1))]
+        [(flux(cell + 1) - flux(cell)) / self.grid.width[cell], 0.5 * (climb(cell) + climb(cell + 1))]
     }
 }

@@ -1,33 +1,33 @@
-//! Reading the flow at any x.
+//! Flow at any x, interpolated between the cells.
 
 use super::{LayeredFlume, THIN_M};
 use crate::waves::interpolation::Stencil;
 use crate::waves::record::SurfacePoint;
 
-/// Film at which the shore is read, as a share of the largest still depth [-]: laboratory observers see the tongue of
-/// the water, not what it leaves behind.
+/// Film depth that defines the shoreline, relative to the largest still water depth [-]. Laboratory observers see the
+/// run-up tongue, not the film that it leaves behind.
 const SHORE_FILM_SHARE: f64 = 1e-3;
 
-/// Flow at one place and moment.
+/// Flow at one position and time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Surface level z [m]; the bed's level where it is dry.
+    /// Surface level z [m]; the bed level where dry.
     pub surface_m: f64,
     /// Bed level z [m].
     pub bed_m: f64,
-    /// Horizontal velocity of each layer, bed upwards [m/s].
+    /// Horizontal velocity of each layer, from the bed upwards [m/s].
     pub u: Vec<f64>,
-    /// Vertical velocity at each interface, bed upwards, one more than layers [m/s].
+    /// Vertical velocity at each interface, from the bed upwards, one more than layers [m/s].
     pub w: Vec<f64>,
 }
 
 impl LayeredFlume {
-    /// Surface level z [m] at x [m]: cubic between the cells; the bed's level where it is dry.
+    /// Surface level z [m] at x [m], cubic between the cells; the bed level where dry.
     pub fn surface_m(&self, x: f64) -> f64 {
         self.surface_from(self.wet_cells(x), self.grid.bed_at(x))
     }
 
-    /// The surface in every cell.
+    /// Surface in every cell.
     pub fn surface_profile(&self) -> Vec<SurfacePoint> {
         let point = |cell: usize| {
             let depth_m = self.depth[cell];
@@ -36,8 +36,8 @@ impl LayeredFlume {
         (0..self.grid.cells()).map(point).collect()
     }
 
-    /// Level of the bed z [m] where the water from the left end ends, that is, where it thins to a thousandth of the
-    /// largest still depth; on a straight line between the middles of two cells.
+    /// Bed level z at the shoreline [m]: where the depth, coming from the left end, first falls to 1/1000 of the
+    /// largest still water depth. Linear between two cell centres.
     pub fn shore_level_m(&self) -> f64 {
         let deepest = self.grid.bed.iter().fold(0.0, |most, bed| f64::max(most, self.still_level_m - bed));
         let film = SHORE_FILM_SHARE * deepest;
@@ -57,7 +57,7 @@ impl LayeredFlume {
         Stencil::at(&self.grid.centre_x, x, |cell| self.depth[cell] > THIN_M)
     }
 
-    /// Surface level from a stencil over wet cells, not below the bed [m].
+    /// Surface level from a stencil over wet cells [m], at least the bed level.
     fn surface_from(&self, cells: Stencil, bed_m: f64) -> f64 {
         if self.depth[cells.point()] > THIN_M {
             cells.apply(|cell| self.grid.bed[cell] + self.depth[cell]).max(bed_m)
@@ -66,12 +66,12 @@ impl LayeredFlume {
         }
     }
 
-    /// The flow at x [m] and at the time of the depths, to be asked between the halves of a step.
+    /// Flow at x [m] and at the time of the depths; valid between the two halves of a time step.
     pub fn column(&self, x: f64) -> Column {
         let k = self.layers;
         let (cells, bed_m) = (self.wet_cells(x), self.grid.bed_at(x));
         let faces = Stencil::at(&self.grid.face_x, x, |face| face == 0 || face == self.grid.cells() || self.open[face]);
-        let at_n = |now: &[f64], earlier: &[f64], at: usize| 0.5 * (now[at] + earlier[at]);
+        let at_n = |now: &[f64], earlier: &[f64], i: usize| 0.5 * (now[i] + earlier[i]);
         let u = (0..k).map(|m| faces.apply(|face| at_n(&self.u, &self.earlier_u, face * k + m))).collect();
         let middle: Vec<f64> =
             (0..k).map(|m| cells.apply(|cell| at_n(&self.w, &self.earlier_w, cell * k + m))).collect();
@@ -95,7 +95,7 @@ impl LayeredFlume {
     }
 }
 
-/// w at the interfaces from that in the middle of the layers and at the bed: means inside, extrapolated to the surface.
+/// w at the interfaces from w in the middle of the layers and at the bed: means inside, extrapolated to the surface.
 fn at_interfaces(middle: &[f64], bed: f64) -> Vec<f64> {
     let mut w = vec![bed];
     w.extend(middle.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn interfaces_close_on_the_layer_means() {
+    fn surface_value_is_extrapolated_from_the_top_layer() {
         let w = at_interfaces(&[0.2, 0.5, 0.9], 0.1);
         assert_eq!((w[0], w[1]), (0.1, 0.35));
         assert!((0.5 * (w[2] + w[3]) - 0.9).abs() < 1e-15);

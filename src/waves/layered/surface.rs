@@ -1,66 +1,66 @@
-//! Continuity of the water column, wetting and drying, breaking.
+//! Continuity of the water column, wetting and drying, wave breaking.
 //!
-//! * Depth at a face: mean of both sides in calm deep water; where the flow is shallow, fast or broken the level of the
-//!   upwind side (Stelling & Duinmeijer 2003) over the higher bed of both, carried to the face along limited slopes.
-//! * Breaking: the front turns hydrostatic where it rises faster than 0.6 sqrt(g H) and stays so above 0.3 (Smit, Zijlema
-//!   & Stelling 2013), which lets it steepen into a bore that the momentum-conservative scheme dissipates.
+//! * Depth at a face: in calm deep water the mean of both sides. In shallow, fast or breaking flow the upwind level
+//!   (Stelling & Duinmeijer 2003) above the higher bed of both sides, reconstructed with limited slopes.
+//! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and stays so above 0.3 (Smit,
+//!   Zijlema & Stelling 2013). It steepens into a bore, in which the momentum-conservative scheme dissipates energy.
 
 use super::{Breaking, LayeredFlume, Pressure, THIN_M};
 
-/// Water shallower than this share of the deepest still water is hydrostatic [-]: a film has no dispersion to resolve.
+/// Depth below which water is hydrostatic, relative to the largest still water depth [-]: films do not disperse.
 const HYDROSTATIC_SHARE: f64 = 2.5e-3;
-/// Froude numbers between which the face depth goes over from the mean to the upwind side.
+/// Froude numbers between which the face depth changes from the mean to the upwind depth.
 const FROUDE_RANGE: [f64; 2] = [0.7, 1.0];
 
 /// Water on one side of a face.
 #[derive(Debug, Clone, Copy)]
 struct Side {
-    /// Level of the surface z [m].
+    /// Surface level z [m].
     level: f64,
-    /// Level of the bed z [m].
+    /// Bed level z [m].
     bed: f64,
 }
 
-/// Depth below which water is hydrostatic on these depths of still water [m].
+/// Depth below which water is hydrostatic [m], from the still water depths of all cells [m].
 pub(super) fn hydrostatic_below_m(still_depths: &[f64]) -> f64 {
     HYDROSTATIC_SHARE * still_depths.iter().copied().fold(THIN_M / HYDROSTATIC_SHARE, f64::max)
 }
 
 impl LayeredFlume {
-    /// Find the cells that break, those where pressure is solved for, and those where third order is safe.
+    /// Marks the cells that break, those with non-hydrostatic pressure, and those where third order is safe.
     pub(super) fn classify_cells(&mut self) {
         let cells = self.grid.cells();
         let before = std::mem::take(&mut self.breaking);
-        self.breaking = (0..cells).map(|cell| self.breaks(cell, &before)).collect();
+        self.breaking = (0..cells).map(|cell| self.is_breaking(cell, &before)).collect();
         for cell in 0..cells {
-            let deep = self.depth[cell] > self.hydrostatic_below_m;
-            self.active[cell] = deep && !self.breaking[cell] && self.pressure == Pressure::NonHydrostatic;
+            let is_deep = self.depth[cell] > self.hydrostatic_below_m;
+            self.active[cell] = is_deep && !self.breaking[cell] && self.pressure == Pressure::NonHydrostatic;
         }
         for cell in 0..cells {
             let around = cell.saturating_sub(1)..(cell + 2).min(cells);
-            let calm = around.clone().all(|c| !self.breaking[c]);
-            self.smooth[cell] = calm && around.skip(1).all(|face| self.deep_share(face) >= 1.0);
+            let is_calm = around.clone().all(|c| !self.breaking[c]);
+            self.smooth[cell] = is_calm && around.skip(1).all(|face| self.deep_share(face) >= 1.0);
         }
     }
 
-    /// Whether a cell breaks, from its rate of rise and from who broke before.
-    fn breaks(&self, cell: usize, before: &[bool]) -> bool {
+    /// Whether a cell breaks, from its rate of rise and the cells that broke in the previous time step.
+    fn is_breaking(&self, cell: usize, before: &[bool]) -> bool {
         let Breaking::HydrostaticFront { starts, lasts } = self.breaking_law else { return false };
         if self.depth[cell] < self.hydrostatic_below_m {
             return false;
         }
         let steepness = self.rise_m_s[cell] / (self.gravity * self.depth[cell]).sqrt();
-        let near = before[cell.saturating_sub(1)..(cell + 2).min(before.len())].contains(&true);
-        steepness > starts || (near && steepness > lasts)
+        let broke_nearby = before[cell.saturating_sub(1)..(cell + 2).min(before.len())].contains(&true);
+        steepness > starts || (broke_nearby && steepness > lasts)
     }
 
-    /// 1 where the water at a face between cells is deep compared with the step of the bed, 0 where it is shallow [-].
+    /// 1 where the water at an inner face is deep compared with the step of the bed, 0 where it is shallow [-].
     fn deep_share(&self, face: usize) -> f64 {
         let step = 2.0 * (self.grid.bed[face] - self.grid.bed[face - 1]).abs() + self.hydrostatic_below_m;
         (self.depth[face - 1].min(self.depth[face]) / step - 1.0).clamp(0.0, 1.0)
     }
 
-    /// Depth of the water that crosses a face with velocity `u` [m], `depth` the depths of the cells.
+    /// Depth of the water that crosses a face with velocity `u` [m]; `depth` holds the cell depths.
     pub(super) fn transport_depth(&self, face: usize, depth: &[f64], u: f64) -> f64 {
         let (left, right) = (face - 1, face);
         let bed = &self.grid.bed;
@@ -70,7 +70,7 @@ impl LayeredFlume {
             return mean_depth;
         }
         let deep = self.deep_share(face);
-        let sides = [self.side(left, 1.0, depth), self.side(right, -1.0, depth)];
+        let sides = [self.reconstruct(left, 1.0, depth), self.reconstruct(right, -1.0, depth)];
         let upwind = match u {
             u if u > 0.0 => sides[0].level,
             u if u < 0.0 => sides[1].level,
@@ -81,57 +81,57 @@ impl LayeredFlume {
         (surface - sill).max(0.0)
     }
 
-    /// Share of the mean of both sides in the depth at a face, the rest being that of the upwind side [-].
+    /// Weight of the mean of both sides in the depth at a face; the upwind side has the rest [-].
     fn central_share(&self, face: usize, froude: f64) -> f64 {
         if self.breaking[face - 1] || self.breaking[face] {
             return 0.0;
         }
-        let calm = ((FROUDE_RANGE[1] - froude) / (FROUDE_RANGE[1] - FROUDE_RANGE[0])).clamp(0.0, 1.0);
-        self.deep_share(face) * calm
+        let subcritical = ((FROUDE_RANGE[1] - froude) / (FROUDE_RANGE[1] - FROUDE_RANGE[0])).clamp(0.0, 1.0);
+        self.deep_share(face) * subcritical
     }
 
-    /// A cell's water carried to its right (`way` = 1) or left (-1) face along limited slopes of level and depth, after
-    /// Audusse et al. (2004), section 4: where the bed is even both sides see the same bed at the face. Next to dry
-    /// ground the cell's own values.
-    fn side(&self, cell: usize, way: f64, depth: &[f64]) -> Side {
+    /// Reconstructs a cell's water at its right (`sign` = 1) or left (-1) face with limited slopes of level and depth
+    /// (Audusse et al. 2004, section 4). On a plane bed both sides get the same bed at the face. At the ends and next
+    /// to dry cells the cell's own values are used.
+    fn reconstruct(&self, cell: usize, sign: f64, depth: &[f64]) -> Side {
         let level = |cell: usize| self.grid.bed[cell] + depth[cell];
-        let inner = cell > 0 && cell + 1 < depth.len();
-        if !inner || depth[cell - 1..cell + 2].iter().any(|h| *h <= THIN_M) {
+        let is_inner = cell > 0 && cell + 1 < depth.len();
+        if !is_inner || depth[cell - 1..cell + 2].iter().any(|h| *h <= THIN_M) {
             return Side { level: level(cell), bed: self.grid.bed[cell] };
         }
-        let to_face = |before: f64, here: f64, after: f64| here + 0.5 * way * van_leer(here - before, after - here);
+        let to_face = |before: f64, here: f64, after: f64| here + 0.5 * sign * van_leer(here - before, after - here);
         let at_face = to_face(level(cell - 1), level(cell), level(cell + 1));
         Side { level: at_face, bed: at_face - to_face(depth[cell - 1], depth[cell], depth[cell + 1]) }
     }
 
-    /// Mean velocity over the depth at a face [m/s].
+    /// Depth-mean velocity at a face [m/s].
     pub(super) fn mean_velocity(&self, face: usize) -> f64 {
         self.u[face * self.layers..(face + 1) * self.layers].iter().sum::<f64>() / self.layers as f64
     }
 
-    /// Volume fluxes through the faces over the step, relative to the moving faces [m2/s]: first with the depths at
-    /// the start, then with those at half the step, and no more than a cell holds.
+    /// Computes the volume fluxes through the faces, relative to the moving faces [m2/s]. A predictor with the initial
+    /// depths gives the depths at half the time step, from which the fluxes follow. No cell loses more than it holds.
     pub(super) fn volume_fluxes(&mut self, dt: f64) {
         self.next_depth.copy_from_slice(&self.depth);
-        self.total_fluxes();
+        self.compute_total_fluxes();
         for cell in 0..self.grid.cells() {
             self.next_depth[cell] = self.depth_after(cell, 0.5 * dt);
         }
-        self.total_fluxes();
+        self.compute_total_fluxes();
         self.limit_outflow(dt);
         let k = self.layers;
         for face in 0..=self.grid.cells() {
-            let moving = self.grid.face_velocity[face];
-            let mean = self.mean_velocity(face) - moving;
+            let face_velocity = self.grid.face_velocity[face];
+            let mean = self.mean_velocity(face) - face_velocity;
             let depth = if mean == 0.0 { self.mean_depth[face] } else { self.total_flux[face] / mean };
             for m in 0..k {
-                self.flux[face * k + m] = depth / k as f64 * (self.u[face * k + m] - moving);
+                self.flux[face * k + m] = depth / k as f64 * (self.u[face * k + m] - face_velocity);
             }
         }
     }
 
-    /// Total flux through each face, h_f (U - v), with the depths in `next_depth`.
-    fn total_fluxes(&mut self) {
+    /// Computes the total flux through each face, h_f (U - v), with the depths in `next_depth`.
+    fn compute_total_fluxes(&mut self) {
         for face in 1..self.grid.cells() {
             let u = self.mean_velocity(face);
             let h = if self.open[face] { self.transport_depth(face, &self.next_depth, u) } else { 0.0 };
@@ -144,7 +144,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Depth of a cell after a time at the present fluxes, its faces moving with theirs [m].
+    /// Depth of a cell after `dt` with the current fluxes and face velocities [m].
     fn depth_after(&self, cell: usize, dt: f64) -> f64 {
         let outflow = self.total_flux[cell + 1] - self.total_flux[cell];
         let growth = self.grid.face_velocity[cell + 1] - self.grid.face_velocity[cell];
@@ -152,7 +152,7 @@ impl LayeredFlume {
         ((self.depth[cell] * width - dt * outflow) / (width + dt * growth)).max(0.0)
     }
 
-    /// Scale the fluxes out of a cell down to what it holds, so that no depth turns negative and no water is made.
+    /// Limits the outflow of each cell to its volume, so that depths stay non-negative and volume is conserved.
     fn limit_outflow(&mut self, dt: f64) {
         let cells = self.grid.cells();
         let share: Vec<f64> = (0..cells)
@@ -163,16 +163,16 @@ impl LayeredFlume {
             })
             .collect();
         for face in 0..=cells {
-            let from = if self.total_flux[face] > 0.0 { face.checked_sub(1) } else { Some(face) };
-            // What comes in through an end comes from outside.
-            if let Some(share) = from.and_then(|cell| share.get(cell)) {
+            let upwind = if self.total_flux[face] > 0.0 { face.checked_sub(1) } else { Some(face) };
+            // Inflow through an end has no upwind cell.
+            if let Some(share) = upwind.and_then(|cell| share.get(cell)) {
                 self.total_flux[face] *= share;
             }
         }
     }
 
-    /// Films: one velocity over their depth, and where the water is shallow no more than a cell in a step,
-    /// dt |u| / dx <= 1. What a film does beyond that is not resolved.
+    /// Limits the velocities in thin water, which is not resolved: films get a uniform velocity over their depth, and
+    /// shallow water crosses at most one cell per time step, dt |u| / dx <= 1.
     pub(super) fn settle_films(&mut self) {
         let k = self.layers;
         for face in (1..self.grid.cells()).filter(|&face| self.open[face]) {
@@ -187,7 +187,7 @@ impl LayeredFlume {
         }
     }
 
-    /// New depths, and the rate at which the surface rose [m/s].
+    /// Updates the depths and the rate of rise of the surface [m/s].
     pub(super) fn update_depths(&mut self, dt: f64) {
         for cell in 0..self.grid.cells() {
             self.next_depth[cell] = self.depth_after(cell, dt);
@@ -196,7 +196,7 @@ impl LayeredFlume {
         std::mem::swap(&mut self.depth, &mut self.next_depth);
     }
 
-    /// Mean depth of the two cells at each face, zero where a face lies dry; extrapolated to the piston.
+    /// Computes the depth at each face: the mean of its two cells, zero if the face is dry, extrapolated at the ends.
     pub(super) fn measure_faces(&mut self) {
         let cells = self.grid.cells();
         for face in 1..cells {
@@ -211,7 +211,7 @@ impl LayeredFlume {
     }
 }
 
-/// Van Leer's (1974) harmonic mean of two differences: 0 at an extreme, so that nothing overshoots.
+/// Van Leer's (1974) limiter: the harmonic mean of two differences, 0 at an extremum to prevent overshoot.
 pub(super) fn van_leer(a: f64, b: f64) -> f64 {
     if a * b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 }
 }

@@ -1,14 +1,14 @@
-//! The equations of a steady wave and Newton's method; depth and gravity are the units.
+//! Equations of stream function wave theory and Newton's method, in units of depth and gravity.
 
 use std::f64::consts::{PI, TAU};
 
 use super::MeanFlow;
 
-/// Newton steps at most; from a near start five are enough.
+/// Largest number of Newton iterations; five are enough from a close initial guess.
 const MOST_STEPS: usize = 30;
-/// Largest residual of a solution: rounding in sums of 100 terms of order one.
+/// Largest residual of a converged solution: rounding in sums of 100 terms of order one.
 const SOLVED: f64 = 1e-11;
-/// Unknowns before those of the surface: k, U, c, Q, R.
+/// Number of scalar unknowns, which precede the surface heights: k, U, c, Q, R.
 const SCALARS: usize = 5;
 
 /// Unknowns of a steady wave.
@@ -16,22 +16,22 @@ const SCALARS: usize = 5;
 pub struct SteadyWave {
     /// Wavenumber.
     pub k: f64,
-    /// Mean speed of the water at a point in the frame of the wave.
+    /// Mean velocity of the water U in the frame of the wave.
     pub u: f64,
-    /// Speed of the wave.
+    /// Celerity.
     pub c: f64,
-    /// Volume flux in the frame of the wave.
+    /// Volume flux Q in the frame of the wave.
     pub q: f64,
-    /// Bernoulli's constant.
+    /// Bernoulli constant R.
     pub r: f64,
-    /// Heights of the surface above the bed at N + 1 points from crest to trough.
+    /// Surface heights above the bed at N + 1 points from crest to trough.
     pub surface: Vec<f64>,
-    /// B_1..B_N.
+    /// Coefficients B_1..B_N.
     pub b: Vec<f64>,
 }
 
 impl SteadyWave {
-    /// The linear wave.
+    /// Linear wave of the given height and wavenumber.
     pub fn linear(order: usize, height: f64, k: f64) -> Self {
         let c = (k.tanh() / k).sqrt();
         let surface = (0..=order).map(|m| 1.0 + 0.5 * height * (m as f64 * PI / order as f64).cos()).collect();
@@ -40,16 +40,16 @@ impl SteadyWave {
         Self { k, u: c, c, q: c, r: 1.0 + 0.5 * c * c, surface, b }
     }
 
-    /// On the line from `earlier` through this one, `share` of their distance beyond it.
+    /// Extrapolates linearly from `earlier` through this wave, beyond it by `share` of their distance.
     pub fn extrapolated(&self, earlier: &Self, share: f64) -> Self {
-        let (now, then) = (self.to_vector(), earlier.to_vector());
-        let beyond: Vec<f64> = now.iter().zip(&then).map(|(a, b)| a + share * (a - b)).collect();
-        Self::from_vector(&beyond)
+        let (current, previous) = (self.to_vector(), earlier.to_vector());
+        let next: Vec<f64> = current.iter().zip(&previous).map(|(a, b)| a + share * (a - b)).collect();
+        Self::from_vector(&next)
     }
 
-    /// Whether the surface has one crest and one trough.
+    /// Whether the surface falls all the way from crest to trough.
     pub fn falls_from_crest_to_trough(&self) -> bool {
-        // Long troughs are level to rounding.
+        // The tolerance covers rounding in the level trough of a long wave.
         self.surface.windows(2).all(|pair| pair[1] < pair[0] + 1e-6)
     }
 
@@ -95,15 +95,15 @@ pub fn solve(start: SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -
         eliminate(&mut matrix, &mut residual)?;
         let x: Vec<f64> = wave.to_vector().iter().zip(&residual).map(|(x, step)| x - step).collect();
         wave = SteadyWave::from_vector(&x);
-        let sound = wave.k > 0.0 && wave.surface.iter().all(|y| *y > 0.0 && *y < 2.0);
-        if !sound {
+        let is_plausible = wave.k > 0.0 && wave.surface.iter().all(|y| *y > 0.0 && *y < 2.0);
+        if !is_plausible {
             return None;
         }
     }
     None
 }
 
-/// Jacobian, row by row, and residual of the 2 N + 6 equations.
+/// Jacobian (row-major) and residual of the 2 N + 6 equations.
 fn linearise(wave: &SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -> (Vec<f64>, Vec<f64>) {
     let order = wave.b.len();
     let size = 2 * order + SCALARS + 1;
@@ -111,7 +111,7 @@ fn linearise(wave: &SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -
     for m in 0..=order {
         let (stream, bernoulli) = (m * size, (order + 1 + m) * size);
         let (head, tail) = matrix.split_at_mut(bernoulli);
-        let [a, b] = on_the_surface(wave, m, &mut head[stream..stream + size], &mut tail[..size]);
+        let [a, b] = surface_equations(wave, m, &mut head[stream..stream + size], &mut tail[..size]);
         (residual[m], residual[order + 1 + m]) = (a, b);
     }
     let mut row = 2 * order + 2;
@@ -135,8 +135,8 @@ fn linearise(wave: &SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -
     (matrix, residual)
 }
 
-/// Residuals psi + Q and (u^2 + v^2) / 2 + Y - R at point m, and their derivatives.
-fn on_the_surface(wave: &SteadyWave, m: usize, stream: &mut [f64], bernoulli: &mut [f64]) -> [f64; 2] {
+/// Residuals psi + Q and (u^2 + v^2) / 2 + Y - R at surface point m; their derivatives go to `stream` and `bernoulli`.
+fn surface_equations(wave: &SteadyWave, m: usize, stream: &mut [f64], bernoulli: &mut [f64]) -> [f64; 2] {
     let order = wave.b.len();
     let (k, y) = (wave.k, wave.surface[m]);
     let (mut psi, mut u, mut v) = (-wave.u * y, -wave.u, 0.0);
@@ -169,8 +169,7 @@ fn on_the_surface(wave: &SteadyWave, m: usize, stream: &mut [f64], bernoulli: &m
     [psi + wave.q, 0.5 * (u * u + v * v) + y - wave.r]
 }
 
-/// Gauss's elimination with pivots by column; the solution takes the place of `right`. `None` if the matrix is
-/// singular.
+/// Gaussian elimination with partial pivoting; the solution overwrites `right`. `None` if the matrix is singular.
 fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> Option<()> {
     let n = right.len();
     for p in 0..n {
@@ -217,7 +216,7 @@ mod tests {
             let (up, down) = (shifted(1e-5), shifted(-1e-5));
             for row in 0..x.len() {
                 let slope = (up[row] - down[row]) / 2e-5;
-                // Central differences: (1e-5)^2 times third derivatives of up to (N k)^3 = 100.
+                // Error of central differences: (1e-5)^2 times third derivatives of up to (N k)^3 = 100.
                 assert!((slope - matrix[row * x.len() + column]).abs() < 1e-7, "{row} {column}");
             }
         }

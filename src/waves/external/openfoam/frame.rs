@@ -1,25 +1,25 @@
-//! How OpenFOAM's axes stand in the case.
+//! Axes of OpenFOAM relative to the case.
 
-/// The axis of OpenFOAM that points up.
+/// Vertical axis of OpenFOAM.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Up {
-    /// y, as in most flumes of one cell's width.
+    /// y, as in most flumes that are one cell wide.
     Y,
     /// z.
     Z,
 }
 
-/// OpenFOAM's axes: x is that of the case, another points up.
+/// Axes of OpenFOAM: x is the x of the case; y or z points up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The axis that points up.
+    /// Vertical axis.
     pub up: Up,
-    /// Level z of OpenFOAM's origin [m].
+    /// Level z of OpenFOAM's origin in the case [m].
     pub origin_z_m: f64,
 }
 
 impl Frame {
-    /// Level z [m] of a point.
+    /// Level z of a point [m].
     pub(super) fn z(&self, point: [f64; 3]) -> f64 {
         self.origin_z_m
             + match self.up {
@@ -28,7 +28,7 @@ impl Frame {
             }
     }
 
-    /// The point at x and level z [m], in the middle of the flume.
+    /// Point at x and level z [m] on the centreline of the flume.
     pub(super) fn point(&self, x: f64, z: f64) -> [f64; 3] {
         match self.up {
             Up::Y => [x, z - self.origin_z_m, 0.0],
@@ -36,7 +36,7 @@ impl Frame {
         }
     }
 
-    /// The two coordinates of a point that do not tell its level.
+    /// Horizontal coordinates of a point.
     pub(super) fn place(&self, point: [f64; 3]) -> [f64; 2] {
         match self.up {
             Up::Y => [point[0], point[2]],

@@ -1,7 +1,7 @@
-//! The surface at gauges, as OpenFOAM's function objects leave it.
+//! Surface level at gauges from OpenFOAM's function objects.
 //!
-//! `interfaceHeight` writes it for all gauges together. Where that is not at hand (Debian's OpenFOAM 1912 lacks it),
-//! `probes` of the share of water on a vertical tell it: the water between the lowest and the highest of them.
+//! `interfaceHeight` writes all gauges together. Where it is missing (as in Debian's OpenFOAM 1912), `probes` of the
+//! volume fraction of water on a vertical give the surface level: the depth of water between the lowest and highest.
 
 use std::path::Path;
 
@@ -10,9 +10,9 @@ use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 use super::{interface_height, probes};
 
-/// The surface at gauges of the given names: from the function object interfaceHeight, whose locations are the gauges
-/// in their order, if its folder is given, otherwise from a folder of the gauge's name for each, with probes of
-/// `water` on a vertical.
+/// Reads the surface level at the named gauges. If `folder` has a folder with the name of a gauge, each gauge has a
+/// folder with probes of `water` on a vertical. Otherwise `folder` is that of `interfaceHeight`, whose locations are
+/// the gauges in their order.
 ///
 /// # Errors
 /// If a folder or file cannot be read or understood.
@@ -33,7 +33,7 @@ mod tests {
     const FRAME: Frame = Frame { up: Up::Z, origin_z_m: 0.0 };
 
     #[test]
-    fn water_on_a_vertical_and_positions_tell_the_same_surface() {
+    fn probes_of_water_and_positions_give_the_same_surface() {
         let folder = tempfile::tempdir().unwrap();
         let start = folder.path().join("post/front/0");
         fs::create_dir_all(&start).unwrap();
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn folders_that_are_not_there_are_named() {
+    fn error_names_the_missing_folder() {
         let folder = tempfile::tempdir().unwrap();
         let error = read(&folder.path().join("none"), &["front"], "alpha.water", FRAME).unwrap_err().to_string();
         assert!(error.contains("none"), "{error}");

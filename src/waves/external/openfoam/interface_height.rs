@@ -1,7 +1,7 @@
-//! The function object `interfaceHeight`: level of the surface at its locations, from the water that stands above them.
+//! Function object `interfaceHeight`: surface level at its locations, integrated from the water above them.
 //!
-//! `position.dat` has rows `t (x y z) (x y z) ...`, the place of the surface for each location; `height.dat` has
-//! `t hB hL hB hL ...`, its height above the boundary below and above the location.
+//! `position.dat` has rows `t (x y z) (x y z) ...` with the position of the surface for each location. `height.dat` has
+//! `t hB hL hB hL ...` with its height above the boundary below and above the location.
 
 use std::path::Path;
 
@@ -10,18 +10,18 @@ use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 use super::starts::Joined;
 
-/// Level of the surface from `<folder>/<t0>/position.dat`, at a location counted from 0.
+/// Reads the surface level from `<folder>/<t0>/position.dat`, at a location counted from 0.
 ///
 /// # Errors
-/// If a file cannot be read or a line is wrong, there is no such location, or times leave a gap.
+/// If a file cannot be read, a line is wrong, the location does not exist, or times have a gap.
 pub fn read_position(folder: &Path, frame: Frame, location: usize) -> Result<SurfaceSeries, ExternalError> {
     read(folder, "position.dat", 3, location, |point| frame.z([point[0], point[1], point[2]]))
 }
 
-/// Level of the surface from `<folder>/<t0>/height.dat` and the level z of the bed [m], at a location counted from 0.
+/// Reads the surface level from `<folder>/<t0>/height.dat` and the bed level z [m], at a location counted from 0.
 ///
 /// # Errors
-/// If a file cannot be read or a line is wrong, there is no such location, or times leave a gap.
+/// If a file cannot be read, a line is wrong, the location does not exist, or times have a gap.
 pub fn read_height(folder: &Path, bed_z_m: f64, location: usize) -> Result<SurfaceSeries, ExternalError> {
     read(folder, "height.dat", 2, location, |heights| bed_z_m + heights[0])
 }
@@ -38,8 +38,8 @@ fn read(
     if location >= locations {
         return Err(ExternalError::file(
             folder,
-            format!("no location {location} in `{file}`, which has {locations}"),
-            "give the number of a location, from 0",
+            format!("no location {location} in `{file}`, which has {locations} location(s)"),
+            "give the number of a location, counted from 0",
         ));
     }
     let at_location = |row: &Vec<f64>| level(&row[columns * location..columns * (location + 1)]);
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn positions_and_heights_tell_the_same_level() {
+    fn positions_and_heights_give_the_same_level() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("0")).unwrap();
         let position = "# Location 0 : (1 0 0)\n# Location 1 : (5 0 0)\n# p : Interface position\n# Time\n\
@@ -66,11 +66,8 @@ mod tests {
         let surface = read_position(folder.path(), frame, 1).unwrap();
         assert_eq!(surface.at_times(&[0.0, 0.1]).unwrap(), [0.0, 0.5]);
         assert_eq!(read_height(folder.path(), -2.0, 1).unwrap(), surface);
-        assert!(
-            read_height(folder.path(), -2.0, 2)
-                .unwrap_err()
-                .to_string()
-                .ends_with(": no location 2 in `height.dat`, which has 2; give the number of a location, from 0")
-        );
+        assert!(read_height(folder.path(), -2.0, 2).unwrap_err().to_string().ends_with(
+            ": no location 2 in `height.dat`, which has 2 location(s); give the number of a location, counted from 0"
+        ));
     }
 }

@@ -1,9 +1,9 @@
-//! Sampled lines: `postProcessing/<name>/<t>/<line>_U.xy`, a row a point: its coordinates, then the components.
+//! Sampled lines: `postProcessing/<name>/<t>/<line>_U.xy`, one row per point with coordinates and components.
 //!
-//! They come from a function object `sets` with `setFormat raw; fields (U alpha.water);` and a line with `axis z` (or
-//! y, whichever points up) or `axis xyz`; `axis distance` does not tell the level. Up to v2112 each type of field has
-//! its own file, `<line>_U.xy` and `<line>_alpha.water.xy`; later ones write `<line>_alpha.water_U.xy`, the share of
-//! water first.
+//! The function object `sets` writes them with `setFormat raw; fields (U alpha.water);` and a line with `axis z` (or y,
+//! the vertical axis) or `axis xyz`; `axis distance` lacks the level. Up to v2112 each type of field has its own file,
+//! `<line>_U.xy` and `<line>_alpha.water.xy`. Later versions write `<line>_alpha.water_U.xy`, with the volume fraction
+//! of water first.
 
 use std::path::Path;
 
@@ -14,14 +14,14 @@ use super::frame::Frame;
 use super::samples::{Sample, Vertical, in_water};
 use super::starts::time_folders;
 
-/// Read a sampled line by its name, leaving out the points in air.
+/// Reads the sampled line with the given name and leaves out points in air.
 ///
 /// # Errors
-/// If a file cannot be read or a line is wrong, or the values cannot be right at the place.
+/// If a file cannot be read, a row is wrong, or the values are implausible at the position.
 pub fn read(vertical: &Vertical, line: &str, place: &Place) -> Result<VelocityTable, ExternalError> {
     let (mut times_s, mut heights_m, mut velocities_m_s) = (Vec::new(), Vec::new(), Vec::new());
     for (time, folder) in time_folders(vertical.folder)? {
-        let (heights, velocities) = in_water(read_moment(vertical, line, &folder)?.into_iter());
+        let (heights, velocities) = in_water(read_time(vertical, line, &folder)?.into_iter());
         times_s.push(time);
         heights_m.push(heights);
         velocities_m_s.push(velocities);
@@ -30,8 +30,8 @@ pub fn read(vertical: &Vertical, line: &str, place: &Place) -> Result<VelocityTa
     VelocityTable { times_s, surface_z_m, heights_m, velocities_m_s }.checked(vertical.folder, place)
 }
 
-/// The points of one time.
-fn read_moment(vertical: &Vertical, line: &str, folder: &Path) -> Result<Vec<Sample>, ExternalError> {
+/// Reads the points of one time.
+fn read_time(vertical: &Vertical, line: &str, folder: &Path) -> Result<Vec<Sample>, ExternalError> {
     let path = |fields: &str| folder.join(format!("{line}_{fields}.xy"));
     let Some(water) = vertical.water else {
         let points = read_points(vertical.frame, &path(vertical.velocity), 3)?;
@@ -45,7 +45,7 @@ fn read_moment(vertical: &Vertical, line: &str, folder: &Path) -> Result<Vec<Sam
     let velocity = read_points(vertical.frame, &path(vertical.velocity), 3)?;
     let shares = read_points(vertical.frame, &path(water), 1)?;
     if velocity.len() != shares.len() {
-        let problem = format!("{} points, but {} with a velocity", shares.len(), velocity.len());
+        let problem = format!("{} point(s), but {} with a velocity", shares.len(), velocity.len());
         return Err(ExternalError::file(&path(water), problem, "sample both fields in one function object"));
     }
     let pair = |(u, share): (&Point, &Point)| Sample { z_m: u.z_m, u_m_s: u.values[0], water: share.values[0] };
@@ -58,11 +58,11 @@ struct Point {
     values: Vec<f64>,
 }
 
-/// The points of a file with so many values each. A point on a face between cells stands twice in some kinds of line:
-/// the first of them counts.
+/// Reads the points of a file with the given number of values each. Some types of line list a point on a cell face
+/// twice; only the first is kept.
 fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, ExternalError> {
     let text =
-        TextFile::read(path, "sample `fields (U alpha.water)` with `setFormat raw`, and give the name of the line")?;
+        TextFile::read(path, "sample `fields (U alpha.water)` with `setFormat raw`, and check the name of the line")?;
     let mut points: Vec<Point> = Vec::new();
     for (line, words) in text.lines().filter(|(_, words)| !words.starts_with('#')) {
         let mut numbers = text.numbers(line, words)?;
@@ -70,7 +70,7 @@ fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, E
         let coordinates = numbers.len().checked_sub(values).filter(|c| [1, 3].contains(c));
         let Some(coordinates) = coordinates else {
             let problem = format!("{} numbers, expected {} or {}", numbers.len(), values + 1, values + 3);
-            return Err(text.wrong(line, problem, "write one or three coordinates and the fields of the file's name"));
+            return Err(text.wrong(line, problem, "write one or three coordinates, then the fields in the file name"));
         };
         let values = numbers.split_off(coordinates);
         let point = <[f64; 3]>::try_from(numbers.as_slice()).unwrap_or([numbers[0]; 3]);
@@ -92,7 +92,7 @@ mod tests {
 
     const PLACE: Place = Place { bed_z_m: 0.0, still_water_z_m: 1.0, gravity_m_s2: 9.81, layers: Layers::AtLeastTwo };
 
-    /// A folder with the same files at 0 s, 0.5 s and 1 s.
+    /// Creates a folder with the same files at 0 s, 0.5 s and 1 s.
     fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         for time in ["0", "0.5", "1"] {
@@ -113,18 +113,18 @@ mod tests {
     fn both_layouts_and_both_kinds_of_coordinates_are_read() {
         let u = "0.25 \t1 \t0 \t0\n0.5 \t2 \t0 \t0\n0.5 \t2 \t0 \t0\n0.75 \t9 \t0 \t0\n";
         let alpha = "0.25 \t1\n0.5 \t0.8\n0.5 \t0.8\n0.75 \t0.3\n";
-        let apart = folder(&[("gauge_U.xy", u), ("gauge_alpha.water.xy", alpha)]);
-        let table = lines(apart.path(), Some("alpha.water")).unwrap();
+        let separate = folder(&[("gauge_U.xy", u), ("gauge_alpha.water.xy", alpha)]);
+        let table = lines(separate.path(), Some("alpha.water")).unwrap();
         assert_eq!(table.times_s, [0.0, 0.5, 1.0]);
         assert_eq!((&table.heights_m[2], &table.velocities_m_s[2]), (&vec![0.25, 0.5], &vec![1.0, 2.0]));
-        assert_eq!(lines(apart.path(), None).unwrap().heights_m[0], [0.25, 0.5, 0.75]);
+        assert_eq!(lines(separate.path(), None).unwrap().heights_m[0], [0.25, 0.5, 0.75]);
         let joined = "3 0 0.25 1 1 0 0\n3 0 0.5 0.8 2 0 0\n3 0 0.75 0.3 9 0 0\n";
         let joined = folder(&[("gauge_alpha.water_U.xy", joined)]);
         assert_eq!(lines(joined.path(), Some("alpha.water")).unwrap(), table);
     }
 
     #[test]
-    fn what_is_wrong_is_named() {
+    fn errors_name_the_file_and_the_problem() {
         let message = |files: &[(&str, &str)], water| lines(folder(files).path(), water).unwrap_err().to_string();
         let missing = message(&[], None);
         assert!(
@@ -134,6 +134,6 @@ mod tests {
         let ragged = message(&[("gauge_U.xy", "0.25 1 0 0\n0.5 2 0\n")], None);
         assert!(ragged.contains("0/gauge_U.xy: line 2: 3 numbers, expected 4 or 6; write one or three"), "{ragged}");
         let files = [("gauge_U.xy", "0.25 1 0 0\n0.5 2 0 0\n"), ("gauge_alpha.water.xy", "0.25 1\n")];
-        assert!(message(&files, Some("alpha.water")).contains("1 points, but 2 with a velocity; sample both"));
+        assert!(message(&files, Some("alpha.water")).contains("1 point(s), but 2 with a velocity; sample both"));
     }
 }

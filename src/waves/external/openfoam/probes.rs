@@ -1,7 +1,7 @@
-//! Probes: `postProcessing/<name>/<t0>/U` with a line `# Probe 0 (x y z)` for each and a row `t (ux uy uz) ...` a time.
+//! Probes: `postProcessing/<name>/<t0>/U` with lines `# Probe 0 (x y z)` and one row `t (ux uy uz) ...` per time.
 //!
-//! The share of water at the same points, in `alpha.water` beside it, tells which of them are in air. A probe outside
-//! the mesh has `# Not Found` behind its place, and either a value of -1e300 or none (`includeOutOfBounds false`).
+//! The volume fraction of water in `alpha.water`, in the same folder, shows which probes are in air. A probe outside
+//! the mesh has `# Not Found` after its position, and either a value of -1e300 or none (`includeOutOfBounds false`).
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -13,19 +13,19 @@ use super::frame::Frame;
 use super::samples::{OUTSIDE_MESH, Sample, Vertical, in_water};
 use super::starts::Joined;
 
-/// Probes further apart than this across the vertical do not stand at one place [m].
+/// Largest horizontal distance of probes on one vertical [m].
 const ONE_PLACE_M: f64 = 1e-3;
 
-/// Read probes, leaving out those in air.
+/// Reads probes and leaves out values in air.
 ///
 /// # Errors
-/// If a file cannot be read or a line is wrong, the probes do not stand on one vertical, velocity and share of water do
-/// not belong together, or the values cannot be right at the place.
+/// If a file cannot be read, a line is wrong, or the probes are not on one vertical. If velocity and volume fraction
+/// differ in probes or times, or the values are implausible at the position.
 pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalError> {
     let velocity = Joined::read(probes.folder, probes.velocity)?;
-    let points = Points::of(&velocity, 3, probes.folder, probes.velocity)?;
+    let points = Points::from_comments(&velocity, 3, probes.folder, probes.velocity)?;
     let levels_m = points.levels_m(probes)?;
-    let water = probes.water.map(|name| water_at(probes.folder, name, &velocity, &points)).transpose()?;
+    let water = probes.water.map(|name| read_water(probes.folder, name, &velocity, &points)).transpose()?;
     let (mut heights_m, mut velocities_m_s) = (Vec::new(), Vec::new());
     for (i, row) in velocity.rows.iter().enumerate() {
         let share = |probe: usize| water.as_ref().map_or(1.0, |rows| rows[i][probe]);
@@ -38,20 +38,20 @@ pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalE
     VelocityTable { times_s: velocity.times_s, surface_z_m, heights_m, velocities_m_s }.checked(probes.folder, place)
 }
 
-/// Level of the surface from the share of water on a vertical: the water between its lowest and highest probe, above
-/// what is full of water below it.
+/// Reads the surface level from the volume fraction of water on a vertical: the level of the lowest probe plus the
+/// depth of water between the lowest and highest probe. Below the lowest probe there must be only water.
 ///
 /// # Errors
-/// As [`read`].
+/// See [`read`].
 pub fn read_surface(folder: &Path, water: &str, frame: Frame) -> Result<SurfaceSeries, ExternalError> {
     let joined = Joined::read(folder, water)?;
     let vertical = Vertical { folder, velocity: water, water: None, frame, surface: None };
-    let levels_m = Points::of(&joined, 1, folder, water)?.levels_m(&vertical)?;
+    let levels_m = Points::from_comments(&joined, 1, folder, water)?.levels_m(&vertical)?;
     let in_mesh = |probe: &usize| joined.rows[0][*probe].abs() < OUTSIDE_MESH;
     let mut upwards: Vec<usize> = (0..levels_m.len()).filter(in_mesh).collect();
     if upwards.is_empty() {
-        let problem = format!("no probe of `{water}` lies in the mesh");
-        return Err(ExternalError::file(folder, problem, "check the places of the probes"));
+        let problem = format!("no probe of `{water}` is inside the mesh");
+        return Err(ExternalError::file(folder, problem, "check the positions of the probes"));
     }
     upwards.sort_by(|&a, &b| levels_m[a].total_cmp(&levels_m[b]));
     let surface = |row: &Vec<f64>| {
@@ -62,14 +62,14 @@ pub fn read_surface(folder: &Path, water: &str, frame: Frame) -> Result<SurfaceS
     SurfaceSeries::new(folder, joined.times_s, z_m)
 }
 
-/// Places of the probes that have values.
+/// Positions of the probes that have values.
 #[derive(PartialEq)]
 struct Points(Vec<[f64; 3]>);
 
 impl Points {
-    /// The probes of a field with so many components.
-    fn of(joined: &Joined, components: usize, folder: &Path, field: &str) -> Result<Self, ExternalError> {
-        let probes: Vec<([f64; 3], bool)> = joined.comments.iter().filter_map(|comment| probe(comment)).collect();
+    /// Positions of the probes from the comments of a field with the given number of components.
+    fn from_comments(joined: &Joined, components: usize, folder: &Path, field: &str) -> Result<Self, ExternalError> {
+        let probes: Vec<([f64; 3], bool)> = joined.comments.iter().filter_map(|comment| parse_probe(comment)).collect();
         let columns = joined.rows.first().map_or(components * probes.len(), Vec::len);
         let found = |&(point, found): &([f64; 3], bool)| found.then_some(point);
         let points = if columns == components * probes.len() {
@@ -83,46 +83,46 @@ impl Points {
         Err(ExternalError::file(
             folder,
             format!("`{field}` has {columns} columns for {} probes", probes.len()),
-            format!("it must have {components} a probe, and a line `# Probe 0 (x y z)` for each"),
+            format!("it must have {components} per probe, and a line `# Probe 0 (x y z)` per probe"),
         ))
     }
 
-    /// Their levels z [m], if they stand on one vertical.
+    /// Levels z of the probes [m], if they are on one vertical.
     fn levels_m(&self, probes: &Vertical) -> Result<Vec<f64>, ExternalError> {
         let first = probes.frame.place(self.0[0]);
-        let apart = |point: &&[f64; 3]| {
-            let place = probes.frame.place(**point);
-            (place[0] - first[0]).abs().max((place[1] - first[1]).abs()) > ONE_PLACE_M
+        let is_off_vertical = |point: &&[f64; 3]| {
+            let position = probes.frame.place(**point);
+            (position[0] - first[0]).abs().max((position[1] - first[1]).abs()) > ONE_PLACE_M
         };
-        match self.0.iter().find(apart) {
+        match self.0.iter().find(is_off_vertical) {
             None => Ok(self.0.iter().map(|&point| probes.frame.z(point)).collect()),
             Some(point) => Err(ExternalError::file(
                 probes.folder,
-                format!("the probes at {:?} and {point:?} do not stand on one vertical", self.0[0]),
-                "write one vertical a function object, and check which axis points up",
+                format!("the probes at {:?} and {point:?} are not on one vertical", self.0[0]),
+                "write one vertical per function object, and check the vertical axis",
             )),
         }
     }
 }
 
-/// Place of the probe that a comment tells of, and whether it lies in the mesh.
-fn probe(comment: &str) -> Option<([f64; 3], bool)> {
-    let (place, remark) = comment.strip_prefix("Probe")?.split_once('(')?.1.split_once(')')?;
-    let numbers: Vec<f64> = place.split_whitespace().map_while(|word| word.parse().ok()).collect();
+/// Parses a comment line of a probe: its position and whether it is inside the mesh.
+fn parse_probe(comment: &str) -> Option<([f64; 3], bool)> {
+    let (position, remark) = comment.strip_prefix("Probe")?.split_once('(')?.1.split_once(')')?;
+    let numbers: Vec<f64> = position.split_whitespace().map_while(|word| word.parse().ok()).collect();
     Some((numbers.try_into().ok()?, !remark.contains("Not Found")))
 }
 
-/// Shares of water at the same probes and times.
-fn water_at(folder: &Path, field: &str, velocity: &Joined, points: &Points) -> Result<Vec<Vec<f64>>, ExternalError> {
+/// Reads the volume fractions of water at the same probes and times.
+fn read_water(folder: &Path, field: &str, velocity: &Joined, points: &Points) -> Result<Vec<Vec<f64>>, ExternalError> {
     let water = Joined::read(folder, field)?;
-    if Points::of(&water, 1, folder, field)? == *points && water.times_s == velocity.times_s {
+    if Points::from_comments(&water, 1, folder, field)? == *points && water.times_s == velocity.times_s {
         return Ok(water.rows);
     }
-    let problem = format!("`{field}` is not of the same probes and times as the velocity");
+    let problem = format!("`{field}` has other probes or times than the velocity");
     Err(ExternalError::file(folder, problem, "sample both fields in one function object"))
 }
 
-/// Write velocities as probes at the given levels z [m] at x [m] would leave them, with all digits.
+/// Writes velocities in the format of probes at the given levels z [m] at x [m], with all digits.
 ///
 /// # Errors
 /// If writing fails.
@@ -131,8 +131,8 @@ pub fn write(table: &VelocityTable, levels_m: &[f64], x_m: f64, frame: Frame, ou
     write_field(&table.times_s, levels_m, x_m, frame, value, out)
 }
 
-/// Write the share of water beside [`write()`]: 1 up to the surface, 0 above; 1 everywhere if the table does not tell
-/// it.
+/// Writes the volume fraction of water at the probes of [`write()`]: 1 up to the surface and 0 above. It is 1
+/// everywhere if the table has no surface levels.
 ///
 /// # Errors
 /// If writing fails.
@@ -174,7 +174,7 @@ mod tests {
     const FRAME: Frame = Frame { up: Up::Y, origin_z_m: -1.0 };
     const LEVELS: [f64; 4] = [-0.75, -0.5, -0.25, 0.125];
 
-    /// The probes under a surface that rises and falls by 0.2 m; the uppermost is in air at times.
+    /// Probes under a surface that rises and falls by 0.2 m; the uppermost probe is sometimes in air.
     fn table(first: i32, last: i32, shift: f64) -> VelocityTable {
         let times_s: Vec<f64> = (first..last).map(|i| 0.125 * f64::from(i)).collect();
         let surface: Vec<f64> = times_s.iter().map(|t| 0.2 * (2.0 * t).sin()).collect();
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_back_without_air() {
+    fn written_probes_are_read_back_without_air() {
         let folder = tempfile::tempdir().unwrap();
         let table = table(0, 30, 0.0);
         write_start(folder.path(), "0", &table);
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_restart_replaces_the_end_of_the_run_before() {
+    fn restart_replaces_the_end_of_the_earlier_run() {
         let folder = tempfile::tempdir().unwrap();
         write_start(folder.path(), "0", &table(0, 20, 0.0));
         write_start(folder.path(), "1.5", &table(13, 30, 0.5));
@@ -246,17 +246,17 @@ mod tests {
         };
         let with = read(rows);
         assert_eq!((&with.heights_m[1], &with.velocities_m_s[1]), (&vec![-0.75, -0.5], &vec![1.0, 2.0]));
-        // The same file under `includeOutOfBounds false`.
+        // The same file with `includeOutOfBounds false`.
         assert_eq!(read(&rows.replace(" (-1e+300 -1e+300 -1e+300)", "")), with);
     }
 
     #[test]
-    fn probes_that_do_not_belong_together_are_named() {
+    fn errors_name_mismatched_probes() {
         let folder = tempfile::tempdir().unwrap();
         write_start(folder.path(), "0", &table(0, 5, 0.0));
         let message = |probes: Vertical| read(&probes, &PLACE).unwrap_err().to_string();
         let up = Vertical { frame: Frame { up: Up::Z, origin_z_m: 0.0 }, ..probes(folder.path()) };
-        assert!(message(up).contains("do not stand on one vertical; write one vertical a function object, and check"));
+        assert!(message(up).contains("are not on one vertical; write one vertical per function object, and check"));
         assert!(
             message(Vertical { velocity: "alpha.water", ..up })
                 .contains("`alpha.water` has 4 columns for 4 probes; it must")
@@ -268,7 +268,7 @@ mod tests {
         let shorter = fs::read_to_string(&path).unwrap().trim_end().rsplit_once('\n').unwrap().0.to_owned();
         fs::write(path, shorter).unwrap();
         assert!(message(probes(folder.path())).ends_with(
-            "`alpha.water` is not of the same probes and times as the velocity; sample both fields in one function object"
+            "`alpha.water` has other probes or times than the velocity; sample both fields in one function object"
         ));
     }
 }

@@ -1,28 +1,28 @@
-//! A vertical that was sampled, and at one moment its samples in the water, from the bed up.
+//! A sampled vertical and its samples in the water at one time.
 
 use std::path::Path;
 
 use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 
-/// Water has at least this share of a sampled cell [-]; less is air, whose velocity is not the water's.
+/// Least volume fraction of water of a sample in the water [-]; samples below are in air and are left out.
 const WATER: f64 = 0.5;
 
-/// OpenFOAM writes about 1e300 for points outside the mesh.
+/// Values above this are outside the mesh; OpenFOAM writes about 1e300 there.
 pub(super) const OUTSIDE_MESH: f64 = 1e30;
 
-/// What a function object has sampled on a vertical.
+/// A vertical sampled by a function object.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertical<'a> {
-    /// `postProcessing/<name>`.
+    /// Folder `postProcessing/<name>`.
     pub folder: &'a Path,
-    /// Name of the velocity, `U`.
+    /// Name of the velocity field, `U`.
     pub velocity: &'a str,
-    /// Name of the share of water, such as `alpha.water`; `None` if every sample is always in water.
+    /// Name of the volume fraction field, such as `alpha.water`; `None` if every sample is always in water.
     pub water: Option<&'a str>,
-    /// The axes.
+    /// Axes of OpenFOAM.
     pub frame: Frame,
-    /// Level of the surface, if it is known.
+    /// Surface level, if known.
     pub surface: Option<&'a SurfaceSeries>,
 }
 
@@ -33,13 +33,13 @@ pub(super) struct Sample {
     pub(super) z_m: f64,
     /// Velocity along x [m/s].
     pub(super) u_m_s: f64,
-    /// Share of water [-].
+    /// Volume fraction of water [-].
     pub(super) water: f64,
 }
 
-/// Levels [m] and velocities [m/s] of the samples that lie in the mesh and in water, from the bed up.
+/// Levels [m] and velocities [m/s] of the samples inside the mesh and in water, from the bed upwards.
 pub(super) fn in_water(samples: impl Iterator<Item = Sample>) -> (Vec<f64>, Vec<f64>) {
-    // NaN stays, so that the checks of the table find it.
+    // NaN is kept, so that the checks of the table report it.
     let mut kept: Vec<Sample> = samples.filter(|s| !(s.u_m_s.abs() > OUTSIDE_MESH || s.water < WATER)).collect();
     kept.sort_by(|a, b| a.z_m.total_cmp(&b.z_m));
     kept.iter().map(|s| (s.z_m, s.u_m_s)).unzip()

@@ -1,6 +1,6 @@
-//! Files of one field in a folder for each start of the run, `<folder>/<t0>/<file>`, joined.
+//! Joins the files of one field over all starts of the run, `<folder>/<t0>/<file>`.
 //!
-//! `#` begins a comment; other rows are a time and numbers, in brackets where they are the components of a vector.
+//! `#` begins a comment. Other rows are a time and numbers; the components of a vector are in brackets.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,18 +8,18 @@ use std::path::{Path, PathBuf};
 use super::super::error::ExternalError;
 use super::super::text_file::TextFile;
 
-/// The rows of all starts, in the order of time.
+/// Rows of all starts in order of time.
 pub(super) struct Joined {
-    /// Comments, without their `#`; the same in every start.
+    /// Comments without their `#`, the same in every start.
     pub(super) comments: Vec<String>,
     /// Times [s].
     pub(super) times_s: Vec<f64>,
-    /// Numbers after the time, as many in every row.
+    /// Numbers after the time, equally many in every row.
     pub(super) rows: Vec<Vec<f64>>,
 }
 
 impl Joined {
-    /// Read `<folder>/<t0>/<file>` for every t0 that has it.
+    /// Reads `<folder>/<t0>/<file>` for every t0 that has the file.
     pub(super) fn read(folder: &Path, file: &str) -> Result<Self, ExternalError> {
         let mut joined: Option<Self> = None;
         for (_, start) in time_folders(folder)? {
@@ -36,15 +36,15 @@ impl Joined {
         joined.ok_or_else(|| {
             ExternalError::file(
                 folder,
-                format!("no folder of a start time has a file `{file}`"),
-                "give the folder `postProcessing/<name>`, and sample that field",
+                format!("no start time folder has a file `{file}`"),
+                "give the folder `postProcessing/<name>`, and sample this field",
             )
         })
     }
 
-    /// Read the file of one start.
+    /// Reads the file of one start.
     fn read_start(path: &Path) -> Result<Self, ExternalError> {
-        let text = TextFile::read(path, "check that it may be read")?;
+        let text = TextFile::read(path, "check its permissions")?;
         let mut start = Self { comments: vec![], times_s: vec![], rows: vec![] };
         for (line, words) in text.lines() {
             if let Some(comment) = words.strip_prefix('#') {
@@ -62,12 +62,12 @@ impl Joined {
                 return Err(text.wrong(
                     line,
                     problem,
-                    "correct or delete the line; a run that was killed may leave half",
+                    "correct or delete the line; a killed run may leave an incomplete line",
                 ));
             }
             if let Some(last) = start.times_s.last().filter(|&&last| time <= last) {
                 let problem = format!("t = {time} s follows t = {last} s");
-                return Err(text.wrong(line, problem, "times must rise; delete what another run left in the file"));
+                return Err(text.wrong(line, problem, "times must increase; delete rows of another run"));
             }
             start.times_s.push(time);
             start.rows.push(values);
@@ -75,11 +75,11 @@ impl Joined {
         Ok(start)
     }
 
-    /// Append a later start; it replaces what the earlier ones have from its first time on.
+    /// Appends a later start, which replaces earlier rows from its first time on.
     fn append(&mut self, later: Self, path: &Path) -> Result<(), ExternalError> {
         let width = |start: &Self| start.rows.first().map(Vec::len);
         if later.comments != self.comments || (width(self).zip(width(&later)).is_some_and(|(a, b)| a != b)) {
-            let problem = "heading or number of columns differ from those of the earlier starts";
+            let problem = "the heading or number of columns differs from that of the earlier starts";
             return Err(ExternalError::file(path, problem, "delete the folders of runs with other probes"));
         }
         let Some(first) = later.times_s.first() else { return Ok(()) };
@@ -92,7 +92,7 @@ impl Joined {
     }
 }
 
-/// The folders in a folder whose names are times, and those times [s], rising.
+/// Subfolders whose names are times, with these times [s], in order of time.
 pub(super) fn time_folders(folder: &Path) -> Result<Vec<(f64, PathBuf)>, ExternalError> {
     let unreadable = |reason: std::io::Error| ExternalError::Read {
         file: folder.to_owned(),
@@ -115,7 +115,7 @@ pub(super) fn time_folders(folder: &Path) -> Result<Vec<(f64, PathBuf)>, Externa
 mod tests {
     use super::*;
 
-    /// A folder with files `U` at the given starts.
+    /// Creates a folder with files `U` at the given starts.
     fn folder(starts: &[(&str, &str)]) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         for (start, text) in starts {
@@ -132,8 +132,8 @@ mod tests {
     }
 
     #[test]
-    fn a_later_start_replaces_the_end_of_the_earlier() {
-        // 10 must be sorted after 2 as a number.
+    fn later_start_replaces_the_end_of_the_earlier_start() {
+        // Numerical order: 10 comes after 2.
         let folder = folder(&[
             ("10", "# a\n11 (5 6 7)\n"),
             ("0", "# a\n1 (1 0 0)\n2 (2 0 0)\n3 (3 0 0)\n"),
@@ -146,15 +146,15 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_line_is_named() {
+    fn error_names_the_wrong_line() {
         assert_eq!(
             message(&[("0", "# a\n1 (1 0 0)\n2 (1 0\n")]),
-            "probes/0/U: line 3: 2 numbers after the time, expected 3; correct or delete the line; a run that was killed \
-             may leave half"
+            "probes/0/U: line 3: 2 numbers after the time, expected 3; correct or delete the line; a killed run may \
+             leave an incomplete line"
         );
         assert_eq!(
             message(&[("0", "1 1\n1 2\n")]),
-            "probes/0/U: line 2: t = 1 s follows t = 1 s; times must rise; delete what another run left in the file"
+            "probes/0/U: line 2: t = 1 s follows t = 1 s; times must increase; delete rows of another run"
         );
         assert_eq!(
             message(&[("0", "1 one\n")]),
@@ -164,9 +164,9 @@ mod tests {
     }
 
     #[test]
-    fn missing_files_and_other_probes_are_named() {
-        assert!(message(&[]).starts_with("probes: no folder of a start time has a file `U`; give the folder"));
-        assert!(message(&[("0", "# a\n1 1\n"), ("1", "# b\n2 1\n")]).starts_with("probes/1/U: heading or number"));
+    fn errors_name_missing_files_and_other_probes() {
+        assert!(message(&[]).starts_with("probes: no start time folder has a file `U`; give the folder"));
+        assert!(message(&[("0", "# a\n1 1\n"), ("1", "# b\n2 1\n")]).starts_with("probes/1/U: the heading or number"));
         let missing = Joined::read(Path::new("no/such"), "U").err().unwrap().to_string();
         assert!(missing.starts_with("no/such: cannot be read: ") && missing.ends_with("`postProcessing/<name>`"));
     }

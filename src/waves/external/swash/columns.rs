@@ -1,4 +1,4 @@
-//! What the columns of a table are, and the numbers in them.
+//! Columns of a table and their values.
 
 use std::path::PathBuf;
 
@@ -11,17 +11,17 @@ use crate::waves::external::text_file::TextFile;
 pub enum Column {
     /// Time [s]: `TSEC`.
     Tsec,
-    /// Level of the surface above the datum [m]: `WATL`.
+    /// Surface level above the datum [m]: `WATL`.
     Watl,
-    /// Velocity along x averaged over the depth [m/s]: x of `VEL`, or `VKSI`.
+    /// Depth-averaged velocity along x [m/s]: x of `VEL`, or `VKSI`.
     VelX,
-    /// Velocity along x of a layer [m/s], the first at the surface: x of `VELK`, or `VKSIK`.
+    /// Velocity along x of a layer [m/s], counted from 1 at the surface: x of `VELK`, or `VKSIK`.
     VelkX(usize),
-    /// Anything else, such as velocities along y; its values need not be numbers.
+    /// Any other column, such as velocities along y; its values need not be numbers.
     Ignored,
 }
 
-/// The columns of `TSEC VELK` for a number of layers.
+/// Columns of `TSEC VELK` for a number of layers.
 pub fn velk_columns(layers: usize) -> Vec<Column> {
     let mut columns = vec![Column::Tsec];
     columns.extend((1..=layers).map(Column::VelkX));
@@ -29,37 +29,37 @@ pub fn velk_columns(layers: usize) -> Vec<Column> {
     columns
 }
 
-/// The rows of a table under their columns.
+/// Rows and columns of a table.
 pub(super) struct Table {
     path: PathBuf,
     columns: Vec<Column>,
-    /// A list a row, NaN in columns that are ignored.
+    /// One list per row, NaN in ignored columns.
     rows: Vec<Vec<f64>>,
 }
 
 impl Table {
-    /// Read a table.
+    /// Reads a table.
     pub(super) fn read(file: &TableFile) -> Result<Self, ExternalError> {
-        let text = TextFile::read(file.path, "give the path of a table that SWASH wrote")?;
+        let text = TextFile::read(file.path, "give the path of a SWASH table")?;
         let mut columns = file.columns.to_vec();
         let mut rows = Vec::new();
         for (line, words) in text.lines() {
             if let Some(comment) = words.strip_prefix('%') {
-                columns = named_columns(comment).unwrap_or(columns);
+                columns = parse_header(comment).unwrap_or(columns);
             } else if words.starts_with("SWASH") {
-                let problem = "this is the form of TABLE ... SWASH, which is not read";
+                let problem = "the format of TABLE ... SWASH is not supported";
                 return Err(text.wrong(line, problem, "write the table with HEADER or NOHEADER"));
             } else if columns.is_empty() {
-                let advice = "give the columns in their order, or write with HEADER";
+                let advice = "list the columns in file order, or write with HEADER";
                 return Err(text.wrong(line, "no header names the columns", advice));
             } else {
-                rows.push(row(&text, line, words, &columns)?);
+                rows.push(parse_row(&text, line, words, &columns)?);
             }
         }
         Ok(Self { path: text.path().to_owned(), columns, rows })
     }
 
-    /// The values of a column.
+    /// Values of a column.
     pub(super) fn column(&self, column: Column) -> Result<Vec<f64>, ExternalError> {
         match self.columns.iter().position(|&c| c == column) {
             Some(index) => Ok(self.rows.iter().map(|row| row[index]).collect()),
@@ -76,7 +76,7 @@ impl Table {
         }
     }
 
-    /// Velocities along x, a list a layer from the surface down; one list if they are averaged over the depth.
+    /// Velocities along x, one list per layer from the surface downwards; a single list if they are depth-averaged.
     pub(super) fn layers(&self) -> Result<Vec<Vec<f64>>, ExternalError> {
         let numbers = self.columns.iter().filter_map(|column| match column {
             Column::VelkX(layer) => Some(*layer),
@@ -89,8 +89,8 @@ impl Table {
     }
 }
 
-/// The columns that a line of the header names, if it names any that are used.
-fn named_columns(comment: &str) -> Option<Vec<Column>> {
+/// Columns that a header line names; `None` if it names no known column.
+fn parse_header(comment: &str) -> Option<Vec<Column>> {
     let mut columns = Vec::new();
     for name in comment.split_whitespace() {
         let name = name.to_ascii_lowercase();
@@ -99,7 +99,7 @@ fn named_columns(comment: &str) -> Option<Vec<Column>> {
             "watlev" | "watl" => Column::Watl,
             "x-vel" | "vksi" => Column::VelX,
             _ => match name.strip_prefix("x-vel_k").or_else(|| name.strip_prefix("vksi_k")) {
-                // Names without a number repeat from layer to layer.
+                // Names without a number repeat for every layer.
                 Some("") => Column::VelkX(1 + columns.iter().filter(|c| matches!(c, Column::VelkX(_))).count()),
                 Some(number) => number.parse().map_or(Column::Ignored, Column::VelkX),
                 None => Column::Ignored,
@@ -110,14 +110,14 @@ fn named_columns(comment: &str) -> Option<Vec<Column>> {
     columns.iter().any(|&column| column != Column::Ignored).then_some(columns)
 }
 
-/// The numbers of a row.
-fn row(text: &TextFile, line: usize, words: &str, columns: &[Column]) -> Result<Vec<f64>, ExternalError> {
+/// Parses the values of a row.
+fn parse_row(text: &TextFile, line: usize, words: &str, columns: &[Column]) -> Result<Vec<f64>, ExternalError> {
     let words: Vec<&str> = words.split_whitespace().collect();
     if words.len() != columns.len() {
         return Err(text.wrong(
             line,
-            format!("{} values, expected {}, one a column", words.len(), columns.len()),
-            "correct the line, or give the columns in their order (VELK has x of every layer, then y of every layer)",
+            format!("{} values, expected {}, one per column", words.len(), columns.len()),
+            "correct the line, or list the columns in file order (VELK: x of every layer, then y of every layer)",
         ));
     }
     let value = |(word, column): (&&str, &Column)| match column {
@@ -140,37 +140,37 @@ mod tests {
     }
 
     #[test]
-    fn a_header_names_columns_in_any_order() {
+    fn header_may_name_columns_in_any_order() {
         use Column::{Ignored, Tsec, VelkX, Watl};
-        assert_eq!(named_columns(" Run:A1  Table:P        SWASH version: 10.05"), None);
-        assert_eq!(named_columns(" Xp Watlev Tsec").unwrap(), [Ignored, Watl, Tsec]);
-        assert_eq!(named_columns("Tsec X-vel_k X-vel_k Y-vel_k Y-vel_k").unwrap()[1..3], [VelkX(1), VelkX(2)]);
-        assert_eq!(named_columns("Vksi_k02 Vksi_k01").unwrap(), [VelkX(2), VelkX(1)]);
+        assert_eq!(parse_header(" Run:A1  Table:P        SWASH version: 10.05"), None);
+        assert_eq!(parse_header(" Xp Watlev Tsec").unwrap(), [Ignored, Watl, Tsec]);
+        assert_eq!(parse_header("Tsec X-vel_k X-vel_k Y-vel_k Y-vel_k").unwrap()[1..3], [VelkX(1), VelkX(2)]);
+        assert_eq!(parse_header("Vksi_k02 Vksi_k01").unwrap(), [VelkX(2), VelkX(1)]);
     }
 
     #[test]
-    fn a_bad_line_is_named() {
+    fn error_names_the_wrong_line() {
         let columns = velk_columns(1);
         assert_eq!(
             message("0 0.1 0\n1 0.1\n", &columns),
-            "line 2: 2 values, expected 3, one a column; correct the line, or give the columns in their order (VELK has \
+            "line 2: 2 values, expected 3, one per column; correct the line, or list the columns in file order (VELK: \
              x of every layer, then y of every layer)"
         );
         assert_eq!(
             message("0 ******* 0\n", &columns),
-            "line 1: `*******` is not a number; the column was too narrow for its number when it was written; write the \
-             table without header"
+            "line 1: `*******` is not a number; the number was too wide for its column; write the table without \
+             header"
         );
         assert_eq!(
             message("SWASH   1   Swash standard file, version\n", &columns),
-            "line 1: this is the form of TABLE ... SWASH, which is not read; write the table with HEADER or NOHEADER"
+            "line 1: the format of TABLE ... SWASH is not supported; write the table with HEADER or NOHEADER"
         );
     }
 
     #[test]
-    fn a_missing_file_is_named() {
+    fn error_names_the_missing_file() {
         let message = Table::read(&TableFile { path: "no/such.tbl".as_ref(), columns: &[] }).err().unwrap().to_string();
         assert!(message.starts_with("no/such.tbl: cannot be read: "));
-        assert!(message.ends_with("; give the path of a table that SWASH wrote"));
+        assert!(message.ends_with("; give the path of a SWASH table"));
     }
 }

@@ -1,4 +1,4 @@
-//! Tables as SWASH would write them, with all digits.
+//! Writes tables in the format of SWASH, with all digits.
 
 use std::io::{self, Write};
 
@@ -14,7 +14,7 @@ pub enum Heading {
     None,
 }
 
-/// Write `TSEC WATL`; a table that does not tell the surface has still water.
+/// Writes `TSEC WATL`; a table without surface levels gives still water.
 ///
 /// # Errors
 /// If writing fails.
@@ -27,8 +27,8 @@ pub fn write_level(table: &VelocityTable, place: &Place, heading: Heading, mut o
     Ok(())
 }
 
-/// Write `TSEC VELK` for layers with the given shares of the depth [-], from the surface down; velocities along y are
-/// 0.
+/// Writes `TSEC VELK` for layers with the given shares of the depth [-], from the surface downwards; velocities along y
+/// are 0.
 ///
 /// # Errors
 /// If writing fails.
@@ -57,7 +57,7 @@ pub fn write_velocities(
     Ok(())
 }
 
-/// Seven lines of comment, the fifth with the names and the sixth with the units.
+/// Writes seven comment lines: the fifth has the names, the sixth the units.
 fn write_heading(heading: Heading, names: &[String], units: &[&str], out: &mut impl Write) -> io::Result<()> {
     if heading == Heading::None {
         return Ok(());

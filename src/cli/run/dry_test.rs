@@ -1,22 +1,38 @@
-//! What the terminal shows of a dry run.
+//! Dry tests on the terminal.
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
-use super::Trouble;
+use super::{Trouble, breakage, trouble};
 use crate::{
     case::DryCase,
-    output::progress::readable,
+    output::{
+        driver::{Control, RunError},
+        progress::readable,
+    },
     simulation::dry_test::{
-        run::DryError,
-        summary::{DrySummary, Ended},
+        run::{resume, run},
+        summary::DrySummary,
     },
 };
 
 /// Units whose motion is printed: a pile is not read unit by unit.
 const MOST_LINES: usize = 20;
 
-/// Say what is to be run.
-pub(super) fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
+/// Run a test from its start; then analyse breakage, if the case asks for it.
+pub(super) fn run_case(case: &Arc<DryCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
+    introduce(case, dir, control.quiet);
+    let summary = finish(run(case.clone(), dir, control), dir)?;
+    breakage::after_dry_test(case, &summary, dir, control)
+}
+
+/// Continue a test from its last checkpoint.
+pub(super) fn resume_case(case: &Arc<DryCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
+    introduce(case, dir, control.quiet);
+    let summary = finish(resume(case.clone(), dir, control), dir)?;
+    breakage::after_dry_test(case, &summary, dir, control)
+}
+
+fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
     if quiet {
         return;
     }
@@ -33,23 +49,15 @@ pub(super) fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
     eprintln!("  results in {}", dir.display());
 }
 
-/// Say how a dry run ended.
-pub(super) fn finish(ended: Result<DrySummary, DryError>, dir: &Path) -> Result<DrySummary, Trouble> {
-    let summary = match ended {
-        Ok(summary) => summary,
-        Err(error @ DryError::Setup(_)) => return Err(Trouble::refused(error)),
-        Err(error) => return Err(Trouble::failed(error)),
-    };
-    let why = match summary.stopped {
-        Ended::Duration => "time of the case over",
-        Ended::AtRest => "units at rest",
-        Ended::TestOver => "test over",
-    };
+/// Print how a test ended.
+fn finish(ended: Result<DrySummary, RunError>, dir: &Path) -> Result<DrySummary, Trouble> {
+    let summary = ended.map_err(trouble)?;
     println!(
-        "{:.2} s simulated in {} substeps and {} ({why})",
+        "{:.2} s simulated in {} substeps and {} ({})",
         summary.simulated_s,
         summary.substeps,
-        readable(summary.execution.wall_s)
+        readable(summary.execution.wall_s),
+        summary.stopped
     );
     for unit in summary.units.iter().take(MOST_LINES) {
         print!("  unit {:2}: moved {:.4} m, turned {:.1} degrees", unit.unit, unit.moved_m, unit.turned_deg);

@@ -4,16 +4,24 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, fresh_folder, run::MachineArguments, show_warnings, stem};
+use super::{Trouble, require_checkpoint, trouble};
 use crate::{
     case::FractureCase,
+    cli::{
+        folder::{fresh_folder, stem},
+        input::show_warnings,
+        machine::MachineArguments,
+    },
     femdem::world::World,
-    output::progress::readable,
+    output::{
+        driver::{Control, RunError},
+        progress::readable,
+    },
     report::fracture::write_fracture_report,
     simulation::fracture::{
         checkpoint,
         detail::tets_bytes,
-        run::{FractureError, resume, run, world},
+        run::{resume, run, world},
         summary::FractureSummary,
     },
 };
@@ -35,14 +43,14 @@ pub struct FractureArguments {
 }
 
 impl FractureArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(in crate::cli) fn execute(self) -> Result<(), Trouble> {
         let case = load(&self.case)?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
-        let quiet = self.machine.prepare()?.quiet;
+        let control = self.machine.prepare()?;
         let world = at_start(&case, &self.case)?;
         fresh_folder(&dir, self.overwrite)?;
-        introduce(&case, &dir, quiet);
-        finish(run(&case, world, &dir, quiet), &dir)
+        introduce(&case, &dir, &control);
+        finish(run(&case, world, &dir, &control), &dir)
     }
 }
 
@@ -50,17 +58,11 @@ impl FractureArguments {
 pub(super) fn resume_run(dir: &Path, machine: &MachineArguments) -> Result<(), Trouble> {
     let path = dir.join("case.json");
     let case = load(&path)?;
-    let checkpoint = dir.join(checkpoint::FILE);
-    if !checkpoint.exists() {
-        return Err(Trouble::refused(format!(
-            "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater fracture",
-            checkpoint.display()
-        )));
-    }
-    let quiet = machine.prepare()?.quiet;
+    require_checkpoint(&dir.join(checkpoint::FILE))?;
+    let control = machine.prepare()?;
     let world = at_start(&case, &path)?;
-    introduce(&case, dir, quiet);
-    finish(resume(&case, world, dir, quiet), dir)
+    introduce(&case, dir, &control);
+    finish(resume(&case, world, dir, &control), dir)
 }
 
 /// The world of a case read from a file.
@@ -68,16 +70,16 @@ fn at_start(case: &FractureCase, path: &Path) -> Result<World, Trouble> {
     world(case).map_err(|error| Trouble::refused(format!("{}: {error}", path.display())))
 }
 
-fn introduce(case: &FractureCase, dir: &Path, quiet: bool) {
-    if !quiet {
+fn introduce(case: &FractureCase, dir: &Path, control: &Control) {
+    if !control.quiet {
         eprintln!("{}\n  results in {}", case.title, dir.display());
         case.assumptions.iter().for_each(|assumption| eprintln!("  assumed: {assumption}"));
     }
 }
 
 /// Say how a run ended.
-fn finish(ended: Result<FractureSummary, FractureError>, dir: &Path) -> Result<(), Trouble> {
-    let summary = ended.map_err(Trouble::failed)?;
+fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), Trouble> {
+    let summary = ended.map_err(trouble)?;
     let report = write_fracture_report(dir).map_err(Trouble::failed)?;
     tell(&summary, dir);
     println!("report: {}", report.display());
@@ -91,7 +93,7 @@ fn load(path: &Path) -> Result<FractureCase, Trouble> {
 }
 
 /// Tell what a fracture case holds and what it costs.
-pub(super) fn check(path: &Path) -> Result<(), Trouble> {
+pub(in crate::cli) fn check(path: &Path) -> Result<(), Trouble> {
     let case = load(path)?;
     let world = at_start(&case, path)?;
     println!("{}: {}", path.display(), case.title);

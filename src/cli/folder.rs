@@ -1,0 +1,74 @@
+//! Folders of results.
+
+use std::path::Path;
+
+use super::Trouble;
+use crate::simulation::breakage::run::FOLDER;
+
+/// Name of the case file without folder and ending.
+pub(super) fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Files that a run or the flume model leaves in its folder; --overwrite takes these and the folder of impacts away and
+/// nothing else.
+const RESULT_FILES: [&str; 35] = [
+    "bodies.csv",
+    "breakage.csv",
+    "breakage.json",
+    "case.json",
+    "checkpoint.h5",
+    "checkpoint.json",
+    "compare.csv",
+    "compare.html",
+    "contacts.csv",
+    "cracks.csv",
+    "cracks.vtkhdf",
+    "diagnostics.csv",
+    "energy.csv",
+    "failed.h5",
+    "failed.json",
+    "fluid.vtkhdf",
+    "flume_gauges.csv",
+    "flume_piston.csv",
+    "fragments.csv",
+    "gauges.csv",
+    "impacts.h5",
+    "mesh.msh",
+    "ml_piston_velx.csv",
+    "picture.svg",
+    "profile.csv",
+    "report.html",
+    "section.vtkhdf",
+    "summary.json",
+    "surfaces.vtkhdf",
+    "tets.vtkhdf",
+    "unit_mesh.msh",
+    "unit_surface.json",
+    "units.csv",
+    "units.vtkhdf",
+    "wave.html",
+];
+
+/// Make a folder for results: new, or empty, or cleared of an earlier run's files if the user says so.
+pub(super) fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), Trouble> {
+    let cannot = |error: std::io::Error| Trouble::refused(format!("{}: {error}", dir.display()));
+    let occupied = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
+    if occupied && !overwrite {
+        return Err(Trouble::refused(format!(
+            "{}: the folder holds files already; choose another with --out DIR, or add --overwrite to replace them \
+             (breakwater resume {} goes on with an interrupted run)",
+            dir.display(),
+            dir.display()
+        )));
+    }
+    std::fs::create_dir_all(dir).map_err(cannot)?;
+    for file in RESULT_FILES.map(|name| dir.join(name)).iter().filter(|file| file.exists()) {
+        std::fs::remove_file(file).map_err(cannot)?;
+    }
+    let impacts = dir.join(FOLDER);
+    if impacts.exists() {
+        std::fs::remove_dir_all(&impacts).map_err(cannot)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,30 @@
+//! What a run takes of the machine.
+
+use clap::Args;
+
+use super::Trouble;
+use crate::output::driver::Control;
+
+#[derive(Args)]
+pub(super) struct MachineArguments {
+    /// Threads; default: one per core. The results do not depend on it.
+    #[arg(long)]
+    pub(super) threads: Option<usize>,
+    /// Show no progress.
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+impl MachineArguments {
+    /// Size the thread pool, and let Ctrl-C and SIGTERM stop the run with a checkpoint.
+    pub(super) fn prepare(&self) -> Result<Control, Trouble> {
+        let threads = self.threads.unwrap_or(0);
+        if self.threads == Some(0) || threads > 1024 {
+            return Err(Trouble::refused(format!("--threads {threads}: must be between 1 and 1024")));
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Trouble::failed)?;
+        let control = Control { quiet: self.quiet, ..Control::default() };
+        control.catch_signals().map_err(Trouble::failed)?;
+        Ok(control)
+    }
+}

@@ -1,0 +1,83 @@
+//! Flume runs on the terminal.
+
+use std::{path::Path, sync::Arc};
+
+use super::{Trouble, breakage, trouble};
+use crate::{
+    case::{Case, Reference},
+    output::{Summary, driver::RunError, progress::readable},
+    report::run::write_report,
+    simulation::flume::{
+        branch::Start,
+        run::{RunOptions, resume, run},
+    },
+};
+
+/// Run a case from its start, or from the checkpoint of another run; then analyse breakage, if the case asks for it.
+pub(super) fn run_case(
+    case: &Arc<Case>,
+    start: Option<Start>,
+    dir: &Path,
+    options: &RunOptions,
+) -> Result<(), Trouble> {
+    introduce(case, dir, options);
+    let ended = match start {
+        Some(start) => start.run(dir, options),
+        None => run(case.clone(), dir, options),
+    };
+    let summary = finish(ended, dir)?;
+    breakage::after_flume_run(case, &summary, dir, &options.control)
+}
+
+/// Continue a run from its last checkpoint.
+pub(super) fn resume_case(case: &Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(), Trouble> {
+    introduce(case, dir, options);
+    let summary = finish(resume(case.clone(), dir, options), dir)?;
+    breakage::after_flume_run(case, &summary, dir, &options.control)
+}
+
+fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
+    if options.control.quiet {
+        return;
+    }
+    let estimate = case.estimate();
+    eprintln!("{}", case.title);
+    eprintln!(
+        "  about {:.0} thousand particles, dp = {} m, {} s in about {:.0} steps on {}, {} threads",
+        estimate.particles() / 1e3,
+        case.domain.dp,
+        case.stop.duration,
+        estimate.steps,
+        options.device.name(),
+        rayon::current_num_threads()
+    );
+    for assumption in &case.assumptions {
+        eprintln!("  assumed: {assumption}");
+    }
+    eprintln!("  results in {}", dir.display());
+}
+
+/// Write the report of a run and print how it ended.
+pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
+    let summary = ended.map_err(trouble)?;
+    let report = write_report(dir).map_err(Trouble::failed)?;
+    println!(
+        "{:.2} s simulated in {} steps and {} ({})",
+        summary.simulated_s,
+        summary.steps,
+        readable(summary.execution.wall_s),
+        summary.stopped
+    );
+    for unit in &summary.units {
+        let damaged = if unit.damaged { ", damaged" } else { "" };
+        println!("  unit {:2}: moved {:.3} m{damaged}", unit.unit, unit.displacement_m);
+    }
+    if let (Some(mean), Some(ratio)) = (summary.mean_displacement_m, summary.damage_ratio) {
+        println!("  mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio);
+    }
+    println!("report: {}", report.display());
+    if Reference::folder_of_run(dir).is_some() {
+        println!("compare with the measurements: breakwater compare {}", dir.display());
+    }
+    Ok(summary)
+}

@@ -1,0 +1,146 @@
+//! `breakwater run` and `breakwater resume`; a file for what the terminal shows of each kind of run.
+
+pub(super) mod breakage;
+mod dry_test;
+pub(super) mod flume;
+pub(super) mod fracture;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{
+    Trouble,
+    devices::DeviceArgument,
+    folder::{fresh_folder, stem},
+    input::{AnyCase, is_fracture, load_any},
+    machine::MachineArguments,
+};
+use crate::{
+    output::driver::RunError,
+    simulation::{
+        dry_test::recorder::DryRecorder,
+        flume::{
+            branch::Start,
+            checkpoint::{Checkpoint, device_of},
+            run::RunOptions,
+        },
+    },
+    sph::device::DeviceChoice,
+};
+
+/// Run a case: wave, water, units, contact. Tables, ParaView files, summary and report are written to one folder.
+#[derive(Args)]
+pub struct RunArguments {
+    /// The case file.
+    case: PathBuf,
+    /// Folder of the results; default: runs/<name of the case>.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Replace the results that the folder holds.
+    #[arg(long)]
+    overwrite: bool,
+    /// Begin at the last checkpoint of the run in this folder, so that the wave up to there is not computed again. The
+    /// cases may differ only in friction and the rest criterion, and the units must not have moved yet.
+    #[arg(long, value_name = "DIR")]
+    from: Option<PathBuf>,
+    #[command(flatten)]
+    machine: MachineArguments,
+    #[command(flatten)]
+    device: DeviceArgument,
+}
+
+/// Continue an interrupted run from its last checkpoint. Its results have the same bits as those of an unbroken run.
+#[derive(Args)]
+pub struct ResumeArguments {
+    /// Folder of the run.
+    dir: PathBuf,
+    #[command(flatten)]
+    machine: MachineArguments,
+    /// What computes the water, as for `run`; default: what has computed it so far.
+    #[arg(long, value_name = "DEVICE")]
+    device: Option<DeviceChoice>,
+}
+
+impl RunArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let case = load_any(&self.case)?;
+        let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
+        let control = self.machine.prepare()?;
+        match case {
+            AnyCase::Wet(case) => {
+                let device = self.device.open(&case, control.quiet)?;
+                let options = RunOptions { device, control, until: None };
+                let start = match &self.from {
+                    Some(from) if is_same_folder(from, &dir) => {
+                        let what = "is the folder of the results; give another one with --out";
+                        return Err(Trouble::refused(format!("--from {}: {what}", from.display())));
+                    }
+                    Some(from) => Some(Start::at(case.clone(), from, &options).map_err(Trouble::refused)?),
+                    None => None,
+                };
+                fresh_folder(&dir, self.overwrite)?;
+                flume::run_case(&case, start, &dir, &options)
+            }
+            AnyCase::Dry(case) => {
+                self.device.refuse_card()?;
+                if let Some(from) = &self.from {
+                    let what = "only flume cases can begin at the checkpoint of another run";
+                    return Err(Trouble::refused(format!("--from {}: {what}", from.display())));
+                }
+                fresh_folder(&dir, self.overwrite)?;
+                dry_test::run_case(&case, &dir, &control)
+            }
+        }
+    }
+}
+
+impl ResumeArguments {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let file = self.dir.join("case.json");
+        if is_fracture(&file) {
+            return fracture::resume_run(&self.dir, &self.machine);
+        }
+        let case = load_any(&file)?;
+        require_checkpoint(&self.dir.join(match &case {
+            AnyCase::Wet(_) => Checkpoint::FILE,
+            AnyCase::Dry(_) => DryRecorder::CHECKPOINT,
+        }))?;
+        let control = self.machine.prepare()?;
+        match case {
+            AnyCase::Wet(case) => {
+                let before = || device_of(&self.dir).map_or(DeviceChoice::Auto, |name| DeviceChoice::named(&name));
+                let device = DeviceArgument { device: self.device.unwrap_or_else(before) };
+                let device = device.open(&case, control.quiet)?;
+                flume::resume_case(&case, &self.dir, &RunOptions { device, control, until: None })
+            }
+            AnyCase::Dry(case) => {
+                DeviceArgument { device: self.device.unwrap_or_default() }.refuse_card()?;
+                dry_test::resume_case(&case, &self.dir, &control)
+            }
+        }
+    }
+}
+
+/// Refuses to resume a run without a checkpoint.
+fn require_checkpoint(path: &Path) -> Result<(), Trouble> {
+    if path.exists() {
+        return Ok(());
+    }
+    Err(Trouble::refused(format!(
+        "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater run",
+        path.display()
+    )))
+}
+
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
+}
+
+/// A case that cannot be set up is refused input; everything else is work that went wrong.
+fn trouble(error: RunError) -> Trouble {
+    match error {
+        RunError::Setup(_) => Trouble::refused(error),
+        _ => Trouble::failed(error),
+    }
+}

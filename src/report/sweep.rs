@@ -1,0 +1,112 @@
+//! The chart of a sweep.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::plot::{Lever, Line, LineChart, TornadoChart, standalone};
+use crate::{
+    output::{OutputError, write_atomically},
+    sweep::{
+        key::{brief, short},
+        member::Outcome,
+        plan::{Combine, Sweep, Varied, in_words},
+    },
+};
+
+/// Size of the chart [px].
+const SIZE: [f64; 2] = [720.0, 420.0];
+
+/// Writes `sweep.svg` and returns its path; nothing if no key has numeric values. The chart shows the mean displacement
+/// against the first numeric key. If keys vary one at a time, it shows the change of the mean displacement for each
+/// value.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_sweep_chart(sweep: &Sweep, outcomes: &[Outcome], dir: &Path) -> Result<Option<PathBuf>, OutputError> {
+    let chart = match sweep.combine {
+        Combine::All => chart(sweep, outcomes).map(|chart| chart.svg()),
+        Combine::OneAtATime => tornado(sweep, outcomes).map(|chart| chart.svg()),
+    };
+    let Some(chart) = chart else { return Ok(None) };
+    let path = dir.join("sweep.svg");
+    write_atomically(&path, standalone(&chart).as_bytes())?;
+    Ok(Some(path))
+}
+
+/// Charts the mean displacement against the first key with numeric values, one line per combination of the others.
+fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
+    let is_axis = |one: &Varied| one.values.len() > 1 && one.values.iter().all(Value::is_number);
+    let along = sweep.varied.iter().position(is_axis)?;
+    let mut lines: Vec<Line> = Vec::new();
+    for (member, outcome) in sweep.members.iter().zip(outcomes) {
+        let Outcome::Finished(summary) = outcome else { continue };
+        let (Some(x), Some(y)) = (member.values[along].as_f64(), summary.mean_displacement_m) else { continue };
+        let others = sweep.varied.iter().zip(&member.values).enumerate().filter(|(k, _)| *k != along);
+        let name: Vec<String> =
+            others.map(|(_, (one, value))| format!("{} {}", short(&one.key), in_words(value))).collect();
+        let name = name.join(", ");
+        match lines.iter_mut().find(|line| line.name == name) {
+            Some(line) => line.points.push([x, y]),
+            None => {
+                lines.push(Line { name, points: vec![[x, y]], colour: lines.len(), dots: true, ..Line::default() });
+            }
+        }
+    }
+    lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a[0].total_cmp(&b[0])));
+    (!lines.is_empty()).then(|| LineChart {
+        title: sweep.title.clone(),
+        x_label: sweep.varied[along].key.clone(),
+        y_label: "mean displacement [m]".to_owned(),
+        lines,
+        size: SIZE,
+        ..LineChart::default()
+    })
+}
+
+/// Charts how each value changes the mean displacement of the base case, the first run. `None` until that is finished.
+fn tornado(sweep: &Sweep, outcomes: &[Outcome]) -> Option<TornadoChart> {
+    let mean = |outcome: &Outcome| match outcome {
+        Outcome::Finished(summary) => summary.mean_displacement_m,
+        Outcome::Missing | Outcome::Failed(_) => None,
+    };
+    let (base, base_mean) = (&sweep.members.first()?.values, mean(outcomes.first()?)?);
+    let lever = |(k, one): (usize, &Varied)| Lever {
+        name: format!("{} {}", brief(&one.key), in_words(&base[k])).trim_end().to_owned(),
+        values: (sweep.members.iter().zip(outcomes))
+            .filter(|(member, _)| member.values[k] != base[k])
+            .filter_map(|(member, outcome)| Some((in_words(&member.values[k]), mean(outcome)? - base_mean)))
+            .collect(),
+    };
+    Some(TornadoChart {
+        title: sweep.title.clone(),
+        x_label: format!("change of the mean displacement [m] from {base_mean:.3} m"),
+        levers: sweep.varied.iter().enumerate().map(lever).filter(|lever| !lever.values.is_empty()).collect(),
+        width: SIZE[0],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::Summary;
+
+    #[test]
+    fn tornado_chart_shows_changes_from_the_base_case() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/fudo/sensitivity-sweep.json");
+        let sweep = Sweep::load(&file).unwrap();
+        let moved = |mean: f64| {
+            let summary = Summary { mean_displacement_m: Some(mean), ..Summary::default() };
+            Outcome::Finished(Box::new(summary))
+        };
+        // The other runs are not finished.
+        let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
+        let chart = tornado(&sweep, &outcomes).unwrap();
+        let [lever] = &chart.levers[..] else { panic!("{:?}", chart.levers) };
+        assert_eq!(lever.name, "mound.crest_width_m 0.32");
+        let [(words, change)] = &lever.values[..] else { panic!("{lever:?}") };
+        assert!(words == "0.36" && (change - 0.03).abs() < 1e-12, "{lever:?}");
+        assert!(chart.x_label.ends_with("from 0.250 m"), "{}", chart.x_label);
+        assert!(tornado(&sweep, &[Outcome::Missing, moved(0.28)]).is_none());
+    }
+}

@@ -1,0 +1,199 @@
+//! One time step of the coupled run, in the order of the algorithm.
+//!
+//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations (10) to (13)) evaluates the water twice: at the
+//! present state, between whose evaluation and the step itself everything is measured and written, and at the half step.
+
+use std::ops::{Deref, DerefMut};
+
+use glam::DVec3;
+
+use super::{Simulation, Units, absorb::move_wavemaker, failure, failure::Failure};
+use crate::{
+    rigid::{BodyState, Load},
+    sph::{backend::DeviceError, power::Powers, sampling::Sampler},
+};
+
+/// A simulation whose present state is evaluated: the water can be measured, and the time step can be made.
+pub struct PreparedStep<'a> {
+    simulation: &'a mut Simulation,
+    dt: f64,
+    /// Whether the host's arrays hold the present state.
+    is_fetched: bool,
+}
+
+impl Deref for PreparedStep<'_> {
+    type Target = Simulation;
+
+    fn deref(&self) -> &Simulation {
+        self.simulation
+    }
+}
+
+impl DerefMut for PreparedStep<'_> {
+    fn deref_mut(&mut self) -> &mut Simulation {
+        self.simulation
+    }
+}
+
+impl Simulation {
+    /// Evaluates the present state: neighbours, boundary densities, rates and the length of the time step.
+    ///
+    /// # Errors
+    /// If the state has become impossible.
+    pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
+        self.solver.sort(&mut self.water, &self.boundary);
+        self.solver.list(&self.water, &self.boundary);
+        self.solver.boundary_densities(&mut self.boundary);
+        self.solver.rates();
+        let limits = self.solver.limits()?;
+        let dt = limits.time_step(self.solver.parameters());
+        if !(limits.acceleration.is_finite() && limits.signal_speed.is_finite() && dt > 0.0) {
+            self.fetch()?;
+            return Err(failure::not_finite(self));
+        }
+        if self.steps == 0 {
+            // There is no half step yet that the first row of the series could show the loads of.
+            self.sum_unit_loads(0.0)?;
+        }
+        Ok(PreparedStep { simulation: self, dt, is_fetched: false })
+    }
+
+    /// Makes one time step; returns its length [s].
+    ///
+    /// # Errors
+    /// As [`Self::begin_step`] and [`PreparedStep::finish`].
+    pub fn step(&mut self) -> Result<f64, Failure> {
+        let step = self.begin_step()?;
+        let dt = step.dt();
+        step.finish()?;
+        Ok(dt)
+    }
+
+    /// The water to the half step, with wavemaker and units where they are then.
+    fn predict(&mut self, dt: f64) {
+        let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);
+        let half_time = self.flume_time() + 0.5 * dt;
+        self.solver.predict(dt, &self.water, &mut self.boundary, &mut |boundary| {
+            move_wavemaker(boundary, wavemaker.as_ref(), absorbed, half_time, 0.5 * dt);
+            if let Some(units) = units {
+                units.states().iter().enumerate().for_each(|(k, s)| boundary.move_unit(k, &drifted(s, 0.5 * dt)));
+            }
+        });
+    }
+
+    /// Forces and torques of the water on the units at the half step.
+    fn sum_unit_loads(&mut self, dt: f64) -> Result<(), Failure> {
+        let Some(units) = &mut self.units else { return Ok(()) };
+        let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
+        let loads = self.solver.unit_loads(&self.boundary, &centres)?;
+        // In two dimensions the particles are a slice of each unit.
+        let slices = self.case.units.as_ref().map_or(1.0, |units| units.slices);
+        let load = |(force, torque)| Load { force: slices * force, torque: slices * torque };
+        units.fluid_loads = loads.into_iter().map(load).collect();
+        Ok(())
+    }
+
+    /// The units' bodies over a step under the loads of the water; at first they are held.
+    fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
+        let Some(units) = &mut self.units else { return Ok(()) };
+        if self.time >= self.case.numerics.hold_units {
+            let Units { world, fluid_loads, water_at_impacts, .. } = units;
+            let since = world.time();
+            if let Err(error) = world.advance(dt, fluid_loads) {
+                return Err(failure::of_units(self, error));
+            }
+            if world.impacts_with_peak_after(since).next().is_some() {
+                self.solver.fetch_boundary_densities(&mut self.boundary)?;
+            }
+            water_at_impacts.note(world, since, fluid_loads, &self.boundary, &self.solver.parameters().tait);
+        } else if self.time >= 0.5 * self.case.numerics.hold_units {
+            self.statistics.count_still_loads(&units.fluid_loads);
+        }
+        units.mean_loads.add(dt, &units.fluid_loads, units.world.contact_loads());
+        Ok(())
+    }
+
+    /// The water, to be measured while the state is prepared and the host's arrays hold it.
+    pub(super) fn sampler(&self) -> Sampler<'_> {
+        let parameters = self.solver.parameters();
+        Sampler {
+            grid: self.solver.grid(),
+            bins: self.solver.water_bins(),
+            water: &self.water,
+            kernel: parameters.kernel,
+            tait: parameters.tait,
+        }
+    }
+}
+
+impl PreparedStep<'_> {
+    /// Length of the time step that comes [s].
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Brings water and boundary up to date in the host's arrays, if they are not.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn fetch(&mut self) -> Result<(), DeviceError> {
+        if !self.is_fetched {
+            self.simulation.fetch()?;
+            self.is_fetched = true;
+        }
+        Ok(())
+    }
+
+    /// The water at any point: pressure, velocity, free surface.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn sampler(&mut self) -> Result<Sampler<'_>, DeviceError> {
+        self.fetch()?;
+        Ok(self.simulation.sampler())
+    }
+
+    /// The powers that change the energy of the water now: boundaries, viscosity, diffusion [W].
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn powers(&mut self) -> Result<Powers, DeviceError> {
+        self.fetch()?;
+        let simulation = &mut *self.simulation;
+        simulation.solver.powers(&simulation.water)
+    }
+
+    /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces, motion
+    /// of the units.
+    ///
+    /// # Errors
+    /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the
+    /// bed.
+    pub fn finish(self) -> Result<(), Failure> {
+        let (simulation, dt) = (self.simulation, self.dt);
+        simulation.absorb(dt);
+        simulation.predict(dt);
+        simulation.solver.rates();
+        simulation.solver.correct(dt, &mut simulation.water, &mut simulation.boundary);
+        simulation.relax_in_zones(dt);
+        simulation.sum_unit_loads(dt)?;
+        simulation.keep_water_out(dt)?;
+        simulation.solver.sort_ahead();
+        simulation.advance_units(dt)?;
+        simulation.time += dt;
+        simulation.steps += 1;
+        simulation.statistics.count_step(dt);
+        simulation.place_boundary();
+        simulation.watch_water()
+    }
+}
+
+/// A body after a time [s] at its present velocities.
+fn drifted(state: &BodyState, dt: f64) -> BodyState {
+    let turn = glam::DQuat::from_scaled_axis(state.angular_velocity * dt);
+    BodyState {
+        position: state.position + dt * state.velocity,
+        rotation: (turn * state.rotation).normalize(),
+        ..*state
+    }
+}
