@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use breakwater::case::file::{CaseFile, DryFile, FractureFile};
-use breakwater::case::{Case, DryCase, FractureCase, Handover, Wave, schema_text, template_text};
+use breakwater::case::{Case, DryCase, FractureCase, Handover, Reference, Wave, schema_text, template_text};
 use breakwater::sweep::plan::Sweep;
 
 fn json_files(folder: &Path) -> Vec<PathBuf> {
@@ -27,7 +27,10 @@ fn all_files() -> Vec<PathBuf> {
 /// Cases with water.
 fn cases() -> Vec<PathBuf> {
     let others = [dry_cases(), fracture_cases(), sweeps()].concat();
-    all_files().into_iter().filter(|path| !others.contains(path) && !is_placement(path)).collect()
+    all_files()
+        .into_iter()
+        .filter(|path| !others.contains(path) && !is_placement(path) && !path.ends_with(Reference::FILE))
+        .collect()
 }
 
 fn fracture_cases() -> Vec<PathBuf> {

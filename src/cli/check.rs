@@ -10,7 +10,7 @@ use super::{
     run,
 };
 use crate::{
-    case::{Case, DryCase, DryTest, Handover, Hardness, Sides, Units, Wave},
+    case::{Case, DryCase, DryTest, Handover, Hardness, Reference, Sides, Units, Wave},
     output::progress::readable,
     rigid::{RigidError, RigidSetup, RigidWorld},
     simulation::{
@@ -32,7 +32,7 @@ const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 /// Validate case files and print particles, memory, size of the files, time step and an estimate of the run time.
 #[derive(Args)]
 pub struct CheckArguments {
-    /// Case files.
+    /// Case files; also `reference.json` of a folder with measurements.
     #[arg(required = true)]
     cases: Vec<PathBuf>,
 }
@@ -43,6 +43,15 @@ impl CheckArguments {
         for path in &self.cases {
             if let Some(file) = placement(path) {
                 println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+                continue;
+            }
+            if path.ends_with(Reference::FILE) {
+                match Reference::load(path.parent().unwrap_or(Path::new(""))) {
+                    Ok(reference) => {
+                        println!("{}: {}: {}", path.display(), reference.title, reference.waves_in_words())
+                    }
+                    Err(errors) => refusals.push(errors.to_string()),
+                }
                 continue;
             }
             if is_sweep(path) {

@@ -188,10 +188,11 @@ impl WaveComparison {
             if run.is_slice_of(&self.reference) {
                 remarks.push(format!(
                     "{}: {units} of {all} units. The slice represents the inner units of the row; it has no side walls, so \
-                     its units are not the first {units} units of the experiment. The mean deviates from that of the {} \
-                     inner units by {} %.",
+                     its units are not the first {units} units of the experiment. Its mean deviates from the measured \
+                     mean of the inner units ({} to {}) by {} %.",
                     run.name,
-                    self.reference.inner.len(),
+                    self.reference.inner.start + 1,
+                    self.reference.inner.end,
                     format!("{:+.1}", run.inner_deviation_percent).replace('-', "\u{2212}")
                 ));
             } else if units > all {
