@@ -281,7 +281,7 @@ fn run_keeps_the_measurements_and_can_be_moved() {
     let case = tiny_case(folder.path());
     let mut measured = read_json(&case);
     measured["reference"] = path(&std::path::absolute("cases/fudo/reference").unwrap()).into();
-    measured["stop"]["duration_s"] = json!(0.005);
+    measured["stop"]["duration_s"] = json!(0.025);
     std::fs::write(&case, measured.to_string()).unwrap();
     let [out, moved] = ["out", "moved"].map(|name| folder.path().join(name));
     let said = succeed(&["run", path(&case), "--out", path(&out), "--quiet"]);

@@ -152,10 +152,15 @@ fn case_files_survive_being_written_and_read() {
         let case = Case::load(&path).unwrap();
         let again = path.with_file_name("again.json").display().to_string();
         assert_eq!(Case::from_str(&written, &again).unwrap().hash, case.hash, "{}", path.display());
-        // What a run keeps needs the mesh of the unit that it writes, and is the same case.
+        // What a run keeps needs the mesh and the measurements that it writes, and is the same case.
         let Some(handover) = &case.fracture else { continue };
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(Handover::MESH), &handover.mesh_file).unwrap();
+        if let Some(reference) = &case.reference {
+            let folder = folder.path().join(Reference::FOLDER);
+            std::fs::create_dir(&folder).unwrap();
+            reference.files.iter().for_each(|(name, content)| std::fs::write(folder.join(name), content).unwrap());
+        }
         let name = folder.path().join("case.json").display().to_string();
         assert_eq!(Case::from_str(&case.text, &name).unwrap().hash, case.hash, "{}", path.display());
     }
