@@ -125,7 +125,7 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
     assert!(last.contains(&0), "the slab cannot crack");
 
     let report = std::fs::read_to_string(dir.join("report.html")).unwrap();
-    for heading in ["Where and when it cracked", "What it looked like", "Energy", "Pieces", "How the run was made"] {
+    for heading in ["Crack initiation", "Pictures", "Energy", "Pieces", "How the run was made"] {
         assert!(report.contains(&format!("<h2>{heading}</h2>")), "{heading}");
     }
     let pictures = report.matches("data:image/png;base64,").count();

@@ -273,10 +273,10 @@ fn the_report_shows_the_wave_at_the_units() {
     write_paraview(&folder, 0.16).unwrap();
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
     let moments = [
-        "<strong>0 s.</strong> The start",
-        "<strong>2.6 s.</strong> Near the largest mean force of the water along the flume",
-        "<strong>3 s.</strong> Near the moment at which the units move fastest",
-        "<strong>8 s.</strong> The end",
+        "<strong>0 s.</strong> Start of the particle simulation",
+        "<strong>2.6 s.</strong> Near the peak of the mean horizontal force of the water",
+        "<strong>3 s.</strong> Near the peak of the mean speed of the units",
+        "<strong>8 s.</strong> End of the run",
     ];
     let places: Vec<usize> = moments.iter().map(|words| html.find(words).expect(words)).collect();
     assert!(places.is_sorted(), "the moments stand in the order of time");
@@ -284,7 +284,7 @@ fn the_report_shows_the_wave_at_the_units() {
     assert!(html.contains("less than 3.8 mm from y = 0.0825 m") && html.contains("picture.svg"));
 
     let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
-    assert!(picture.starts_with("<svg xmlns=") && picture.contains("Flume time 2.6 s. Near the largest"));
+    assert!(picture.starts_with("<svg xmlns=") && picture.contains("Flume time 2.6 s. Near the peak"));
     assert!(!picture.contains("var(") && !picture.contains("NaN"), "colours and numbers are its own");
     let classes = picture.split("class=\"").skip(1).flat_map(|rest| rest.split('"').next().unwrap().split(' '));
     for class in classes.filter(|class| *class != "unit") {
@@ -301,9 +301,9 @@ fn the_wave_is_shown_without_units_but_not_without_water() {
     assert!(!html.contains("The wave ") && !folder.join("picture.svg").exists());
     write_water(&folder, 0.08).unwrap();
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
-    assert!(html.contains("The wave in the flume") && html.contains("<strong>8 s.</strong> The end"));
+    assert!(html.contains("The wave in the flume") && html.contains("<strong>8 s.</strong> End of the run"));
     let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
-    assert!(picture.contains("Flume time 8 s. The end of the run."));
+    assert!(picture.contains("Flume time 8 s. End of the run."));
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! Nodes, tetrahedra and joints as arrays, and how nodes come apart.
+//! Nodes and tetrahedra as arrays, and node splitting.
 //!
-//! A vertex of a tetrahedron is a copy of a node of the mesh. Copies that are tied to each other move as one node; a node
-//! is the list of its copies. Where joints hold from the start, every copy is a node of its own; where faces are tied
-//! until they fail, a node is split when the faces around it no longer tie its copies together.
+//! Each vertex of a tetrahedron is a copy of a mesh node. A solver node is a list of copies that move together. With
+//! joints from the start, every copy is a node of its own. With tied faces, a node is split as soon as the tied faces
+//! around it no longer connect its copies.
 
 use glam::DVec3;
 
@@ -10,39 +10,39 @@ use super::element::Shape;
 use super::rigid_body::RIGID;
 use super::setup::Setup;
 
-/// No interface at a face.
+/// Marks a face without an interface.
 const OUTSIDE: u32 = u32::MAX;
 
-/// A copy of a node: four times the tetrahedron and the vertex.
+/// Number of a node copy: 4 x tetrahedron + vertex.
 pub type Copy4 = u32;
 
-/// Places, motion and masses of the nodes.
+/// Positions, velocities and masses of the nodes.
 #[derive(Debug, Clone, Default)]
 pub struct Nodes {
-    /// Places x [m].
+    /// Positions x [m].
     pub place: Vec<DVec3>,
-    /// Velocities v [m/s], half a step before the places.
+    /// Velocities v [m/s], half a time step before the positions.
     pub velocity: Vec<DVec3>,
-    /// Masses [kg].
+    /// Lumped masses [kg].
     pub mass: Vec<f64>,
-    /// Constraint of each, counted from 1; 0 is free, [`RIGID`] moves with its body.
+    /// Constraint number of each node, from 1; 0 is a free node, [`RIGID`] a node of a rigid body.
     pub constraint: Vec<u16>,
-    /// Copies that move as each of them.
+    /// Copies of each node.
     pub ties: Ties,
 }
 
 impl Nodes {
-    /// How many.
+    /// Number of nodes.
     pub fn count(&self) -> usize {
         self.place.len()
     }
 
-    /// Nodes of a later moment: `vertices` are those at the vertices of the tetrahedra, by number, with their places [m]
-    /// and velocities [m/s]. Copies, masses and constraints follow from the vertices and from the nodes of the start,
-    /// which these are. The tetrahedra get the new vertices.
+    /// Replaces the initial nodes by the nodes of a later time. `vertices` are the node numbers at the vertices of the
+    /// tetrahedra; each node has a position [m] and a velocity [m/s]. Copies, masses and constraints follow from the
+    /// vertices and the initial nodes.
     ///
     /// # Errors
-    /// If nodes cannot have come apart like that: what is wrong.
+    /// Says why these nodes cannot result from splitting the initial ones.
     pub(super) fn come_apart(
         &mut self,
         tets: &mut Tets,
@@ -51,9 +51,9 @@ impl Nodes {
         [place, velocity]: [Vec<DVec3>; 2],
     ) -> Result<(), &'static str> {
         let count = place.len();
-        let known = |node: &u32| (*node as usize) < count;
-        if velocity.len() != count || vertices.len() != setup.tets.len() || !vertices.iter().flatten().all(known) {
-            return Err("its nodes and tetrahedra are not those of the mesh");
+        let exists = |node: &u32| (*node as usize) < count;
+        if velocity.len() != count || vertices.len() != setup.tets.len() || !vertices.iter().flatten().all(exists) {
+            return Err("its nodes and tetrahedra do not match the mesh");
         }
         let mut span = vec![[0; 2]; count];
         vertices.iter().flatten().for_each(|node| span[*node as usize][1] += 1);
@@ -69,17 +69,17 @@ impl Nodes {
             *found += 1;
         }
         let ties = Ties { span, copies };
-        let origin = |copy: Copy4| setup.tets[copy as usize / 4][copy as usize % 4];
-        let at_start = |copy: Copy4| tets.nodes[copy as usize / 4][copy as usize % 4] as usize;
+        let mesh_node = |copy: Copy4| setup.tets[copy as usize / 4][copy as usize % 4];
+        let initial_node = |copy: Copy4| tets.nodes[copy as usize / 4][copy as usize % 4] as usize;
         let (mut mass, mut constraint) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for node in 0..count {
-            let of_node = ties.of(node);
-            let Some(one) = of_node.first() else { return Err("it has nodes without a tetrahedron") };
-            if of_node.iter().any(|copy| origin(*copy) != origin(*one)) {
-                return Err("it ties nodes together that are apart in the mesh");
+            let node_copies = ties.of(node);
+            let Some(first_copy) = node_copies.first() else { return Err("it has nodes without a tetrahedron") };
+            if node_copies.iter().any(|copy| mesh_node(*copy) != mesh_node(*first_copy)) {
+                return Err("it merges nodes that are separate in the mesh");
             }
-            mass.push(mass_of(of_node, tets, setup));
-            constraint.push(self.constraint[at_start(*one)]);
+            mass.push(lumped_mass(node_copies, tets, setup));
+            constraint.push(self.constraint[initial_node(*first_copy)]);
         }
         tets.nodes = vertices;
         *self = Self { place, velocity, mass, constraint, ties };
@@ -90,13 +90,13 @@ impl Nodes {
 /// The copies of every node.
 #[derive(Debug, Clone, Default)]
 pub struct Ties {
-    /// First of its copies and how many, in `copies`.
+    /// Start and number of the copies of each node in `copies`.
     span: Vec<[u32; 2]>,
     copies: Vec<Copy4>,
 }
 
 impl Ties {
-    /// Copies that move as this node.
+    /// Returns the copies of a node.
     #[inline]
     pub fn of(&self, node: usize) -> &[Copy4] {
         let [first, count] = self.span[node];
@@ -111,18 +111,18 @@ pub struct Tets {
     pub nodes: Vec<[u32; 4]>,
     /// Undeformed shapes.
     pub shape: Vec<Shape>,
-    /// Number of the body.
+    /// Body numbers.
     pub body: Vec<u16>,
     /// Interface at the face opposite to each vertex.
     pub faces: Vec<[Link; 4]>,
-    /// Whether a joint pulls, or has pulled, at one of its faces.
+    /// Whether one of the faces has, or had, a joint.
     pub jointed: Vec<bool>,
 }
 
-/// Where a face of a tetrahedron is in the list of interfaces.
+/// Reference from a face of a tetrahedron to its interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Link {
-    /// Number of the interface times two, and the side; [`OUTSIDE`] if there is none.
+    /// 2 x interface number + side; [`OUTSIDE`] if there is none.
     code: u32,
     /// Vertices of the face in the order of the interface.
     pub nodes: [u8; 3],
@@ -131,25 +131,25 @@ pub struct Link {
 impl Link {
     const NONE: Self = Self { code: OUTSIDE, nodes: [0; 3] };
 
-    /// Number of the interface and side, if there is one.
+    /// Returns the interface number and the side, if there is an interface.
     #[inline]
     pub fn interface(self) -> Option<(usize, usize)> {
         (self.code != OUTSIDE).then_some((self.code as usize / 2, self.code as usize % 2))
     }
 }
 
-/// Number of the vertex that is not on a face.
+/// Returns the vertex opposite to a face.
 pub fn opposite(face: [u8; 3]) -> usize {
     6 - face.iter().map(|v| usize::from(*v)).sum::<usize>()
 }
 
 impl Tets {
-    /// Tetrahedra of a setup with the nodes of the mesh.
+    /// Builds the tetrahedra of a setup, with mesh nodes at their vertices.
     pub fn new(setup: &Setup) -> Self {
         let shape = setup.tets.iter().map(|tet| Shape::new(&tet.map(|v| setup.nodes[v as usize]))).collect();
         let mut body = vec![0; setup.tets.len()];
-        for (number, of) in setup.bodies.iter().enumerate() {
-            body[of.tets.clone()].fill(number as u16);
+        for (number, solid) in setup.bodies.iter().enumerate() {
+            body[solid.tets.clone()].fill(number as u16);
         }
         let mut faces = vec![[Link::NONE; 4]; setup.tets.len()];
         for (number, interface) in setup.interfaces.iter().enumerate() {
@@ -163,8 +163,8 @@ impl Tets {
     }
 }
 
-/// Groups the copies of every node of the mesh that `tied` faces hold together, and numbers the nodes in the order of the
-/// tetrahedra.
+/// Builds nodes and tetrahedra: copies of a mesh node that `tied` faces connect become one node. Nodes are numbered in
+/// the order of the tetrahedra.
 pub fn assemble(setup: &Setup, tied: impl Fn(u32) -> bool) -> (Nodes, Tets) {
     let mut tets = Tets::new(setup);
     let around = copies_around(setup);
@@ -180,24 +180,24 @@ pub fn assemble(setup: &Setup, tied: impl Fn(u32) -> bool) -> (Nodes, Tets) {
     let mut nodes = Nodes::default();
     for group in groups {
         let (t, k) = (group[0] as usize / 4, group[0] as usize % 4);
-        let origin = setup.tets[t][k] as usize;
-        let of = &setup.bodies[usize::from(tets.body[t])];
-        let place = setup.nodes[origin];
-        nodes.place.push(place);
-        nodes.velocity.push(of.velocity + of.angular_velocity.cross(place - of.pivot));
-        nodes.constraint.push(if of.rigid { RIGID } else { constraint_of[origin] });
+        let mesh_node = setup.tets[t][k] as usize;
+        let body = &setup.bodies[usize::from(tets.body[t])];
+        let position = setup.nodes[mesh_node];
+        nodes.place.push(position);
+        nodes.velocity.push(body.velocity + body.angular_velocity.cross(position - body.pivot));
+        nodes.constraint.push(if body.rigid { RIGID } else { constraint_of[mesh_node] });
         nodes.ties.span.push([nodes.ties.copies.len() as u32, group.len() as u32]);
         nodes.ties.copies.extend(&group);
     }
     for node in 0..nodes.count() {
         let copies = nodes.ties.of(node).to_vec();
         copies.iter().for_each(|copy| tets.nodes[*copy as usize / 4][*copy as usize % 4] = node as u32);
-        nodes.mass.push(mass_of(&copies, &tets, setup));
+        nodes.mass.push(lumped_mass(&copies, &tets, setup));
     }
     (nodes, tets)
 }
 
-/// All copies of every node of the mesh, in rising order.
+/// Returns all copies of every mesh node, in ascending order.
 pub fn copies_around(setup: &Setup) -> Vec<Vec<Copy4>> {
     let mut around: Vec<Vec<Copy4>> = vec![Vec::new(); setup.nodes.len()];
     for (t, tet) in setup.tets.iter().enumerate() {
@@ -208,8 +208,8 @@ pub fn copies_around(setup: &Setup) -> Vec<Vec<Copy4>> {
     around
 }
 
-/// A quarter of the mass of every tetrahedron [kg].
-fn mass_of(copies: &[Copy4], tets: &Tets, setup: &Setup) -> f64 {
+/// Lumped mass of a node [kg]: a quarter of the mass of the tetrahedron of each copy.
+fn lumped_mass(copies: &[Copy4], tets: &Tets, setup: &Setup) -> f64 {
     let quarter = |copy: &Copy4| {
         let t = *copy as usize / 4;
         0.25 * setup.bodies[usize::from(tets.body[t])].elastic.density * tets.shape[t].volume
@@ -217,8 +217,8 @@ fn mass_of(copies: &[Copy4], tets: &Tets, setup: &Setup) -> f64 {
     copies.iter().map(quarter).sum()
 }
 
-/// Copies of one node in groups that tied faces hold together; each in rising order, the groups by their first. A body
-/// that does not crack holds together everywhere.
+/// Splits the copies of a node into groups connected by tied faces. Copies and groups are in ascending order. In a body
+/// that cannot crack, all copies are one group.
 pub fn held_together(tets: &Tets, setup: &Setup, copies: &[Copy4], tied: &impl Fn(u32) -> bool) -> Vec<Vec<Copy4>> {
     let body = usize::from(tets.body[copies[0] as usize / 4]);
     if setup.bodies[body].cohesion.is_none() {
@@ -234,7 +234,7 @@ pub fn held_together(tets: &Tets, setup: &Setup, copies: &[Copy4], tied: &impl F
         group[start] = number;
         let (mut found, mut next) = (vec![copies[start]], vec![copies[start]]);
         while let Some(copy) = next.pop() {
-            for neighbour in neighbours(tets, setup, copy, tied) {
+            for neighbour in tied_neighbours(tets, setup, copy, tied) {
                 if let Ok(index) = copies.binary_search(&neighbour)
                     && group[index] == usize::MAX
                 {
@@ -250,8 +250,8 @@ pub fn held_together(tets: &Tets, setup: &Setup, copies: &[Copy4], tied: &impl F
     groups
 }
 
-/// Copies of the same node across the tied faces of its tetrahedron.
-fn neighbours<'a>(
+/// Returns the copies of the same node across the tied faces of a copy's tetrahedron.
+fn tied_neighbours<'a>(
     tets: &'a Tets,
     setup: &'a Setup,
     copy: Copy4,
@@ -269,7 +269,7 @@ fn neighbours<'a>(
     )
 }
 
-/// Splits the node at a corner of a face that has come free, if nothing else ties its copies.
+/// Splits the node at a corner of a face that is no longer tied, unless other tied faces still connect its copies.
 pub fn split(
     nodes: &mut Nodes,
     tets: &mut Tets,
@@ -289,12 +289,12 @@ pub fn split(
     if groups.len() < 2 {
         return;
     }
-    let mut at = first;
+    let mut begin = first;
     for (number, group) in groups.iter().enumerate() {
-        let place = at as usize;
-        nodes.ties.copies[place..place + group.len()].copy_from_slice(group);
-        let span = [at, group.len() as u32];
-        let mass = mass_of(group, tets, setup);
+        let start = begin as usize;
+        nodes.ties.copies[start..start + group.len()].copy_from_slice(group);
+        let span = [begin, group.len() as u32];
+        let mass = lumped_mass(group, tets, setup);
         if number == 0 {
             nodes.ties.span[node] = span;
             nodes.mass[node] = mass;
@@ -307,6 +307,6 @@ pub fn split(
             nodes.ties.span.push(span);
             group.iter().for_each(|copy| tets.nodes[*copy as usize / 4][*copy as usize % 4] = new);
         }
-        at += group.len() as u32;
+        begin += group.len() as u32;
     }
 }

@@ -1,4 +1,4 @@
-//! The energy book of a world, and each body's part of it.
+//! The energy balance of a world and of each body.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,23 +8,23 @@ use super::energy::Ledger;
 use super::rigid_body::RIGID;
 use super::world::{PIECE, World};
 
-/// Energies of a body [J]; contacts belong to two of them and stay in the book of all.
+/// Energies of a body [J]. Contact energy belongs to two bodies and appears only in the total balance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Of motion, as in the book.
+    /// Kinetic energy, defined as in [`Ledger`].
     pub kinetic: f64,
-    /// Strain energy of its tetrahedra.
+    /// Strain energy of the tetrahedra.
     pub strain: f64,
-    /// What its joints would give back.
+    /// Elastic energy of the joints.
     pub joint: f64,
-    /// In gravity, zero at the start.
+    /// Gravitational potential energy, zero at the start.
     pub gravity: f64,
-    /// Lost in its joints so far, contacts that took it over not counted.
+    /// Energy dissipated in the joints so far, including the part that contacts have taken over.
     pub fracture: f64,
 }
 
 impl World {
-    /// Energies at the present places, but for motion.
+    /// Computes all energies at the current positions, except kinetic energy.
     pub(super) fn energies(&self, viscous_power: f64) -> Ledger {
         let tets = &self.tets;
         let strain = |t: usize| {
@@ -39,13 +39,13 @@ impl World {
             friction: self.contacts.friction,
             fracture: self.lost.fracture + self.joints.dissipated() - self.contacts.taken_over,
             gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
-            // The power is that of the velocity half a step ago, and goes on to the next.
+            // The power is that of the velocity half a time step ago and lasts until half a time step after.
             viscous: self.lost.viscous + 0.5 * self.dt * viscous_power,
             ..self.lost
         }
     }
 
-    /// Energies of the bodies at the present places, but for motion.
+    /// Computes the energies of each body at the current positions, except kinetic energy.
     pub(super) fn body_energies(&self) -> Vec<BodyEnergy> {
         let mut energies = vec![BodyEnergy::default(); self.setup.bodies.len()];
         for t in 0..self.tets.nodes.len() {
@@ -59,21 +59,21 @@ impl World {
                 self.joints.stored_in_whole(number, &self.setup, &self.tets, &self.nodes);
         }
         for joint in &self.joints.worn {
-            let of = &mut energies[body_of(joint.interface as usize)];
-            of.joint += self.joints.stored_in(joint, &self.setup);
-            of.fracture += joint.dissipated;
+            let energy = &mut energies[body_of(joint.interface as usize)];
+            energy.joint += self.joints.stored_in(joint, &self.setup);
+            energy.fracture += joint.dissipated;
         }
         for failure in &self.failures {
             energies[body_of(failure.interface as usize)].fracture += failure.dissipated;
         }
         for node in 0..self.nodes.count() {
-            let way = self.nodes.place[node] - self.place_at_start(node);
-            energies[self.body_of_node(node)].gravity -= self.nodes.mass[node] * self.setup.gravity.dot(way);
+            let displacement = self.nodes.place[node] - self.place_at_start(node);
+            energies[self.body_of_node(node)].gravity -= self.nodes.mass[node] * self.setup.gravity.dot(displacement);
         }
         energies
     }
 
-    /// Adds the kinetic energies from the velocities half a step before and those now, half a step after.
+    /// Adds the kinetic energies, from the velocities `before` and now (half a time step earlier and later).
     pub(super) fn add_kinetic_energies(&self, energies: &mut [BodyEnergy], before: &[DVec3]) {
         for (node, before) in before.iter().enumerate().filter(|(node, _)| self.nodes.constraint[*node] != RIGID) {
             let energy = 0.5 * self.nodes.mass[node] * before.dot(self.nodes.velocity[node]);
@@ -82,17 +82,17 @@ impl World {
         self.rigid_bodies.iter().for_each(|body| energies[body.body].kinetic += body.kinetic);
     }
 
-    /// Number of the body that a node belongs to.
+    /// Returns the number of the body that a node belongs to.
     fn body_of_node(&self, node: usize) -> usize {
         usize::from(self.tets.body[self.nodes.ties.of(node)[0] as usize / 4])
     }
 }
 
-/// Sum over 0..count in an order that does not depend on the threads.
-pub(super) fn ordered_sum(count: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let pieces: Vec<f64> = (0..count.div_ceil(PIECE))
+/// Sums `value` over 0..count in an order that does not depend on the number of threads.
+pub(super) fn ordered_sum(count: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let chunks: Vec<f64> = (0..count.div_ceil(PIECE))
         .into_par_iter()
-        .map(|piece| (piece * PIECE..((piece + 1) * PIECE).min(count)).map(&of).sum())
+        .map(|chunk| (chunk * PIECE..((chunk + 1) * PIECE).min(count)).map(&value).sum())
         .collect();
-    pieces.iter().fold(0.0, |sum, piece| sum + piece)
+    chunks.iter().fold(0.0, |sum, chunk| sum + chunk)
 }

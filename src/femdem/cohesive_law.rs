@@ -1,63 +1,63 @@
-//! The law of a joint at one integration point: eqs. 1 to 4 of Guo, Latham and Xiang, with a memory.
+//! The cohesive (traction-separation) law at an integration point of a joint, eqs. 1 to 4 of Guo, Latham and Xiang.
 //!
-//! What the paper leaves open, and what is done here:
+//! The paper leaves some points open; this module makes these choices:
 //!
-//! | question | answer |
+//! | point | choice |
 //! | --- | --- |
-//! | stiffness before the peak | 2 f / delta_p = p_0 / h in tension, sliding and compression; h is the mean edge of the joint, p_0 a stress |
-//! | range of softening | exact: the area under the curve is G_f; or the published max(2 delta_p, 3 G_f / f), which dissipates 1.16 G_f |
-//! | closing and opening again | along the secant to the origin; damage is the largest that has been (nothing heals) |
-//! | sliding | a return to the yield stress f_s z(D): elastic slip with the stiffness p_0 / h, the rest is plastic and drives the damage. The parabola of eq. 2 stands for tension only: with f_s changing under load it would give energy back |
-//! | both at once | D of eq. 4 weakens both |
-//! | snap-back | the range of sliding is not shorter than a fall as steep as the elastic line; more than G_fII is then dissipated |
+//! | penalty stiffness | 2 f / delta_p = p_0 / h in tension, sliding and compression; h is the mean edge of the joint, p_0 a stress |
+//! | softening range | exact: the area under the curve is G_f; published: max(2 delta_p, 3 G_f / f), which dissipates 1.16 G_f |
+//! | unloading and reloading | along the secant to the origin; damage never decreases |
+//! | sliding | return mapping to the yield stress f_s z(D): elastic slip with the stiffness p_0 / h, the rest is plastic and causes damage. The parabola of eq. 2 is used for tension only: with f_s changing under load it would create energy |
+//! | mixed mode | D of eq. 4 weakens tension and shear |
+//! | snap-back | softening in sliding is never steeper than the elastic line; a joint then dissipates more than G_fII |
 //!
-//! Dissipation is never negative, whatever the path.
+//! The dissipation is never negative on any path.
 
 use super::material::Strength;
 use super::softening::{AREA, STEEPEST, z};
 
-/// Range over which a joint softens.
+/// Choice of the softening range of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Range {
     /// The area under the curve is the fracture energy.
     #[default]
     Exact,
-    /// max(2 delta_p, 3 G_f / f), as the programs after the paper have it.
+    /// max(2 delta_p, 3 G_f / f), as in the published programs.
     Published,
 }
 
-/// How the joints of a body hold.
+/// Cohesive parameters of the joints of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cohesion {
     /// Strength of the material.
     pub strength: Strength,
-    /// Stress p_0 of which the stiffness before the peak is p_0 / h [Pa].
+    /// Joint penalty p_0 [Pa]; the stiffness before the peak is p_0 / h.
     pub penalty: f64,
-    /// Range of softening.
+    /// Softening range.
     pub range: Range,
-    /// Joints are tied until their strength is reached: all of G_f lies behind the peak.
+    /// Whether faces are tied until their strength is reached. All of G_f is then dissipated after the peak.
     pub tied: bool,
 }
 
-/// Law of a joint with a given edge length.
+/// Cohesive law of a joint with a given edge length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CohesiveLaw {
     strength: Strength,
     /// p_0 / h [Pa/m].
     stiffness: f64,
-    /// Opening at the peak, delta_np [m].
+    /// Opening at peak stress, delta_np [m].
     peak_opening: f64,
     /// delta_nc - delta_np [m].
     opening_range: f64,
     range: Range,
 }
 
-/// Memory of an integration point.
+/// State of an integration point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// Largest damage D so far [-].
     pub damage: f64,
-    /// Secant stiffness in opening [Pa/m]; infinite before damage.
+    /// Secant stiffness in opening [Pa/m]; infinite while undamaged.
     pub(super) secant: f64,
     /// Opening at the last call [m].
     pub(super) opening: f64,
@@ -65,20 +65,20 @@ pub struct Point {
     pub(super) slip: [f64; 2],
     /// Plastic slip in the axes of the joint [m].
     pub(super) plastic: [f64; 2],
-    /// Length of the path of the plastic slip [m].
+    /// Accumulated plastic slip (path length) [m].
     pub(super) slipped: f64,
-    /// Energy lost by opening and by sliding so far [J/m2].
+    /// Energy dissipated by opening and by sliding so far [J/m2].
     pub lost: [f64; 2],
 }
 
 impl Point {
-    /// Neither damage nor slip so far.
+    /// Whether the point has neither damage nor plastic slip.
     #[inline]
     pub fn is_whole(&self) -> bool {
         self.damage == 0.0 && self.plastic == [0.0; 2]
     }
 
-    /// The part of the slip that comes back [m].
+    /// Elastic part of the slip [m].
     #[inline]
     fn elastic_slip(&self) -> [f64; 2] {
         [self.slip[0] - self.plastic[0], self.slip[1] - self.plastic[1]]
@@ -87,29 +87,29 @@ impl Point {
 
 impl Default for Point {
     fn default() -> Self {
-        let (secant, still) = (f64::INFINITY, [0.0; 2]);
-        Self { damage: 0.0, secant, opening: 0.0, slip: still, plastic: still, slipped: 0.0, lost: still }
+        let (secant, zero) = (f64::INFINITY, [0.0; 2]);
+        Self { damage: 0.0, secant, opening: 0.0, slip: zero, plastic: zero, slipped: 0.0, lost: zero }
     }
 }
 
-/// Answer of an integration point.
+/// Traction at an integration point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Traction {
     /// Normal stress sigma [Pa], tension positive.
     pub normal: f64,
     /// Shear stress tau in the axes of the joint [Pa].
     pub shear: [f64; 2],
-    /// Energy lost since the last call [J/m2].
+    /// Energy dissipated since the last call [J/m2].
     pub dissipated: f64,
 }
 
 impl Cohesion {
-    /// Law of a joint of the edge length h [m].
+    /// Returns the law of a joint with mean edge length h [m].
     #[inline]
     pub fn law(&self, h: f64) -> CohesiveLaw {
         let Strength { tensile, opening_energy, .. } = self.strength;
         let peak_opening = 2.0 * h * tensile / self.penalty;
-        // Two thirds of f delta_p lie under the parabola.
+        // The area under the parabola is 2/3 f delta_p.
         let before = if self.tied { 0.0 } else { 2.0 / 3.0 * peak_opening };
         let opening_range = match self.range {
             Range::Exact => (opening_energy / tensile - before) / AREA,
@@ -119,7 +119,7 @@ impl Cohesion {
         CohesiveLaw { strength, stiffness: self.penalty / h, peak_opening, opening_range, range }
     }
 
-    /// Edge length [m] from which on the stretch before the peak alone takes all of G_f: joints must be shorter.
+    /// Longest usable edge length [m]: from there on, the work before the peak alone exceeds G_f.
     pub fn longest_edge(&self) -> f64 {
         if self.tied || self.range == Range::Published {
             return f64::INFINITY;
@@ -129,13 +129,13 @@ impl Cohesion {
 }
 
 impl CohesiveLaw {
-    /// Stiffness at the start, p_0 / h [Pa/m].
+    /// Initial stiffness p_0 / h [Pa/m].
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// Point that carries the given stress without opening or slip, and the opening at which an unbroken one does: what
-    /// a tied joint starts with. Stresses beyond the strength are taken as the strength.
+    /// State of a point that carries the given stress [Pa] at zero slip, for the release of a tied face. Also returns
+    /// the opening [m] at which it carries the stress. A tensile stress beyond the strength counts as the strength.
     pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (Point, f64) {
         let f_t = self.strength.tensile;
         let opening = if normal > 0.0 {
@@ -147,7 +147,7 @@ impl CohesiveLaw {
         (Point { opening, plastic, ..Point::default() }, opening)
     }
 
-    /// Stress at an opening delta_n and a slip delta_s [m]; carries the memory on.
+    /// Computes the traction at an opening delta_n and a slip delta_s [m], and updates the state of the point.
     pub fn respond(&self, point: &mut Point, opening: f64, slip: [f64; 2]) -> Traction {
         let old = *point;
         let opened = ((opening - self.peak_opening) / self.opening_range).max(0.0);
@@ -155,7 +155,7 @@ impl CohesiveLaw {
             point.damage = opened.min(1.0);
         }
         let mut normal = self.normal(point, opening);
-        // Shear strength at this normal stress, then what the slip adds to the damage.
+        // The shear strength depends on the normal stress; plastic slip may then increase the damage.
         let shear = self.slide(point, normal, opened, slip);
         if point.damage > old.damage {
             normal = self.normal(point, opening);
@@ -166,13 +166,13 @@ impl CohesiveLaw {
         Traction { normal, shear, dissipated: lost[0] + lost[1] }
     }
 
-    /// Energy that a point would give back at the opening and slip of its last call [J/m2].
+    /// Elastic energy of a point at the opening and slip of its last call [J/m2].
     pub fn stored(&self, point: &Point) -> f64 {
         let [a, b] = point.elastic_slip();
         self.stored_normal(point) + 0.5 * self.stiffness * (a * a + b * b)
     }
 
-    /// Normal stress [Pa], eq. 2, along the secant where the point is not at its largest opening.
+    /// Normal stress [Pa], eq. 2; on the secant if the point is not at its largest opening.
     fn normal(&self, point: &mut Point, opening: f64) -> f64 {
         let left = z(point.damage);
         if opening <= 0.0 {
@@ -190,7 +190,7 @@ impl CohesiveLaw {
         point.secant * opening
     }
 
-    /// Shear stress [Pa] by a return to the yield stress f_s z(D).
+    /// Shear stress [Pa] by return mapping to the yield stress f_s z(D).
     fn slide(&self, point: &mut Point, normal: f64, opened: f64, slip: [f64; 2]) -> [f64; 2] {
         let elastic = [slip[0] - point.plastic[0], slip[1] - point.plastic[1]];
         let trial = self.stiffness * (elastic[0] * elastic[0] + elastic[1] * elastic[1]).sqrt();
@@ -200,18 +200,18 @@ impl CohesiveLaw {
         }
         let range = self.sliding_range(strength);
         let damage = |slid: f64| opened.hypot((point.slipped + slid) / range).clamp(point.damage, 1.0);
-        // Falls from above zero to below it: the yield stress falls less steeply than the elastic line.
+        // Decreases monotonically through zero: the yield stress is less steep than the elastic line.
         let excess = |slid: f64| trial - self.stiffness * slid - strength * z(damage(slid));
         let slid = root(excess, trial / self.stiffness);
         let yielded = (trial - self.stiffness * slid).max(0.0);
         point.damage = damage(slid);
         point.slipped += slid;
-        let way = elastic.map(|e| e * self.stiffness / trial);
-        point.plastic = [point.plastic[0] + way[0] * slid, point.plastic[1] + way[1] * slid];
-        way.map(|w| w * yielded)
+        let direction = elastic.map(|e| e * self.stiffness / trial);
+        point.plastic = [point.plastic[0] + direction[0] * slid, point.plastic[1] + direction[1] * slid];
+        direction.map(|d| d * yielded)
     }
 
-    /// Plastic slip at which a joint of the shear strength f_s [Pa] has failed [m].
+    /// Plastic slip [m] at which a joint with shear strength f_s [Pa] fails.
     fn sliding_range(&self, strength: f64) -> f64 {
         let range = match self.range {
             Range::Exact => self.strength.sliding_energy / (AREA * strength),
@@ -232,7 +232,7 @@ impl CohesiveLaw {
         }
     }
 
-    /// Work of the normal stress over the way between two calls that is not stored [J/m2].
+    /// Work of the normal stress between two calls that is not stored [J/m2].
     fn lost_normal(&self, old: &Point, new: &Point) -> f64 {
         if new.damage == old.damage && new.secant == old.secant {
             return 0.0;
@@ -245,16 +245,16 @@ impl CohesiveLaw {
             let r = opening / self.peak_opening;
             if point.damage > 0.0 { point.secant * opening } else { self.strength.tensile * (2.0 - r) * r }
         };
-        // Up to the peak all work is stored.
+        // All work before the peak is stored.
         let from = from.max(to.min(self.peak_opening));
         let work = 0.5 * (stress(old, from) + stress(new, to)) * (to - from);
         let stored = |point: &Point, opening: f64| self.stored_normal(&Point { opening, ..*point });
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Work of the shear stress over the way between two calls that is not stored [J/m2]: that on the plastic slip, by the
-    /// mean of both stresses. Where a joint is thrown from one side to the other between them, that could be negative: it
-    /// is zero then, and the gain is left to show in the energy book.
+    /// Work of the shear stress between two calls that is not stored [J/m2]: mean stress times plastic slip. It could
+    /// be negative if the stress changes sign between the calls. It is then set to zero, and the gain shows as an error
+    /// in the energy balance.
     fn lost_shear(&self, old: &Point, new: &Point) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);
@@ -262,14 +262,14 @@ impl CohesiveLaw {
     }
 }
 
-/// Root in 0..end of a function that falls from above zero to zero or below, by Illinois' rule of false position.
+/// Root in 0..end of a decreasing function by the Illinois variant of false position.
 fn root(f: impl Fn(f64) -> f64, end: f64) -> f64 {
     let (mut a, mut b) = (0.0, end);
     let (mut f_a, mut f_b) = (f(a), f(b));
     if f_b >= 0.0 {
         return b;
     }
-    // Converges in about eight; the bound is for rounding.
+    // Converges in about eight iterations; the bound guards against rounding.
     for _ in 0..60 {
         let x = (a * f_b - b * f_a) / (f_b - f_a);
         let f_x = f(x);

@@ -1,8 +1,8 @@
-//! The linear tetrahedron: finite strain, neo-Hookean with viscosity.
+//! The linear tetrahedron: finite strain, neo-Hookean elasticity with viscosity.
 //!
-//! F = sum x_i (x) grad N_i;  Cauchy stress T = mu/J (B - I) + lambda ln J / J I + eta D, with B = F F^T and D the
-//! symmetric part of the velocity gradient (Xiang, Munjiza and Latham 2009); nodal forces f_i = -V_0 P grad N_i with
-//! P = J T F^-T.
+//! Deformation gradient F = sum x_i (x) grad N_i. Cauchy stress T = mu/J (B - I) + lambda ln J / J I + eta D, with
+//! B = F F^T and D the symmetric part of the velocity gradient (Xiang, Munjiza and Latham 2009). Nodal forces
+//! f_i = -V_0 P grad N_i with P = J T F^-T.
 
 use glam::{DMat3, DVec3};
 
@@ -33,7 +33,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Shape of a tetrahedron with these corners [m], the fourth on the side of the normal of the first three.
+    /// Computes the shape from the corners [m]; the fourth lies on the side of the normal of the first three.
     pub fn new(corners: &[DVec3; 4]) -> Self {
         let edges = edges(corners);
         Self { inverse: edges.inverse(), volume: edges.determinant() / 6.0 }
@@ -59,7 +59,7 @@ pub struct LaneModuli<L> {
 }
 
 impl<L: Lanes> LaneModuli<L> {
-    /// Moduli from a function of the lane.
+    /// Builds the moduli from a function of the lane.
     #[inline(always)]
     pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Moduli) -> Self {
         Self {
@@ -81,7 +81,7 @@ pub struct LaneShape<L> {
 }
 
 impl<L: Lanes> LaneShape<L> {
-    /// Shapes from a function of the lane.
+    /// Builds the shapes from a function of the lane.
     #[inline(always)]
     pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Shape) -> Self {
         let column = |k: usize| Vectors::from_fn(|lane| f(lane).inverse.col(k));
@@ -89,20 +89,20 @@ impl<L: Lanes> LaneShape<L> {
     }
 }
 
-/// Forces of the elements in the lanes and what else is known on the way.
+/// Forces, volume ratio, viscous power and stress of the elements in the lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct Deformed<L> {
-    /// On the vertices 1 to 3 [N]; vertex 0 has the negative of their sum.
+    /// Forces on the vertices 1 to 3 [N]; the force on vertex 0 is the negative of their sum.
     pub forces: [Vectors<L>; 3],
-    /// Ratio of volumes J [-]; not positive for an element turned inside out.
+    /// Volume ratio J [-]; not positive for an inverted element.
     pub ratio: L,
-    /// Power lost by viscosity [W].
+    /// Power dissipated by viscosity [W].
     pub viscous_power: L,
     /// Sum of the squares of the components of the first Piola-Kirchhoff stress, elastic part [Pa2].
     pub stress_squared: L,
 }
 
-/// F and det F F^-T.
+/// Returns F and det F F^-T.
 fn deformation(shape: &Shape, x: &[DVec3; 4]) -> (DMat3, DMat3) {
     let f = edges(x) * shape.inverse;
     let cofactor = DMat3::from_cols(f.y_axis.cross(f.z_axis), f.z_axis.cross(f.x_axis), f.x_axis.cross(f.y_axis));
@@ -114,7 +114,7 @@ fn elastic_stress(moduli: &Moduli, f: DMat3, inverse_transposed: DMat3, log_rati
     f * moduli.mu + inverse_transposed * (moduli.lambda * log_ratio - moduli.mu)
 }
 
-/// Forces on the vertices at the places x [m] and velocities v [m/s].
+/// Computes the forces on the vertices at positions x [m] and velocities v [m/s].
 #[inline(always)]
 pub fn forces<L: Lanes>(
     shape: &LaneShape<L>,
@@ -130,7 +130,7 @@ pub fn forces<L: Lanes>(
     let pressure = moduli.lambda * logarithm(ratio) - moduli.mu;
     let elastic = sum(&scaled(&f, moduli.mu), &scaled(&inverse_transposed, pressure));
     let stress_squared = norm_squared_of(&elastic);
-    // D = sym(dF/dt F^-1); its stress eta D is det F eta D F^-T for the undeformed areas.
+    // D = sym(dF/dt F^-1); on undeformed areas its stress eta D becomes det F eta D F^-T.
     let gradient = times_transposed(&times(&lane_edges(v), &shape.inverse), &inverse_transposed);
     let half = L::splat(0.5);
     let [xy, xz, yz] = [
@@ -187,7 +187,7 @@ fn times_transposed<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
     ]
 }
 
-/// Whether all of them are small numbers.
+/// Whether all lanes are at most [`SMALL_CHANGE`].
 #[inline(always)]
 fn is_small([a, b, c, d]: [f64; LANES]) -> bool {
     a <= SMALL_CHANGE && b <= SMALL_CHANGE && c <= SMALL_CHANGE && d <= SMALL_CHANGE
@@ -198,11 +198,11 @@ fn norm_squared_of<L: Lanes>(m: &Matrices<L>) -> L {
     m[0].dot(m[0]) + m[1].dot(m[1]) + m[2].dot(m[2])
 }
 
-/// Change of volume J - 1 up to which the series of ln J is used [-]: concrete breaks at a hundredth of it.
+/// Volume change J - 1 up to which ln J is computed by its series [-]. Concrete breaks at a hundredth of it.
 const SMALL_CHANGE: f64 = 0.02;
 
-/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1): to rounding with five terms, where J is nearly 1 in all
-/// lanes.
+/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1). If J is near 1 in all lanes, five terms are exact to
+/// rounding.
 #[inline(always)]
 fn logarithm<L: Lanes>(ratio: L) -> L {
     let one = L::splat(1.0);
@@ -243,7 +243,7 @@ mod tests {
     use super::*;
     use glam::DQuat;
 
-    /// Answer for one element.
+    /// Forces of one element.
     #[derive(Debug)]
     struct Answer {
         forces: [DVec3; 3],
@@ -278,13 +278,13 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_element_has_no_forces() {
+    fn a_rigidly_rotated_element_has_no_forces() {
         let (shape, moduli) = (Shape::new(&corners()), Moduli::from(&CONCRETE));
         let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, -1.2, 2.0);
         let spin = DVec3::new(3.0, -2.0, 5.0);
         let x = moved(|p| turn * p + DVec3::ONE);
         let answer = forces(&shape, &moduli, &x, &x.map(|p| spin.cross(p)));
-        // Against E times an area: rounding.
+        // Rounding, relative to E times an area.
         let scale = CONCRETE.young_modulus * shape.volume.powf(2.0 / 3.0);
         assert!(answer.forces.iter().all(|f| f.length() < 1e-13 * scale), "{answer:?}");
         assert!((answer.ratio - 1.0).abs() < 1e-12);
@@ -295,13 +295,13 @@ mod tests {
         for change in [0.0f64, 1e-15, -3e-9, 1e-5, -0.0199, 0.02, 0.03, -0.7, 12.0] {
             let found = logarithm(Portable::load(&[1.0 + change; LANES])).to_array()[0];
             let expected = (1.0 + change).ln();
-            // Two units in the last place of J - 1.
+            // Rounding: two units in the last place of J - 1.
             assert!((found - expected).abs() <= 5e-16 * expected.abs(), "{change}: {found:e} {expected:e}");
         }
     }
 
     #[test]
-    fn forces_are_the_gradient_of_the_energy() {
+    fn forces_are_minus_the_gradient_of_the_energy() {
         let elastic = Elastic { viscosity: 0.0, ..CONCRETE };
         let (shape, moduli) = (Shape::new(&corners()), Moduli::from(&elastic));
         let strain = DMat3::from_cols_array(&[1.1, 0.05, -0.1, 0.02, 0.9, 0.15, -0.07, 0.03, 1.2]);
@@ -310,26 +310,26 @@ mod tests {
         for vertex in 1..4 {
             for axis in 0..3 {
                 let step = 1e-8;
-                let at = |sign: f64| {
+                let energy_at = |sign: f64| {
                     let mut x = x;
                     x[vertex][axis] += sign * step;
                     energy(&shape, &moduli, &x)
                 };
-                let slope = -(at(1.0) - at(-1.0)) / (2.0 * step);
-                // Central differences over 1e-6 of the size: 1e-8, rounding.
+                let slope = -(energy_at(1.0) - energy_at(-1.0)) / (2.0 * step);
+                // Central differences over 1e-6 of the element size, and rounding.
                 assert!((slope - answer.forces[vertex - 1][axis]).abs() < 1e-6 * answer.forces[vertex - 1].length());
             }
         }
     }
 
     #[test]
-    fn small_strains_follow_hooke_and_viscosity_takes_power() {
+    fn small_strains_follow_hooke_and_viscosity_dissipates() {
         let (shape, moduli) = (Shape::new(&corners()), Moduli::from(&CONCRETE));
         let [sigma, nu] = [1e3, CONCRETE.poisson_ratio];
         let strain = sigma / CONCRETE.young_modulus;
         let x = moved(|p| p + strain * DVec3::new(p.x, -nu * p.y, -nu * p.z));
         let t = stress(&shape, &moduli, &x);
-        // Strains of 4e-8: quadratic terms and the rounding of places.
+        // Strains of 4e-8: quadratic terms and rounding of the positions.
         assert!(
             (t.x_axis.x / sigma - 1.0).abs() < 1e-6
                 && t.y_axis.y.abs() < 1e-6 * sigma

@@ -1,36 +1,36 @@
-//! The energy book.
+//! The energy balance.
 
 use serde::{Deserialize, Serialize};
 
-/// Energies [J]: what the bodies have, and what has been lost or given since the start.
+/// Energies [J]: stored now, and dissipated or supplied since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Ledger {
-    /// Of motion, sum of m v- v+ / 2 of the velocities half a step before and after.
+    /// Kinetic energy: sum of m v- v+ / 2, with the velocities half a time step before and after.
     pub kinetic: f64,
     /// Strain energy of the tetrahedra.
     pub strain: f64,
-    /// What joints would give back.
+    /// Elastic energy of the joints.
     pub joint: f64,
-    /// What contacts would give back.
+    /// Elastic energy of the contacts.
     pub contact: f64,
-    /// In gravity, zero at the start.
+    /// Gravitational potential energy, zero at the start.
     pub gravity: f64,
-    /// Lost by viscosity.
+    /// Energy dissipated by viscosity.
     pub viscous: f64,
-    /// Lost in joints: fracture.
+    /// Energy dissipated in joints by fracture.
     pub fracture: f64,
-    /// Lost by friction.
+    /// Energy dissipated by friction.
     pub friction: f64,
-    /// Given by constraints and loads.
+    /// Work of constraints and loads.
     pub work: f64,
-    /// What the springs of joints had when they came free; tied faces do not store energy.
+    /// Elastic energy that tied faces get when they are released as joints; tied faces store none.
     pub freed: f64,
 }
 
 impl Ledger {
-    /// What does not change: everything there is, and everything lost, less everything given.
+    /// Returns the conserved total: stored plus dissipated minus supplied energy.
     pub fn total(&self) -> f64 {
-        let there = self.kinetic + self.strain + self.joint + self.contact + self.gravity;
-        there + self.viscous + self.fracture + self.friction - self.work - self.freed
+        let stored = self.kinetic + self.strain + self.joint + self.contact + self.gravity;
+        stored + self.viscous + self.fracture + self.friction - self.work - self.freed
     }
 }

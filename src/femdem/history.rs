@@ -1,34 +1,34 @@
 //! Values that change with time.
 
-/// Rows of times and `N` values: linear between two rows, constant before the first and after the last.
+/// Time series of `N` values: linear between two rows, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History<const N: usize> {
-    /// Times [s], rising.
+    /// Times [s], ascending.
     times: Vec<f64>,
     /// Values at these times.
     values: Vec<[f64; N]>,
 }
 
 impl<const N: usize> History<N> {
-    /// The same values at all times.
+    /// Creates a history with the same values at all times.
     pub fn constant(values: [f64; N]) -> Self {
         Self { times: vec![0.0], values: vec![values] }
     }
 
-    /// Values from rows of times [s] and values; `None` if there is no row, or times do not rise.
+    /// Creates a history from rows of a time [s] and values; `None` if there is no row or times do not increase.
     pub fn new(rows: impl IntoIterator<Item = (f64, [f64; N])>) -> Option<Self> {
         let (times, values): (Vec<f64>, Vec<[f64; N]>) = rows.into_iter().unzip();
         let rises = times.windows(2).all(|pair| pair[0] < pair[1]);
         (rises && !times.is_empty()).then_some(Self { times, values })
     }
 
-    /// The largest size of each value over all times.
+    /// Largest absolute value of each of the `N` values over all times.
     pub fn largest(&self) -> [f64; N] {
         let larger = |a: [f64; N], b: &[f64; N]| std::array::from_fn(|k| a[k].max(b[k].abs()));
         self.values.iter().fold([0.0; N], larger)
     }
 
-    /// Values at a time [s].
+    /// Returns the values at a time [s].
     pub fn at(&self, time: f64) -> [f64; N] {
         let after = self.times.partition_point(|t| *t <= time);
         let Some(before) = after.checked_sub(1) else { return self.values[0] };

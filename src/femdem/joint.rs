@@ -1,39 +1,39 @@
-//! The joint between two tetrahedra: six nodes, three integration points (Guo, Latham and Xiang, fig. 3).
+//! The joint element between two tetrahedra: six nodes, three integration points (Guo, Latham and Xiang, fig. 3).
 //!
-//! The mid-surface is the mean of the two faces, its normal n points from side 0 to side 1. At the middle of an edge the
-//! jump of the places is split into the opening along n and the slip across; the stresses there go to the nodes with the
-//! shape functions of the undeformed area, A/3 to a point. For jumps that are linear over the face this is exact.
+//! The mid-surface is the mean of the two faces; its normal n points from side 0 to side 1. The integration points are
+//! the middles of the edges, each with the undeformed area A/3. The jump of the positions is split into the opening
+//! along n and the slip across. Shape functions distribute the tractions to the nodes, exactly for linear jumps.
 
 use glam::DVec3;
 
 use super::cohesive_law::{CohesiveLaw, Point};
 
-/// Corners of the face at the ends of the edge on whose middle a point lies.
+/// Corners at the ends of the edge of each integration point.
 const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Memory of a joint.
+/// State of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Memory {
-    /// Of the three points.
+    /// States of the three integration points.
     pub points: [Point; 3],
-    /// Opening that a joint had, in terms of its law, when it came free [m].
+    /// Opening in the cohesive law at which a tied joint was released [m].
     pub offset: f64,
-    /// A point has damage or slip behind it, or came free under load.
+    /// Whether a point has damage or plastic slip, or the joint was released from a tied face.
     pub(super) is_worn: bool,
 }
 
-/// Forces of a joint and its energy.
+/// Forces and dissipation of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Answer {
-    /// On the corners of side 0 [N]; side 1 has the negative.
+    /// Forces on the corners of side 0 [N]; side 1 has the negative.
     pub forces: [DVec3; 3],
-    /// Energy lost since the last call [J].
+    /// Energy dissipated since the last call [J].
     pub dissipated: f64,
-    /// Points that carry nothing any more.
+    /// Number of failed integration points.
     pub failed: u8,
 }
 
-/// Axes of the mid-surface: two along it and its normal.
+/// Axes of the mid-surface: two tangents and the normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axes {
     along: [DVec3; 2],
@@ -41,7 +41,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// Axes of the mean of two faces with matching corners [m].
+    /// Returns the axes of the mean of two faces with matching corners [m].
     #[inline]
     pub fn of_faces(sides: &[[DVec3; 3]; 2]) -> Self {
         let middle = [0, 1, 2].map(|k| sides[0][k] + sides[1][k]);
@@ -51,12 +51,12 @@ impl Axes {
         Self { along: [first, normal.cross(first)], normal }
     }
 
-    /// Towards side 1.
+    /// Normal, towards side 1.
     pub fn normal(&self) -> DVec3 {
         self.normal
     }
 
-    /// Part along the normal, and the two across.
+    /// Splits a vector into its normal component and its two tangential components.
     #[inline]
     pub fn split(&self, v: DVec3) -> (f64, [f64; 2]) {
         (v.dot(self.normal), self.along.map(|axis| v.dot(axis)))
@@ -68,13 +68,13 @@ impl Axes {
     }
 }
 
-/// Jump of the places at the corners [m].
+/// Jump of the positions at the corners [m].
 fn jumps(sides: &[[DVec3; 3]; 2]) -> [DVec3; 3] {
     let [a, b] = sides;
     [b[0] - a[0], b[1] - a[1], b[2] - a[2]]
 }
 
-/// Forces of a joint whose faces have their corners at `sides` [m], on the undeformed area [m2].
+/// Computes the forces of a joint from the corners of its faces, `sides` [m], and its undeformed area [m2].
 pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3; 3]; 2]) -> Answer {
     let jump = jumps(sides);
     let axes = Axes::of_faces(sides);
@@ -82,7 +82,7 @@ pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3
     for (point, [i, j]) in memory.points.iter_mut().zip(ENDS) {
         let (opening, slip) = axes.split((jump[i] + jump[j]) * 0.5);
         let traction = law.respond(point, opening + memory.offset, slip);
-        // A third of the area; half of it to each end of the edge.
+        // Each point has a third of the area; each end of its edge gets half of the force.
         let force = axes.join(traction.normal, traction.shear) * (area / 6.0);
         out.forces[i] += force;
         out.forces[j] += force;
@@ -93,25 +93,25 @@ pub fn forces(law: &CohesiveLaw, area: f64, memory: &mut Memory, sides: &[[DVec3
     out
 }
 
-/// Energy that a joint would give back where its faces were at the last call [J].
+/// Elastic energy of a joint in the state of the last call [J].
 pub fn stored(law: &CohesiveLaw, area: f64, memory: &Memory) -> f64 {
     memory.points.iter().map(|point| law.stored(point)).sum::<f64>() * (area / 3.0)
 }
 
 impl Memory {
-    /// Memory of a tied joint that comes free under the given stress vector [Pa] on side 0.
+    /// Creates the state of a joint released from a tied face under the given traction on side 0 [Pa].
     pub fn loaded(law: &CohesiveLaw, traction: DVec3, axes: &Axes) -> Self {
         let (normal, shear) = axes.split(traction);
         let (point, offset) = law.loaded(normal, shear);
         Self { points: [point; 3], offset, is_worn: true }
     }
 
-    /// Whether a point has damage or slip behind it, or came free under load.
+    /// Whether a point has damage or plastic slip, or the joint was released from a tied face.
     pub fn is_worn(&self) -> bool {
         self.is_worn
     }
 
-    /// Whether sliding (mode II) has taken more energy than opening (mode I).
+    /// Whether sliding (mode II) has dissipated more energy than opening (mode I).
     pub fn is_mostly_slid(&self) -> bool {
         self.points.iter().map(|point| point.lost[1] - point.lost[0]).sum::<f64>() > 0.0
     }

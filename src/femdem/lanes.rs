@@ -1,6 +1,6 @@
-//! Four double-precision numbers in a SIMD register, and vectors of them: a term is written once, for any processor.
+//! Four double-precision numbers in a SIMD register, and vectors of them. Each term is written once for all processors.
 //!
-//! Products and sums are rounded one by one (no fused multiply-add), so that every processor gives the same bits.
+//! Products and sums are rounded separately (no fused multiply-add), so every processor gives bitwise equal results.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,45 +13,45 @@ pub const LANES: usize = 4;
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// Lanes from four numbers.
+    /// Loads four numbers into the lanes.
     fn load(values: &[f64; LANES]) -> Self;
-    /// The numbers of the lanes.
+    /// Returns the numbers of the lanes.
     fn to_array(self) -> [f64; LANES];
     /// Square root.
     fn sqrt(self) -> Self;
-    /// The larger one; `other` where one of them is not a number.
+    /// Maximum per lane; `other` where one of them is NaN.
     fn max(self, other: Self) -> Self;
-    /// The smaller one; `other` where one of them is not a number.
+    /// Minimum per lane; `other` where one of them is NaN.
     fn min(self, other: Self) -> Self;
 
-    /// The same number in all lanes.
+    /// Fills all lanes with the same number.
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self::load(&[value; LANES])
     }
 
-    /// Lanes from a function of the lane.
+    /// Fills the lanes from a function of the lane.
     #[inline(always)]
     fn from_fn(mut f: impl FnMut(usize) -> f64) -> Self {
         Self::load(&[f(0), f(1), f(2), f(3)])
     }
 }
 
-/// A computation that is written for any lanes. Its `run` has to be `#[inline(always)]`, with all that it does to lanes:
-/// only then is it compiled for the instructions that it is dispatched to. `map` of an array is not.
+/// A computation written for any lane type. `run` and all functions on lanes that it calls must be `#[inline(always)]`.
+/// Only then are they compiled for the instructions of the dispatch. `map` of an array is not inlined.
 pub trait WithLanes {
-    /// What it returns.
+    /// Result of the computation.
     type Output;
-    /// Compute with the given lanes.
+    /// Runs the computation with a lane type.
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
-/// Compute with the best lanes of this processor.
+/// Runs a computation with the best lanes of this processor.
 #[inline]
 pub fn dispatch<W: WithLanes>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") {
-        // SAFETY: the processor has been asked; the answer is cached by the standard library.
+        // SAFETY: AVX2 has just been detected; the standard library caches the result.
         return unsafe { x86::with_avx2(work) };
     }
     work.run::<Portable>()
@@ -69,14 +69,14 @@ pub struct Vectors<L> {
 }
 
 impl<L: Lanes> Vectors<L> {
-    /// Vectors from a function of the lane.
+    /// Builds the vectors from a function of the lane.
     #[inline(always)]
     pub fn from_fn(mut f: impl FnMut(usize) -> DVec3) -> Self {
         let [a, b, c, d] = [f(0), f(1), f(2), f(3)];
         Self { x: L::load(&[a.x, b.x, c.x, d.x]), y: L::load(&[a.y, b.y, c.y, d.y]), z: L::load(&[a.z, b.z, c.z, d.z]) }
     }
 
-    /// The vectors of the lanes.
+    /// Returns the vectors of the lanes.
     #[inline(always)]
     pub fn to_array(self) -> [DVec3; LANES] {
         let (x, y, z) = (self.x.to_array(), self.y.to_array(), self.z.to_array());
@@ -88,13 +88,13 @@ impl<L: Lanes> Vectors<L> {
         ]
     }
 
-    /// Scalar products.
+    /// Scalar product per lane.
     #[inline(always)]
     pub fn dot(self, other: Self) -> L {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// Vector products.
+    /// Vector product per lane.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self {
@@ -129,7 +129,7 @@ impl<L: Lanes> Mul<L> for Vectors<L> {
     }
 }
 
-/// Operators of a lane type from functions of two.
+/// Implements the operators of a lane type from functions of two arguments.
 macro_rules! arithmetic {
     ($lanes:ident, $($trait:ident $method:ident $op:expr),*) => {
         $(impl $trait for $lanes {
@@ -189,8 +189,8 @@ arithmetic!(Portable,
     Mul mul |a: Self, b: Self| a.pairwise(b, |a, b| a * b),
     Div div |a: Self, b: Self| a.pairwise(b, |a, b| a / b));
 
-/// SAFETY of every intrinsic in this module: [`x86::Avx2`] is named outside of it only by [`x86::with_avx2`], whose
-/// caller has asked the processor.
+/// SAFETY of every intrinsic in this module: [`x86::Avx2`] is used only through [`x86::with_avx2`], whose caller has
+/// detected AVX2.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::arch::x86_64::*;
@@ -198,7 +198,7 @@ mod x86 {
 
     use super::{LANES, Lanes, WithLanes};
 
-    /// Compute with AVX2.
+    /// Runs a computation with AVX2.
     #[target_feature(enable = "avx2")]
     pub fn with_avx2<W: WithLanes>(work: W) -> W::Output {
         work.run::<Avx2>()
@@ -244,7 +244,7 @@ mod x86 {
 mod tests {
     use super::*;
 
-    /// A computation with all operations.
+    /// A computation that uses all operations.
     struct All([f64; LANES], [f64; LANES]);
 
     impl WithLanes for All {
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn every_processor_gives_the_same_bits() {
+    fn all_lane_types_give_bitwise_equal_results() {
         let (a, b) = ([1.1, -2.3, 1e-9, 4e7], [0.7, 5.1, -3.3, 1.9]);
         assert_eq!(dispatch(All(a, b)), All(a, b).run::<Portable>());
         let lanes = |k: usize| All([a[k]; LANES], [b[k]; LANES]).run::<Portable>()[0];

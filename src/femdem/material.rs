@@ -25,12 +25,12 @@ impl Elastic {
         self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
 
-    /// Celerity of a longitudinal wave, sqrt((lambda + 2 mu) / rho) [m/s].
+    /// Celerity of longitudinal waves, sqrt((lambda + 2 mu) / rho) [m/s].
     pub fn celerity(&self) -> f64 {
         ((self.lambda() + 2.0 * self.mu()) / self.density).sqrt()
     }
 
-    /// Celerity of a longitudinal wave in a thin bar, sqrt(E / rho) [m/s].
+    /// Celerity of longitudinal waves in a thin bar, sqrt(E / rho) [m/s].
     pub fn bar_celerity(&self) -> f64 {
         (self.young_modulus / self.density).sqrt()
     }
@@ -52,19 +52,19 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Shear strength f_s [Pa] at the normal stress sigma_n [Pa], tension positive: eq. 1, Mohr and Coulomb's line with a
-    /// tension cut-off.
+    /// Shear strength f_s [Pa] at the normal stress sigma_n [Pa], tension positive: eq. 1, Mohr-Coulomb with a tension
+    /// cut-off.
     pub fn shear(&self, sigma_n: f64) -> f64 {
         (self.cohesion - sigma_n.min(self.tensile) * self.friction).max(0.0)
     }
 
-    /// The least stress that can break the material [Pa].
+    /// Least stress that can break the material [Pa].
     pub fn least(&self) -> f64 {
         self.tensile.min(self.shear(self.tensile))
     }
 
-    /// Hillerborg's characteristic length E G_f / f_t^2 [m] and that of sliding, E G_fII / c^2; a crack is resolved by
-    /// elements of a quarter of it.
+    /// Characteristic lengths [m]: Hillerborg's E G_f / f_t^2 for opening and E G_fII / c^2 for sliding. Elements of a
+    /// quarter of this length resolve a crack.
     pub fn characteristic_lengths(&self, young_modulus: f64) -> [f64; 2] {
         let length = |energy: f64, strength: f64| young_modulus * energy / (strength * strength);
         [length(self.opening_energy, self.tensile), length(self.sliding_energy, self.cohesion)]

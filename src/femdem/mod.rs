@@ -1,33 +1,33 @@
 //! Deformable bodies that crack: the combined finite-discrete element method (FEMDEM).
 //!
-//! Guo, Latham and Xiang, *Numerical simulation of breakages of concrete armour units using a three-dimensional fracture
-//! model*: tetrahedra deform, joints between them soften and break, crack faces and bodies touch. Equations are theirs
-//! unless another source is named.
+//! Method: Guo, Latham and Xiang, *Numerical simulation of breakages of concrete armour units using a three-dimensional
+//! fracture model*. Tetrahedra deform, joint elements between them soften and break, bodies and crack faces come into
+//! contact. Equation numbers refer to this paper unless another source is named.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
 //! | `mesh` | tetrahedral meshes: reading, checking, ordering, faces |
 //! | `material` | elasticity and strength |
 //! | `element` | the linear tetrahedron |
-//! | `softening`, `cohesive_law` | the law of a joint at a point |
-//! | `joint` | the joint between two tetrahedra |
-//! | `whole_joint` | joints without a past, four at a time |
+//! | `softening`, `cohesive_law` | the cohesive law at an integration point of a joint |
+//! | `joint` | the joint element between two tetrahedra |
+//! | `whole_joint` | intact joints, four at a time |
 //! | `joints` | all joints of a world |
-//! | `lanes` | four numbers in a SIMD register |
-//! | `deformation` | the pass over the tetrahedra |
-//! | `setup` | what a world is made of |
+//! | `lanes` | SIMD lanes: four numbers in a register |
+//! | `deformation` | nodal forces of all tetrahedra |
+//! | `setup` | input of a world: mesh, bodies, constraints, loads |
 //! | `history` | values that change with time |
-//! | `loads` | tractions, pressures and forces about a place |
-//! | `rigid_body`, `rigid_hold`, `principal_axes` | bodies that are not deformed |
-//! | `assembly` | nodes, tetrahedra and joints as arrays; how nodes come apart |
-//! | `contact` | tetrahedra that touch: overlap, friction, who can |
-//! | `time_step` | the longest stable step |
-//! | `world` | the step: the entry to this module |
-//! | `release` | faces that give way |
-//! | `motion` | how nodes and rigid bodies move on |
-//! | `energy`, `book` | the energy book, and each body's part of it |
-//! | `watch` | when a step cannot be trusted |
-//! | `snapshot` | what changes with time, taken down and put back |
+//! | `loads` | tractions, pressures, forces that act at a point |
+//! | `rigid_body`, `rigid_hold`, `principal_axes` | rigid bodies |
+//! | `assembly` | nodes and tetrahedra as arrays; node splitting |
+//! | `contact` | contact between tetrahedra: detection, overlap, friction |
+//! | `time_step` | the time step limit |
+//! | `world` | one time step: the entry to this module |
+//! | `release` | tied faces that become joints, joints that break |
+//! | `motion` | motion of nodes and rigid bodies |
+//! | `energy`, `book` | the energy balance, total and per body |
+//! | `watch` | limits that stop an unstable run |
+//! | `snapshot` | saves and restores the state |
 
 pub mod assembly;
 pub mod book;

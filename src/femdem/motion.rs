@@ -1,4 +1,4 @@
-//! How nodes and rigid bodies move on.
+//! Motion of nodes and rigid bodies over a time step.
 
 use rayon::prelude::*;
 
@@ -6,32 +6,32 @@ use super::assembly::Nodes;
 use super::rigid_body::RIGID;
 use super::world::{PIECE, World};
 
-/// What the nodes of a piece tell of their step.
+/// Energies and largest speed of a chunk of nodes over a time step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moved {
-    /// Kinetic energy at the start of the step [J].
+    /// Kinetic energy at the start of the time step [J].
     pub kinetic: f64,
     /// Work of the constraints [J].
     pub work: f64,
-    /// Square of the largest speed at its end [m2/s2].
+    /// Square of the largest speed at the end of the time step [m2/s2].
     pub fastest: f64,
 }
 
 impl World {
-    /// Accelerations (eq. 8), velocities (eq. 9) and places (eq. 10).
+    /// Computes accelerations (eq. 8), velocities (eq. 9) and positions (eq. 10).
     pub(super) fn move_nodes(&mut self) -> Moved {
         let Self { nodes, deformation, setup, dt, time, moved, rigid_bodies, .. } = self;
         let forces = &deformation.forces;
         let (dt, gravity) = (*dt, setup.gravity);
-        // Velocities stand half a step on.
+        // Velocities are half a time step ahead.
         let given: Vec<_> = setup.constraints.iter().map(|constraint| constraint.at(*time + 0.5 * dt)).collect();
         let Nodes { place, velocity, mass, constraint, ties } = nodes;
         moved.resize(place.len().div_ceil(PIECE), Moved::default());
-        let pieces = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
-        pieces.enumerate().for_each(|(piece, ((places, velocities), moved))| {
+        let chunks = place.par_chunks_mut(PIECE).zip(velocity.par_chunks_mut(PIECE)).zip(moved.par_iter_mut());
+        chunks.enumerate().for_each(|(chunk, ((positions, velocities), moved))| {
             *moved = Moved::default();
-            for (k, (x, v)) in places.iter_mut().zip(velocities).enumerate() {
-                let node = piece * PIECE + k;
+            for (k, (x, v)) in positions.iter_mut().zip(velocities).enumerate() {
+                let node = chunk * PIECE + k;
                 if constraint[node] == RIGID {
                     continue;
                 }
@@ -54,10 +54,10 @@ impl World {
                 *x += *v * dt;
             }
         });
-        let mut sum = moved.iter().fold(Moved::default(), |sum, piece| Moved {
-            kinetic: sum.kinetic + piece.kinetic,
-            work: sum.work + piece.work,
-            fastest: sum.fastest.max(piece.fastest),
+        let mut sum = moved.iter().fold(Moved::default(), |sum, chunk| Moved {
+            kinetic: sum.kinetic + chunk.kinetic,
+            work: sum.work + chunk.work,
+            fastest: sum.fastest.max(chunk.fastest),
         });
         for body in rigid_bodies {
             let [kinetic, work] = body.advance(nodes, forces, gravity, dt, &given);

@@ -2,29 +2,29 @@
 
 use glam::{DMat3, DVec3};
 
-/// Sweeps over the three planes; the elements beside the diagonal fall by their square, six are plenty.
+/// Sweeps over the three planes. The off-diagonal elements converge quadratically, so six sweeps would be enough.
 const SWEEPS: usize = 12;
 
-/// Principal values and axes of a symmetric matrix; the axes are columns and right-handed.
+/// Returns the principal values and axes of a symmetric matrix; the axes are columns of a right-handed matrix.
 pub fn principal_axes(matrix: DMat3) -> (DVec3, DMat3) {
     let (mut m, mut axes) = (matrix, DMat3::IDENTITY);
     for _ in 0..SWEEPS {
         for [p, q] in [[0, 1], [0, 2], [1, 2]] {
-            let beside = m.col(q)[p];
-            if beside == 0.0 {
+            let off_diagonal = m.col(q)[p];
+            if off_diagonal == 0.0 {
                 continue;
             }
             // tan of the angle, the smaller root (Golub and Van Loan, section 8.5).
-            let tau = (m.col(q)[q] - m.col(p)[p]) / (2.0 * beside);
+            let tau = (m.col(q)[q] - m.col(p)[p]) / (2.0 * off_diagonal);
             let t = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
             let c = 1.0 / (1.0 + t * t).sqrt();
-            let mut turn = DMat3::IDENTITY;
-            turn.col_mut(p)[p] = c;
-            turn.col_mut(q)[q] = c;
-            turn.col_mut(q)[p] = t * c;
-            turn.col_mut(p)[q] = -t * c;
-            m = turn.transpose() * m * turn;
-            axes *= turn;
+            let mut rotation = DMat3::IDENTITY;
+            rotation.col_mut(p)[p] = c;
+            rotation.col_mut(q)[q] = c;
+            rotation.col_mut(q)[p] = t * c;
+            rotation.col_mut(p)[q] = -t * c;
+            m = rotation.transpose() * m * rotation;
+            axes *= rotation;
         }
     }
     (DVec3::new(m.x_axis.x, m.y_axis.y, m.z_axis.z), axes)
@@ -36,10 +36,10 @@ mod tests {
     use glam::{DQuat, EulerRot};
 
     #[test]
-    fn axes_make_the_matrix_diagonal() {
-        let turn = DMat3::from_quat(DQuat::from_euler(EulerRot::XYZ, 0.3, -1.1, 2.2));
+    fn principal_axes_make_the_matrix_diagonal() {
+        let rotation = DMat3::from_quat(DQuat::from_euler(EulerRot::XYZ, 0.3, -1.1, 2.2));
         for given in [[5.0, 2.0, 7.0], [3.0, 3.0, 1.0], [4.0, 4.0, 4.0]] {
-            let matrix = turn * DMat3::from_diagonal(DVec3::from_array(given)) * turn.transpose();
+            let matrix = rotation * DMat3::from_diagonal(DVec3::from_array(given)) * rotation.transpose();
             let (values, axes) = principal_axes(matrix);
             // Rounding.
             assert!((axes * DMat3::from_diagonal(values) * axes.transpose()).abs_diff_eq(matrix, 1e-14));

@@ -1,4 +1,4 @@
-//! Faces that give way: tied ones become joints, joints that have failed break.
+//! Release of tied faces as joints, and breaking of failed joints.
 
 use rayon::prelude::*;
 
@@ -9,10 +9,10 @@ use super::joints::{self, Bond, WornJoint};
 use super::world::World;
 
 impl World {
-    /// Tied faces that have reached their strength become joints, joints that have failed break.
+    /// Releases tied faces that have reached their strength as joints, and breaks failed joints.
     pub(super) fn release_joints(&mut self) {
         for (number, memory) in self.faces_beyond_strength() {
-            self.free(number, memory);
+            self.release_face(number, memory);
         }
         if self.joints.worn.iter().any(|joint| joint.failed) {
             let (failed, worn) = std::mem::take(&mut self.joints.worn).into_iter().partition(|joint| joint.failed);
@@ -22,8 +22,8 @@ impl World {
         }
     }
 
-    /// A tied face becomes a joint with the given memory.
-    fn free(&mut self, number: usize, memory: Memory) {
+    /// Turns a tied face into a joint with the last_work state.
+    fn release_face(&mut self, number: usize, memory: Memory) {
         let Self { joints, nodes, tets, setup, .. } = self;
         joints.bond[number] = Bond::Worn;
         for corner in 0..3 {
@@ -39,11 +39,11 @@ impl World {
 
     fn break_joint(&mut self, joint: &WornJoint) {
         let number = joint.interface as usize;
-        // What it would have given back is lost with it. Its last forces are those before this step; in central
-        // differences they act until half a step after that, on which a joint crushed fast takes or gives much of what it
-        // has. One that springs back may have given more than it had: less than nothing is lost then.
-        let given = 0.5 * self.dt * joints::power_on(joint, &self.setup, &self.tets, &self.nodes);
-        let stored = self.joints.stored_in(joint, &self.setup) + given;
+        // The elastic energy of the joint is dissipated with it. Its last forces were computed at the start of this
+        // time step; in central differences they act for half a time step after that. A joint that is crushed fast
+        // exchanges much of its energy in this time. If it springs back, the dissipated energy may even be negative.
+        let last_work = 0.5 * self.dt * joints::power_on(joint, &self.setup, &self.tets, &self.nodes);
+        let stored = self.joints.stored_in(joint, &self.setup) + last_work;
         self.lost.fracture += joint.dissipated + stored;
         self.joints.bond[number] = Bond::Broken;
         self.joints.forces[number] = Default::default();
@@ -59,20 +59,20 @@ impl World {
         }
     }
 
-    /// Tied faces on which the mean of the stresses of both sides has reached the strength (eq. 1), with the memory that
-    /// carries that stress on.
+    /// Returns the tied faces on which the mean stress of both sides has reached the strength (eq. 1), with the joint
+    /// state that carries this stress.
     fn faces_beyond_strength(&self) -> Vec<(usize, Memory)> {
         let Self { joints, setup, tets, nodes, .. } = self;
         let strained = &self.deformation.strained;
-        let of = |(number, bond): (usize, &Bond)| {
+        let check_face = |(number, bond): (usize, &Bond)| {
             let interface = &setup.interfaces[number];
             if *bond != Bond::Tied || !interface.tets.iter().any(|tet| strained[*tet as usize]) {
                 return None;
             }
             let cohesion = joints::cohesion(setup, number);
-            let [one, other] = interface.tets.map(|tet| self.stress(tet as usize));
+            let [first, second] = interface.tets.map(|tet| self.stress(tet as usize));
             let axes = Axes::of_faces(&joints::faces(number, setup, tets, nodes));
-            let traction = (one + other) * 0.5 * axes.normal();
+            let traction = (first + second) * 0.5 * axes.normal();
             let (normal, [a, b]) = axes.split(traction);
             let reached = normal >= cohesion.strength.tensile || a.hypot(b) >= cohesion.strength.shear(normal);
             reached.then(|| (number, Memory::loaded(&cohesion.law(joints.size[number][0]), traction, &axes)))
@@ -80,12 +80,12 @@ impl World {
         if !strained.par_iter().any(|strained| *strained) {
             return Vec::new();
         }
-        joints.bond.par_iter().enumerate().filter_map(of).collect()
+        joints.bond.par_iter().enumerate().filter_map(check_face).collect()
     }
 
-    /// Elastic Cauchy stress of a tetrahedron at the present places [Pa].
+    /// Elastic Cauchy stress of a tetrahedron at the current positions [Pa].
     fn stress(&self, tet: usize) -> glam::DMat3 {
-        let places = self.tets.nodes[tet].map(|node| self.nodes.place[node as usize]);
-        element::stress(&self.tets.shape[tet], &self.moduli[usize::from(self.tets.body[tet])], &places)
+        let corners = self.tets.nodes[tet].map(|node| self.nodes.place[node as usize]);
+        element::stress(&self.tets.shape[tet], &self.moduli[usize::from(self.tets.body[tet])], &corners)
     }
 }

@@ -1,20 +1,20 @@
-//! Rigid bodies that are held or moved at some of their points.
+//! Rigid bodies with given velocities at some of their points.
 //!
-//! A component of the velocity of a point is a row c of c . u = given, u the velocity and the angular velocity. Of all rows
-//! those that do not depend on the ones before count, six at most; the impulse is what takes u there (Gauss's principle of
-//! least constraint).
+//! Each given velocity component of a point is one equation c . u = given, with u the velocity and angular velocity of
+//! the body. Equations that depend linearly on earlier ones are dropped, so at most six remain. The constraint impulse
+//! changes u so that all hold (Gauss's principle of least constraint).
 
 use glam::{DMat3, DVec3};
 
-/// Part of a row that must not depend on the rows before [-]: far above rounding, far below any part that holds.
+/// Least independent part of a row, over its length [-]: far above rounding, far below any effective constraint.
 const INDEPENDENT: f64 = 1e-6;
-/// Freedoms of a body.
+/// Degrees of freedom of a body.
 const FREEDOMS: usize = 6;
 
 /// Velocity of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Freedom {
-    /// Of its centre [m/s].
+    /// Velocity of the centre [m/s].
     pub velocity: DVec3,
     /// Angular velocity [rad/s].
     pub angular_velocity: DVec3,
@@ -23,9 +23,9 @@ pub struct Freedom {
 /// Impulse on a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Impulse {
-    /// Of the force [N s].
+    /// Impulse of the force [N s].
     pub force: DVec3,
-    /// Of the torque about the centre [N m s].
+    /// Impulse of the torque about the centre [N m s].
     pub torque: DVec3,
 }
 
@@ -34,7 +34,7 @@ pub struct Impulse {
 pub struct Row {
     /// Direction.
     pub axis: DVec3,
-    /// The point from the centre [m].
+    /// Position of the point relative to the centre [m].
     pub arm: DVec3,
     /// Velocity along the axis [m/s].
     pub velocity: f64,
@@ -54,14 +54,14 @@ fn parts(v: &Vector) -> [DVec3; 2] {
     [DVec3::from_slice(&v[..3]), DVec3::from_slice(&v[3..])]
 }
 
-/// Impulse that gives a body of this mass [kg] and inverse inertia [1/(kg m2)], which would go on with `free`, the
-/// velocities of the rows.
+/// Computes the impulse that gives a body the velocities of the rows. The body has a mass [kg] and an inverse inertia
+/// [1/(kg m2)], and would move with `free` without the constraints.
 pub fn hold(mass: f64, inverse_inertia: DMat3, free: Freedom, rows: impl Iterator<Item = Row>) -> Impulse {
-    // Angular velocities times a radius of gyration, so that all have one unit.
+    // Angular velocities are multiplied by a radius of gyration, so that all components have the same unit.
     let trace = inverse_inertia.x_axis.x + inverse_inertia.y_axis.y + inverse_inertia.z_axis.z;
     let radius = (3.0 / (mass * trace)).sqrt();
     let free = join(free.velocity, free.angular_velocity * radius);
-    let answer_to = |impulse: &Vector| {
+    let velocity_change = |impulse: &Vector| {
         let [force, torque] = parts(impulse);
         join(force / mass, inverse_inertia * torque * (radius * radius))
     };
@@ -87,7 +87,7 @@ pub fn hold(mass: f64, inverse_inertia: DMat3, free: Freedom, rows: impl Iterato
     let mut system = [[0.0; FREEDOMS + 1]; FREEDOMS];
     for (i, (row, given)) in kept.iter().enumerate() {
         for (j, (other, _)) in kept.iter().enumerate() {
-            system[i][j] = dot(row, &answer_to(other));
+            system[i][j] = dot(row, &velocity_change(other));
         }
         system[i][FREEDOMS] = given - dot(row, &free);
     }
@@ -100,7 +100,7 @@ pub fn hold(mass: f64, inverse_inertia: DMat3, free: Freedom, rows: impl Iterato
     Impulse { force, torque: torque * radius }
 }
 
-/// Solution of the first `count` equations of a positive definite system, by elimination.
+/// Solves the first `count` equations of a positive definite system by Gaussian elimination.
 fn solve(mut system: [[f64; FREEDOMS + 1]; FREEDOMS], count: usize) -> Vector {
     for pivot in 0..count {
         for row in pivot + 1..count {
@@ -133,22 +133,22 @@ mod tests {
     const FREE: Freedom = Freedom { velocity: DVec3::new(1.0, 2.0, 3.0), angular_velocity: DVec3::new(4.0, 5.0, 6.0) };
 
     #[test]
-    fn points_get_their_velocity_and_the_rest_stays_free() {
+    fn constrained_points_get_their_velocity_and_other_motion_stays_free() {
         let row = |axis, arm, velocity| Row { axis, arm, velocity };
         let corners =
             [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)].map(|x| x - DVec3::new(0.5, 0.5, 1.0));
-        // A plane of points moved along z: no turning about x and y, and nothing else changes.
+        // Points in a plane moved along z: no rotation about x and y, all other motion unchanged.
         let rows: Vec<Row> = corners.iter().map(|arm| row(DVec3::Z, *arm, -7.0)).collect();
         let moved = after(&rows, FREE);
         let expected = Freedom { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
         // Rounding.
         assert!((moved.velocity - expected.velocity).length() < 1e-13);
         assert!((moved.angular_velocity - expected.angular_velocity).length() < 1e-13);
-        // All components of all points: at rest.
+        // All components of all points are zero: the body is at rest.
         let rows: Vec<Row> = corners.iter().flat_map(|arm| DVec3::AXES.map(|axis| row(axis, *arm, 0.0))).collect();
         let held = after(&rows, FREE);
         assert!(held.velocity.length() < 1e-13 && held.angular_velocity.length() < 1e-13);
-        // One point held turns about it.
+        // One fixed point: the body rotates about it.
         let arm = corners[1];
         let hinged = after(&DVec3::AXES.map(|axis| row(axis, arm, 0.0)), FREE);
         assert!((hinged.velocity + hinged.angular_velocity.cross(arm)).length() < 1e-13);

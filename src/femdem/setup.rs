@@ -1,4 +1,4 @@
-//! What a world of deformable bodies is made of.
+//! Input of a world: mesh, bodies, constraints and loads.
 
 use std::ops::Range;
 
@@ -18,25 +18,25 @@ pub struct Body {
     pub tets: Range<usize>,
     /// Elasticity, density, viscosity.
     pub elastic: Elastic,
-    /// How its joints hold; without it, the body does not crack.
+    /// Cohesive parameters of its joints; `None` for a body that cannot crack.
     pub cohesion: Option<Cohesion>,
-    /// It is not deformed: all its nodes move as one. It cannot crack.
+    /// Whether the body is rigid; a rigid body cannot crack.
     pub rigid: bool,
-    /// Stress per potential of its contacts [Pa]; a pair has the smaller one.
+    /// Contact penalty: stress per unit of contact potential [Pa]. A pair uses the smaller one of its bodies.
     pub contact_penalty: f64,
     /// Velocity at the start [m/s].
     pub velocity: DVec3,
     /// Angular velocity at the start [rad/s] about `pivot`.
     pub angular_velocity: DVec3,
-    /// Point that `velocity` belongs to [m].
+    /// Point to which `velocity` refers [m].
     pub pivot: DVec3,
 }
 
-/// Penalty of contact over Young's modulus [-], where nothing else is given: a contact is then eight times as stiff as the
-/// tetrahedron behind it (see [`super::time_step::contact_stiffness`]).
+/// Default contact penalty over Young's modulus [-]. A contact is then eight times as stiff as the tetrahedron behind
+/// it (see [`super::time_step::contact_stiffness`]).
 const CONTACT_PENALTY: f64 = 1.0;
 
-/// Velocities that nodes are made to have.
+/// Prescribed velocities of nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constraint {
     /// Nodes of the mesh.
@@ -46,52 +46,52 @@ pub struct Constraint {
 }
 
 impl Constraint {
-    /// Velocity along each axis that stays the same [m/s].
+    /// Creates a constraint with a constant velocity along each axis [m/s].
     pub fn constant(nodes: Vec<u32>, velocity: [Option<f64>; 3]) -> Self {
         Self { nodes, velocity: velocity.map(|given| given.map(History::from)) }
     }
 
-    /// No node of it is made to move faster [m/s].
+    /// Upper limit of the prescribed speed over all times [m/s].
     pub fn fastest(&self) -> f64 {
         let most = |given: &Option<History<1>>| given.as_ref().map_or(0.0, |history| history.largest()[0]);
         DVec3::from_array(self.velocity.each_ref().map(most)).length()
     }
 
-    /// Velocity along each axis at a time [m/s].
+    /// Returns the velocity along each axis [m/s] at a time [s].
     pub fn at(&self, time: f64) -> [Option<f64>; 3] {
         self.velocity.each_ref().map(|given| given.as_ref().map(|history| history.at(time)[0]))
     }
 }
 
-/// Everything that a world of deformable bodies is made of.
+/// Input of a world of deformable bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
-    /// Places [m].
+    /// Initial positions of the mesh nodes [m].
     pub nodes: Vec<DVec3>,
     /// Nodes of each tetrahedron; seen from the fourth, the first three run anticlockwise.
     pub tets: Vec<[u32; 4]>,
-    /// Bodies; their ranges follow each other and hold all tetrahedra.
+    /// Bodies; their ranges are consecutive and cover all tetrahedra.
     pub bodies: Vec<Body>,
-    /// Faces between tetrahedra of bodies that crack.
+    /// Faces between tetrahedra of bodies that can crack.
     pub interfaces: Vec<Interface>,
-    /// Numbers of the interfaces that are cracked at the start.
+    /// Numbers of the interfaces that are broken at the start (pre-cracks).
     pub cracks: Vec<u32>,
-    /// Tetrahedra at the outside and at the cracks of the start, in rising order.
+    /// Tetrahedra on the surface and at pre-cracks, in ascending order.
     pub outer: Vec<u32>,
-    /// Coulomb's coefficient between two bodies [-]: a row for each; crack faces of a body rub with its own.
+    /// Friction coefficients between bodies [-], one row per body; the diagonal is for crack faces of the same body.
     pub friction: Vec<Vec<f64>>,
-    /// Nodes with given velocities.
+    /// Constraints: nodes with prescribed velocities.
     pub constraints: Vec<Constraint>,
     /// Loads.
     pub loads: Vec<Load>,
-    /// Acceleration of gravity [m/s2].
+    /// Gravitational acceleration [m/s2].
     pub gravity: DVec3,
 }
 
 impl Body {
-    /// Body at rest that does not crack.
+    /// Creates a deformable body at rest that cannot crack.
     pub fn at_rest(tets: Range<usize>, elastic: Elastic) -> Self {
-        let still = DVec3::ZERO;
+        let zero = DVec3::ZERO;
         let contact_penalty = CONTACT_PENALTY * elastic.young_modulus;
         Self {
             tets,
@@ -99,26 +99,27 @@ impl Body {
             cohesion: None,
             rigid: false,
             contact_penalty,
-            velocity: still,
-            angular_velocity: still,
-            pivot: still,
+            velocity: zero,
+            angular_velocity: zero,
+            pivot: zero,
         }
     }
 }
 
 impl Setup {
-    /// Coulomb's coefficient between two bodies, by their numbers [-].
+    /// Friction coefficient between two bodies, by their numbers [-].
     pub fn friction(&self, [a, b]: [usize; 2]) -> f64 {
         self.friction[a][b]
     }
 
-    /// Bodies of a mesh, in its order, without gravity, friction and constraints; the sets of cracks are open.
+    /// Creates the setup of a mesh and its bodies, in the same order, without gravity, friction, constraints and loads.
+    /// The crack sets of the mesh are broken.
     pub fn of_mesh(prepared: &PreparedMesh, bodies: Vec<Body>) -> Self {
         let PreparedMesh { mesh, faces, .. } = prepared;
-        let cracks = |tet: u32| bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&(tet as usize)));
+        let can_crack = |tet: u32| bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&(tet as usize)));
         let mut number = vec![None; faces.interfaces.len()];
         let mut interfaces = Vec::new();
-        for (old, interface) in faces.interfaces.iter().enumerate().filter(|(_, face)| cracks(face.tets[0])) {
+        for (old, interface) in faces.interfaces.iter().enumerate().filter(|(_, face)| can_crack(face.tets[0])) {
             number[old] = Some(interfaces.len() as u32);
             interfaces.push(*interface);
         }

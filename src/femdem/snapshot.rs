@@ -1,8 +1,8 @@
-//! What changes in a world with time, taken down and put back to the last bit.
+//! Saves and restores the state of a world, bit by bit.
 //!
-//! Kept are places, velocities and the nodes at the vertices, the bonds and memories of joints, failed faces, the memory
-//! of contacts and the energies lost. Shapes, masses, constraints, copies of nodes, who can touch whom and the step follow
-//! from the setup again; forces and stresses belong to a step.
+//! A snapshot contains positions, velocities, the nodes at the vertices, bonds and states of joints, broken faces, the
+//! history of contacts, and the dissipated energies. Shapes, masses, constraints and node copies follow from the setup.
+//! Forces and stresses are recomputed in each time step.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -15,43 +15,43 @@ use super::joints::{self, Bond, WornJoint};
 use super::rigid_body::RigidMotion;
 use super::world::{Failure, World, contacts};
 
-/// Numbers of a joint that is worn: offset, whether it is worn, energies, three points.
+/// Count of numbers that describe a damaged joint: offset, damaged or not, two energies, three points.
 pub const MEMORY: usize = 4 + 3 * POINT;
-/// Numbers of a point.
+/// Count of numbers that describe an integration point.
 const POINT: usize = 10;
 
 /// State of a world.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Snapshot {
-    /// Places of the nodes [m].
+    /// Positions of the nodes [m].
     pub place: Vec<DVec3>,
-    /// Their velocities [m/s].
+    /// Velocities of the nodes [m/s].
     pub velocity: Vec<DVec3>,
     /// Nodes at the vertices of the tetrahedra.
     pub vertices: Vec<[u32; 4]>,
-    /// What holds each face: 0 tied, 1 a joint without a past, 2 nothing, 3 a joint with a past.
+    /// Bond of each face: 0 tied, 1 intact joint, 2 broken, 3 damaged joint.
     pub bonds: Vec<u8>,
-    /// Numbers of the joints with a past, in their order.
+    /// Face numbers of the damaged joints, in the order of their list.
     pub worn: Vec<u32>,
-    /// What it is: opaque.
+    /// States of the damaged joints (opaque).
     pub memories: Vec<[f64; MEMORY]>,
-    /// Faces that have failed, in order of time.
+    /// Broken faces, in order of time.
     pub failed: Vec<u32>,
-    /// When [s].
+    /// Times of breaking [s].
     pub failed_at: Vec<f64>,
-    /// 1 where it slid more than it opened.
+    /// 1 if the face broke mainly by sliding, else 0.
     pub failed_by_sliding: Vec<u8>,
-    /// Energy that it took, and that its spring had when it came free [J].
+    /// Energy dissipated by each broken face, and elastic energy at its release [J].
     pub failed_energy: Vec<[f64; 2]>,
-    /// Motions of the rigid bodies: opaque.
+    /// Motions of the rigid bodies (opaque).
     pub rigid: Vec<[f64; 13]>,
     /// Contacts.
     pub contacts: ContactSnapshot,
-    /// Everything else.
+    /// Scalars of the world.
     pub scalars: Scalars,
 }
 
-/// Numbers of a world as a whole.
+/// Scalars of a world and its contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Scalars {
     time: f64,
@@ -61,19 +61,19 @@ pub struct Scalars {
 }
 
 impl Snapshot {
-    /// The scalars, with those of the contacts: what is no array.
+    /// Returns the scalars of the world and of the contacts.
     pub fn scalars(&self) -> Scalars {
         Scalars { contacts: self.contacts.scalars, ..self.scalars }
     }
 
-    /// Puts the scalars where they belong.
+    /// Sets the scalars of the world and of the contacts.
     pub fn set_scalars(&mut self, scalars: Scalars) {
         (self.scalars, self.contacts.scalars) = (scalars, scalars.contacts);
     }
 }
 
 impl World {
-    /// The state after a step.
+    /// Returns the state after a time step.
     pub fn snapshot(&self) -> Snapshot {
         let bond = |bond: &Bond| match bond {
             Bond::Tied => 0,
@@ -99,25 +99,25 @@ impl World {
         }
     }
 
-    /// Puts a world at its start into a state of a world of the same setup.
+    /// Restores a snapshot into a new world of the same setup.
     ///
     /// # Errors
-    /// If the state cannot be that of such a world: what is wrong. The world must not be used then.
+    /// Says why the snapshot does not belong to this setup. The world must not be used then.
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), &'static str> {
         let Snapshot { place, velocity, vertices, bonds, worn, memories, contacts: of_contacts, scalars, .. } =
             snapshot;
         let Snapshot { failed, failed_at, failed_by_sliding, failed_energy, rigid, .. } = snapshot;
         if rigid.len() != self.rigid_bodies.len() {
-            return Err("its rigid bodies are not those of the case");
+            return Err("its rigid bodies do not match the case");
         }
         for (body, numbers) in self.rigid_bodies.iter_mut().zip(rigid) {
             body.motion = RigidMotion::from_array(&numbers);
         }
-        let known = |face: &u32| (*face as usize) < self.joints.count();
-        let of_failed = [failed_at.len(), failed_by_sliding.len(), failed_energy.len()];
-        let faces = worn.len() == memories.len() && of_failed == [failed.len(); 3];
-        if bonds.len() != self.joints.count() || !faces || !worn.iter().chain(&failed).all(known) {
-            return Err("its joints are not those of the mesh");
+        let exists = |face: &u32| (*face as usize) < self.joints.count();
+        let counts = [failed_at.len(), failed_by_sliding.len(), failed_energy.len()];
+        let counts_match = worn.len() == memories.len() && counts == [failed.len(); 3];
+        if bonds.len() != self.joints.count() || !counts_match || !worn.iter().chain(&failed).all(exists) {
+            return Err("its joints do not match the mesh");
         }
         for (bond, number) in self.joints.bond.iter_mut().zip(bonds) {
             *bond = match number {
@@ -125,15 +125,15 @@ impl World {
                 1 => Bond::Whole,
                 2 => Bond::Broken,
                 3 => Bond::Worn,
-                _ => return Err("it has faces that are held by nothing known"),
+                _ => return Err("it has faces with an unknown bond"),
             };
         }
-        self.joints.worn = worn.into_iter().zip(memories).map(|(number, numbers)| recall(number, numbers)).collect();
+        self.joints.worn = worn.into_iter().zip(memories).map(|(number, numbers)| rebuild(number, numbers)).collect();
         self.joints.mark(&self.setup, &mut self.tets);
         self.nodes.come_apart(&mut self.tets, &self.setup, vertices, [place, velocity])?;
         self.failures.clear();
-        let how = failed_by_sliding.into_iter().zip(failed_energy);
-        for ((interface, time), (by_sliding, energy)) in failed.into_iter().zip(failed_at).zip(how) {
+        let modes = failed_by_sliding.into_iter().zip(failed_energy);
+        for ((interface, time), (by_sliding, energy)) in failed.into_iter().zip(failed_at).zip(modes) {
             self.failures.push(self.failure(interface, time, by_sliding != 0, energy));
         }
         self.contacts = contacts(&self.setup, &self.tets, &self.around, &self.joints);
@@ -143,7 +143,7 @@ impl World {
         Ok(())
     }
 
-    /// The failure of a face at a time [s], with the energies that it took and that its spring had [J].
+    /// Creates the record of a broken face: time [s], dissipated energy and elastic energy at its release [J].
     pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: [f64; 2]) -> Failure {
         let corners = joints::corners(&self.setup, interface as usize);
         let place = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -163,7 +163,7 @@ fn numbers_of(joint: &WornJoint) -> [f64; MEMORY] {
     numbers
 }
 
-fn recall(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
+fn rebuild(number: u32, numbers: [f64; MEMORY]) -> WornJoint {
     let [offset, is_worn, dissipated, freed, ref points @ ..] = numbers;
     let memory = Memory { offset, is_worn: is_worn != 0.0, ..Memory::default() };
     let mut joint = WornJoint { dissipated, freed, ..WornJoint::new(number as usize, memory) };

@@ -8,10 +8,10 @@ const C: f64 = 6.0;
 /// Integral of z over D from 0 to 1 [-] (adaptive quadrature to ten digits).
 pub const AREA: f64 = 0.386_307_29;
 
-/// Steepest fall of z, -dz/dD [-].
+/// Steepest slope of z: largest -dz/dD [-].
 pub const STEEPEST: f64 = 2.040_2;
 
-/// Share z of the strength that is left at the damage D, eq. 3: 1 at D = 0, 0 from D = 1 on.
+/// Remaining share z of the strength at the damage D, eq. 3: 1 at D = 0, 0 from D = 1 on.
 pub fn z(damage: f64) -> f64 {
     if damage <= 0.0 {
         return 1.0;
@@ -29,22 +29,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn z_falls_from_one_to_zero_and_encloses_its_area() {
-        // The limit of the formula.
+    fn z_decreases_from_one_to_zero_with_the_given_area_and_slope() {
+        // Limit of the formula at D = 0.
         assert!((z(1e-9) - 1.0).abs() < 1e-8 && z(0.0) == 1.0);
         assert_eq!(z(1.0), 0.0);
         let count = 20_000;
-        let at = |i: u32| f64::from(i) / f64::from(count);
+        let share = |i: u32| f64::from(i) / f64::from(count);
         let mut area = 0.0;
         let mut steepest = 0.0f64;
         for i in 0..count {
-            let (from, to) = (z(at(i)), z(at(i + 1)));
+            let (from, to) = (z(share(i)), z(share(i + 1)));
             assert!(to <= from);
-            area += (from + 4.0 * z(0.5 * (at(i) + at(i + 1))) + to) / 6.0 / f64::from(count);
+            area += (from + 4.0 * z(0.5 * (share(i) + share(i + 1))) + to) / 6.0 / f64::from(count);
             steepest = steepest.max((from - to) * f64::from(count));
         }
         println!("area {area:.10}, steepest {steepest:.6}");
-        // Digits that the constants have.
+        // Number of digits of the constants.
         assert!((area - AREA).abs() < 1e-7);
         assert!((steepest - STEEPEST).abs() < 1e-3);
     }

@@ -1,18 +1,18 @@
-//! The longest stable step.
+//! The time step limit.
 //!
-//! For lumped masses the largest angular frequency of a mesh is at most that of its worst element with its own share of
-//! the masses (Irons). A tetrahedron with joints at its faces has its own largest eigenvalue, and at each vertex twice the
-//! stiffness of the joints there. The step of the central differences is 2 / omega, with the viscous rate gamma
-//! (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
+//! With mass lumping, the largest angular frequency of a mesh is at most that of its stiffest element with its own
+//! share of the masses (Irons). Joints at the faces of a tetrahedron add twice their stiffness at each vertex to its
+//! largest eigenvalue. The time step limit of central differences is 2 / omega; with the viscous damping rate gamma it
+//! is (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
 
 use glam::{DMat3, DVec3};
 
 use super::element::Shape;
 use super::material::Elastic;
 
-/// Rounds of the power iteration; the largest eigenvalue of twelve is then known to a percent.
+/// Rounds of the power iteration; they give the largest of twelve eigenvalues to one percent.
 const ROUNDS: usize = 40;
-/// What the iteration may still lack [-].
+/// Safety factor for the remaining error of the iteration [-].
 const LACKING: f64 = 1.02;
 
 /// Square of the largest angular frequency of a free tetrahedron [1/s2].
@@ -32,12 +32,12 @@ pub fn element_damping_rate(shape: &Shape, elastic: &Elastic) -> f64 {
     largest_eigenvalue(shape, |rate| rate * elastic.viscosity) * shape.volume / mass
 }
 
-/// Stiffness at a vertex of a tetrahedron that is pressed on its largest face by another one [N/m].
+/// Contact stiffness at a vertex of a tetrahedron in contact at its largest face [N/m].
 ///
-/// The potential rises from 0 to 1 over a quarter of the height H: with both of them the energy of an overlap of the depth
-/// d is p 4 d^2 / H to the unit of area, its stiffness 8 p / H. A third of the face goes to each vertex.
+/// The contact potential rises from 0 to 1 over a quarter of the height H. Two flush tetrahedra with overlap depth d
+/// have the energy p 4 d^2 / H and the stiffness 8 p / H per unit of area. Each vertex gets a third of the face.
 pub fn contact_stiffness(shape: &Shape, penalty: f64) -> f64 {
-    // Of face k, grad N_k = 1 / H along the normal, and V = A H / 3.
+    // For face k, |grad N_k| = 1 / H along the normal, and V = A H / 3.
     let steepest = shape.gradients().into_iter().map(|gradient| gradient.length()).fold(0.0, f64::max);
     8.0 * penalty * steepest * (shape.volume * steepest)
 }
@@ -45,7 +45,7 @@ pub fn contact_stiffness(shape: &Shape, penalty: f64) -> f64 {
 /// Largest eigenvalue of B^T C B [C/m2] for a stress C(strain).
 fn largest_eigenvalue(shape: &Shape, stress: impl Fn(DMat3) -> DMat3) -> f64 {
     let gradients = shape.gradients();
-    // In no direction of symmetry.
+    // Start vector without any symmetry.
     let mut u = [0.3, -0.7, 1.0, -0.6].map(|a: f64| DVec3::new(a, a * a - 0.4, 0.5 - a));
     let mut largest = 0.0;
     for _ in 0..ROUNDS {
@@ -65,7 +65,7 @@ fn largest_eigenvalue(shape: &Shape, stress: impl Fn(DMat3) -> DMat3) -> f64 {
     LACKING * largest
 }
 
-/// Longest stable step [s] for a largest angular frequency squared [1/s2] and a rate of damping [1/s].
+/// Time step limit [s] for the square of the largest angular frequency [1/s2] and a damping rate [1/s].
 pub fn stable_step(frequency_squared: f64, damping_rate: f64) -> f64 {
     let omega = frequency_squared.sqrt();
     let xi = 0.5 * damping_rate / omega;

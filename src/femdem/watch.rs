@@ -1,10 +1,10 @@
-//! When a step cannot be trusted: tetrahedra turned inside out, nodes that run away, contacts that go too deep.
+//! Limits that stop an unstable run: inverted tetrahedra, nodes that are too fast or too far away, too deep contacts.
 //!
-//! | what | limit | looked at |
+//! | quantity | limit | checked |
 //! | --- | --- | --- |
-//! | volume of a tetrahedron | above zero, and a number | in every step |
-//! | speed of a node | [`SPEED`] celerities of the stiffest body, and what the case gives | in every step |
-//! | place of a node | [`REACH`] diagonals of the mesh from its middle, and the way that the case gives | by [`World::watch`] |
+//! | volume of a tetrahedron | finite and above zero | in every time step |
+//! | speed of a node | [`SPEED`] times the largest celerity, plus the speed that the case causes | in every time step |
+//! | distance from mesh middle | [`REACH`] mesh diagonals, plus the motion that the case causes | by [`World::watch`] |
 //! | overlap of two tetrahedra | [`DEPTH`] of the smaller one | by [`World::watch`] |
 
 use glam::DVec3;
@@ -14,93 +14,93 @@ use super::assembly::Nodes;
 use super::setup::{Constraint, Setup};
 use super::world::World;
 
-/// Longitudinal celerities that a node may be faster than the case makes it [-]: at one of them strains are of order one,
-/// where neither material nor strength mean anything.
+/// Limit of the node speed in longitudinal celerities, in addition to the speed that the case causes [-]. At one
+/// celerity strains are of order one, where material law and strength are no longer valid.
 pub const SPEED: f64 = 2.0;
 
-/// Diagonals of the mesh that a node may be away from its middle [-]: pieces that flew further touch nothing any more.
+/// Limit of the distance of a node from the middle of the mesh in mesh diagonals [-]; fragments beyond touch nothing.
 pub const REACH: f64 = 50.0;
 
-/// Overlap of two tetrahedra, see [`Contacts::deepest`](super::contact::pairs::Contacts::deepest) [-]: half of the
-/// smaller one is then in the other, and little is left that pushes it out on its own side.
+/// Limit of the overlap of two tetrahedra, see [`Contacts::deepest`](super::contact::pairs::Contacts::deepest) [-]:
+/// half of the smaller one is then inside the other, and the contact force hardly pushes it back out.
 pub const DEPTH: f64 = 0.25;
 
-/// Nodes that one thread takes at a time.
-const PIECE: usize = 4096;
+/// Nodes per task of the thread pool.
+const CHUNK: usize = 4096;
 
-/// Why a step cannot be trusted. Times [s].
+/// Reason why the run is unstable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepError {
-    /// A tetrahedron was turned inside out.
+    /// A tetrahedron is inverted.
     Inverted {
-        /// Its number.
+        /// Number of the tetrahedron.
         tet: usize,
-        /// When.
+        /// Time [s].
         time: f64,
     },
-    /// The place of a node is no finite number.
+    /// The position of a node is not finite.
     NotFinite {
-        /// Its number.
+        /// Number of the node.
         node: usize,
-        /// When.
+        /// Time [s].
         time: f64,
     },
     /// A node is too fast.
     TooFast {
-        /// Its number.
+        /// Number of the node.
         node: usize,
-        /// Its speed, and the most that is allowed [m/s].
+        /// Its speed and the limit [m/s].
         speed: [f64; 2],
-        /// When.
+        /// Time [s].
         time: f64,
     },
     /// A node is too far away.
     Escaped {
-        /// Its number.
+        /// Number of the node.
         node: usize,
-        /// Its distance from the middle of the mesh, and the most that is allowed [m].
+        /// Its distance from the middle of the mesh and the limit [m].
         distance: [f64; 2],
-        /// When.
+        /// Time [s].
         time: f64,
     },
-    /// Two tetrahedra are too deep in each other.
+    /// The overlap of two tetrahedra is too deep.
     TooDeep {
-        /// Their numbers.
+        /// Numbers of the tetrahedra.
         tets: [u32; 2],
-        /// Their overlap over the smaller one [-].
+        /// Overlap over the volume of the smaller one [-].
         share: f64,
-        /// When.
+        /// Time [s].
         time: f64,
     },
 }
 
-/// What nodes must not exceed.
+/// Limits of the motion of nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Limits {
     /// Middle of the mesh [m].
     centre: DVec3,
-    /// Distance from it [m].
+    /// Distance limit from the middle, without the motion that the case causes [m].
     reach: f64,
-    /// Speed besides what the case gives [m/s].
+    /// Speed limit, without the speed that the case causes [m/s].
     speed: f64,
-    /// Largest speed that the case gives at the start, or by a constraint [m/s].
+    /// Largest initial or prescribed speed [m/s].
     given: f64,
-    /// Acceleration of gravity [m/s2].
+    /// Gravitational acceleration [m/s2].
     gravity: f64,
 }
 
 impl Limits {
-    /// Limits of a setup whose nodes are at their start.
+    /// Creates the limits of a setup with its initial nodes.
     pub fn new(setup: &Setup, nodes: &Nodes) -> Self {
         let low = setup.nodes.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = setup.nodes.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let celerity = setup.bodies.iter().map(|body| body.elastic.celerity()).fold(0.0, f64::max);
-        let made = setup.constraints.iter().map(Constraint::fastest);
+        let prescribed = setup.constraints.iter().map(Constraint::fastest);
         Self {
             centre: 0.5 * (low + high),
             reach: REACH * low.distance(high),
             speed: SPEED * celerity,
-            given: nodes.velocity.iter().map(|v| v.length()).chain(made).fold(0.0, f64::max),
+            given: nodes.velocity.iter().map(|v| v.length()).chain(prescribed).fold(0.0, f64::max),
             gravity: setup.gravity.length(),
         }
     }
@@ -115,22 +115,22 @@ impl Limits {
 }
 
 impl World {
-    /// Looks for nodes that have gone too far and for contacts that are too deep. Costs about as much as moving the nodes:
-    /// for now and then.
+    /// Checks for nodes that are too far away and for contacts that are too deep. This costs about as much as moving
+    /// the nodes, so it is not done in every time step.
     ///
     /// # Errors
-    /// If there is one: the first node, or the deepest contact.
+    /// Returns the first such node, or the deepest contact.
     pub fn watch(&self) -> Result<(), StepError> {
         let (time, reach, centre) = (self.time, self.limits.reach_at(self.time), self.limits.centre);
-        let distance = |place: &DVec3| place.distance(centre);
-        // Not a number counts, too.
-        let outside = |place: &DVec3| !matches!(distance(place).partial_cmp(&reach), Some(order) if order.is_le());
-        if let Some(node) = self.nodes.place.par_iter().with_min_len(PIECE).position_first(outside) {
-            let place = self.nodes.place[node];
-            if !place.is_finite() {
+        let distance = |x: &DVec3| x.distance(centre);
+        // A NaN position counts as outside, too.
+        let is_outside = |x: &DVec3| !matches!(distance(x).partial_cmp(&reach), Some(order) if order.is_le());
+        if let Some(node) = self.nodes.place.par_iter().with_min_len(CHUNK).position_first(is_outside) {
+            let position = self.nodes.place[node];
+            if !position.is_finite() {
                 return Err(StepError::NotFinite { node, time });
             }
-            return Err(StepError::Escaped { node, distance: [distance(&place), reach], time });
+            return Err(StepError::Escaped { node, distance: [distance(&position), reach], time });
         }
         match self.contacts.deepest(&self.tets) {
             Some((tets, share)) if share > DEPTH => Err(StepError::TooDeep { tets, share, time }),
@@ -138,8 +138,8 @@ impl World {
         }
     }
 
-    /// Compares the square of the largest speed with what is allowed [m2/s2]. Speeds that are not numbers show in the
-    /// tetrahedra of the next step.
+    /// Checks the square of the largest speed [m2/s2] against the limit. NaN speeds show as inverted tetrahedra in the
+    /// next time step.
     pub(super) fn check_speed(&self, fastest_squared: f64) -> Result<(), StepError> {
         let (time, limit) = (self.time, self.limits.speed_at(self.time));
         if fastest_squared <= limit * limit {
@@ -151,7 +151,7 @@ impl World {
         Err(StepError::TooFast { node, speed: [speed, limit], time })
     }
 
-    /// Why a tetrahedron has no volume any more.
+    /// Returns the error for a tetrahedron without volume: inverted, or with a node that is not finite.
     pub(super) fn why_inverted(&self, tet: usize) -> StepError {
         let time = self.time;
         let corners = self.tets.nodes[tet].map(|node| node as usize);

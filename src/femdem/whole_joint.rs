@@ -1,12 +1,12 @@
-//! Joints with neither damage nor slip behind them: nearly all of them nearly always, four at a time.
+//! Intact joints (without damage or plastic slip), four at a time. Nearly all joints are intact nearly always.
 //!
-//! What they answer is what [`super::joint::forces`] answers with an empty memory, to rounding; a joint that would get
-//! something to remember is told apart and left to it.
+//! The forces equal those of [`super::joint::forces`] with a new state, to rounding. A joint that reaches its strength
+//! is only reported, and [`super::joint::forces`] computes its forces.
 
 use super::cohesive_law::Cohesion;
 use super::lanes::{Lanes, Vectors};
 
-/// Laws of the joints in the lanes.
+/// Cohesive laws of the joints in the lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct WholeLaw<L> {
     /// p_0 [Pa].
@@ -18,33 +18,33 @@ pub struct WholeLaw<L> {
     friction: L,
 }
 
-/// Answer of the joints in the lanes.
+/// Forces of the joints in the lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct WholeAnswer<L> {
-    /// On the corners of side 0 [N]; side 1 has the negative.
+    /// Forces on the corners of side 0 [N]; side 1 has the negative.
     pub forces: [Vectors<L>; 3],
-    /// Positive where a joint opens beyond its peak or slips beyond its strength: the forces do not count there.
+    /// Positive if a joint opens beyond its peak or slips beyond its strength; its forces are then not valid.
     pub beyond: L,
 }
 
 impl<L: Lanes> WholeLaw<L> {
-    /// Laws from a function of the lane.
+    /// Builds the laws from a function of the lane.
     #[inline(always)]
-    pub fn from_fn<'a>(of: impl Fn(usize) -> &'a Cohesion) -> Self {
+    pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Cohesion) -> Self {
         Self {
-            penalty: L::from_fn(|lane| of(lane).penalty),
-            tensile: L::from_fn(|lane| of(lane).strength.tensile),
-            per_tensile: L::from_fn(|lane| 0.5 / of(lane).strength.tensile),
-            cohesion: L::from_fn(|lane| of(lane).strength.cohesion),
-            friction: L::from_fn(|lane| of(lane).strength.friction),
+            penalty: L::from_fn(|lane| f(lane).penalty),
+            tensile: L::from_fn(|lane| f(lane).strength.tensile),
+            per_tensile: L::from_fn(|lane| 0.5 / f(lane).strength.tensile),
+            cohesion: L::from_fn(|lane| f(lane).strength.cohesion),
+            friction: L::from_fn(|lane| f(lane).strength.friction),
         }
     }
 
-    /// Forces of joints of the mean edge lengths h [m] and undeformed areas [m2], corners of both sides at `sides` [m].
+    /// Computes the forces from mean edge lengths h [m], undeformed areas [m2] and the corners of both sides [m].
     #[inline(always)]
     pub fn forces(&self, edge: L, area: L, [a, b]: &[[Vectors<L>; 3]; 2]) -> WholeAnswer<L> {
         let jump = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-        // Of the mid-surface, twice as large.
+        // Corner of the mid-surface, scaled by two.
         let corner = a[0] + b[0];
         let normal = (a[1] + b[1] - corner).cross(a[2] + b[2] - corner);
         let normal = normal * (L::splat(1.0) / normal.dot(normal).sqrt());
@@ -53,7 +53,7 @@ impl<L: Lanes> WholeLaw<L> {
         let p = self.respond(stiffness, (jump[0] + jump[1]) * half, normal);
         let q = self.respond(stiffness, (jump[1] + jump[2]) * half, normal);
         let r = self.respond(stiffness, (jump[2] + jump[0]) * half, normal);
-        // A third of the area to a point; half of it to each end of the edge.
+        // Each point has a third of the area; each end of its edge gets half of the force.
         let share = area * L::splat(1.0 / 6.0);
         WholeAnswer {
             forces: [(p.0 + r.0) * share, (p.0 + q.0) * share, (q.0 + r.0) * share],
@@ -61,7 +61,7 @@ impl<L: Lanes> WholeLaw<L> {
         }
     }
 
-    /// Stress vector at a jump of the places [m], eq. 2 and elastic slip, and by how much it is beyond what is elastic.
+    /// Traction at a jump of the positions [m], by eq. 2 and elastic slip, and its excess over the elastic limit.
     #[inline(always)]
     fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
         let zero = L::splat(0.0);
@@ -89,7 +89,7 @@ mod tests {
     use crate::random::SplitMix64;
 
     #[test]
-    fn a_whole_joint_answers_like_one_with_an_empty_memory() {
+    fn intact_joint_forces_equal_those_of_the_general_joint() {
         let strength =
             Strength { tensile: 3.3e6, cohesion: 16.5e6, friction: 0.577, opening_energy: 50.0, sliding_energy: 50.0 };
         let cohesion = Cohesion { strength, penalty: 50.0 * 26e9, range: Range::Exact, tied: false };
@@ -98,9 +98,9 @@ mod tests {
         let mut random = SplitMix64::new(5);
         let (mut whole, mut worn) = (0, 0);
         for _ in 0..2000 {
-            // Around the openings and slips of the strength, 0.15 and 0.37 micrometres.
-            let mut away = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
-            let sides = [corners.map(|corner| corner - away()), corners.map(|corner| corner + away() - away())];
+            // Around the opening and slip at the strength, 0.15 and 0.37 micrometres.
+            let mut offset = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
+            let sides = [corners.map(|corner| corner - offset()), corners.map(|corner| corner + offset() - offset())];
             let mut memory = Memory::default();
             let expected = joint::forces(&cohesion.law(edge), area, &mut memory, &sides);
             let lanes = sides.map(|side| side.map(|corner| Vectors::<Portable>::from_fn(|_| corner)));
@@ -114,7 +114,7 @@ mod tests {
             }
             whole += 1;
             for (found, expected) in found.forces.into_iter().zip(expected.forces) {
-                // Rounding of places of 3 cm, of which jumps of a tenth of a micrometre are the differences.
+                // Rounding: jumps of 0.1 micrometres are differences of positions of 3 cm.
                 assert!((found.to_array()[0] - expected).length() < 1e-9 * expected.length() + 1e-6);
             }
         }

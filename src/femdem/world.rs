@@ -1,8 +1,8 @@
-//! Deformable bodies in motion: the step of the combined finite-discrete element method.
+//! The time step of the combined finite-discrete element method.
 //!
-//! Joints, tetrahedra, contact, nodes: every loop computes what it owns from what it reads (no scatter, no atomics), so
-//! that the bits are the same for any number of threads. Velocities stand half a step before the places (central
-//! differences; the paper's eqs. 9 and 10).
+//! A time step has four loops: joints, tetrahedra, contacts, nodes. Each loop only writes what it owns (no scatter, no
+//! atomics), so results are bitwise equal for any number of threads. Velocities are half a time step before the
+//! positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -21,29 +21,29 @@ use super::setup::{Body, Setup};
 use super::time_step;
 use super::watch::{Limits, StepError};
 
-/// Items of one task of the thread pool; sums are taken over these first, so that they have one order.
+/// Items per task of the thread pool. Sums are taken per task first, so their order does not depend on the threads.
 pub(super) const PIECE: usize = 512;
 
-/// A face that has failed.
+/// A broken face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Failure {
     /// Number of the interface.
     pub interface: u32,
-    /// When [s].
+    /// Time of breaking [s].
     pub time: f64,
-    /// Middle of the undeformed face [m].
+    /// Centroid of the undeformed face [m].
     pub place: DVec3,
     /// Undeformed area [m2].
     pub area: f64,
-    /// It slid (mode II) more than it opened (mode I).
+    /// Whether sliding (mode II) dissipated more energy than opening (mode I).
     pub by_sliding: bool,
-    /// Energy that it took [J].
+    /// Dissipated energy [J].
     pub dissipated: f64,
-    /// Energy of that which its spring had when it came free [J].
+    /// Part of the dissipated energy that was elastic energy at the release of the tied face [J].
     pub freed: f64,
 }
 
-/// Deformable bodies.
+/// A world of deformable bodies, joints and contacts.
 #[derive(Debug, Clone)]
 pub struct World {
     // Parameters.
@@ -51,7 +51,7 @@ pub struct World {
     pub(super) moduli: Vec<Moduli>,
     /// Least strength of each body [Pa].
     strength: Vec<f64>,
-    /// Step [s].
+    /// Time step [s].
     pub dt: f64,
     // State.
     /// Time [s].
@@ -60,15 +60,15 @@ pub struct World {
     pub nodes: Nodes,
     /// Tetrahedra.
     pub tets: Tets,
-    /// Faces between tetrahedra of bodies that crack.
+    /// Joints between tetrahedra of bodies that can crack.
     pub joints: Joints,
-    /// Faces that have failed, in order of time.
+    /// Broken faces, in order of time.
     pub failures: Vec<Failure>,
     /// Contacts.
     pub contacts: Contacts,
-    /// Bodies that are not deformed.
+    /// Rigid bodies.
     pub rigid_bodies: Vec<RigidBody>,
-    /// All copies of every node of the mesh.
+    /// All copies of every mesh node.
     pub(super) around: Vec<Vec<Copy4>>,
     pub(super) lost: Ledger,
     pub(super) gravity_at_start: f64,
@@ -80,13 +80,13 @@ pub struct World {
 }
 
 impl World {
-    /// World at its start; its step is `share` of the longest stable one.
+    /// Creates a world in its initial state; its time step is `share` times the time step limit.
     pub fn new(setup: Setup, share: f64) -> Self {
         let joints = Joints::new(&setup);
         let (nodes, mut tets) = assembly::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
         joints.mark(&setup, &mut tets);
         let rigid_bodies = RigidBody::all(&setup, &nodes, &tets);
-        // Without moduli, tetrahedra of rigid bodies have no forces.
+        // With zero moduli, tetrahedra of rigid bodies have no forces.
         let moduli_of = |body: &Body| if body.rigid { Moduli::default() } else { Moduli::from(&body.elastic) };
         let moduli = setup.bodies.iter().map(moduli_of).collect();
         let count = setup.tets.len();
@@ -120,14 +120,14 @@ impl World {
         world
     }
 
-    /// What the world is made of.
+    /// Returns the input of the world.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// The longest stable step [s]; every face counts as a joint that could come free.
+    /// Computes the time step limit [s]; every face counts as a joint, because a tied face may be released.
     pub fn longest_step(&self) -> f64 {
-        let step = |t: usize| {
+        let limit = |t: usize| {
             let body = &self.setup.bodies[usize::from(self.tets.body[t])];
             let shape = &self.tets.shape[t];
             let mass = 0.25 * body.elastic.density * shape.volume;
@@ -140,28 +140,28 @@ impl World {
                     (0..4).filter(|k| *k != face).for_each(|k| springs[k] += stiffness);
                 }
             }
-            let pressed = time_step::contact_stiffness(shape, body.contact_penalty);
+            let contact = time_step::contact_stiffness(shape, body.contact_penalty);
             if body.rigid {
-                // Only what can touch counts. Nodes that move as one answer less than those of a tetrahedron alone.
-                let touches = pressed > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
-                return if touches { time_step::stable_step(2.0 * pressed / mass, 0.0) } else { f64::INFINITY };
+                // Only contact limits the time step. A rigid body moves less than its tetrahedra alone would.
+                let touches = contact > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
+                return if touches { time_step::stable_step(2.0 * contact / mass, 0.0) } else { f64::INFINITY };
             }
-            let springs = 2.0 * springs.into_iter().fold(pressed, f64::max) / mass;
+            let springs = 2.0 * springs.into_iter().fold(contact, f64::max) / mass;
             let frequency_squared = time_step::element_frequency_squared(shape, &body.elastic) + springs;
             time_step::stable_step(frequency_squared, time_step::element_damping_rate(shape, &body.elastic))
         };
-        (0..self.tets.nodes.len()).into_par_iter().map(step).reduce(|| f64::INFINITY, f64::min)
+        (0..self.tets.nodes.len()).into_par_iter().map(limit).reduce(|| f64::INFINITY, f64::min)
     }
 
-    /// Take one step.
+    /// Advances the world by one time step.
     ///
     /// # Errors
-    /// If a tetrahedron is turned inside out, or a node is too fast or not a number.
+    /// If a tetrahedron is inverted, or a node is too fast or not finite.
     pub fn step(&mut self) -> Result<(), StepError> {
         self.advance(false, None).map(|_| ())
     }
 
-    /// Take one step, and tell the energy book at its start.
+    /// Advances the world by one time step and returns the energy balance at its start.
     ///
     /// # Errors
     /// As [`Self::step`].
@@ -169,7 +169,7 @@ impl World {
         self.advance(true, None)
     }
 
-    /// Take one step, and tell the energy book at its start with each body's part of it.
+    /// Advances the world by one time step and returns the energy balance at its start, total and per body.
     ///
     /// # Errors
     /// As [`Self::step`].
@@ -179,12 +179,12 @@ impl World {
         Ok((ledger, bodies))
     }
 
-    fn advance(&mut self, book: bool, mut bodies: Option<&mut Vec<BodyEnergy>>) -> Result<Ledger, StepError> {
+    fn advance(&mut self, with_energies: bool, mut bodies: Option<&mut Vec<BodyEnergy>>) -> Result<Ledger, StepError> {
         self.joints.pull(&self.setup, &self.tets, &self.nodes, self.dt);
         let viscous_power = self.deform_tets()?;
         self.press_contacts();
         self.apply_loads();
-        let mut ledger = if book { self.energies(viscous_power) } else { Ledger::default() };
+        let mut ledger = if with_energies { self.energies(viscous_power) } else { Ledger::default() };
         let before = bodies.as_mut().map(|bodies| {
             **bodies = self.body_energies();
             self.nodes.velocity.clone()
@@ -196,7 +196,7 @@ impl World {
             self.add_kinetic_energies(bodies, &before);
         }
         ledger.kinetic = kinetic;
-        // Half of the work of this step is done after its start.
+        // Half of the work of this time step belongs to the balance at its start.
         ledger.work += 0.5 * work;
         self.lost.viscous += self.dt * viscous_power;
         self.lost.work += work;
@@ -207,34 +207,34 @@ impl World {
         Ok(ledger)
     }
 
-    /// Forces of the tetrahedra on their vertices, with those of the joints at their faces; the power of viscosity [W].
+    /// Computes the forces of tetrahedra and joints on the vertices. Returns the viscous power [W].
     fn deform_tets(&mut self) -> Result<f64, StepError> {
         let Self { deformation, joints, tets, nodes, moduli, strength, .. } = self;
         let bodies = Bodies { tets, nodes, moduli, strength, joints: &joints.forces };
         deformation.compute(bodies).map_err(|tet| self.why_inverted(tet))
     }
 
-    /// Contact forces at the present places.
+    /// Adds the contact forces at the current positions.
     fn press_contacts(&mut self) {
         let Self { contacts, setup, tets, nodes, joints, deformation, dt, .. } = self;
         let is_broken = |face: usize| joints.bond[face] == Bond::Broken;
         contacts.press(setup, tets, [&nodes.place, &nodes.velocity], *dt, is_broken, &mut deformation.forces);
     }
 
-    /// Undeformed area of the faces that have failed [m2].
+    /// Undeformed area of all broken faces [m2].
     pub fn crack_area(&self) -> f64 {
-        // From zero on: the sum of nothing is -0.
+        // `sum` of an empty iterator would be -0.
         self.failures.iter().map(|failure| failure.area).fold(0.0, |sum, area| sum + area)
     }
 
-    /// Undeformed place of a node [m].
+    /// Undeformed position of a node [m].
     pub fn place_at_start(&self, node: usize) -> DVec3 {
         let copy = self.nodes.ties.of(node)[0] as usize;
         self.setup.nodes[self.setup.tets[copy / 4][copy % 4] as usize]
     }
 }
 
-/// Contacts in which what unbroken faces hold together around a node does not touch.
+/// Creates the contacts; tetrahedra that unbroken faces connect around a node do not touch.
 pub(super) fn contacts(setup: &Setup, tets: &Tets, around: &[Vec<Copy4>], joints: &Joints) -> Contacts {
     let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
     let around = around.iter().filter(|copies| !copies.is_empty());

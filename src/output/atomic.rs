@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all.
+//! Atomic writing of files.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -6,11 +6,11 @@ use std::path::Path;
 
 use super::OutputError;
 
-/// Writes `bytes` to `path` so that a reader, or a run killed half way, finds the old file or the new one, never a
-/// part: written beside it under a temporary name, synced to the disk, renamed.
+/// Writes `bytes` to `path` atomically: to a temporary file in the same folder, synced to disk, then renamed. Even if
+/// the run is killed, readers find the complete old or the complete new file.
 ///
 /// # Errors
-/// If the file cannot be written; the old one is then untouched.
+/// If the file cannot be written. The old file is then unchanged.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".part");
@@ -29,7 +29,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn replaces_the_file_and_leaves_nothing_beside_it() {
+    fn writing_replaces_the_file_and_leaves_no_temporary_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("checkpoint.bin");
         write_atomically(&path, b"first").unwrap();
@@ -39,7 +39,7 @@ mod tests {
     }
 
     #[test]
-    fn names_the_file_that_cannot_be_written() {
+    fn an_error_names_the_file_that_cannot_be_written() {
         let error = write_atomically(Path::new("/nowhere/at/all.json"), b"x").unwrap_err();
         assert!(error.to_string().starts_with("/nowhere/at/all.json: "), "{error}");
     }

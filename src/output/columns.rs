@@ -1,10 +1,10 @@
-//! Names of the columns in the tables of a run folder, units in the names.
+//! Column names of the tables in a run folder. The names include the units.
 //!
-//! `time_s` is the time of the flume in every table: 0 when the paddle starts.
+//! `time_s` is flume time in every table of a flume case: 0 when the wavemaker starts.
 
-/// `units.csv`: one row for each unit and moment. `unit` counts from 1; position and orientation (quaternion) are those
-/// of the centre of mass and the body axes at that moment; `fluid_*` is what the water does, `contact_*` what bed and
-/// neighbours do, forces [N] and torques [N m] about the centre of mass, as means over the time since the row before.
+/// `units.csv`: one row per unit and moment. `unit` counts from 1. Position is that of the centre of mass, orientation
+/// that of the body axes (quaternion). `fluid_*` is the load of the water, `contact_*` that of bed and neighbouring
+/// units: forces [N] and torques [N m] about the centre of mass, averaged over the time since the previous row.
 pub const UNITS: [&str; 27] = [
     "time_s",
     "unit",
@@ -35,9 +35,9 @@ pub const UNITS: [&str; 27] = [
     "contact_tz_nm",
 ];
 
-/// `contacts.csv`: one row for each contact event. `partner` is the other unit, counted from 1, or 0 for the bed;
-/// `bx_m`, `by_m`, `bz_m` is the place in the axes of the unit, from its centre of mass; `rebound_m_s` the normal velocity
-/// at the end, positive when parting.
+/// `contacts.csv`: one row per contact event. `partner` is the other unit, counted from 1, or 0 for the bed. `bx_m`,
+/// `by_m`, `bz_m` is the contact position in the body axes of the unit, from its centre of mass. `rebound_m_s` is the
+/// normal velocity at the end, positive when separating.
 pub const CONTACTS: [&str; 15] = [
     "start_s",
     "end_s",
@@ -56,14 +56,14 @@ pub const CONTACTS: [&str; 15] = [
     "rebound_m_s",
 ];
 
-/// `energy.csv` of a dry run: slope of the bed; energy of the units and of their contacts; what friction and dashpots
-/// have turned into heat since the start.
+/// `energy.csv` of a dry test: slope of the bed, energy of the units and of their contacts, energy dissipated by
+/// friction and contact damping since the start.
 pub const DRY_ENERGY: [&str; 7] =
     ["time_s", "slope_deg", "kinetic_j", "potential_j", "elastic_j", "friction_j", "damping_j"];
 
-/// `energy.csv`: energy of the water and of the units; `from_*`: energy that the water has received since the start
-/// from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion and from damping and
-/// relaxation zone.
+/// `energy.csv`: energy of the water and of the units. `from_*`: energy that the water received since the start from
+/// bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion, and from the damping and
+/// relaxation zones.
 pub const ENERGY: [&str; 10] = [
     "time_s",
     "kinetic_j",
@@ -77,9 +77,8 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
-/// `energy.csv` of a fracture run: what there is, what was lost and given since the start (`freed_j`: what the springs of
-/// tied joints had when they came free), what is left unexplained; area of the faces that have failed, and pairs of
-/// tetrahedra that press each other.
+/// `energy.csv` of a fracture run: stored energy; energy dissipated and supplied since the start (`freed_j`: energy in
+/// the springs of tied joints at their release); residual; area of failed faces; pairs of tetrahedra in contact.
 pub const FRACTURE_ENERGY: [&str; 14] = [
     "time_s",
     "kinetic_j",
@@ -97,22 +96,22 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
     "pairs_touching",
 ];
 
-/// `bodies.csv` of a fracture run, a row for each body at the times of the energy book: what the body has, what its
-/// joints have lost since the start, its largest first principal stress now; `body` counts from 0 in the order of the
-/// mesh.
+/// `bodies.csv` of a fracture run: one row per body at the times of the energy balance. It holds the stored energy, the
+/// energy dissipated in the body's joints since the start, and the current largest first principal stress. `body`
+/// counts from 0 in the order of the mesh.
 pub const FRACTURE_BODIES: [&str; 8] =
     ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j", "sigma_1_pa"];
 
-/// `cracks.csv` of a fracture run, a row for each face that has failed, in order of time: middle of the undeformed face, its
-/// area; `mode` 1 is opening, 2 sliding; `body` counts from 0 in the order of the mesh, as in the VTKHDF files.
+/// `cracks.csv` of a fracture run: one row per failed face, in order of time, with centre and area of the undeformed
+/// face. `mode` 1 is opening, 2 sliding. `body` counts from 0 in the order of the mesh, as in the VTKHDF files.
 pub const CRACKS: [&str; 7] = ["time_s", "x_m", "y_m", "z_m", "area_m2", "mode", "body"];
 
-/// `fragments.csv` of a fracture run: the pieces at its end, the heaviest first; centre of mass and its velocity.
+/// `fragments.csv` of a fracture run: the pieces at its end, the heaviest first; centre of mass and velocity.
 pub const FRAGMENTS: [&str; 10] =
     ["fragment", "body", "tets", "mass_kg", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"];
 
-/// `breakage.csv`, a row for each unit: how far it moved, and what the impacts that were handed over did to it in the
-/// prototype; fields are empty where none was.
+/// `breakage.csv`: one row per unit with its displacement and the results of its impacts re-run at prototype scale.
+/// The results are empty if none of its impacts was re-run.
 pub const BREAKAGE: [&str; 10] = [
     "unit",
     "displacement_m",
@@ -126,10 +125,10 @@ pub const BREAKAGE: [&str; 10] = [
     "broken",
 ];
 
-/// `diagnostics.csv`: whether the run is sound. `volume_m3` is the sum of m / rho over the water, `volume_change_m3`
-/// its change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all
-/// steps since the row before, `rms_divergence_1_s` is the root mean square of div v over the water, `steps` counts from
-/// the start, `dt_s` is the length of the step that comes. `lost_particles` is 0 in a sound run.
+/// `diagnostics.csv`: checks of the run. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its
+/// change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all time
+/// steps since the previous row. `rms_divergence_1_s` is the root mean square of div v over the water. `steps` counts
+/// from the start, `dt_s` is the next time step. `lost_particles` must stay 0.
 pub const DIAGNOSTICS: [&str; 10] = [
     "time_s",
     "volume_m3",
@@ -143,10 +142,10 @@ pub const DIAGNOSTICS: [&str; 10] = [
     "lost_particles",
 ];
 
-/// `profile.csv`: corner points of the bed with the mound.
+/// `profile.csv`: corner points of the bed profile with the mound.
 pub const PROFILE: [&str; 2] = ["x_m", "z_m"];
 
-/// Column of the surface elevation above the still water [m] at the gauge `name` (`gauges.csv`, `flume_gauges.csv`).
+/// Column of the elevation above still water level [m] at the gauge `name` (`gauges.csv`, `flume_gauges.csv`).
 pub fn elevation(name: &str) -> String {
     format!("{name}_eta_m")
 }
@@ -161,7 +160,7 @@ pub fn velocity(name: &str) -> [String; 3] {
     ["u", "v", "w"].map(|c| format!("{name}_{c}_m_s"))
 }
 
-/// A row of the contacts; `offset` leads from their clock to that of the table [s].
+/// Row of `contacts.csv`; `offset` is added to the times of the event [s].
 pub fn contact_row(event: &crate::rigid::ContactEvent, offset: f64) -> [f64; 15] {
     let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
     [

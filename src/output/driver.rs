@@ -1,6 +1,6 @@
-//! The loop that every run shares: steps, progress, the last outputs, a failed or interrupted run.
+//! Run loop shared by all runs: time steps, progress, final outputs, failures and interruptions.
 //!
-//! A run of any kind implements [`Run`]; [`drive`] takes it to its end.
+//! Every kind of run implements [`Run`]; [`drive`] runs it to its end.
 
 use std::{
     error::Error,
@@ -16,25 +16,25 @@ use thiserror::Error;
 
 use super::{OutputError, progress::Progress};
 
-/// Why a run of any kind ended early.
+/// Why a run ended early.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The case cannot be set up: the input is at fault.
+    /// The case cannot be set up because of its input.
     #[error(transparent)]
     Setup(Box<dyn Error + Send + Sync>),
     /// A file cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The state has become impossible; the state before the failing time step is kept.
-    #[error("{failure}\nThe state is kept in {kept}; the last regular checkpoint is unchanged.")]
+    /// The state became invalid. The state before the failing time step is kept.
+    #[error("{failure}\nThe state before the failure is in {kept}; the last regular checkpoint is unchanged.")]
     Failed {
-        /// What happened.
+        /// Cause of the failure.
         failure: Box<dyn Error + Send + Sync>,
-        /// File with the state.
+        /// File with the state before the failing time step.
         kept: String,
     },
     /// The user stopped the run.
-    #[error("stopped by the user at {time:.4} s; continue with: breakwater resume {}", dir.display())]
+    #[error("stopped by the user at {time:.4} s; resume with: breakwater resume {}", dir.display())]
     Interrupted {
         /// Simulated time [s].
         time: f64,
@@ -44,23 +44,23 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// For `map_err`: the case cannot be set up.
+    /// Wraps a setup error, for `map_err`.
     pub fn setup(error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Setup(error.into())
     }
 }
 
-/// Why a time step could not be made.
+/// Why a time step failed.
 #[derive(Debug)]
 pub enum StepFailure {
     /// A file cannot be written.
     Output(OutputError),
-    /// The state has become impossible.
+    /// The state became invalid.
     Failure(Box<dyn Error + Send + Sync>),
 }
 
 impl StepFailure {
-    /// For `map_err`: the state has become impossible.
+    /// Wraps the cause of an invalid state, for `map_err`.
     pub fn failure(failure: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Failure(failure.into())
     }
@@ -72,25 +72,25 @@ impl From<OutputError> for StepFailure {
     }
 }
 
-/// How the user accompanies a run.
+/// User control of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Control {
-    /// No progress.
+    /// Whether progress is hidden.
     pub quiet: bool,
-    /// Once this is true, the run writes a checkpoint and ends.
+    /// If set to true, the run writes a checkpoint and ends.
     pub stop: Arc<AtomicBool>,
 }
 
 impl Control {
-    /// No progress, and nothing that stops the run.
+    /// Returns a control without progress output and without a stop signal.
     pub fn quiet() -> Self {
         Self { quiet: true, ..Self::default() }
     }
 
-    /// Let Ctrl-C and SIGTERM stop the run with a checkpoint; a second signal ends the process at once.
+    /// Makes Ctrl-C and SIGTERM stop the run with a checkpoint; a second signal ends the process at once.
     ///
     /// # Errors
-    /// If the operating system refuses.
+    /// If the operating system refuses the signal handlers.
     pub fn catch_signals(&self) -> io::Result<()> {
         for signal in signal_hook::consts::TERM_SIGNALS {
             signal_hook::flag::register_conditional_shutdown(*signal, 1, self.stop.clone())?;
@@ -100,71 +100,71 @@ impl Control {
     }
 }
 
-/// Where a run stands.
+/// Progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// Simulated time [s].
     pub time: f64,
-    /// Simulated time at which the run ends at the latest [s].
+    /// Latest end of the run, in simulated time [s].
     pub end: f64,
-    /// Steps made, in all sessions.
+    /// Number of time steps in all sessions.
     pub steps: u64,
 }
 
-/// What the driver tells a run before each step.
+/// Information from the driver to a run before each time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Session {
-    /// Wall clock since this session began [s].
+    /// Wall-clock time since the start of this session [s].
     pub wall: f64,
-    /// Whether the user wants the run to stop with a checkpoint.
+    /// Whether the run must stop with a checkpoint.
     pub stop: bool,
 }
 
-/// What a step came to.
+/// Result of a call of [`Run::step`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step<Summary> {
     /// The run continues.
     Made,
-    /// The run is over, and all its files are written.
+    /// The run has ended, and all its files are written.
     Ended(Summary),
-    /// The user has stopped the run, and its checkpoint is written.
+    /// The user stopped the run, and its checkpoint is written.
     Stopped,
 }
 
-/// A run as the driver sees it.
+/// Interface of a run for the driver.
 pub trait Run {
-    /// The run in a few numbers.
+    /// Summary of the run.
     type Summary;
 
-    /// Where the run stands.
+    /// Returns the progress of the run.
     fn clock(&self) -> Clock;
 
-    /// Evaluates the present state. Then it writes the outputs that are due and makes one time step, or writes the last
-    /// outputs and the summary, or writes a checkpoint because the user stops the run.
+    /// Evaluates the current state. Then writes the outputs that are due and makes one time step, or writes the final
+    /// outputs and the summary at the end, or writes a checkpoint if the user stops the run.
     ///
     /// # Errors
-    /// If a file cannot be written or the state has become impossible.
+    /// If a file cannot be written or the state became invalid.
     fn step(&mut self, session: Session) -> Result<Step<Self::Summary>, StepFailure>;
 
-    /// Writes the state before a failing step to a file of its own, whose path it returns.
+    /// Writes the state before a failing time step to a separate file and returns its path.
     ///
     /// # Errors
     /// If the file cannot be written.
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError>;
 
-    /// What the progress line shows besides the time.
+    /// Details for the progress line, after the time.
     fn details(&self) -> String;
 
-    /// All warnings so far.
+    /// Returns all warnings so far.
     fn warnings(&self) -> &[String] {
         &[]
     }
 }
 
-/// Take a run whose files lie in `dir` to its end.
+/// Runs a simulation with the run folder `dir` to its end.
 ///
 /// # Errors
-/// If a file cannot be written, the state becomes impossible, or the user stops the run.
+/// If a file cannot be written, the state becomes invalid, or the user stops the run.
 pub fn drive<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Summary, RunError> {
     let clock = run.clock();
     let mut progress = Progress::new(clock.end, clock.time, clock.steps, control.quiet);
@@ -189,7 +189,7 @@ pub fn drive<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Sum
     }
 }
 
-/// Keeps the state of a failed run next to its last good checkpoint.
+/// Saves the state of a failed run next to its last good checkpoint.
 fn keep_failed<R: Run>(run: &mut R, error: StepFailure) -> RunError {
     match error {
         StepFailure::Output(error) => RunError::Output(error),

@@ -1,32 +1,32 @@
-//! What can go wrong when files of a run are written or read.
+//! Errors when files of a run are written or read.
 
 use std::path::{Path, PathBuf};
 
 use crate::sph::backend::DeviceError;
 
-/// A file of a run folder could not be written, read or understood.
+/// A file of a run folder cannot be written or read, or is invalid.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// What is to be written cannot be had from the device any more.
+    /// The data to be written cannot be read from the device.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// The operating system refused.
+    /// An input or output operation failed.
     #[error("{}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// The HDF5 library refused.
+    /// An HDF5 operation failed.
     #[error("{}: HDF5: {source}", path.display())]
     Hdf5 {
         /// The file.
         path: PathBuf,
-        /// What the library said.
+        /// Error of the HDF5 library.
         source: hdf5_metno::Error,
     },
-    /// A JSON file is not what it should be.
+    /// A JSON file is invalid.
     #[error("{}: {source}", path.display())]
     Json {
         /// The file.
@@ -34,7 +34,7 @@ pub enum OutputError {
         /// What is wrong, with line and column.
         source: serde_json::Error,
     },
-    /// The content of a file is not what it should be.
+    /// The content of a file is invalid.
     #[error("{}: {what}", path.display())]
     Content {
         /// The file.
@@ -42,33 +42,33 @@ pub enum OutputError {
         /// What is wrong, and what is needed.
         what: String,
     },
-    /// The run does not belong to the published experiment it should be compared with.
+    /// The run does not match the published experiment for the comparison.
     #[error("{}: {what}", path.display())]
     NoReference {
         /// The run's summary.
         path: PathBuf,
-        /// What does not fit, and what would.
+        /// What does not match, and what is needed.
         what: String,
     },
 }
 
 impl OutputError {
-    /// For `map_err`: an input or output error of the file at `path`.
+    /// Wraps an input or output error of the file at `path`, for `map_err`.
     pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
         move |source| Self::Io { path: path.to_owned(), source }
     }
 
-    /// For `map_err`: an HDF5 error of the file at `path`.
+    /// Wraps an HDF5 error of the file at `path`, for `map_err`.
     pub(crate) fn hdf5(path: &Path) -> impl FnOnce(hdf5_metno::Error) -> Self + '_ {
         move |source| Self::Hdf5 { path: path.to_owned(), source }
     }
 
-    /// For `map_err`: a JSON error of the file at `path`.
+    /// Wraps a JSON error of the file at `path`, for `map_err`.
     pub(crate) fn json(path: &Path) -> impl FnOnce(serde_json::Error) -> Self + '_ {
         move |source| Self::Json { path: path.to_owned(), source }
     }
 
-    /// The content of the file at `path` is not what it should be.
+    /// Creates an error for invalid content of the file at `path`.
     pub(crate) fn content(path: &Path, what: impl Into<String>) -> Self {
         Self::Content { path: path.to_owned(), what: what.into() }
     }

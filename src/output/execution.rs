@@ -1,27 +1,27 @@
-//! How long a run took, and on which machine.
+//! Computing time and machine of a run.
 
 use serde::{Deserialize, Serialize};
 use sysinfo::{CpuRefreshKind, System};
 
-/// Time and machine: the keys in which two runs of one case may differ.
+/// Computing time and machine: the only keys in which two runs of one case may differ.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Execution {
-    /// Wall clock [s], all sessions of a resumed run together.
+    /// Wall-clock time of all sessions [s].
     pub wall_s: f64,
-    /// Time steps a second of wall clock [1/s].
+    /// Time steps per second of wall-clock time [1/s].
     pub steps_per_s: f64,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
-    /// What computed the water; none in runs without water.
+    /// Device that computed the water; none in runs without water.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<String>,
-    /// The processor that the run ended on; none if the system does not tell, or in older files.
+    /// Processor on which the run ended; none if the system does not report it, or in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub processor: Option<String>,
 }
 
 impl Execution {
-    /// Of `steps` in `wall` [s] on this machine, with the threads at hand; `device` is what computed the water.
+    /// Describes a run of `steps` time steps in `wall` [s] on this machine; `device` computed the water.
     pub fn here(wall: f64, steps: f64, device: Option<&str>) -> Self {
         Self {
             wall_s: wall,
@@ -33,7 +33,7 @@ impl Execution {
     }
 }
 
-/// Name of this machine's processor as the system says it, and how many of it (hardware threads) there are.
+/// Name of the processor as the system reports it, with the number of hardware threads.
 fn processor() -> Option<String> {
     let mut system = System::new();
     system.refresh_cpu_list(CpuRefreshKind::nothing());
@@ -46,16 +46,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_says_how_fast_it_was_and_where() {
+    fn execution_records_speed_device_and_processor() {
         let execution = Execution::here(4.0, 10.0, Some("CPU"));
         assert_eq!((execution.wall_s, execution.steps_per_s, execution.device.as_deref()), (4.0, 2.5, Some("CPU")));
         assert_eq!(execution.threads, rayon::current_num_threads());
-        // Not every system names its processor; one that is named is counted.
+        // Not every system reports its processor; a reported one has a thread count.
         assert!(execution.processor.is_none_or(|name| name.ends_with(')') && name.len() > 3));
     }
 
     #[test]
-    fn nothing_was_computed_in_no_time() {
+    fn a_run_without_steps_has_zero_speed() {
         assert_eq!(Execution::here(0.0, 0.0, None).steps_per_s, 0.0);
     }
 }

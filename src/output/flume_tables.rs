@@ -1,4 +1,4 @@
-//! Tables of the flume model: elevation at the gauges, motion of the piston.
+//! Tables of the flume model: surface elevation at the gauges and motion of the piston.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use crate::{
     waves::{record::FlumeRecord, solitary::SolitaryWave},
 };
 
-/// Time between rows of the piston's motion, at most [s].
+/// Maximum time between rows of the piston motion [s].
 const PISTON_INTERVAL: f64 = 0.02;
 
-/// Elevations of the flume model at the elevation gauges of the case.
+/// Writes the surface elevation of the flume model at the elevation gauges of the case.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -26,7 +26,7 @@ pub fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Res
     series.append_rows(record.times_s().iter().enumerate().map(row))
 }
 
-/// Motion of the flume's own piston, from the start to the end of its stroke.
+/// Writes the motion of the flume's piston, from the start to the end of its stroke.
 ///
 /// # Errors
 /// If the file cannot be written.

@@ -1,18 +1,18 @@
-//! What a run writes, what is read back from it, and the pages made of both.
+//! Files of a run folder: writing and reading.
 //!
-//! | file of a run folder | written with | holds |
+//! | file of a run folder | written with | content |
 //! | --- | --- | --- |
 //! | `case.json` | [`write_atomically`] | the case as it was run |
-//! | `profile.csv` | [`CsvSeries`] | bed with mound: `x_m`, `z_m` |
-//! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | water at the gauges, by the particles and by the flume model |
-//! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | motion and forces of the units, contact events, energy |
-//! | `impacts.h5` | [`Impacts`] | the hardest impacts of the units with their forces against time |
-//! | `diagnostics.csv` | [`CsvSeries`] | whether the run is sound: volume, Mach number, densities, steps |
-//! | `unit_surface.json` | [`UnitSurface`] | the unit's surface about its centre of mass |
+//! | `profile.csv` | [`CsvSeries`] | bed profile with the mound: `x_m`, `z_m` |
+//! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | gauge series of the particles and of the flume model |
+//! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | unit motion and forces, contact events, energy |
+//! | `impacts.h5` | [`Impacts`] | the hardest impacts of the units with their force histories |
+//! | `diagnostics.csv` | [`CsvSeries`] | checks of the run: volume, Mach number, densities, time steps |
+//! | `unit_surface.json` | [`UnitSurface`] | surface of a unit relative to its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
-//! | `report.html`, `picture.svg` | [`write_report`] | the report, and one moment of the run as a picture |
+//! | `report.html`, `picture.svg` | `report::run::write_report` | the report, and a picture of one moment of the run |
 //!
-//! The column names of the tables are in [`columns`]. What is long is written by a [`Writer`] while the run goes on.
+//! [`columns`] has the column names of the tables. A [`Writer`] writes large files while the run continues.
 
 mod atomic;
 pub mod columns;

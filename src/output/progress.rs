@@ -7,10 +7,10 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Without a terminal, a line this often.
+/// Interval of progress lines without a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(30);
 
-/// A bar on a terminal, a line now and then elsewhere; on standard error, so that standard output stays clean.
+/// Progress display on standard error: a bar on a terminal, otherwise a line at intervals.
 pub struct Progress {
     bar: Option<ProgressBar>,
     duration: f64,
@@ -21,7 +21,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Progress of a run from `time` to `duration` [s] of simulated time at most, which has made `steps` before.
+    /// Starts the display for a run from `time` to at most `duration` [s] of simulated time, after `steps` time steps.
     pub fn new(duration: f64, time: f64, steps: u64, quiet: bool) -> Self {
         let style =
             ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
@@ -32,22 +32,22 @@ impl Progress {
             begun: Instant::now(),
             begun_at: time,
             begun_steps: steps,
-            // In quiet mode no line ever becomes due.
+            // In quiet mode no line is ever due.
             last_line: if quiet { Instant::now() + Duration::from_secs(u64::from(u32::MAX)) } else { Instant::now() },
         }
     }
 
-    /// Show where the run is: time [s], steps, and what else there is to tell.
+    /// Shows the progress of the run: time [s], time steps and details.
     pub fn update(&mut self, time: f64, steps: u64, details: impl FnOnce() -> String) {
         if self.bar.is_none() && self.last_line.elapsed() < LINE_INTERVAL {
             return;
         }
         let wall = self.begun.elapsed().as_secs_f64();
         let rate = (steps - self.begun_steps) as f64 / wall.max(1e-9);
-        let done = (time - self.begun_at) / wall.max(1e-9);
-        let left = readable((self.duration - time) / done.max(1e-12));
-        let so_far = simulated(time, self.duration);
-        let message = format!("{so_far}, {rate:.1} steps/s, {left} left, {}", details());
+        let speed = (time - self.begun_at) / wall.max(1e-9);
+        let left = readable((self.duration - time) / speed.max(1e-12));
+        let elapsed = simulated(time, self.duration);
+        let message = format!("{elapsed}, {rate:.1} steps/s, {left} left, {}", details());
         match &self.bar {
             Some(bar) => {
                 bar.set_position((1000.0 * time / self.duration) as u64);
@@ -60,7 +60,7 @@ impl Progress {
         }
     }
 
-    /// Show a warning, quiet or not.
+    /// Shows a warning, also in quiet mode.
     pub fn warn(&self, warning: &str) {
         let show = || eprintln!("warning: {warning}");
         match &self.bar {
@@ -69,12 +69,12 @@ impl Progress {
         }
     }
 
-    /// Wall clock of this session [s].
+    /// Wall-clock time of this session [s].
     pub fn wall(&self) -> f64 {
         self.begun.elapsed().as_secs_f64()
     }
 
-    /// Take the bar away.
+    /// Removes the bar.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -82,7 +82,7 @@ impl Progress {
     }
 }
 
-/// How far a run is; impacts are told in milliseconds.
+/// Formats simulated time and duration; short runs (impacts) in milliseconds.
 fn simulated(time: f64, duration: f64) -> String {
     if duration < 0.1 {
         format!("{:.3} of {:.3} ms", time * 1e3, duration * 1e3)
@@ -91,7 +91,7 @@ fn simulated(time: f64, duration: f64) -> String {
     }
 }
 
-/// A duration as people say it.
+/// Formats a duration in seconds, minutes, hours or days.
 pub fn readable(seconds: f64) -> String {
     match seconds {
         s if !s.is_finite() => "unknown time".to_owned(),

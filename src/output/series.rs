@@ -1,4 +1,4 @@
-//! Tables that grow with the run: one row a moment, one column a quantity.
+//! Tables that grow during a run.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use super::OutputError;
 
-/// A CSV file of numbers under one header line, appended row by row.
+/// A CSV file of numbers with one header line, extended row by row.
 ///
-/// Numbers are written as the shortest text that reads back to the same bits; what is not a number (`NaN`) leaves the
-/// field empty. Every call hands its rows to the operating system, so that a killed run loses none. The length in
-/// bytes goes into a checkpoint; a resumed run cuts the file there and goes on with the same bytes as an unbroken one.
+/// Numbers have the shortest text that reads back to the same bits; `NaN` is an empty field. Every call passes its rows
+/// to the operating system, so a killed run loses no rows. Checkpoints store the length in bytes. A resumed run cuts
+/// the file at this length and then writes the same bytes as an uninterrupted run.
 #[derive(Debug)]
 pub struct CsvSeries {
     path: PathBuf,
@@ -21,7 +21,7 @@ pub struct CsvSeries {
 }
 
 impl CsvSeries {
-    /// A new file with the given column names, units in the names (`time_s`); an old file is overwritten.
+    /// Creates a file with the given column names, units included (`time_s`). An old file is overwritten.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -36,10 +36,10 @@ impl CsvSeries {
         Ok(series)
     }
 
-    /// Opens a file of an interrupted run, cut to the length that the checkpoint stored.
+    /// Opens the file of an interrupted run and cuts it to the length in the checkpoint.
     ///
     /// # Errors
-    /// If the file cannot be opened, is shorter than `bytes` or is not cut at the end of a line.
+    /// If the file cannot be opened, is shorter than `bytes`, or `bytes` is not the end of a line.
     pub fn open_truncated(path: &Path, bytes: u64) -> Result<Self, OutputError> {
         let text = std::fs::read(path).map_err(OutputError::io(path))?;
         let Some(kept) = usize::try_from(bytes).ok().and_then(|n| text.get(..n)) else {
@@ -62,7 +62,7 @@ impl CsvSeries {
     /// If the file cannot be written.
     ///
     /// # Panics
-    /// If the row has not one value for each column.
+    /// If the row does not have one value per column.
     pub fn append(&mut self, row: &[f64]) -> Result<(), OutputError> {
         self.append_rows(std::iter::once(row))
     }
@@ -73,11 +73,11 @@ impl CsvSeries {
     /// If the file cannot be written.
     ///
     /// # Panics
-    /// If a row has not one value for each column.
+    /// If a row does not have one value per column.
     pub fn append_rows<R: AsRef<[f64]>>(&mut self, rows: impl IntoIterator<Item = R>) -> Result<(), OutputError> {
         for row in rows {
             let row = row.as_ref();
-            assert_eq!(row.len(), self.columns, "{}: values and columns", self.path.display());
+            assert_eq!(row.len(), self.columns, "{}: number of values and of columns", self.path.display());
             for (column, value) in row.iter().enumerate() {
                 if column > 0 {
                     self.line.push(',');
@@ -94,7 +94,7 @@ impl CsvSeries {
         self.bytes
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -107,7 +107,7 @@ impl CsvSeries {
     }
 }
 
-/// The shortest text that reads back to the same number; very large and very small numbers with an exponent.
+/// Appends the shortest text that reads back to the same number; very large and very small numbers have an exponent.
 fn push_number(text: &mut String, value: f64) {
     use std::fmt::Write;
     let magnitude = value.abs();
@@ -121,9 +121,9 @@ fn push_number(text: &mut String, value: f64) {
     };
 }
 
-/// Whether an output that was written `count` times at an interval [s] is due.
+/// Returns whether an output is due that was written `count` times at an interval [s].
 pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
-    // The allowance lets an output at 0.3 s be due at 0.1 + 0.1 + 0.1 s.
+    // The tolerance makes an output at 0.3 s due at 0.1 + 0.1 + 0.1 s.
     interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
 }
 
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_resumed_file_equals_an_unbroken_one() {
+    fn a_resumed_file_equals_an_uninterrupted_one() {
         let folder = tempfile::tempdir().unwrap();
         let rows: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i) * 0.01, f64::from(i).sin()]).collect();
         let (whole, broken) = (folder.path().join("whole.csv"), folder.path().join("broken.csv"));

@@ -1,4 +1,4 @@
-//! HDF5 files that hold the state of a run to the last bit: there whole or not at all.
+//! HDF5 files with the exact state of a run, written atomically.
 
 use std::path::Path;
 
@@ -7,14 +7,14 @@ use hdf5_metno::{File, Group, H5Type, types::VarLenUnicode};
 
 use super::OutputError;
 
-/// What the HDF5 library returns.
+/// Result of the HDF5 library.
 pub(crate) type Hdf5Result<T> = hdf5_metno::Result<T>;
 
-/// Name of the attribute that holds what is no array.
+/// Name of the attribute with all data that are not arrays.
 const TEXT: &str = "state";
 
-/// Write a file with a text and what `fill` puts into it: to a temporary name first, synced, then renamed, so that the
-/// file of before is there until this one is.
+/// Writes a file with a text and the datasets that `fill` creates: to a temporary file, synced, then renamed. The old
+/// file remains until the new one is complete.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -42,10 +42,10 @@ pub(crate) fn write_state(
     publish().map_err(OutputError::io(path))
 }
 
-/// Text of a file, and what `read` finds in it.
+/// Returns the text of a file and the data that `read` returns.
 ///
 /// # Errors
-/// If the file is not there, or not what it should be.
+/// If the file is missing or invalid.
 pub(crate) fn read_state<T>(
     path: &Path,
     read: impl FnOnce(&File) -> Hdf5Result<T>,
@@ -58,29 +58,29 @@ pub(crate) fn read_state<T>(
     open().map_err(OutputError::hdf5(path))
 }
 
-/// A dataset of one column.
+/// Writes a dataset of one column.
 pub(crate) fn write_column<T: H5Type>(group: &Group, name: &str, values: &[T]) -> Hdf5Result<()> {
     group.new_dataset::<T>().shape(values.len()).create(name)?.write_raw(values)
 }
 
-/// A dataset of one row for each entry.
+/// Writes a dataset with one row per entry.
 pub(crate) fn write_rows<T: H5Type, const N: usize>(group: &Group, name: &str, rows: &[[T; N]]) -> Hdf5Result<()> {
     group.new_dataset::<T>().shape((rows.len(), N)).create(name)?.write_raw(rows.as_flattened())
 }
 
-/// A dataset of three columns, one row for each vector.
+/// Writes a dataset of three columns with one row per vector.
 pub(crate) fn write_vectors(group: &Group, name: &str, values: &[DVec3]) -> Hdf5Result<()> {
     let rows: Vec<[f64; 3]> = values.iter().map(|v| v.to_array()).collect();
     write_rows(group, name, &rows)
 }
 
-/// Rows as [`write_rows`] wrote them.
+/// Reads rows written by [`write_rows`].
 pub(crate) fn read_rows<T: H5Type + Copy, const N: usize>(group: &Group, name: &str) -> Hdf5Result<Vec<[T; N]>> {
     let flat: Vec<T> = group.dataset(name)?.read_raw()?;
     Ok(flat.as_chunks::<N>().0.to_vec())
 }
 
-/// Vectors as [`write_vectors`] wrote them.
+/// Reads vectors written by [`write_vectors`].
 pub(crate) fn read_vectors(group: &Group, name: &str) -> Hdf5Result<Vec<DVec3>> {
     Ok(read_rows(group, name)?.into_iter().map(DVec3::from_array).collect())
 }

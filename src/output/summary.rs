@@ -1,4 +1,4 @@
-//! The summary of a run: what happened to the units, and how the run went.
+//! Summary of a run: results for the units and facts about the run.
 
 use std::{fmt, path::Path};
 
@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use super::{Execution, OutputError, write_atomically};
 
-/// `summary.json`: damage and displacements first, then what they rest on.
+/// `summary.json`: damage and displacements first, then the facts behind them.
 ///
-/// Two runs of one case agree in everything but the keys of [`Execution`].
+/// Two runs of one case differ only in the keys of [`Execution`].
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Summary {
     /// Title of the case.
     pub title: String,
-    /// Version of breakwater that made the run.
+    /// Version of breakwater.
     pub breakwater_version: String,
-    /// Hash of the case file as it was run, hexadecimal.
+    /// Hash of the case as it was run, hexadecimal.
     pub case_hash: String,
     /// Share of the units that moved further than `damage_distance_m` [-]; none without units.
     pub damage_ratio: Option<f64>,
@@ -23,44 +23,44 @@ pub struct Summary {
     pub mean_displacement_m: Option<f64>,
     /// A unit is damaged when it has moved further than this [m]; none without units.
     pub damage_distance_m: Option<f64>,
-    /// Which share of the units broke; none if no impacts were handed over.
+    /// Results of the breakage analysis; none without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageSummary>,
-    /// The units from the first to the last across the flume.
+    /// The units in order of their numbers.
     pub units: Vec<UnitSummary>,
-    /// The wave; none for still water or a dam break.
+    /// The wave; none if the case has no wave or its height is unknown.
     pub wave: Option<WaveSummary>,
-    /// Highest water at the elevation gauges.
+    /// Highest surface elevation at the elevation gauges.
     pub gauges: Vec<GaugeSummary>,
     /// Contact events of the whole run.
     pub contacts: ContactSummary,
     /// Energy balance.
     pub energy: Option<EnergySummary>,
-    /// What had to be assumed because no source gives it.
+    /// Assumptions where no source gives a value.
     pub assumptions: Vec<String>,
-    /// What makes the result doubtful: warnings of the case file and of the run.
+    /// Warnings of the case file and of the run: reasons to doubt the results.
     #[serde(default)]
     pub warnings: Vec<String>,
-    /// Largest speed of the water over its speed of sound [-]; none in runs that did not record it.
+    /// Largest water speed over the speed of sound [-]; none if the run did not record it.
     #[serde(default)]
     pub largest_mach: Option<f64>,
     /// Number of particles of all kinds.
     pub particles: u64,
     /// Number of particles of each kind.
     pub particle_counts: ParticleCounts,
-    /// Distance between particles [m].
+    /// Particle spacing [m].
     pub dp_m: f64,
     /// Artificial speed of sound [m/s].
     pub speed_of_sound_m_s: f64,
-    /// Level of the still water [m].
+    /// Still water level [m].
     pub still_water_level_m: f64,
-    /// Seaward and shoreward end of the domain of particles [m].
+    /// Seaward and shoreward end of the particle domain [m].
     pub domain_x_m: [f64; 2],
-    /// Width of the domain [m].
+    /// Width of the particle domain [m].
     pub domain_width_m: f64,
-    /// Whether the domain is closed by solid side walls; else what leaves on one side enters on the other.
+    /// Whether the domain has solid side walls; otherwise it is periodic across the flume.
     pub side_walls: bool,
-    /// Whether the domain is a layer of particles, computed in two dimensions.
+    /// Whether the run is two-dimensional, with one layer of particles.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub two_dimensional: bool,
     /// Lower and upper corner of each fixed obstacle [m].
@@ -68,41 +68,39 @@ pub struct Summary {
     pub obstacles_m: Vec<[[f64; 3]; 2]>,
     /// Number of time steps.
     pub steps: u64,
-    /// Simulated time, from the start of the particles [s].
+    /// Simulated time of the particles [s].
     pub simulated_s: f64,
-    /// Flume time at which the particles started [s].
+    /// Flume time at the start of the particles [s].
     pub start_s: f64,
     /// Length of the time steps.
     pub time_step_s: TimeStepSummary,
     /// Why the run ended.
     pub stopped: Stopped,
-    /// Time and machine.
+    /// Computing time and machine.
     #[serde(flatten)]
     pub execution: Execution,
 }
 
-/// What happened to one unit.
+/// Results for one unit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct UnitSummary {
-    /// Number of the unit, from 1 at y = 0.
+    /// Number of the unit, from 1.
     pub unit: u32,
-    /// Horizontal distance between first and last position of the centre of mass, seen from above [m].
+    /// Horizontal distance between first and last position of the centre of mass [m].
     pub displacement_m: f64,
-    /// Whether it moved further than the damage distance.
+    /// Whether the displacement exceeds the damage distance.
     pub damaged: bool,
-    /// Direction of the displacement seen from above [deg]: 0 shoreward, positive towards larger y; 0 if it did not
-    /// move.
+    /// Direction of the displacement in plan view [deg]: 0 shoreward, positive towards larger y; 0 if not displaced.
     pub direction_deg: f64,
     /// Centre of mass at the start [m].
     pub start_m: [f64; 3],
     /// Centre of mass at the end [m].
     pub end_m: [f64; 3],
-    /// Angle of the single rotation from first to last orientation [deg], 0 to 180.
+    /// Angle of the rotation from first to last orientation [deg], 0 to 180.
     pub rotation_deg: f64,
-    /// Largest force of the water beyond the mean force of the still water, as a mean over an interval of the series
-    /// [N].
+    /// Largest force of the water minus the mean force of still water, averaged over one interval of the series [N].
     pub peak_fluid_force_n: f64,
-    /// Largest force of bed and neighbours together, as such a mean [N].
+    /// Largest resultant force of bed and neighbouring units, averaged over one interval of the series [N].
     pub peak_contact_force_n: f64,
     /// Number of contact events with the bed.
     pub bed_contacts: u64,
@@ -111,7 +109,7 @@ pub struct UnitSummary {
 }
 
 impl UnitSummary {
-    /// Displacement, direction and damage from first and last position [m]; forces and contacts are left at zero.
+    /// Computes displacement, direction and damage from first and last position [m]. Forces and contacts are zero.
     pub fn moved(unit: u32, start_m: [f64; 3], end_m: [f64; 3], rotation_deg: f64, damage_distance_m: f64) -> Self {
         let (dx, dy) = (end_m[0] - start_m[0], end_m[1] - start_m[1]);
         let displacement_m = dx.hypot(dy);
@@ -131,9 +129,9 @@ impl UnitSummary {
 /// Damage by movement and by breakage, from `breakage.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BreakageSummary {
-    /// Lengths of the prototype over those of the run [-].
+    /// Length scale: prototype over run [-].
     pub scale: f64,
-    /// Share of the units that moved further than the damage distance [-].
+    /// Share of the units damaged by movement [-].
     pub damaged_ratio: f64,
     /// Share of the units that broke [-].
     pub broken_ratio: f64,
@@ -142,50 +140,50 @@ pub struct BreakageSummary {
 /// The wave of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct WaveSummary {
-    /// Kind as in the case file (`solitary`, `regular`).
+    /// Kind as in the case file (`solitary`, `regular`, `irregular`).
     pub kind: String,
-    /// Theory that shapes it (`rayleigh`, `boussinesq`) or the motion of the paddle (`biesel`: first order; `madsen`:
-    /// second order).
+    /// Theory of the wave (`rayleigh`, `boussinesq`, `third_order`, `stream_function`), spectrum (`jonswap`), or theory
+    /// of the paddle motion (`biesel`: first order; `madsen`: second order).
     pub theory: String,
-    /// Height [m]: of a solitary wave above the still water in the depth at the piston.
+    /// Wave height H [m]; H_s of irregular waves. For a solitary wave, above still water level at the piston.
     pub height_m: f64,
-    /// Period of regular waves [s].
+    /// Period of regular waves, or peak period of irregular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
 }
 
-/// Highest water at an elevation gauge.
+/// Highest surface elevation at an elevation gauge.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GaugeSummary {
     /// Name of the gauge.
     pub name: String,
-    /// Place along the flume [m].
+    /// Position along the flume [m].
     pub x_m: f64,
-    /// Highest elevation above the still water of the particles [m]; none outside their domain.
+    /// Highest elevation of the particles above still water level [m]; none outside their domain.
     pub crest_sph_m: Option<f64>,
-    /// Highest elevation above the still water of the flume model [m]; none without it.
+    /// Highest elevation of the flume model above still water level [m]; none without flume model.
     pub crest_flume_m: Option<f64>,
 }
 
 /// Contact events of all units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactSummary {
-    /// Number of events of a unit with the bed.
+    /// Number of events between a unit and the bed.
     pub with_bed: u64,
-    /// Number of events of a unit with another.
+    /// Number of events between two units.
     pub between_units: u64,
-    /// Largest force of one event [N].
+    /// Largest force in one event [N].
     pub peak_force_n: f64,
-    /// Largest approach velocity at the begin of an event [m/s].
+    /// Largest approach velocity at the start of an event [m/s].
     pub peak_normal_velocity_m_s: f64,
 }
 
 /// Energy of water and units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergySummary {
-    /// At the first moment [J].
+    /// Total energy at the first moment [J].
     pub start_j: f64,
-    /// At the last moment [J].
+    /// Total energy at the last moment [J].
     pub end_j: f64,
 }
 
@@ -217,21 +215,21 @@ pub struct TimeStepSummary {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stopped {
-    /// The simulated time of the case file is over.
+    /// The duration of the case file is reached.
     #[default]
     Duration,
-    /// The units had come to rest.
+    /// The units are at rest.
     AtRest,
-    /// A tilt test: all units slide, or the slope is the steepest of the test.
+    /// End of a tilt test: all units slide, or the slope is the steepest of the test.
     TestOver,
 }
 
 impl fmt::Display for Stopped {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(match self {
-            Self::Duration => "time of the case over",
+            Self::Duration => "duration of the case reached",
             Self::AtRest => "units at rest",
-            Self::TestOver => "test over",
+            Self::TestOver => "end of the test",
         })
     }
 }
@@ -240,7 +238,7 @@ impl Summary {
     /// Name of the file in a run folder.
     pub const FILE: &str = "summary.json";
 
-    /// Takes in the units and derives damage ratio and mean displacement from them.
+    /// Sets the units and computes damage ratio and mean displacement.
     pub fn set_units(&mut self, units: Vec<UnitSummary>, damage_distance_m: f64) {
         let count = units.len() as f64;
         self.damage_distance_m = (!units.is_empty()).then_some(damage_distance_m);
@@ -256,7 +254,7 @@ impl Summary {
         self.units.iter().filter(|unit| unit.damaged).count()
     }
 
-    /// The same without time and machine: what two runs of one case must agree in.
+    /// Returns a copy without computing time and machine; it is the same for two runs of one case.
     pub fn without_execution(&self) -> Self {
         Self { execution: Execution::default(), ..self.clone() }
     }
@@ -275,7 +273,7 @@ impl Summary {
     /// Reads `summary.json` of a run folder.
     ///
     /// # Errors
-    /// If there is none or it is not a summary.
+    /// If the file is missing or is not a summary.
     pub fn read(run_dir: &Path) -> Result<Self, OutputError> {
         let path = run_dir.join(Self::FILE);
         let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
@@ -296,9 +294,9 @@ mod tests {
     }
 
     #[test]
-    fn displacement_is_seen_from_above() {
+    fn displacement_is_the_horizontal_distance() {
         let summary = two_units();
-        // 3-4-5 triangle: 0.03 m along and 0.04 m across; the fall of 0.04 m does not count.
+        // 3-4-5 triangle: 0.03 m along and 0.04 m across the flume; the fall of 0.04 m does not count.
         assert!((summary.units[0].displacement_m - 0.05).abs() < 1e-12);
         assert!((summary.units[0].direction_deg - (4.0_f64 / 3.0).atan().to_degrees()).abs() < 1e-9);
         assert_eq!((summary.units[0].damaged, summary.units[1].damaged), (false, true));

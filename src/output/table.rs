@@ -1,10 +1,10 @@
-//! Reading the CSV files of a run folder back, column by column.
+//! Reading of the CSV files of a run folder.
 
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
 
-/// A table of numbers with named columns; lines that begin with `#` are comments, an empty field is `NaN`.
+/// A table of numbers with named columns. Lines starting with `#` are comments; an empty field is `NaN`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     path: PathBuf,
@@ -13,17 +13,17 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a CSV file. A last line without its line end, left by a killed run, is dropped.
+    /// Reads a CSV file. A last line without line end, left by a killed run, is ignored.
     ///
     /// # Errors
-    /// If the file cannot be read or holds something other than numbers under a header.
+    /// If the file cannot be read, or is not a header followed by numbers.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         let text = std::fs::read_to_string(path).map_err(OutputError::io(path))?;
         let whole = text.rfind('\n').map_or("", |end| &text[..end]);
         Self::parse(path, whole)
     }
 
-    /// Reads a CSV file, `None` if there is none.
+    /// Reads a CSV file; `None` if it does not exist.
     ///
     /// # Errors
     /// As [`Table::read`].
@@ -35,14 +35,14 @@ impl Table {
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, OutputError> {
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         let Some((_, header)) = lines.next() else {
-            return Err(OutputError::content(path, "is empty; a header line with the column names is needed"));
+            return Err(OutputError::content(path, "is empty; it needs a header line with the column names"));
         };
         let names: Vec<String> = header.split(',').map(|name| name.trim().to_owned()).collect();
         let mut columns = vec![Vec::new(); names.len()];
         for (number, line) in lines {
             let fields: Vec<&str> = line.split(',').map(str::trim).collect();
             if fields.len() != names.len() {
-                let what = format!("line {}: {} fields under {} columns", number + 1, fields.len(), names.len());
+                let what = format!("line {}: {} fields for {} columns", number + 1, fields.len(), names.len());
                 return Err(OutputError::content(path, what));
             }
             for ((column, field), name) in columns.iter_mut().zip(fields).zip(&names) {
@@ -65,18 +65,18 @@ impl Table {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// A column by its name, `None` if there is none.
+    /// Returns a column by name; `None` if it does not exist.
     pub fn get(&self, name: &str) -> Option<&[f64]> {
         self.names.iter().position(|n| n == name).map(|i| self.columns[i].as_slice())
     }
 
-    /// A column by its name.
+    /// Returns a column by name.
     ///
     /// # Errors
-    /// If there is no such column; the message lists those that are there.
+    /// If the column does not exist; the message lists the existing columns.
     pub fn column(&self, name: &str) -> Result<&[f64], OutputError> {
         self.get(name).ok_or_else(|| {
-            let what = format!("has no column \"{name}\"; it has {}", self.names.join(", "));
+            let what = format!("has no column \"{name}\"; its columns are {}", self.names.join(", "));
             OutputError::content(&self.path, what)
         })
     }
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reads_columns_and_leaves_out_a_half_written_line() {
+    fn an_incomplete_last_line_is_ignored() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
         std::fs::write(&path, "# a comment\ntime_s,x_m\n0,1.5\n0.1,\n0.2,3").unwrap();
@@ -98,13 +98,13 @@ mod tests {
     }
 
     #[test]
-    fn says_which_line_is_wrong() {
+    fn an_error_names_the_line_or_the_column() {
         let path = Path::new("t.csv");
         let message = |text: &str| Table::parse(path, text).unwrap_err().to_string();
-        assert_eq!(message("a,b\n1,2\n3\n"), "t.csv: line 3: 1 fields under 2 columns");
+        assert_eq!(message("a,b\n1,2\n3\n"), "t.csv: line 3: 1 fields for 2 columns");
         assert_eq!(message("a,b\n1,wet\n"), "t.csv: line 2: b is \"wet\", not a number");
         assert!(message("").contains("is empty"));
         let table = Table::parse(path, "a,b\n1,2\n").unwrap();
-        assert_eq!(table.column("c").unwrap_err().to_string(), "t.csv: has no column \"c\"; it has a, b");
+        assert_eq!(table.column("c").unwrap_err().to_string(), "t.csv: has no column \"c\"; its columns are a, b");
     }
 }

@@ -1,4 +1,4 @@
-//! The surface of an armour unit about its centre of mass, for the views in the report.
+//! Surface of an armour unit, for the views in the report.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::geometry::solid::Solid;
 pub struct UnitSurface {
     /// Corner points [m].
     pub vertices_m: Vec<[f64; 3]>,
-    /// Three corner points each, counter-clockwise seen from outside.
+    /// Indices of the three corner points of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -20,7 +20,7 @@ impl UnitSurface {
     /// Name of the file in a run folder.
     pub const FILE: &str = "unit_surface.json";
 
-    /// The surface of a body.
+    /// Returns the surface of a solid.
     pub fn of(solid: &Solid) -> Self {
         let vertices_m = solid.vertices().iter().map(|v| v.to_array()).collect();
         Self { vertices_m, triangles: solid.triangles().to_vec() }
@@ -35,16 +35,19 @@ impl UnitSurface {
         write_atomically(path, &bytes)
     }
 
-    /// Reads a surface.
+    /// Reads a surface from `path`.
     ///
     /// # Errors
-    /// If the file cannot be read, or a triangle has a corner that is not there.
+    /// If the file cannot be read, or a triangle refers to a missing corner point.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         let bytes = std::fs::read(path).map_err(OutputError::io(path))?;
         let surface: Self = serde_json::from_slice(&bytes).map_err(OutputError::json(path))?;
         let points = surface.vertices_m.len();
         match surface.triangles.iter().flatten().find(|i| **i as usize >= points) {
-            Some(i) => Err(OutputError::content(path, format!("a triangle names point {i} of {points}"))),
+            Some(i) => Err(OutputError::content(
+                path,
+                format!("a triangle refers to point {i}, but there are only {points} points, numbered from 0"),
+            )),
             None => Ok(surface),
         }
     }
@@ -55,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reads_back_and_refuses_a_corner_that_is_not_there() {
+    fn a_surface_reads_back_and_a_missing_corner_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(UnitSurface::FILE);
         let mut surface = UnitSurface {
@@ -66,6 +69,6 @@ mod tests {
         assert_eq!(UnitSurface::read(&path).unwrap(), surface);
         surface.triangles.push([0, 1, 3]);
         surface.write(&path).unwrap();
-        assert!(UnitSurface::read(&path).unwrap_err().to_string().contains("point 3 of 3"));
+        assert!(UnitSurface::read(&path).unwrap_err().to_string().contains("point 3, but there are only 3 points"));
     }
 }

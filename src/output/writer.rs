@@ -1,8 +1,8 @@
-//! Files written on a thread of their own, so that the computation need not wait for the disk.
+//! Writing of files on a separate thread, so that the computation does not wait for the disk.
 //!
-//! Jobs are done one after the other in the order in which they were given. A checkpoint that is given behind the
-//! snapshots it counts is therefore published only when these are in their files. All calls of HDF5, which lets one
-//! thread in at a time, come from this one thread while a run goes on.
+//! Jobs run in the order in which they are submitted. A checkpoint submitted after its snapshots is therefore published
+//! only when the snapshots are in their files. During a run, all calls of HDF5 come from this thread, because HDF5
+//! serves one thread at a time.
 
 use std::{
     panic::resume_unwind,
@@ -12,35 +12,35 @@ use std::{
 
 use super::OutputError;
 
-/// Jobs that may wait behind the one that is being done. What they hold is the memory that writing costs.
+/// Number of jobs that may wait while one job runs. It limits the memory for writing.
 const WAITING: usize = 1;
 
 type Job<F> = Box<dyn FnOnce(&mut F) -> Result<(), OutputError> + Send>;
 
-/// A thread that writes to the open files `F`, and ends with the first error.
+/// A thread that writes to the open files `F` and ends at the first error.
 ///
-/// Dropped before [`Self::drain`], it still does what it was given; an error is then lost, so that only a run that ends
-/// with another error should do so.
+/// If it is dropped before [`Self::drain`], it still finishes its jobs, but errors are lost. Only a run that ends with
+/// another error should do this.
 pub struct Writer<F> {
     jobs: Option<SyncSender<Job<F>>>,
     thread: Option<JoinHandle<Result<(), OutputError>>>,
 }
 
 impl<F: Send + 'static> Writer<F> {
-    /// A thread that takes over the open files.
+    /// Starts a thread that owns the open files.
     ///
     /// # Panics
-    /// If the operating system has no thread to give.
+    /// If the operating system cannot start a thread.
     pub fn spawn(files: F) -> Self {
         let (jobs, waiting) = sync_channel(WAITING);
-        let thread = Builder::new().name("writer".to_owned()).spawn(move || work(files, &waiting));
-        Self { jobs: Some(jobs), thread: Some(thread.expect("a thread for the writer")) }
+        let thread = Builder::new().name("writer".to_owned()).spawn(move || run_jobs(files, &waiting));
+        Self { jobs: Some(jobs), thread: Some(thread.expect("the operating system starts a thread for the writer")) }
     }
 
-    /// Give a job. Waits while another one is waiting already: at most two are in memory besides this one.
+    /// Submits a job. Blocks while another job waits, so at most two other jobs are in memory.
     ///
     /// # Errors
-    /// If an earlier job has failed: its error. This job is not done then, and the writer must not be used again.
+    /// If an earlier job failed: its error. This job is then not run, and the writer must not be used again.
     pub fn give(
         &mut self,
         job: impl FnOnce(&mut F) -> Result<(), OutputError> + Send + 'static,
@@ -51,21 +51,21 @@ impl<F: Send + 'static> Writer<F> {
         }
     }
 
-    /// Whether all has gone well so far; costs next to nothing.
+    /// Checks for an error so far; the cost is negligible.
     ///
     /// # Errors
-    /// If a job has failed: its error.
+    /// If a job failed: its error.
     pub fn check(&mut self) -> Result<(), OutputError> {
         if self.thread.as_ref().is_some_and(JoinHandle::is_finished) { self.end() } else { Ok(()) }
     }
 
-    /// Wait until everything given so far is in the files.
+    /// Waits until all submitted jobs are finished.
     ///
     /// # Errors
-    /// If a job has failed: its error.
+    /// If a job failed: its error.
     pub fn drain(&mut self) -> Result<(), OutputError> {
         let (done, all_done) = sync_channel(1);
-        // The receiver is there until `recv` returns.
+        // The receiver exists until `recv` returns, so sending cannot fail.
         self.give(move |_| {
             let _ = done.send(());
             Ok(())
@@ -75,13 +75,13 @@ impl<F: Send + 'static> Writer<F> {
 }
 
 impl<F> Writer<F> {
-    /// Let the thread do what it has, and end it; a panic of the thread goes on in this one.
+    /// Ends the thread after its remaining jobs; a panic of the thread is resumed in this thread.
     fn end(&mut self) -> Result<(), OutputError> {
         self.jobs = None;
         match self.thread.take().map(JoinHandle::join) {
             Some(Ok(ended)) => ended,
             Some(Err(panic)) => resume_unwind(panic),
-            None => panic!("a writer that has failed was used again"),
+            None => panic!("the writer was used again after an error"),
         }
     }
 }
@@ -89,12 +89,12 @@ impl<F> Writer<F> {
 impl<F> Drop for Writer<F> {
     fn drop(&mut self) {
         self.jobs = None;
-        // A second panic while one is under way would end the program without a message.
+        // A second panic during a panic would end the program without a message.
         let _ = self.thread.take().map(JoinHandle::join);
     }
 }
 
-fn work<F>(mut files: F, jobs: &Receiver<Job<F>>) -> Result<(), OutputError> {
+fn run_jobs<F>(mut files: F, jobs: &Receiver<Job<F>>) -> Result<(), OutputError> {
     jobs.iter().try_for_each(|job| job(&mut files))
 }
 
@@ -112,8 +112,8 @@ mod tests {
         OutputError::content(Path::new("fluid.vtkhdf"), "no space left")
     }
 
-    /// A job that notes its number.
-    fn note(number: u32) -> impl FnOnce(&mut Arc<Mutex<Vec<u32>>>) -> Result<(), OutputError> + Send + 'static {
+    /// Returns a job that records its number.
+    fn record(number: u32) -> impl FnOnce(&mut Arc<Mutex<Vec<u32>>>) -> Result<(), OutputError> + Send + 'static {
         move |seen| {
             seen.lock().unwrap().push(number);
             Ok(())
@@ -121,19 +121,19 @@ mod tests {
     }
 
     #[test]
-    fn jobs_are_done_in_their_order() {
+    fn jobs_run_in_order() {
         let seen = Arc::new(Mutex::new(Vec::new()));
         let mut writer = Writer::spawn(seen.clone());
-        (0..20).for_each(|number| writer.give(note(number)).unwrap());
+        (0..20).for_each(|number| writer.give(record(number)).unwrap());
         writer.drain().unwrap();
         assert_eq!(*seen.lock().unwrap(), (0..20).collect::<Vec<_>>());
-        writer.give(note(20)).unwrap();
+        writer.give(record(20)).unwrap();
         drop(writer);
         assert_eq!(seen.lock().unwrap().len(), 21);
     }
 
     #[test]
-    fn only_two_jobs_are_in_memory() {
+    fn only_two_submitted_jobs_are_in_memory() {
         let (open, gate) = channel::<()>();
         let mut writer = Writer::spawn(gate);
         let wait = |gate: &mut Receiver<()>| {
@@ -149,7 +149,7 @@ mod tests {
             }
             writer.drain().unwrap();
         });
-        // One in work and one waiting; the third has to wait however long.
+        // One job runs and one waits; the third blocks however long it takes.
         std::thread::sleep(Duration::from_millis(100));
         assert_eq!(*given.lock().unwrap(), 2);
         (0..4).for_each(|_| open.send(()).unwrap());
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_error_is_reported_and_ends_the_work() {
+    fn the_first_error_is_reported_and_stops_later_jobs() {
         let seen = Arc::new(Mutex::new(Vec::new()));
         let mut writer = Writer::spawn(seen.clone());
         writer.give(|_| Err(error())).unwrap();
@@ -168,17 +168,17 @@ mod tests {
         assert_eq!(writer.check().unwrap_err().to_string(), error().to_string());
         let mut writer = Writer::spawn(seen.clone());
         writer.give(|_| Err(error())).unwrap();
-        // Given behind the error: not done, whether or not it was still taken.
-        let told = writer.give(note(1)).and_then(|()| writer.drain());
-        assert_eq!(told.unwrap_err().to_string(), error().to_string());
+        // Submitted after the error: not run, whether or not it was still accepted.
+        let result = writer.give(record(1)).and_then(|()| writer.drain());
+        assert_eq!(result.unwrap_err().to_string(), error().to_string());
         assert!(seen.lock().unwrap().is_empty());
     }
 
     #[test]
-    #[should_panic(expected = "one value list a field")]
-    fn a_panic_of_the_thread_is_not_lost() {
+    #[should_panic(expected = "one list of values per field")]
+    fn a_panic_of_the_thread_is_resumed() {
         let mut writer = Writer::spawn(());
-        let _ = writer.give(|()| panic!("one value list a field"));
+        let _ = writer.give(|()| panic!("one list of values per field"));
         let _ = writer.drain();
     }
 }

@@ -1,4 +1,4 @@
-//! Everything that a person reads: pages, charts, pictures, and comparison with measurements.
+//! Output for human readers: pages, charts, pictures, and comparison with measurements.
 
 pub mod compare;
 pub mod fracture;

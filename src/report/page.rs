@@ -1,8 +1,8 @@
-//! The frame of every page: style sheet, sections, numbers as people read them.
+//! Page layout shared by all reports: style sheet, sections, number formats.
 
 use super::plot::{CHART_STYLE, escape, short};
 
-/// A whole page with the style sheet in it.
+/// Returns a complete HTML page with its style sheet.
 pub fn page(title: &str, body: &str) -> String {
     let title = escape(title);
     let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css")].concat();
@@ -13,12 +13,12 @@ pub fn page(title: &str, body: &str) -> String {
     )
 }
 
-/// A section with its heading; nothing if there is no content.
+/// Returns a section with its heading, or an empty string if there is no content.
 pub fn section(heading: &str, content: &str) -> String {
     if content.is_empty() { String::new() } else { format!("<section>\n<h2>{heading}</h2>\n{content}</section>\n") }
 }
 
-/// A whole number with thin spaces between groups of three figures.
+/// Formats an integer with thin spaces between groups of three digits.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
@@ -31,7 +31,7 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
-/// A duration [s] in the unit that suits it.
+/// Formats a duration [s] in seconds, minutes or hours, depending on its size.
 pub fn clock(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{} s", short(s, 1)),
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_grouped_and_times_readable() {
+    fn digits_are_grouped_and_durations_have_a_suitable_unit() {
         assert_eq!(grouped(17541570), "17\u{2009}541\u{2009}570");
         assert_eq!(grouped(999), "999");
         assert_eq!(clock(12.34), "12.3 s");

@@ -1,4 +1,4 @@
-//! The flume model's wave: gauges as a table, and a page of charts.
+//! Page with charts of the wave in the flume model.
 
 use std::path::{Path, PathBuf};
 
@@ -12,8 +12,8 @@ use crate::{
     report::page::page,
 };
 
-/// `wave.html`: elevation at the gauges and along the flume, motion of the multi-layer piston; another program's
-/// surface at the gauges `beside` it, if there are any.
+/// Writes `wave.html`: surface elevation at the gauges and along the flume, and motion of the multi-layer piston.
+/// `beside` holds the surface at the gauges from another program, for comparison; it may be empty.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -26,7 +26,7 @@ pub fn write_wave_page(
 ) -> Result<PathBuf, OutputError> {
     let path = dir.join("wave.html");
     let lead = format!(
-        "Layered model of the whole flume, {} layers; wavemaker of the particles at x = {} m from flume time {} s",
+        "Flume model with {} layers; particle wavemaker at x = {} m, starting at flume time {} s",
         record.layers,
         short(piston.place_m(), 3),
         short(piston.start_s(), 2)
@@ -62,16 +62,16 @@ fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> L
         })
         .collect();
     lines.extend(beside.iter().enumerate().map(|(colour, series)| Line {
-        name: if colour == 0 { "dashed: beside it".to_owned() } else { String::new() },
+        name: if colour == 0 { "dashed: other program".to_owned() } else { String::new() },
         points: series.points().map(|[t, z]| [t, z - case.flume.still_level]).collect(),
         colour,
         dashed: true,
         ..Line::default()
     }));
-    chart("Surface at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines)
+    chart("Surface elevation at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines)
 }
 
-/// The surface over the recorded window at five moments about the highest crest.
+/// Chart of the surface in the recorded window at five times around the highest crest.
 fn profile_chart(record: &FlumeRecord) -> LineChart {
     let crest = |t: f64| record.window_x_m.iter().map(|&x| record.elevation(x, t)).fold(f64::MIN, f64::max);
     let highest = record.times_s().iter().copied().max_by(|a, b| crest(*a).total_cmp(&crest(*b))).unwrap_or(0.0);
@@ -82,19 +82,19 @@ fn profile_chart(record: &FlumeRecord) -> LineChart {
         colour,
         ..Line::default()
     });
-    chart("Surface along the flume", "x [m]", "elevation \u{03b7} [m]", lines.collect())
+    chart("Surface elevation along the flume", "x [m]", "elevation \u{03b7} [m]", lines.collect())
 }
 
-/// Displacement of the lowest, a middle and the highest row that is in the water at rest.
+/// Chart of the displacement of the lowest, a middle and the highest piston row below the still water level.
 fn piston_chart(piston: &MlPiston) -> LineChart {
     let heights = piston.row_heights_m();
     let samples = 200;
     let time = |k: i32| piston.start_s() + f64::from(k) / f64::from(samples) * (piston.end_s() - piston.start_s());
     let lines = [0, heights.len() / 2, heights.len() - 1].into_iter().enumerate().map(|(colour, row)| Line {
-        name: format!("row at z = {} m", short(heights[row], 3)),
+        name: format!("piston row at z = {} m", short(heights[row], 3)),
         points: (0..=samples).map(time).map(|t| [t, piston.displacement_m(row, t)]).collect(),
         colour,
         ..Line::default()
     });
-    chart("Rows of the multi-layer piston", "flume time [s]", "displacement [m]", lines.collect())
+    chart("Displacement of the multi-layer piston", "flume time [s]", "displacement [m]", lines.collect())
 }

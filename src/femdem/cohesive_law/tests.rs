@@ -1,4 +1,4 @@
-//! The law of a joint along paths of opening and slip.
+//! Tests of the cohesive law follow_path paths of opening and slip.
 
 use super::*;
 
@@ -16,7 +16,7 @@ fn law(range: Range) -> CohesiveLaw {
     Cohesion { strength: CONCRETE, penalty: PENALTY, range, tied: false }.law(H)
 }
 
-/// Work and dissipation over a path, and the largest stresses.
+/// Work, dissipation and largest stresses follow_path a path.
 struct Path {
     work: f64,
     dissipated: f64,
@@ -26,7 +26,7 @@ struct Path {
     point: Point,
 }
 
-fn along(law: &CohesiveLaw, path: impl Iterator<Item = (f64, f64)>) -> Path {
+fn follow_path(law: &CohesiveLaw, path: impl Iterator<Item = (f64, f64)>) -> Path {
     let mut point = Point::default();
     let mut out = Path {
         work: 0.0,
@@ -56,27 +56,27 @@ fn ramp(to: f64, count: u32) -> impl Iterator<Item = f64> {
 }
 
 #[test]
-fn pulled_apart_a_joint_reaches_its_strength_and_takes_its_fracture_energy() {
-    let path = along(&law(Range::Exact), ramp(1e-4, 40_000).map(|d| (d, 0.0)));
-    println!("peak {:.5e} Pa, work {:.4} J/m2, lost {:.4}", path.peak[0], path.work, path.dissipated);
-    // 0.1 %: asked for.
+fn tensile_failure_reaches_the_strength_and_dissipates_the_fracture_energy() {
+    let path = follow_path(&law(Range::Exact), ramp(1e-4, 40_000).map(|d| (d, 0.0)));
+    println!("peak {:.5e} Pa, work {:.4} J/m2, dissipated {:.4}", path.peak[0], path.work, path.dissipated);
+    // Required accuracy: 0.1 %.
     assert!((path.peak[0] / 3.3e6 - 1.0).abs() < 1e-3);
     assert!((path.work / 50.0 - 1.0).abs() < 1e-3 && (path.dissipated / 50.0 - 1.0).abs() < 1e-3);
     assert_eq!((path.last.normal, path.stored), (0.0, 0.0));
-    let published = along(&law(Range::Published), ramp(1e-4, 40_000).map(|d| (d, 0.0)));
-    // 3 I G_f and two thirds of f delta_p.
+    let published = follow_path(&law(Range::Published), ramp(1e-4, 40_000).map(|d| (d, 0.0)));
+    // 3 I G_f + 2/3 f delta_p.
     let expected = 3.0 * AREA * 50.0 + 2.0 / 3.0 * 3.3e6 * 2.0 * H * 3.3e6 / PENALTY;
     assert!((published.work / expected - 1.0).abs() < 1e-3, "{}", published.work);
 }
 
 #[test]
-fn under_pressure_the_shear_strength_is_that_of_mohr_and_coulomb() {
+fn shear_strength_under_pressure_follows_mohr_coulomb() {
     let law = law(Range::Exact);
     for (pressure, expected) in [(0.0, 16.5e6), (10e6, 22.27e6), (50e6, 45.37e6)] {
         let opening = -pressure / law.stiffness();
-        let path = along(&law, ramp(4e-5, 40_000).map(|s| (opening, s)));
+        let path = follow_path(&law, ramp(4e-5, 40_000).map(|s| (opening, s)));
         println!("{:.0} MPa: {:.4e} Pa, {:.3} J/m2", pressure / 1e6, path.peak[1], path.dissipated);
-        // 0.5 %: asked for.
+        // Required accuracy: 0.5 %.
         assert!((path.peak[1] / expected - 1.0).abs() < 5e-3);
         assert!((path.dissipated / 50.0 - 1.0).abs() < 1e-3, "{}", path.dissipated);
         assert_eq!(path.last.shear, [0.0; 2]);
@@ -84,50 +84,50 @@ fn under_pressure_the_shear_strength_is_that_of_mohr_and_coulomb() {
 }
 
 #[test]
-fn unloading_goes_along_the_secant_and_nothing_heals() {
+fn unloading_follows_the_secant_and_damage_does_not_heal() {
     let law = law(Range::Exact);
-    let up = along(&law, ramp(1e-5, 10_000).map(|d| (d, 0.0)));
+    let up = follow_path(&law, ramp(1e-5, 10_000).map(|d| (d, 0.0)));
     let down = ramp(1e-5, 10_000).map(|d| (1e-5 - d, 0.0));
     let again = ramp(1e-5, 10_000).map(|d| (d, 0.0));
-    let back = along(&law, ramp(1e-5, 10_000).map(|d| (d, 0.0)).chain(down).chain(again));
+    let back = follow_path(&law, ramp(1e-5, 10_000).map(|d| (d, 0.0)).chain(down).chain(again));
     assert_eq!((up.point.damage, up.dissipated), (back.point.damage, back.dissipated));
     assert!((up.last.normal / back.last.normal - 1.0).abs() < 1e-12);
     let mut point = up.point;
     let half = law.respond(&mut point, 0.5e-5, [0.0; 2]);
     assert!((half.normal / (0.5 * up.last.normal) - 1.0).abs() < 1e-12);
-    // Pressed, the stiffness is that of the start.
+    // In compression the stiffness is the initial one.
     assert_eq!(law.respond(&mut point, -1e-7, [0.0; 2]).normal, -1e-7 * law.stiffness());
 }
 
 #[test]
-fn on_any_path_work_is_stored_or_lost_and_loss_never_negative() {
+fn energy_balances_and_dissipation_is_never_negative_on_any_path() {
     let law = law(Range::Exact);
     for seed in 0..200 {
         let t = |k: f64| f64::from(seed) * k;
-        // Loops that grow in opening and slip, with turns.
+        // Growing cycles of opening and slip with changing direction.
         let path = |i: u32| {
             let s = f64::from(i) / 20_000.0;
             let opening = 2e-5 * s * (7.0 * s + t(1.3)).sin() * t(0.37).cos();
             (opening, 1.5e-5 * s * (11.0 * s + t(0.7)).sin())
         };
         let start = std::iter::once((0.0, 0.0));
-        let out = along(&law, start.chain((1..=20_000).map(path)));
+        let out = follow_path(&law, start.chain((1..=20_000).map(path)));
         let balance = out.work - out.stored - out.dissipated;
-        // Trapezoids over 20,000 steps, and yield stresses that change with the pressure within a step.
+        // Trapezoidal rule over 20,000 increments; the yield stress changes with the pressure within an increment.
         assert!(balance.abs() < 2e-3 * out.work.abs().max(1.0), "{seed}: {balance:.2e} of {:.2e}", out.work);
     }
 }
 
 #[test]
-fn damage_in_sliding_weakens_tension() {
+fn damage_by_sliding_reduces_the_tensile_strength() {
     let law = law(Range::Exact);
     let slid = (0..=4000).map(|i| (0.0, 1e-9 * f64::from(i)));
-    let path = along(&law, slid.chain(ramp(1e-4, 40_000).map(|d| (d, 4e-6))));
+    let path = follow_path(&law, slid.chain(ramp(1e-4, 40_000).map(|d| (d, 4e-6))));
     assert!(path.peak[0] < 0.7 * 3.3e6, "{:.3e}", path.peak[0]);
 }
 
 #[test]
-fn a_tied_joint_starts_with_the_stress_that_it_has() {
+fn a_released_joint_starts_with_the_stress_of_the_tied_face() {
     let law = Cohesion { strength: CONCRETE, penalty: 2.0 * 26e9, range: Range::Exact, tied: true }.law(H);
     for (normal, shear) in [(3.3e6, [1e6, -2e6]), (1e6, [8e6, 0.0]), (-5e6, [0.0, 3e6])] {
         let (mut point, opening) = law.loaded(normal, shear);
@@ -141,15 +141,15 @@ fn a_tied_joint_starts_with_the_stress_that_it_has() {
         lost += now.dissipated;
         stored = law.stored(&point);
     }
-    let given = 2.0 / 3.0 * 3.3e6 * opening;
-    // All of G_f behind the peak, and what the spring of the joint had from the start.
-    assert!(((lost - given) / 50.0 - 1.0).abs() < 1e-3 && stored == 0.0, "{lost}");
+    let initial = 2.0 / 3.0 * 3.3e6 * opening;
+    // All of G_f after the peak, plus the elastic energy that the joint had when it was released.
+    assert!(((lost - initial) / 50.0 - 1.0).abs() < 1e-3 && stored == 0.0, "{lost}");
 }
 
 #[test]
-fn the_longest_edge_has_no_softening_left() {
+fn at_the_longest_edge_the_softening_range_is_zero() {
     let cohesion = Cohesion { strength: CONCRETE, penalty: 26e9, range: Range::Exact, tied: false };
     let law = cohesion.law(cohesion.longest_edge());
-    // Rounding, against G_f / f_t.
+    // Rounding, relative to G_f / f_t.
     assert!(law.opening_range.abs() < 1e-12 * 50.0 / 3.3e6);
 }

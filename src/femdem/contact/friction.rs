@@ -1,59 +1,58 @@
-//! Friction of two tetrahedra that overlap: a tangential spring with a history.
+//! Friction between two overlapping tetrahedra: a tangential spring with a history.
 //!
-//! F_t = -k_t d, |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for FEMDEM Xiang, Latham & Farsi (2017),
-//! eqs. (4), (5). The extension d follows the slip at the point where the contact force acts; what exceeds the cap slips
-//! (return mapping). F_n is the length of the contact force, the tangential plane is normal to it.
+//! F_t = -k_t d, |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for FEMDEM Xiang, Latham & Farsi
+//! (2017), eqs. (4), (5). The extension d follows the slip at the point of action of the contact force and is capped by
+//! return mapping. F_n is the magnitude of the contact force; the tangential plane is normal to this force.
 
 use glam::{DQuat, DVec3, DVec4};
 
 use super::overlap::Overlap;
 use super::tetrahedron::Tetrahedron;
 
-/// Constants of a pair.
+/// Friction parameters of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionLaw {
-    /// Tangential stiffness k_t [N/m]; it must not change while a spring is stretched.
+    /// Tangential stiffness k_t [N/m]; it must not change while a spring is loaded.
     pub stiffness: f64,
-    /// Coefficient of friction mu [-].
+    /// Friction coefficient mu [-].
     pub coefficient: f64,
 }
 
-/// History of a pair in contact.
+/// Friction history of a pair in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialSpring {
-    /// Extension d of the spring, the way that C is ahead of T [m].
+    /// Extension d of the spring: elastic displacement of C relative to T [m].
     pub(super) extension: DVec3,
-    /// Direction of the contact force on C when the extension was last brought up to date.
+    /// Direction of the contact force on C at the last update of the extension.
     pub(super) normal: DVec3,
 }
 
-/// What friction does to a pair.
+/// Friction forces and dissipation of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Forces on the vertices of T and of C [N].
     pub forces: [[DVec3; 4]; 2],
-    /// Energy turned into heat since the last call [J].
+    /// Energy dissipated since the last call [J].
     pub dissipated: f64,
 }
 
 impl TangentialSpring {
-    /// A spring without extension; `contact_force` is the force on C [N].
+    /// Creates an unloaded spring; `contact_force` is the force on C [N].
     pub fn new(contact_force: DVec3) -> Self {
         Self { extension: DVec3::ZERO, normal: contact_force.normalize_or_zero() }
     }
 
-    /// Energy in the spring, k_t d^2 / 2 [J]; to be booked as heat when the contact ends.
+    /// Energy in the spring, k_t d^2 / 2 [J]; it counts as dissipated when the contact ends.
     pub fn stored(&self, law: &FrictionLaw) -> f64 {
         0.5 * law.stiffness * self.extension.length_squared()
     }
 
-    /// Friction of the pair (T, C) at the end of a step: `vertices` are where the step has led to [m], `moves` the
-    /// displacements of the vertices in the step [m], `overlap` that of the pair there, `penalty` p in [Pa].
+    /// Updates the spring and returns the friction of the pair (T, C) at the end of a time step. `vertices` and
+    /// `overlap` are those at the end, `moves` the displacements in the time step [m], `penalty` is p [Pa].
     ///
-    /// Energy: the force at the beginning of a step and that at its end, each over half of the slip, do the work
-    /// -(change of [`Self::stored`]) - `dissipated`, but for what the contact turns in the step. Where a spring is thrown
-    /// from one side to the other within a step, that heat could be negative: it is zero then, and the gain is left to
-    /// show in the ledger of energy.
+    /// Energy: the mean of the forces at start and end times the slip is -(change of [`Self::stored`]) - `dissipated`,
+    /// except for the rotation of the contact within the time step. If the spring force reverses within a time step,
+    /// the dissipation could be negative. It is then set to zero, and the gain shows as an error in the energy balance.
     pub fn advance(
         &mut self,
         law: &FrictionLaw,
@@ -67,7 +66,7 @@ impl TangentialSpring {
             return friction;
         };
         let contact_force = penalty * overlap.resultant();
-        self.turn(contact_force.normalize_or(self.normal), 0.5 * (turn_of(&t, moves[0]) + turn_of(&c, moves[1])));
+        self.turn(contact_force.normalize_or(self.normal), 0.5 * (rotation(&t, moves[0]) + rotation(&c, moves[1])));
         let at_centre = [t.shape_functions(overlap.centre), c.shape_functions(overlap.centre)];
         let slip = sum(moves[1], at_centre[1]) - sum(moves[0], at_centre[0]);
         friction.dissipated = self.stretch(law, slip, law.coefficient * contact_force.length());
@@ -76,7 +75,7 @@ impl TangentialSpring {
         friction
     }
 
-    /// Turns the spring with the normal, and about it as the two bodies do on the average [rad].
+    /// Rotates the spring with the normal, and about the normal by the mean rotation of the two bodies [rad].
     fn turn(&mut self, normal: DVec3, bodies: DVec3) {
         let with_normal = DQuat::from_rotation_arc(self.normal, normal);
         let about_normal = DQuat::from_axis_angle(normal, bodies.dot(normal));
@@ -84,7 +83,7 @@ impl TangentialSpring {
         self.normal = normal;
     }
 
-    /// Stretches the spring by a slip [m]; what exceeds the force `cap` [N] slips. Returns the energy dissipated [J].
+    /// Extends the spring by a slip [m], up to the force `cap` [N]. Returns the dissipated energy [J].
     fn stretch(&mut self, law: &FrictionLaw, slip: DVec3, cap: f64) -> f64 {
         let before = self.extension;
         let trial = (before + slip).reject_from_normalized(self.normal);
@@ -94,12 +93,12 @@ impl TangentialSpring {
     }
 }
 
-/// Mean turn of a tetrahedron, curl(u)/2 of the displacements of its vertices [rad].
-fn turn_of(tetrahedron: &Tetrahedron, moves: &[DVec3; 4]) -> DVec3 {
+/// Mean rotation of a tetrahedron [rad]: curl(u)/2 of the displacements of its vertices.
+fn rotation(tetrahedron: &Tetrahedron, moves: &[DVec3; 4]) -> DVec3 {
     0.5 * tetrahedron.gradients.iter().zip(moves).map(|(gradient, u)| gradient.cross(*u)).sum::<DVec3>()
 }
 
-/// Sum of vectors at the vertices with the given weights.
+/// Weighted sum of vectors at the vertices.
 fn sum(vectors: &[DVec3; 4], weights: DVec4) -> DVec3 {
     vectors.iter().zip(weights.to_array()).map(|(vector, weight)| weight * vector).sum()
 }
@@ -114,8 +113,8 @@ mod tests {
     const LAW: FrictionLaw = FrictionLaw { stiffness: 2e9, coefficient: 0.6 };
     const PENALTY: f64 = 1e9;
 
-    /// A regular tetrahedron standing on the top face of a large one, `depth` [m] deep, moved along the face.
-    fn standing(depth: f64, along: f64) -> [[DVec3; 4]; 2] {
+    /// A large tetrahedron and a regular one on its top face, `depth` [m] deep and moved `along` the face.
+    fn tetrahedron_on_base(depth: f64, along: f64) -> [[DVec3; 4]; 2] {
         let base = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, -9.0]].map(DVec3::from_array);
         let corner = |angle: f64| DVec3::new(along + 0.5 * angle.cos(), 0.5 * angle.sin(), -depth);
         let third = std::f64::consts::TAU / 3.0;
@@ -132,13 +131,13 @@ mod tests {
         let step = 1e-5;
         let (mut work, mut heat, mut before) = (0.0, 0.0, 0.0);
         for i in 1..=1000 {
-            let pair = standing(0.01, f64::from(i) * step);
+            let pair = tetrahedron_on_base(0.01, f64::from(i) * step);
             let found = overlap(&pair[0], &pair[1]).unwrap();
             let moves = [&[DVec3::ZERO; 4], &[DVec3::X * step; 4]];
             let friction = spring.advance(&LAW, &found, PENALTY, [&pair[0], &pair[1]], moves);
             let force = force_on(&friction.forces[1]);
             let cap = LAW.coefficient * PENALTY * found.resultant().length();
-            // 1e-9: the base's face is level but for the rounding of the contact force's direction.
+            // 1e-9: the top face is level, but the direction of the contact force has rounding errors.
             assert!((force.x + (LAW.stiffness * f64::from(i) * step).min(cap)).abs() < 1e-9 * cap);
             assert!((force_on(&friction.forces[0]) + force).length() < 1e-12 * cap);
             assert!(friction.dissipated >= 0.0);
@@ -147,17 +146,17 @@ mod tests {
             before = force.x;
         }
         assert!(heat > 0.0);
-        // Rounding only: the trapezoidal rule is exact here.
+        // Rounding only; the trapezoidal rule is exact here.
         assert!((work + heat + spring.stored(&LAW)).abs() < 1e-9 * heat, "{work} {heat}");
     }
 
     #[test]
-    fn heat_is_never_negative_and_the_ledger_closes_on_a_random_walk() {
+    fn dissipation_is_never_negative_and_energy_balances_on_a_random_walk() {
         let mut random = SplitMix64::new(8);
         let mut spring = TangentialSpring::new(DVec3::Z);
         let (mut heat, mut work, mut force) = (0.0, 0.0, DVec3::ZERO);
         for _ in 0..10_000 {
-            // Up to 0.7 of the least cap in a step, and a cap that goes up and down.
+            // Increments up to 0.7 of the lowest cap; the cap varies.
             let cap = 50.0 + 50.0 * random.next_share();
             let slip = (0.5 * 50.0 / LAW.stiffness) * random_point(&mut random).with_z(0.0);
             let released = spring.stretch(&LAW, slip, cap);
@@ -172,11 +171,11 @@ mod tests {
     }
 
     #[test]
-    fn the_spring_turns_with_a_pair_that_turns_as_a_whole() {
+    fn the_spring_rotates_with_a_rigidly_rotating_pair() {
         let mut random = SplitMix64::new(9);
         for _ in 0..20 {
             let axis = random_point(&mut random).normalize();
-            let start = standing(0.01, 0.0);
+            let start = tetrahedron_on_base(0.01, 0.0);
             let found = overlap(&start[0], &start[1]).unwrap();
             let mut spring = TangentialSpring::new(found.resultant());
             spring.extension = 1e-6 * DVec3::X;
@@ -193,7 +192,7 @@ mod tests {
                 assert_eq!(friction.dissipated, 0.0);
             }
             let expected = DQuat::from_axis_angle(axis, 1.0) * (1e-6 * DVec3::X);
-            // 1e-3 of the extension: the 1/2000 rad of a step.
+            // 1e-3 of the extension: each increment rotates by 1/2000 rad.
             assert!((spring.extension - expected).length() < 1e-9, "{} {expected}", spring.extension);
         }
     }
@@ -219,15 +218,15 @@ mod tests {
     }
 
     #[test]
-    fn a_block_thrown_along_a_plane_stops_after_v2_over_2_mu_g() {
-        // 1 m/s, mu 0.6, g 9.8 m/s2: 0.0850 m. The block does not turn: its vertices move together.
+    fn a_sliding_block_stops_after_v2_over_2_mu_g() {
+        // 1 m/s, mu 0.6, g 9.8 m/s2: 0.0850 m. All vertices of the block move together, so it does not rotate.
         let (mass, gravity, step) = (100.0, 9.8, 2e-5);
         let law = FrictionLaw { stiffness: 2e6, coefficient: 0.6 };
-        // Sunk to where the contact force carries the weight.
+        // Depth at which the contact force carries the weight.
         let (mut low, mut high) = (0.0, 0.1);
         for _ in 0..60 {
             let depth = 0.5 * (low + high);
-            let pair = standing(depth, 0.0);
+            let pair = tetrahedron_on_base(depth, 0.0);
             let lift = overlap(&pair[0], &pair[1]).map_or(0.0, |found| PENALTY * found.resultant().z);
             if lift < mass * gravity { low = depth } else { high = depth }
         }
@@ -235,7 +234,7 @@ mod tests {
         let mut spring = TangentialSpring::new(DVec3::Z);
         let mut at_rest = 0;
         while at_rest < 100 {
-            let pair = standing(-x.z, x.x);
+            let pair = tetrahedron_on_base(-x.z, x.x);
             let found = overlap(&pair[0], &pair[1]).unwrap();
             let moves = [&[DVec3::ZERO; 4], &[v * step; 4]];
             let friction = spring.advance(&law, &found, PENALTY, [&pair[0], &pair[1]], moves);
@@ -244,7 +243,7 @@ mod tests {
             x += step * v;
             at_rest = if v.x.abs() < 1e-2 { at_rest + 1 } else { 0 };
         }
-        // 1 %: the spring's extension mu m g / k_t is 0.3 mm of 85 mm.
+        // 1 %: the extension mu m g / k_t of the spring is 0.3 mm of 85 mm.
         assert!((x.x / 0.0850 - 1.0).abs() < 0.01, "{}", x.x);
     }
 }

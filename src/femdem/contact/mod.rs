@@ -1,13 +1,13 @@
 //! Contact between deformable linear tetrahedra.
 //!
-//! | file | concept |
+//! | file | contents |
 //! | --- | --- |
-//! | `detection` | which pairs of boxes meet |
+//! | `detection` | contact detection: pairs of intersecting boxes |
 //! | `tetrahedron` | shape functions of a tetrahedron |
-//! | `polygon` | a convex polygon: cut by a plane, integrals |
-//! | `overlap` | energy of a pair and its gradient |
+//! | `polygon` | convex polygons: clipping and integrals |
+//! | `overlap` | contact potential: overlap energy of a pair and its gradient |
 //! | `friction` | tangential spring of a pair |
-//! | `pairs` | the contacts of a world: the entry |
+//! | `pairs` | all contacts of a world: the entry to this module |
 
 pub mod detection;
 pub mod friction;

@@ -1,79 +1,79 @@
 //! Contact of two tetrahedra: the energy of their overlap and its exact gradient.
 //!
-//! Potential: Munjiza (2004), "The Combined Finite-Discrete Element Method", ch. 2: phi_T is 1 at the centroid of a
-//! tetrahedron, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces, that is
-//! phi_T = 4 min_j lambda_j with the barycentric coordinates lambda. Energy of the pair (T, C) with the penalty p [Pa]:
+//! Contact potential: Munjiza (2004), "The Combined Finite-Discrete Element Method", ch. 2. phi_T is 1 at the centroid
+//! of a tetrahedron, 0 on its surface, and linear in the four sub-tetrahedra between the centroid and the faces: phi_T
+//! = 4 min_j lambda_j with the barycentric coordinates lambda. Energy of the pair (T, C) with the penalty p [Pa]:
 //!
 //!   E = p (I_T + I_C),   I_T = integral of phi_T over the overlap of T and C [m3].
 //!
-//! Gradient. Let the vertices move with velocities u, linear in each tetrahedron. phi_T is carried along by T, so
-//! d phi_T / dt = -u_T . grad phi_T at a fixed place. With Reynolds' theorem, the divergence theorem and phi_T = 0 on
-//! the surface of T,
+//! Gradient. Let the vertices move with velocities u, linear in each tetrahedron. phi_T moves with T, so at a fixed
+//! position d phi_T / dt = -u_T . grad phi_T. With Reynolds' theorem, the divergence theorem and phi_T = 0 on the
+//! surface of T,
 //!
 //!   dI_T/dt = sum over faces k of C of  integral of phi_T (u_C - u_T) . n_k dA over (face k inside T)  +  I_T div u_T,
 //!
-//! so that, N being the shape functions, the forces are
+//! so that, with the shape functions N, the forces are
 //!
 //!   on vertex i of C: -p sum_k n_k integral phi_T N_i^C dA,
 //!   on vertex j of T: +p sum_k n_k integral phi_T N_j^T dA - p I_T grad N_j^T,
 //!
-//! and the same with T and C exchanged. The two share the place of each dA: the pair keeps momentum and angular momentum
-//! but for rounding.
+//! and the same with T and C exchanged. Both forces act at the same dA, so the pair conserves momentum and angular
+//! momentum to rounding.
 //!
 //! Volume integral. In the part where lambda_j is least, phi_T is linear and div(phi_T (x - a_j)) = 4 phi_T for any
-//! point a_j of face j. What the planes between two parts j and l contribute, phi_T (a_l - a_j) . n, vanishes if
-//! a_l - a_j is parallel to that plane. The choice in `anchors` has this for all but the plane between the parts 0 and
-//! 1, where the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
+//! point a_j of face j. The plane between two parts j and l contributes phi_T (a_l - a_j) . n, which vanishes if
+//! a_l - a_j is parallel to the plane. The points in `anchors` achieve this for all planes except that between the
+//! parts 0 and 1, where the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
 //!
 //!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q,
 //!
-//! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, q that over the part inside C
-//! of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every term has a
-//! factor phi_T: faces of T and C that coincide but for rounding do no harm.
+//! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, and q the integral over the
+//! part inside C of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every
+//! term has a factor phi_T, so faces of T and C that coincide to rounding are harmless.
 //!
-//! Stiffness. The stiffest pair lies flush with a face of area A and heights h_T, h_C over it, barely d deep:
-//! E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and with masses
-//! of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
+//! Stiffness. The stiffest pair shares a flush face of area A with heights h_T, h_C over it, and a small overlap depth
+//! d: E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and with
+//! masses of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
 
 use glam::{DVec3, DVec4};
 
 use super::polygon::{Linear, Moments, Polygon, Side};
 use super::tetrahedron::Tetrahedron;
 
-/// What two tetrahedra that overlap do to each other, per unit of penalty.
+/// Energy and forces of two overlapping tetrahedra, per unit of penalty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
     /// Energy, I_T + I_C [m3].
     pub energy: f64,
-    /// Forces on the vertices of T and of C, minus the gradient of the energy [m2].
+    /// Forces on the vertices of T and of C: minus the gradient of the energy [m2].
     pub forces: [[DVec3; 4]; 2],
-    /// Where the resultant acts: mean place of the surfaces inside, weighted by the potential [m].
+    /// Point of action of the resultant: mean position of the surfaces inside, weighted by the potential [m].
     pub centre: DVec3,
 }
 
 impl Overlap {
-    /// Resultant on C; that on T is its opposite [m2].
+    /// Resultant force on C [m2]; the resultant on T is opposite.
     pub fn resultant(&self) -> DVec3 {
         self.forces[1].iter().sum()
     }
 }
 
-/// Weight of the surfaces inside, in energy^(2/3) [-], below which rounding makes it: a tetrahedron on itself has none.
+/// Weight of the surfaces inside over energy^(2/3) [-] below which it is only rounding, as for identical tetrahedra.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// Overlap of the tetrahedra T and C, vertices in any order [m]; none if they are apart or only touch.
+/// Computes the overlap of the tetrahedra T and C, vertices in any order [m]; `None` if they are apart or only touch.
 pub fn overlap(t: &[DVec3; 4], c: &[DVec3; 4]) -> Option<Overlap> {
-    if boxes_apart(t, c) {
+    if are_boxes_apart(t, c) {
         return None;
     }
     let t = Tetrahedron::new(t)?;
     let c_in_t = c.map(|vertex| t.shape_functions(vertex));
-    if outside_a_face(&c_in_t) {
+    if are_outside_a_face(&c_in_t) {
         return None;
     }
     let c = Tetrahedron::new(c)?;
     let t_in_c = t.vertices.map(|vertex| c.shape_functions(vertex));
-    if outside_a_face(&t_in_c) {
+    if are_outside_a_face(&t_in_c) {
         return None;
     }
     let over_t = Potential { owner: &t, other: &c, other_in_owner: c_in_t, owner_in_other: t_in_c };
@@ -82,65 +82,66 @@ pub fn overlap(t: &[DVec3; 4], c: &[DVec3; 4]) -> Option<Overlap> {
     over_t.add_to(&mut sum, [0, 1]);
     over_c.add_to(&mut sum, [1, 0]);
     let surfaces_count = sum.weight > NO_WEIGHT * sum.energy.abs().powf(2.0 / 3.0);
-    let centre = if surfaces_count { sum.place / sum.weight } else { 0.5 * (t.centroid + c.centroid) };
+    let centre = if surfaces_count { sum.position / sum.weight } else { 0.5 * (t.centroid + c.centroid) };
     (sum.energy > 0.0).then_some(Overlap { energy: sum.energy, forces: sum.forces, centre })
 }
 
-/// Whether the boxes around two tetrahedra are apart.
-fn boxes_apart(t: &[DVec3; 4], c: &[DVec3; 4]) -> bool {
+/// Whether the bounding boxes of two tetrahedra are apart.
+fn are_boxes_apart(t: &[DVec3; 4], c: &[DVec3; 4]) -> bool {
     let low = |v: &[DVec3; 4]| v[0].min(v[1]).min(v[2].min(v[3]));
     let high = |v: &[DVec3; 4]| v[0].max(v[1]).max(v[2].max(v[3]));
     low(t).cmpge(high(c)).any() || low(c).cmpge(high(t)).any()
 }
 
-/// Whether four vertices, in the barycentric coordinates of another tetrahedron, lie all outside or in one of its faces.
-fn outside_a_face(vertices: &[DVec4; 4]) -> bool {
+/// Whether one face of a tetrahedron separates it from four vertices, given in its barycentric coordinates.
+fn are_outside_a_face(vertices: &[DVec4; 4]) -> bool {
     let highest = vertices[0].max(vertices[1]).max(vertices[2].max(vertices[3]));
     highest.cmple(DVec4::ZERO).any()
 }
 
-/// What the two potentials add up to.
+/// Sums over the two potentials.
 #[derive(Default)]
 struct Sum {
     energy: f64,
     forces: [[DVec3; 4]; 2],
     /// Integral of the potentials over the surfaces inside [m2].
     weight: f64,
-    /// Integral of the potentials times the place over the surfaces inside [m3].
-    place: DVec3,
+    /// Integral of the potentials times the position over the surfaces inside [m3].
+    position: DVec3,
 }
 
-/// The potential of one tetrahedron, its owner, over another one. In the formulas above, T is the owner and C the other.
+/// The potential of one tetrahedron, its owner, over another one (T and C in the formulas above).
 struct Potential<'a> {
     owner: &'a Tetrahedron,
     other: &'a Tetrahedron,
-    /// Vertices of each in the barycentric coordinates of the other one [-].
+    /// Vertices of each tetrahedron in the barycentric coordinates of the other one [-].
     other_in_owner: [DVec4; 4],
     owner_in_other: [DVec4; 4],
 }
 
 impl Potential<'_> {
-    /// Adds energy and forces of the potential, with the places of owner and other among the forces.
+    /// Adds energy and forces of the potential; `owner` and `other` are their indices in `forces`.
     fn add_to(&self, sum: &mut Sum, [owner, other]: [usize; 2]) {
         let anchors = anchors(&self.owner_in_other);
         let mut integral = 0.75 * self.owner.volume * self.between_parts();
         for (k, corners) in FACES.iter().enumerate() {
-            let Some(Pressed { of_part, at_corner }) = pressed(corners.map(|i| self.other_in_owner[i])) else {
+            let Some(FaceIntegrals { per_part, at_corner }) = face_integrals(corners.map(|i| self.other_in_owner[i]))
+            else {
                 continue;
             };
-            integral += 0.75 * self.other.volume * (0..4).map(|j| anchors[j][k] * of_part[j]).sum::<f64>();
+            integral += 0.75 * self.other.volume * (0..4).map(|j| anchors[j][k] * per_part[j]).sum::<f64>();
             let area = self.other.area_vector(k);
-            let (mut at_vertex, mut place) = (DVec4::ZERO, DVec3::ZERO);
+            let (mut at_vertex, mut position) = (DVec4::ZERO, DVec3::ZERO);
             for (i, share) in corners.iter().zip(at_corner) {
                 sum.forces[other][*i] -= share * area;
                 at_vertex += share * self.other_in_owner[*i];
-                place += share * self.other.vertices[*i];
+                position += share * self.other.vertices[*i];
             }
             for (force, share) in sum.forces[owner].iter_mut().zip(at_vertex.to_array()) {
                 *force += share * area;
             }
             sum.weight += area.length() * at_corner.iter().sum::<f64>();
-            sum.place += area.length() * place;
+            sum.position += area.length() * position;
         }
         for (force, gradient) in sum.forces[owner].iter_mut().zip(self.owner.gradients) {
             *force -= integral * gradient;
@@ -148,7 +149,7 @@ impl Potential<'_> {
         sum.energy += integral;
     }
 
-    /// The integral q over the plane between the parts 0 and 1 [-].
+    /// Integral q over the plane between the parts 0 and 1 [-].
     fn between_parts(&self) -> f64 {
         let vertices = &self.owner_in_other;
         let centroid = 0.25 * (vertices[0] + vertices[1] + vertices[2] + vertices[3]);
@@ -161,7 +162,7 @@ impl Potential<'_> {
 /// Vertices of the face opposite to each vertex.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
-/// The points a_j, from the vertices of the tetrahedron in any affine coordinates. Barycentric: a_0 = (0, 2, -1/2, -1/2),
+/// Points a_j, from the vertices of the tetrahedron in any affine coordinates. Barycentric: a_0 = (0, 2, -1/2, -1/2),
 /// a_1 = (2, 0, -1/2, -1/2), a_2 = a_3 = (1/2, 1/2, 0, 0).
 fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
     let middle = 0.5 * (vertices[0] + vertices[1]);
@@ -170,30 +171,30 @@ fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
 }
 
 /// Integrals of a potential over the part of a face inside its owner, divided by the area of the face.
-struct Pressed {
+struct FaceIntegrals {
     /// Of the potential, where coordinate j is least, m_kj [-].
-    of_part: [f64; 4],
+    per_part: [f64; 4],
     /// Of the potential times the shape functions of the face's corners [-].
     at_corner: [f64; 3],
 }
 
-/// Integrals over a face of another tetrahedron, corners in the coordinates of the owner; none if it is outside.
-fn pressed(face: [DVec4; 3]) -> Option<Pressed> {
+/// Integrals over a face of the other tetrahedron, in the coordinates of the owner; `None` if the face is outside.
+fn face_integrals(face: [DVec4; 3]) -> Option<FaceIntegrals> {
     let coordinates = coordinates(face);
     let inside = inside_tetrahedron(&coordinates)?;
-    let (mut of_part, mut total) = ([0.0; 4], Moments::default());
+    let (mut per_part, mut total) = ([0.0; 4], Moments::default());
     for_each_part(&inside, &coordinates, [0, 1], &mut |least, part| {
         let Moments { zeroth, first } = part.integrate(coordinates[least]);
-        of_part[least] += 4.0 * zeroth;
+        per_part[least] += 4.0 * zeroth;
         total.zeroth += 4.0 * zeroth;
         total.first += 4.0 * first;
     });
     let [s, t] = total.first.to_array();
-    Some(Pressed { of_part, at_corner: [total.zeroth - s - t, s, t] })
+    Some(FaceIntegrals { per_part, at_corner: [total.zeroth - s - t, s, t] })
 }
 
-/// Calls `visit` with the parts of a polygon where one coordinate is the least, and the number of that coordinate;
-/// `least` is the least of the coordinates before `next`.
+/// Calls `visit` with each part of a polygon in which one coordinate is the least, and with the number of that
+/// coordinate. `least` is the least of the coordinates before `next`.
 fn for_each_part(
     polygon: &Polygon,
     coordinates: &[Linear; 4],
@@ -213,13 +214,13 @@ fn for_each_part(
     }
 }
 
-/// Barycentric coordinates as functions on a triangle, from those of its corners.
+/// Barycentric coordinates as linear functions on a triangle, from their values at its corners.
 fn coordinates([a, b, c]: [DVec4; 3]) -> [Linear; 4] {
     let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());
     [0, 1, 2, 3].map(|j| Linear::with_values([a[j], b[j], c[j]]))
 }
 
-/// The part of a triangle inside a tetrahedron, from the barycentric coordinates on it.
+/// Part of a triangle inside a tetrahedron, from the barycentric coordinates on the triangle.
 fn inside_tetrahedron(coordinates: &[Linear; 4]) -> Option<Polygon> {
     Polygon::triangle().clip(coordinates)
 }

@@ -9,7 +9,7 @@ use crate::random::SplitMix64;
 
 type Pair = [[DVec3; 4]; 2];
 
-/// Pairs that overlap: from barely to one inside the other, sizes of 0.1 to 2.1 m against 1 m.
+/// Overlapping pairs, from barely touching to one inside the other; sizes of 0.1 to 2.1 m against 1 m.
 fn random_pairs(seed: u64, count: usize) -> Vec<(Pair, Overlap)> {
     let mut random = SplitMix64::new(seed);
     let mut pairs = Vec::new();
@@ -33,7 +33,7 @@ fn largest_force(found: &Overlap) -> f64 {
     found.forces.iter().flatten().map(|force| force.length()).fold(0.0, f64::max)
 }
 
-/// Places and forces of all vertices.
+/// Positions and forces of all vertices.
 fn loads(pair: &Pair, found: &Overlap) -> Vec<(DVec3, DVec3)> {
     pair.iter().flatten().copied().zip(found.forces.iter().flatten().copied()).collect()
 }
@@ -43,15 +43,15 @@ fn forces_are_minus_the_gradient_of_the_energy() {
     for (pair, found) in random_pairs(11, 4000) {
         for (body, vertex, axis) in (0..24).map(|n| (n / 12, n / 3 % 4, n % 3)) {
             let error = |step: f64| {
-                let at = |shift: f64| {
+                let energy_at = |shift: f64| {
                     let mut moved = pair;
                     moved[body][vertex][axis] += shift;
                     energy(moved)
                 };
-                ((at(step) - at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
+                ((energy_at(step) - energy_at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
             };
-            // 5e-17: the rounding of energies, 1e-24 for an overlap 1e-4 m deep, divided by the step. The best step depends
-            // on the depth, and is small where the second derivative has a kink nearby. The gradient itself has none: no
+            // 5e-17: rounding of the energy, 1e-24 for an overlap 1e-4 m deep, divided by the increment. The best
+            // increment depends on the depth and on kinks of the second derivative. The gradient has no kinks, so no
             // pair is skipped.
             let allowed = 1e-6 * largest_force(&found) + 5e-17;
             assert!([1e-4, 1e-5, 1e-6, 1e-7, 1e-3, 1e-8].into_iter().any(|step| error(step) < allowed), "{pair:?}");
@@ -63,7 +63,7 @@ fn forces_are_minus_the_gradient_of_the_energy() {
 fn forces_have_no_resultant_and_no_moment() {
     for (pair, found) in random_pairs(12, 4000) {
         let loads = loads(&pair, &found);
-        // Rounding, of forces and of areas that add up to the forces; places are up to 3 m away.
+        // Rounding of forces and of the areas that add up to them; positions are up to 3 m away.
         let allowed = 1e-13 * largest_force(&found) + 1e-17;
         assert!(loads.iter().map(|(_, f)| f).sum::<DVec3>().length() < allowed);
         assert!(loads.iter().map(|(x, f)| x.cross(*f)).sum::<DVec3>().length() < 20.0 * allowed);
@@ -71,7 +71,7 @@ fn forces_have_no_resultant_and_no_moment() {
 }
 
 #[test]
-fn the_centre_is_inside_both() {
+fn the_contact_point_is_inside_both_tetrahedra() {
     for ([t, c], found) in random_pairs(13, 4000) {
         for tetrahedron in [t, c] {
             let shares = Tetrahedron::new(&tetrahedron).unwrap().shape_functions(found.centre);
@@ -81,12 +81,12 @@ fn the_centre_is_inside_both() {
 }
 
 #[test]
-fn energy_is_the_same_after_a_motion_an_exchange_and_a_renumbering() {
+fn energy_is_invariant_under_rigid_motion_exchange_and_renumbering() {
     let mut random = SplitMix64::new(14);
     for (pair, found) in random_pairs(14, 2000) {
         let (turn, shift) = (random.next_rotation(), random_point(&mut random));
         let [t, c] = pair.map(|vertices| vertices.map(|vertex| turn * vertex + shift));
-        // 1e-15: the rounding of volumes of order 0.1.
+        // 1e-15: rounding of volumes of order 0.1.
         let same = |other: f64| (other - found.energy).abs() < 1e-12 * found.energy + 1e-15;
         assert!(same(energy([t, c])) && same(energy([c, t])));
         let turned = overlap(&t, &c).unwrap();
@@ -100,25 +100,25 @@ fn energy_is_the_same_after_a_motion_an_exchange_and_a_renumbering() {
 }
 
 #[test]
-fn a_tetrahedron_on_itself_has_half_its_volume() {
+fn overlap_energy_of_identical_tetrahedra_is_half_their_volume() {
     let mut random = SplitMix64::new(15);
     for _ in 0..100 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let volume = Tetrahedron::new(&t).unwrap().volume;
         let found = overlap(&t, &t).unwrap();
-        // Mean of each potential: 1/4. Rounding only.
+        // The mean of each potential is 1/4. Rounding only.
         assert!((found.energy - 0.5 * volume).abs() < 1e-15);
         assert!((found.centre - t.iter().sum::<DVec3>() / 4.0).length() < 1e-15);
     }
 }
 
 #[test]
-fn a_tetrahedron_inside_a_part_of_another_meets_the_potential_of_its_centroid() {
+fn a_small_tetrahedron_inside_another_sees_the_potential_at_its_centroid() {
     let mut random = SplitMix64::new(16);
     for _ in 0..1000 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let outer = Tetrahedron::new(&t).unwrap();
-        // In the part where the coordinate j is 0.1 and the others are 0.3, 0.2 m across at most for this size.
+        // Coordinate j is 0.1 and the others are 0.3; the part with j least is at most 0.2 m wide for this size.
         let j = (4.0 * random.next_share()) as usize;
         let about = outer.weighted(DVec4::splat(0.3) - 0.2 * DVec4::AXES[j]);
         let c = random_tetrahedron(&mut random, about, 0.01);
@@ -129,11 +129,11 @@ fn a_tetrahedron_inside_a_part_of_another_meets_the_potential_of_its_centroid() 
 }
 
 #[test]
-fn what_is_apart_or_only_touches_has_no_overlap() {
+fn separate_or_touching_tetrahedra_have_no_overlap() {
     let t = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let below = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::Z];
     assert_eq!(overlap(&t, &below), None);
-    // Corner on face, edge on edge, corner on corner; boxes that meet apart from each other.
+    // Corner on face, edge on edge, corner on corner; then separate tetrahedra with and without intersecting boxes.
     let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     assert_eq!(overlap(&t, &[corner(0.2, 0.2, 0.0), corner(0.0, 0.2, -1.0), corner(0.5, 0.2, -1.0), -DVec3::Z]), None);
     assert_eq!(overlap(&t, &[DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z]), None);
@@ -144,12 +144,12 @@ fn what_is_apart_or_only_touches_has_no_overlap() {
 }
 
 #[test]
-fn faces_that_coincide_but_for_rounding_do_no_harm() {
+fn faces_that_coincide_to_rounding_give_no_spurious_overlap() {
     let mut random = SplitMix64::new(17);
     for _ in 0..2000 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let [a, b, c, d] = t;
-        // The neighbour through the face a, b, c, and one in the same half-space that has it as its face, too.
+        // The neighbour across the face a, b, c, and a tetrahedron on the same side with the same face.
         let mirrored = d - 2.0 * (d - a).project_onto((b - a).cross(c - a));
         let noise = |v: DVec3, random: &mut SplitMix64| v + 2e-16 * random_point(random);
         let neighbour = [a, b, c, mirrored].map(|v| noise(v, &mut random));
@@ -163,7 +163,7 @@ fn faces_that_coincide_but_for_rounding_do_no_harm() {
 }
 
 #[test]
-fn a_tip_that_dips_into_a_face_has_an_energy_of_the_fourth_power_of_the_depth() {
+fn energy_of_a_tip_in_a_face_grows_with_the_fourth_power_of_the_depth() {
     let base = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, -9.0]].map(DVec3::from_array);
     let tip = |depth: f64| {
         let c = [[0.0, 0.0, 0.0], [0.5, 0.1, 0.8], [-0.3, 0.4, 0.9], [-0.1, -0.5, 0.7]].map(DVec3::from_array);
@@ -172,8 +172,8 @@ fn a_tip_that_dips_into_a_face_has_an_energy_of_the_fourth_power_of_the_depth() 
     let (energy, force) = (tip(1e-2).energy / 1e-8, tip(1e-2).resultant() / 1e-6);
     for depth in [1e-3, 1e-4, 1e-5, 1e-6] {
         let found = tip(depth);
-        // Places of up to 18 m are rounded to 1e-15, of which the depth is a difference; the energy is one of terms that
-        // are larger by another 1 / depth.
+        // The depth is a difference of positions of up to 18 m, rounded to 1e-15. The energy is a difference of terms
+        // that are larger by another factor 1 / depth.
         let allowed = 1e-14 / depth;
         assert!((found.energy / depth.powi(4) / energy - 1.0).abs() < allowed / depth, "{depth} {}", found.energy);
         assert!((found.resultant() / depth.powi(3) - force).length() < allowed * force.length());
@@ -181,15 +181,15 @@ fn a_tip_that_dips_into_a_face_has_an_energy_of_the_fourth_power_of_the_depth() 
 }
 
 #[test]
-fn a_box_of_tetrahedra_on_another_is_pressed_the_same_in_any_order() {
-    // Six tetrahedra along the diagonal (Kuhn), one for each order of the axes.
+fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
+    // Six tetrahedra along the diagonal (Kuhn), one per order of the axes.
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let cube = |shift: DVec3| {
         orders.map(|order| {
-            let mut at = shift;
+            let mut corner = shift;
             let path = order.map(|axis| {
-                at[axis] += 1.0;
-                at
+                corner[axis] += 1.0;
+                corner
             });
             [shift, path[0], path[1], path[2]]
         })
@@ -208,17 +208,17 @@ fn a_box_of_tetrahedra_on_another_is_pressed_the_same_in_any_order() {
     // Rounding: 1e-15 / depth^2 for energies.
     assert!((energy_again / energy - 1.0).abs() < 1e-9 && (energy_back / energy - 1.0).abs() < 1e-9);
     assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
-    // Two of the six have a face in each side of the cube; the potential rises from it to 1 in a quarter of the height of
-    // 1 m. Mean over the slab: 4 depth / 2, for each of the two boxes. Somewhat less, in proportion to the depth, where
-    // another face is nearer.
+    // Two of the six have a face in each side of the cube; the potential rises from that face to 1 over a quarter of
+    // the height of 1 m. Its mean over the slab is 4 depth / 2 for each cube. It is lower, in proportion to the depth,
+    // where another face is nearer.
     assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
-    // Upwards: the boxes are flush at the sides, and no force acts across.
+    // The force points upwards: the cubes are flush at the sides, so no lateral force acts.
     assert!(force.z > 0.0 && force.truncate().length() < 5.0 * depth * force.z, "{force}");
 }
 
 #[test]
-fn a_tetrahedron_that_bounces_keeps_its_energy_whatever_the_penalty() {
-    // A fixed tetrahedron with edges of 10 m; one of 1 m and four masses of 1 kg, with springs for edges, at 1 m/s.
+fn a_bouncing_tetrahedron_conserves_energy_for_any_penalty() {
+    // A fixed tetrahedron with edges of 10 m. One of 1 m with masses of 1 kg and springs as edges falls on it at 1 m/s.
     let base = [[-5.0, -3.0, 0.0], [5.0, -3.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, -8.0]].map(DVec3::from_array);
     let edges = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let (stiffness, step) = (5e3, 5e-6);
@@ -240,7 +240,7 @@ fn a_tetrahedron_that_bounces_keeps_its_energy_whatever_the_penalty() {
                 force[j] -= pull;
                 stored += 0.5 * stiffness * extension * extension;
             }
-            // Velocity in the middle between two half steps.
+            // Velocity at the same time as the positions, between two half time steps.
             let kinetic: f64 = (0..4).map(|i| 0.5 * (v[i] + 0.5 * step * force[i]).length_squared()).sum();
             worst = worst.max((kinetic + stored - 2.0).abs() / 2.0);
             if touched && found.is_none() && x.iter().all(|vertex| vertex.z > 0.05) {
@@ -257,12 +257,12 @@ fn a_tetrahedron_that_bounces_keeps_its_energy_whatever_the_penalty() {
 }
 
 #[test]
-fn a_flush_pair_is_as_stiff_as_the_header_says() {
+fn the_stiffness_of_a_flush_pair_equals_the_formula() {
     let t = regular_tetrahedron(DVec3::ZERO, 1.0);
     let height = (2.0f64 / 3.0).sqrt();
     let normal = -t[3].normalize();
     let mirrored = t[3] + 2.0 * height * normal;
-    // All vertices of the common face move: 1 / sqrt(6) each in the eigenvector.
+    // All vertices of the common face move, each with 1 / sqrt(6) in the eigenvector.
     let resultant = |depth: f64| {
         let c = [t[0], t[1], t[2], mirrored].map(|vertex| vertex - depth * normal);
         let found = overlap(&t, &c).unwrap();
@@ -271,6 +271,6 @@ fn a_flush_pair_is_as_stiff_as_the_header_says() {
     let (depth, change) = (1e-4, 1e-6);
     let stiffness = (resultant(depth + change) - resultant(depth - change)) / (2.0 * change) * 2.0 / 3.0;
     let area = 0.75f64.sqrt() / 2.0;
-    // The corners of the face have less, in proportion to the depth.
+    // The stiffness is lower at the corners of the face, in proportion to the depth.
     assert!((stiffness * height / (16.0 / 3.0 * area) - 1.0).abs() < 30.0 * depth, "{stiffness}");
 }

@@ -1,18 +1,18 @@
-//! Tetrahedra in contact: who can touch whom, their forces, and how a contact is born.
+//! Pairs of tetrahedra in contact: which pairs can touch, their forces, and the start of a contact.
 //!
-//! Only tetrahedra with a free face can touch: those at the outside, and those at a crack. Two that share a node around
-//! which unbroken faces hold them together do not, unless the face between them has broken.
+//! Only tetrahedra with a free face can touch: on the surface of a body or at a crack. Two tetrahedra do not touch if
+//! they share a node around which unbroken faces connect them, unless the face between them has broken.
 //!
-//! What overlaps when a pair is born does not count, but for the energy that a joint leaves to it: a joint
-//! that fails under pressure hands its compression over, and no energy comes from nothing. With p I the energy of the
-//! overlap and I_b what does not count of I, the pair has
+//! The initial overlap of a new pair does not count, except for the elastic energy of a joint that failed in
+//! compression: the pair takes this energy over, so that no energy is created. With the overlap energy p I and the
+//! initial part I_b of I that does not count, the pair has
 //!
-//!   E = p (sqrt I - sqrt I_b)^2 where I > I_b, and gives the share 1 - sqrt(I_b / I) of the forces of the overlap.
+//!   E = p (sqrt I - sqrt I_b)^2 where I > I_b, and the share 1 - sqrt(I_b / I) of the forces of the overlap.
 //!
-//! The force rises from zero, and for two faces that lie flush, whose I goes with the square of the depth, as steeply as
-//! if they had come from outside; no pair is stiffer than that. (With p (I - I_b) the force would jump where I passes
-//! I_b, and a crushed body whose pieces rattle there would gain half of force times way in each step that crosses it.)
-//! I_b falls with I: pieces that have come apart meet like any others.
+//! The force rises from zero. For flush faces, whose I grows with the square of the depth, it rises as steeply as for
+//! two separate bodies; no pair is stiffer. (With p (I - I_b) the force would jump at I = I_b, and fragments that
+//! rattle there would gain half of force times displacement in each time step that crosses the jump.) I_b decreases
+//! with I, so fragments that separate and meet again are a normal contact.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -29,61 +29,60 @@ use super::friction::{FrictionLaw, TangentialSpring};
 use super::overlap::{Overlap, overlap};
 use super::tetrahedron::Tetrahedron;
 
-/// Candidates of one task of the thread pool.
-const PIECE: usize = 64;
+/// Pairs per task of the thread pool.
+const CHUNK: usize = 64;
 
-/// Distance up to which pairs are looked for, over the mean size of the tetrahedra that can touch [-]: a search then
-/// lasts for thousands of steps, and few pairs are looked at in vain.
+/// Search distance over the mean size of the tetrahedra that can touch [-]. A search then remains valid for thousands
+/// of time steps, and few pairs are evaluated in vain.
 const SKIN: f64 = 0.1;
 
-/// Stiffness along over that across a contact (Xiang, Latham and Farsi 2017) [-].
+/// Tangential over normal contact stiffness [-] (Xiang, Latham and Farsi 2017).
 const TANGENTIAL: f64 = 2.0 / 7.0;
 
-/// Two tetrahedra near each other, with what their contact remembers.
+/// Two nearby tetrahedra and the history of their contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Pair {
     tets: [u32; 2],
     penalty: f64,
     law: FrictionLaw,
-    /// Overlap, as energy over penalty, that does not count [m3]; `None` before the pair was first looked at.
+    /// Initial overlap I_b (energy over penalty) that does not count [m3]; `None` before the first evaluation.
     born: Option<f64>,
-    /// Energy that a joint has left to the pair [J]; what of it the pair does not take is lost.
+    /// Elastic energy that a broken joint leaves to the pair [J]; the part that the pair cannot take is dissipated.
     left: f64,
     spring: Option<TangentialSpring>,
     forces: Option<[[DVec3; 4]; 2]>,
-    /// Energy that would come back [J].
+    /// Elastic energy of the contact [J].
     stored: f64,
-    /// Energy that friction took in the last step [J].
+    /// Energy dissipated by friction in the last time step [J].
     dissipated: f64,
 }
 
 /// The contacts of a world.
 #[derive(Debug, Clone, Default)]
 pub struct Contacts {
-    /// Tetrahedra with a free face, in rising order.
+    /// Tetrahedra with a free face, in ascending order.
     outer: Vec<u32>,
-    /// For every copy of a node, the first of those around the node that unbroken faces hold together with it.
+    /// For every node copy, the first of the copies of its mesh node that unbroken faces connect with it.
     group: Vec<Copy4>,
     pairs: Vec<Pair>,
-    /// Tetrahedra whose joint has broken since the last search, and the energy that it leaves to them [J].
+    /// Tetrahedra whose joint has broken since the last search, and the energy that the joint leaves to them [J].
     opened: Vec<([u32; 2], f64)>,
-    /// Way that a node can have gone since the last search [m].
+    /// Upper limit of the distance that any node has moved since the last search [m].
     travelled: f64,
     skin: f64,
     outdated: bool,
-    /// Energy that contacts would give back [J].
+    /// Elastic energy of all contacts [J].
     pub stored: f64,
-    /// Energy lost by friction so far [J].
+    /// Energy dissipated by friction so far [J].
     pub friction: f64,
     /// Energy that contacts have taken over from broken joints so far [J].
     pub taken_over: f64,
-    /// Pairs that press each other.
+    /// Number of pairs with contact forces.
     pub touching: usize,
 }
 
 impl Contacts {
-    /// Contacts between the outsides of the bodies of a setup; `groups` are the copies that hold together around each
-    /// node.
+    /// Creates the contacts between the surfaces of all bodies; `groups` are the connected copies around each node.
     pub fn new<'a>(setup: &Setup, groups: impl Iterator<Item = &'a [Copy4]>) -> Self {
         let group = vec![0; 4 * setup.tets.len()];
         let mut contacts = Self { outer: setup.outer.clone(), group, ..Self::default() };
@@ -91,17 +90,17 @@ impl Contacts {
         contacts
     }
 
-    /// Copies around a node that hold together now.
+    /// Sets the copies around a node that are connected now.
     pub fn regroup(&mut self, group: &[Copy4]) {
         group.iter().for_each(|copy| self.group[*copy as usize] = group[0]);
         self.outdated = true;
     }
 
-    /// The tetrahedra at a broken face can touch from now on; its joint leaves them its elastic energy [J].
+    /// Allows the tetrahedra at a broken face to touch; the joint leaves them its elastic energy [J].
     pub fn open(&mut self, mut tets: [u32; 2], left: f64) {
         for tet in tets {
-            if let Err(place) = self.outer.binary_search(&tet) {
-                self.outer.insert(place, tet);
+            if let Err(index) = self.outer.binary_search(&tet) {
+                self.outer.insert(index, tet);
             }
         }
         tets.sort_unstable();
@@ -109,13 +108,13 @@ impl Contacts {
         self.outdated = true;
     }
 
-    /// No node has gone further than this way since the last call [m].
-    pub fn travel(&mut self, way: f64) {
-        self.travelled += way;
+    /// Adds the longest distance that any node has moved since the last call [m].
+    pub fn travel(&mut self, distance: f64) {
+        self.travelled += distance;
     }
 
-    /// Adds the forces of all contacts to those of the tetrahedra [N]. Nodes are at `place` [m], where `velocity` [m/s]
-    /// has brought them over `dt` [s].
+    /// Adds all contact forces to the forces of the tetrahedra [N]. Nodes are at `place` [m], after moving with
+    /// `velocity` [m/s] for `dt` [s].
     pub fn press(
         &mut self,
         setup: &Setup,
@@ -130,33 +129,33 @@ impl Contacts {
         }
         let corners = |tet: u32| tets.nodes[tet as usize].map(|node| place[node as usize]);
         let moves = |tet: u32| tets.nodes[tet as usize].map(|node| velocity[node as usize] * dt);
-        self.pairs.par_chunks_mut(PIECE).for_each(|pairs| {
+        self.pairs.par_chunks_mut(CHUNK).for_each(|pairs| {
             for pair in pairs {
-                let of = pair.tets;
-                pair.evaluate(of.map(corners), || of.map(moves));
+                let tets = pair.tets;
+                pair.evaluate(tets.map(corners), || tets.map(moves));
             }
         });
         (self.stored, self.touching) = (0.0, 0);
         for pair in &mut self.pairs {
             self.friction += std::mem::take(&mut pair.dissipated);
             self.taken_over += std::mem::take(&mut pair.left);
-            let Some(of_pair) = pair.forces else { continue };
+            let Some(pair_forces) = pair.forces else { continue };
             self.stored += pair.stored;
             self.touching += 1;
-            for (tet, of_tet) in pair.tets.into_iter().zip(of_pair) {
-                forces[tet as usize].iter_mut().zip(of_tet).for_each(|(total, force)| *total += force);
+            for (tet, tet_forces) in pair.tets.into_iter().zip(pair_forces) {
+                forces[tet as usize].iter_mut().zip(tet_forces).for_each(|(total, force)| *total += force);
             }
         }
     }
 
-    /// Whether tetrahedra of two different bodies press each other.
+    /// Whether tetrahedra of two different bodies are in contact.
     pub fn between_bodies(&self, tets: &Tets) -> bool {
         let body = |tet: u32| tets.body[tet as usize];
         self.touching > 0
             && self.pairs.iter().any(|pair| pair.forces.is_some() && body(pair.tets[0]) != body(pair.tets[1]))
     }
 
-    /// Pairs whose boxes are nearer than two skins; those known already keep what they remember.
+    /// Finds the pairs closer than two skins; pairs that existed before keep their history.
     fn search(&mut self, setup: &Setup, tets: &Tets, place: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
         let size: f64 = self.outer.iter().map(|tet| tets.shape[*tet as usize].volume.cbrt()).sum();
         self.skin = SKIN * size / self.outer.len().max(1) as f64;
@@ -168,14 +167,14 @@ impl Contacts {
             self.can_touch([a, b], setup, tets, &is_broken) && !are_apart(&corners(&a), &corners(&b), 2.0 * self.skin)
         };
         let mut detection = Detection::default();
-        let known = |of: [u32; 2]| match self.pairs.binary_search_by_key(&of, |pair| pair.tets) {
+        let recall = |key: [u32; 2]| match self.pairs.binary_search_by_key(&key, |pair| pair.tets) {
             Ok(index) => self.pairs[index],
-            Err(_) => Pair::new(of, setup, tets),
+            Err(_) => Pair::new(key, setup, tets),
         };
-        let mut pairs: Vec<Pair> = detection.pairs(&boxes, keep).iter().map(|pair| known(tets_of(*pair))).collect();
-        for (of, left) in self.opened.drain(..) {
-            if let Ok(index) = pairs.binary_search_by_key(&of, |pair| pair.tets) {
-                // A pair that was looked at before has its overlap counted already.
+        let mut pairs: Vec<Pair> = detection.pairs(&boxes, keep).iter().map(|pair| recall(tets_of(*pair))).collect();
+        for (key, left) in self.opened.drain(..) {
+            if let Ok(index) = pairs.binary_search_by_key(&key, |pair| pair.tets) {
+                // A pair that was evaluated before already counts its overlap.
                 pairs[index].left = if pairs[index].born.is_none() { left } else { 0.0 };
             }
         }
@@ -183,30 +182,30 @@ impl Contacts {
         (self.travelled, self.outdated) = (0.0, false);
     }
 
-    /// Whether nothing holds two tetrahedra together around a node that they share, or the face between them has broken.
+    /// Whether two tetrahedra are not connected around a shared node, or the face between them has broken.
     fn can_touch(&self, [a, b]: [u32; 2], setup: &Setup, tets: &Tets, is_broken: impl Fn(usize) -> bool) -> bool {
         let nodes = [a, b].map(|tet| setup.tets[tet as usize]);
-        let held = |k: usize| {
-            let at = nodes[1].iter().position(|node| *node == nodes[0][k]);
-            at.is_some_and(|l| self.group[4 * a as usize + k] == self.group[4 * b as usize + l])
+        let is_connected = |k: usize| {
+            let shared = nodes[1].iter().position(|node| *node == nodes[0][k]);
+            shared.is_some_and(|l| self.group[4 * a as usize + k] == self.group[4 * b as usize + l])
         };
         let broken_between = || {
             let links = tets.faces[a as usize].iter().filter_map(|link| link.interface());
             links.into_iter().any(|(face, side)| setup.interfaces[face].tets[1 - side] == b && is_broken(face))
         };
-        !(0..4).any(held) || broken_between()
+        !(0..4).any(is_connected) || broken_between()
     }
 }
 
-/// Whether a face of one of two tetrahedra has all of the other one further out than a gap [m]. Boxes about tetrahedra
-/// that are two apart on the same surface often meet: of pairs of boxes, few are left by this.
+/// Whether a face of one tetrahedron separates it from the other one by more than a gap [m]. This removes most pairs of
+/// intersecting boxes: boxes of second neighbours on a surface often intersect.
 fn are_apart(a: &[DVec3; 4], b: &[DVec3; 4], gap: f64) -> bool {
-    let beyond_a_face = |of: &[DVec3; 4], other: &[DVec3; 4]| {
-        let Some(of) = Tetrahedron::new(of) else { return false };
-        let [p, q, r, s] = other.map(|vertex| of.shape_functions(vertex));
+    let beyond_a_face = |owner: &[DVec3; 4], other: &[DVec3; 4]| {
+        let Some(owner) = Tetrahedron::new(owner) else { return false };
+        let [p, q, r, s] = other.map(|vertex| owner.shape_functions(vertex));
         let nearest = p.max(q).max(r.max(s)).to_array();
-        // A shape function falls by the length of its gradient to the metre.
-        nearest.iter().zip(of.gradients).any(|(nearest, gradient)| *nearest < -gap * gradient.length())
+        // A shape function decreases by the length of its gradient per metre.
+        nearest.iter().zip(owner.gradients).any(|(nearest, gradient)| *nearest < -gap * gradient.length())
     };
     beyond_a_face(a, b) || beyond_a_face(b, a)
 }
@@ -226,17 +225,17 @@ impl Pair {
         let energy = found.as_ref().map_or(0.0, |found| found.energy);
         let born = match self.born {
             Some(born) => born.min(energy),
-            None => self.bear(found.as_ref(), &moves()),
+            None => self.initial_overlap(found.as_ref(), &moves()),
         };
         self.born = Some(born);
         let Some(found) = found.filter(|_| energy > born) else {
-            let held = self.spring.take().map_or(0.0, |spring| spring.stored(&self.law));
+            let spring_energy = self.spring.take().map_or(0.0, |spring| spring.stored(&self.law));
             (self.forces, self.stored) = (None, 0.0);
-            self.dissipated += held;
+            self.dissipated += spring_energy;
             return;
         };
         let penalty = self.penalty * (1.0 - (born / energy).sqrt());
-        let mut forces = found.forces.map(|of_tet| of_tet.map(|force| force * penalty));
+        let mut forces = found.forces.map(|tet_forces| tet_forces.map(|force| force * penalty));
         self.stored = self.penalty * (energy.sqrt() - born.sqrt()).powi(2);
         if self.law.coefficient > 0.0 {
             let spring = self.spring.get_or_insert_with(|| TangentialSpring::new(found.resultant()));
@@ -250,16 +249,16 @@ impl Pair {
         self.forces = Some(forces);
     }
 
-    /// The overlap that does not count [m3]. It is such that the pair had the energy left to it when its joint gave way,
-    /// half a step ago: with s = sqrt I - sqrt I_b, p s^2 now less half of what the motion of this step does against its
-    /// forces, the share s / sqrt I of those of the whole overlap.
-    fn bear(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
+    /// Returns I_b, the initial overlap that does not count [m3]. It is chosen so that half a time step ago, when the
+    /// joint broke, the pair had the energy that the joint leaves. With s = sqrt I - sqrt I_b this is p s^2 now, minus
+    /// half the work of this time step against the forces (the share s / sqrt I of the forces of the overlap).
+    fn initial_overlap(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
         let left = std::mem::take(&mut self.left);
         let Some(found) = found.filter(|found| found.energy > 0.0) else { return 0.0 };
         let root = found.energy.sqrt();
-        let along = found.forces.iter().flatten().zip(moves.iter().flatten()).map(|(force, way)| force.dot(*way));
-        // Of the whole overlap, over p sqrt I.
-        let work = -0.5 * along.sum::<f64>() / root;
+        let works = found.forces.iter().flatten().zip(moves.iter().flatten()).map(|(force, u)| force.dot(*u));
+        // For the forces of the whole overlap, divided by p sqrt I.
+        let work = -0.5 * works.sum::<f64>() / root;
         let counts = (0.5 * (work + (work * work + 4.0 * left / self.penalty).sqrt())).clamp(0.0, root);
         self.left = (self.penalty * counts * (counts - work)).max(0.0);
         (root - counts).powi(2)

@@ -1,8 +1,8 @@
-//! Convex parts of a triangle: cut by planes, and integrals over them.
+//! Convex parts of a triangle: clipping by planes, and integrals.
 //!
-//! Points are given in the triangle's own coordinates (s, t): its corners are (0, 0), (1, 0) and (0, 1). Cutting:
-//! Sutherland & Hodgman (1974), "Reentrant polygon clipping", CACM 17, 32-42; here the two parts share the new corners
-//! and every other corner goes to one of them, so that no area is lost or counted twice even where rounding decides.
+//! Points have the local coordinates (s, t) of the triangle: its corners are (0, 0), (1, 0) and (0, 1). Clipping:
+//! Sutherland & Hodgman (1974), "Reentrant polygon clipping", CACM 17, 32-42. Here the two parts share the new corners,
+//! and every other corner belongs to one part. So rounding never loses area or counts it twice.
 
 use std::ops::Sub;
 
@@ -16,12 +16,12 @@ const CAPACITY: usize = 10;
 pub struct Linear {
     /// Value at the first corner.
     origin: f64,
-    /// Differences to the other two corners.
+    /// Differences of the values at the other two corners.
     slope: DVec2,
 }
 
 impl Linear {
-    /// The linear function with the given values at the corners.
+    /// Creates the linear function with the given values at the corners.
     pub fn with_values([a, b, c]: [f64; 3]) -> Self {
         Self { origin: a, slope: DVec2::new(b - a, c - a) }
     }
@@ -47,23 +47,23 @@ pub struct Polygon {
     count: usize,
 }
 
-/// Where a polygon lies to a plane.
+/// Position of a polygon relative to a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Side {
-    /// All of it on the positive side, or in the plane.
+    /// Entirely on the positive side, or in the plane.
     Positive,
-    /// All of it on the negative side.
+    /// Entirely on the negative side.
     Negative,
     /// On both sides.
     Both(Cut),
 }
 
-/// How a plane cuts a polygon in two.
+/// Cut of a polygon by a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cut {
     /// First and last corner of the positive part.
     run: [usize; 2],
-    /// Where the edges before the first and after the last corner meet the plane.
+    /// Intersections of the plane with the edges before the first and after the last corner.
     ends: [DVec2; 2],
 }
 
@@ -89,7 +89,7 @@ impl Polygon {
         self.count += 1;
     }
 
-    /// Which side of the plane where `side` is zero the polygon is on.
+    /// Returns the side of the plane `side` = 0 on which the polygon lies.
     pub fn side(&self, side: Linear) -> Side {
         let mut sides = [0.0; CAPACITY];
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -107,8 +107,8 @@ impl Polygon {
         if highest <= 0.0 {
             return Side::Negative;
         }
-        // The positive part is the run of corners about the one farthest out. A corner elsewhere that rounding makes
-        // positive goes with its neighbours: each part gains at most one corner.
+        // The positive part is the run of corners around the farthest one. A corner elsewhere that is positive only by
+        // rounding stays with its neighbours, so each part gains at most one corner.
         let (mut first, mut last) = (farthest, farthest);
         while sides[self.before(first)] >= 0.0 {
             first = self.before(first);
@@ -124,13 +124,13 @@ impl Polygon {
         Side::Both(Cut { run: [first, last], ends })
     }
 
-    /// The part on the positive side of a cut.
+    /// Returns the part on the positive side of a cut.
     pub fn positive_part(&self, cut: &Cut) -> Self {
         let [first, last] = cut.run;
         self.part([first, last], [cut.ends[1], cut.ends[0]])
     }
 
-    /// The part on the negative side of a cut.
+    /// Returns the part on the negative side of a cut.
     pub fn negative_part(&self, cut: &Cut) -> Self {
         let [first, last] = cut.run;
         self.part([self.after(last), self.before(first)], cut.ends)
@@ -159,7 +159,7 @@ impl Polygon {
         if i == 0 { self.count - 1 } else { i - 1 }
     }
 
-    /// The part where all of the functions are positive, if there is one.
+    /// Returns the part in which all functions are positive, if there is one.
     pub fn clip(self, functions: &[Linear; 4]) -> Option<Self> {
         let mut inside = self;
         for side in functions {
@@ -186,7 +186,7 @@ impl Polygon {
             moments.first += share * (sum * (a + b + c) + w_a * a + w_b * b + w_c * c);
             (b, w_b) = (c, w_c);
         }
-        // On a triangle, exact for a linear function and for the product of two.
+        // Exact on a triangle for a linear function and for the product of two linear functions.
         Moments { zeroth: moments.zeroth / 3.0, first: moments.first / 12.0 }
     }
 }
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn integrals_over_a_triangle_are_those_of_the_tables() {
+    fn integrals_over_a_triangle_have_their_textbook_values() {
         // Mean of lambda_i lambda_j over a triangle: 1/6 for i = j, 1/12 otherwise.
         let moments = Polygon::triangle().integrate(Linear::with_values([0.0, 1.0, 0.0]));
         assert!((moments.zeroth - 1.0 / 3.0).abs() < 1e-16);
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_of_a_cut_polygon_have_its_integrals() {
+    fn integrals_over_the_parts_add_up_to_the_whole() {
         let mut random = SplitMix64::new(1);
         let (mut cuts, mut most) = (0, 0);
         for _ in 0..20_000 {
@@ -240,7 +240,7 @@ mod tests {
                 sum.zeroth += part.zeroth;
                 sum.first += part.first;
             }
-            // 1e-14: rounding of some ten parts.
+            // 1e-14: rounding of about ten parts.
             assert!((sum.zeroth - whole.zeroth).abs() < 1e-14);
             assert!((sum.first - whole.first).length() < 1e-14);
         }
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polygon_in_the_plane_goes_to_one_side_only() {
+    fn a_polygon_in_the_plane_lies_on_one_side_only() {
         let triangle = Polygon::triangle();
         assert_eq!(triangle.side(Linear::with_values([0.0; 3])), Side::Positive);
         assert_eq!(triangle.side(Linear::with_values([0.0, -1.0, 0.0])), Side::Negative);
@@ -257,7 +257,7 @@ mod tests {
     #[test]
     fn clipping_keeps_the_part_where_all_functions_are_positive() {
         let side = |a, b, c| Linear::with_values([a, b, c]);
-        // The square 1/4 < s, t < 1/2 of the triangle s + t < 1: 1/16 of twice its area.
+        // The square 1/4 < s, t < 1/2 in the triangle s + t < 1: 1/8 of the area of the triangle.
         let square = [side(-0.25, 0.75, -0.25), side(0.5, -0.5, 0.5), side(-0.25, -0.25, 0.75), side(0.5, 0.5, -0.5)];
         let inside = Polygon::triangle().clip(&square).unwrap();
         let one = Linear::with_values([1.0; 3]);

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-/// A tetrahedron in its current place. The order of its vertices (its handedness) does not matter.
+/// A tetrahedron in its current position. The order of its vertices (its handedness) does not matter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tetrahedron {
     /// Vertices [m].
@@ -16,12 +16,12 @@ pub struct Tetrahedron {
 }
 
 impl Tetrahedron {
-    /// The tetrahedron of four vertices [m]; none if it has no volume.
+    /// Creates a tetrahedron from four vertices [m]; `None` if it has no volume.
     pub fn new(vertices: &[DVec3; 4]) -> Option<Self> {
         let [a, b, c] = [1, 2, 3].map(|i| vertices[i] - vertices[0]);
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
         let six_volumes = a.dot(normals[0]);
-        // Also none for vertices that are not numbers.
+        // NaN: a vertex is not a number.
         if six_volumes.is_nan() || six_volumes == 0.0 {
             return None;
         }
@@ -41,7 +41,7 @@ impl Tetrahedron {
         DVec4::new(n_0, n_1, n_2, n_3)
     }
 
-    /// Sum of the vertices with the given weights [m].
+    /// Weighted sum of the vertices [m].
     pub fn weighted(&self, weights: DVec4) -> DVec3 {
         let [a, b, c, d] = self.vertices;
         weights.x * a + weights.y * b + weights.z * c + weights.w * d
@@ -66,7 +66,7 @@ mod tests {
             let vertices = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
             let tetrahedron = Tetrahedron::new(&vertices).unwrap();
             for (i, vertex) in vertices.iter().enumerate() {
-                // 1e-12: rounding times the worst shape among the samples.
+                // 1e-12: rounding, amplified by the worst shape of the samples.
                 assert!((tetrahedron.shape_functions(*vertex) - DVec4::AXES[i]).abs().max_element() < 1e-12);
             }
             let point = DVec3::new(random.next_share(), random.next_share(), random.next_share());

@@ -1,10 +1,10 @@
-//! Loads: tractions and pressures on faces, forces about a place.
+//! Loads: tractions and pressures on faces, forces and moments at a point.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | `patch` | a force and a moment about a place, spread over the faces near it |
+//! | `patch` | a force and a moment at a point, spread over the faces near the point |
 //!
-//! Forces go to copies of nodes, the vertices of tetrahedra: nothing changes for a load when nodes come apart.
+//! Forces act on node copies (vertices of tetrahedra), so node splitting does not affect the loads.
 
 use glam::DVec3;
 
@@ -21,36 +21,36 @@ use patch::Patch;
 /// A load.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Load {
-    /// A stress vector on undeformed faces.
+    /// A traction on undeformed faces.
     Traction {
-        /// Faces at the outside.
+        /// Exterior faces.
         faces: Vec<Exterior>,
-        /// Force over undeformed area [Pa].
+        /// Force per undeformed area [Pa].
         stress: DVec3,
-        /// Factor of the stress [-].
+        /// Factor of the stress over time [-].
         factor: History<1>,
     },
     /// A pressure normal to faces.
     Pressure {
-        /// Faces at the outside.
+        /// Exterior faces.
         faces: Vec<Exterior>,
-        /// Positive where it presses [Pa].
+        /// Pressure, positive in compression [Pa].
         pressure: f64,
-        /// On which faces it acts.
+        /// Whether area and normal are current or initial.
         on: Surface,
-        /// Factor of the pressure [-].
+        /// Factor of the pressure over time [-].
         factor: History<1>,
     },
-    /// A force and a moment about a place.
+    /// A force and a moment at a point.
     Patch(Patch),
 }
 
-/// Faces whose area and normal count.
+/// Surface whose area and normal a pressure uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surface {
-    /// As they are now: the pressure of a fluid.
+    /// The current surface, as for a fluid pressure.
     Deformed,
-    /// As they were at first: a load that keeps its direction.
+    /// The initial surface; the load keeps its direction.
     Undeformed,
 }
 
@@ -65,7 +65,7 @@ pub struct CornerForce {
     pub force: DVec3,
 }
 
-/// Places that loads act on.
+/// Nodes and tetrahedra on which loads act.
 #[derive(Debug, Clone, Copy)]
 pub struct Places<'a> {
     pub(super) setup: &'a Setup,
@@ -74,25 +74,25 @@ pub struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// Undeformed place of a vertex [m].
-    fn first(&self, tet: u32, corner: u8) -> DVec3 {
+    /// Undeformed position of a vertex [m].
+    fn initial(&self, tet: u32, corner: u8) -> DVec3 {
         self.setup.nodes[self.setup.tets[tet as usize][usize::from(corner)] as usize]
     }
 
-    /// Present place of a vertex [m].
+    /// Current position of a vertex [m].
     pub(super) fn now(&self, tet: u32, corner: u8) -> DVec3 {
         self.nodes.place[self.tets.nodes[tet as usize][usize::from(corner)] as usize]
     }
 }
 
-/// Area of a face times its normal outwards [m2].
-fn area_vector(face: &Exterior, place: impl Fn(u32, u8) -> DVec3) -> DVec3 {
-    let [a, b, c] = face.nodes.map(|corner| place(face.tet, corner));
+/// Area of a face times its outward normal [m2].
+fn area_vector(face: &Exterior, position: impl Fn(u32, u8) -> DVec3) -> DVec3 {
+    let [a, b, c] = face.nodes.map(|corner| position(face.tet, corner));
     (b - a).cross(c - a) * 0.5
 }
 
 impl Load {
-    /// Adds the forces at a time [s] to a list. The shape functions of a face are a third each over its area.
+    /// Appends the forces at a time [s] to a list. Each corner of a face gets a third of its force.
     pub fn forces(&self, places: &Places, time: f64, out: &mut Vec<CornerForce>) {
         let mut spread = |face: &Exterior, force: DVec3| {
             out.extend(face.nodes.map(|corner| CornerForce { tet: face.tet, corner, force: force / 3.0 }));
@@ -101,7 +101,7 @@ impl Load {
             Self::Traction { faces, stress, factor } => {
                 let stress = *stress * factor.at(time)[0];
                 for face in faces {
-                    spread(face, stress * area_vector(face, |tet, corner| places.first(tet, corner)).length());
+                    spread(face, stress * area_vector(face, |tet, corner| places.initial(tet, corner)).length());
                 }
             }
             Self::Pressure { faces, pressure, on, factor } => {
@@ -109,7 +109,7 @@ impl Load {
                 for face in faces {
                     let area = match on {
                         Surface::Deformed => area_vector(face, |tet, corner| places.now(tet, corner)),
-                        Surface::Undeformed => area_vector(face, |tet, corner| places.first(tet, corner)),
+                        Surface::Undeformed => area_vector(face, |tet, corner| places.initial(tet, corner)),
                     };
                     spread(face, area * -pressure);
                 }
@@ -120,12 +120,12 @@ impl Load {
 }
 
 impl World {
-    /// What loads act on.
+    /// Returns the nodes and tetrahedra on which loads act.
     pub fn places(&self) -> Places<'_> {
         Places { setup: &self.setup, nodes: &self.nodes, tets: &self.tets }
     }
 
-    /// Adds the loads to the forces of the tetrahedra, and keeps them for their work.
+    /// Adds the loads to the forces of the tetrahedra, and stores them to compute their work.
     pub(super) fn apply_loads(&mut self) {
         let Self { setup, nodes, tets, loaded, deformation, time, .. } = self;
         loaded.clear();
@@ -136,7 +136,7 @@ impl World {
         }
     }
 
-    /// Power of the loads at the velocities as they are [W].
+    /// Power of the loads at the current velocities [W].
     pub(super) fn power_of_loads(&self) -> f64 {
         let power = |load: &CornerForce| {
             let node = self.tets.nodes[load.tet as usize][usize::from(load.corner)];

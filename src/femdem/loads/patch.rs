@@ -1,14 +1,14 @@
-//! A force and a moment about a place, spread over the faces near it: what a recorded impact or the water did to a unit.
+//! A force and a moment at a point, spread over the faces near it: a recorded impact or the water's load on a unit.
 //!
-//! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and sum w_i X_i = P,
-//! the place in the undeformed body. Whatever the body does, the resultant is then the force and has no moment about
-//! p = sum w_i x_i, the place in the deformed body. The shares are those of an even stress, changed by the smallest
-//! amount, linear in the place, that takes them to P:
+//! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and
+//! sum w_i X_i = P, the point in the undeformed body. For any deformation, the resultant is then the force and has no
+//! moment about p = sum w_i x_i, the point in the deformed body. The shares are those of a uniform stress, corrected by
+//! the smallest linear function of the position that moves their centre to P:
 //!
 //! w_i = A_i / A + m_i (X_i - C) . S^-1 (P - sum A_j X_j / A),  S = sum m_i (X_i - C)(X_i - C)^T
 //!
-//! m_i a quarter of the volume of the tetrahedron over that of all, C the centroid. A moment M comes as the forces
-//! m_i theta x (x_i - c), theta = J^-1 M with the inertia J of the present places.
+//! with m_i a quarter of the volume of the tetrahedron over the total volume, and C the centroid. A moment M is applied
+//! as the forces m_i theta x (x_i - c), theta = J^-1 M with the inertia J of the current positions.
 
 use glam::{DMat3, DVec3};
 use parry3d_f64::query::PointQuery;
@@ -19,19 +19,19 @@ use super::super::mesh::PreparedMesh;
 use super::super::mesh::faces::Exterior;
 use super::{CornerForce, Places};
 
-/// Rounds of the polar decomposition; it converges quadratically from strains of a few per cent.
+/// Iterations of the polar decomposition, which converges quadratically from strains of a few per cent.
 const ROUNDS: usize = 12;
 
 /// Axes in which the components of a force are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
-    /// Those of space.
+    /// Axes fixed in space.
     Space,
-    /// Those of the undeformed body, which turn with the tetrahedra at the loaded faces.
+    /// Axes of the undeformed body, which rotate with the tetrahedra at the loaded faces.
     Body,
 }
 
-/// A vertex that takes a part of a load.
+/// A vertex that takes a share of a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Corner {
     tet: u32,
@@ -40,34 +40,34 @@ struct Corner {
     share: f64,
     /// Weight m_i [-].
     weight: f64,
-    /// Undeformed place from the centroid, X_i - C [m].
+    /// Undeformed position relative to the centroid, X_i - C [m].
     arm: DVec3,
 }
 
-/// A force and a moment about a place.
+/// A force and a moment at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
     corners: Vec<Corner>,
     /// S^-1 [1/m2].
     inverse_spread: DMat3,
     axes: Axes,
-    /// Force [N] and moment about the place [N m].
+    /// Force [N] and moment about the point [N m].
     history: History<6>,
 }
 
-/// Faces near a place.
+/// Faces near a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Near {
     /// The faces.
     pub faces: Vec<Exterior>,
-    /// Distance of the place from the nearest face [m].
+    /// Distance of the point from the nearest face [m].
     pub distance: f64,
     /// Longest edge of the nearest face [m].
     pub edge: f64,
 }
 
-/// Faces of a body with their centre within a radius [m] of a place [m]; the nearest one, if there is none.
-pub fn faces_near(mesh: &PreparedMesh, body: usize, place: DVec3, radius: f64) -> Near {
+/// Finds the faces of a body whose centre is within a radius [m] of a point [m]; if there is none, the nearest face.
+pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -> Near {
     let tets = &mesh.mesh.bodies[body].tets;
     let own = mesh.faces.exteriors.iter().filter(|face| tets.contains(&(face.tet as usize)));
     let corners = |face: &Exterior| {
@@ -77,10 +77,10 @@ pub fn faces_near(mesh: &PreparedMesh, body: usize, place: DVec3, radius: f64) -
     let mut nearest = None;
     for face in own {
         let [a, b, c] = corners(face);
-        if ((a + b + c) / 3.0).distance(place) <= radius {
+        if ((a + b + c) / 3.0).distance(point) <= radius {
             near.faces.push(*face);
         }
-        let distance = Triangle::new(a, b, c).distance_to_local_point(place, true);
+        let distance = Triangle::new(a, b, c).distance_to_local_point(point, true);
         if distance < near.distance {
             near.distance = distance;
             near.edge = a.distance(b).max(b.distance(c)).max(c.distance(a));
@@ -98,26 +98,26 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
 }
 
 impl Patch {
-    /// Load on faces of a mesh, whose force acts through a place [m]; the history has force [N] and moment about the
-    /// place [N m].
+    /// Creates a load on faces of a mesh, with a force through a point [m]. The history contains the force [N] and the
+    /// moment about the point [N m].
     ///
     /// # Panics
     /// If there is no face.
-    pub fn new(mesh: &PreparedMesh, faces: &[Exterior], place: DVec3, axes: Axes, history: History<6>) -> Self {
-        assert!(!faces.is_empty(), "a load on no face");
+    pub fn new(mesh: &PreparedMesh, faces: &[Exterior], point: DVec3, axes: Axes, history: History<6>) -> Self {
+        assert!(!faces.is_empty(), "a load needs at least one face");
         let mut tets: Vec<u32> = faces.iter().map(|face| face.tet).collect();
         tets.sort_unstable();
         tets.dedup();
-        let at = |tet: u32| mesh.mesh.corners(tet as usize);
+        let corners_of = |tet: u32| mesh.mesh.corners(tet as usize);
         let volume = |tet: u32| {
-            let [a, b, c, d] = at(tet);
+            let [a, b, c, d] = corners_of(tet);
             (b - a).cross(c - a).dot(d - a) / 6.0
         };
         let all: f64 = tets.iter().map(|tet| volume(*tet)).sum();
         let mut corners = Vec::with_capacity(4 * tets.len());
         for tet in &tets {
             let weight = 0.25 * volume(*tet) / all;
-            corners.extend((0..4).zip(at(*tet)).map(|(corner, x)| Corner {
+            corners.extend((0..4).zip(corners_of(*tet)).map(|(corner, x)| Corner {
                 tet: *tet,
                 corner,
                 share: 0.0,
@@ -128,12 +128,12 @@ impl Patch {
         let centroid: DVec3 = corners.iter().map(|corner| corner.arm * corner.weight).sum();
         corners.iter_mut().for_each(|corner| corner.arm -= centroid);
         let area = |face: &Exterior| {
-            let [a, b, c] = face.nodes.map(|corner| at(face.tet)[usize::from(corner)]);
+            let [a, b, c] = face.nodes.map(|corner| corners_of(face.tet)[usize::from(corner)]);
             0.5 * (b - a).cross(c - a).length()
         };
         let total: f64 = faces.iter().map(area).sum();
         for face in faces {
-            // Found: the tetrahedra are those of the faces.
+            // Always found, because `tets` contains the tetrahedron of every face.
             let first = 4 * tets.partition_point(|tet| *tet < face.tet);
             for corner in face.nodes {
                 corners[first + usize::from(corner)].share += area(face) / (3.0 * total);
@@ -143,51 +143,52 @@ impl Patch {
             corners.iter().fold(DMat3::ZERO, |sum, corner| sum + outer(corner.arm, corner.arm) * corner.weight)
         };
         let inverse_spread = spread(&corners).inverse();
-        // Twice: the second time takes away what rounding left.
+        // The second pass removes the rounding errors of the first.
         for _ in 0..2 {
-            let missing = place - centroid - corners.iter().map(|corner| corner.arm * corner.share).sum::<DVec3>();
+            let missing = point - centroid - corners.iter().map(|corner| corner.arm * corner.share).sum::<DVec3>();
             let slope = inverse_spread * missing;
             corners.iter_mut().for_each(|corner| corner.share += corner.weight * slope.dot(corner.arm));
         }
         Self { corners, inverse_spread, axes, history }
     }
 
-    /// Where the place is now [m].
+    /// Current position of the point of action [m].
     pub fn place(&self, places: &Places) -> DVec3 {
         self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.share).sum()
     }
 
-    /// Force [N] and moment about the place [N m] in the axes of space.
+    /// Prescribed force [N] and moment about the point [N m] at a time [s], in axes fixed in space.
     pub fn asked_for(&self, places: &Places, time: f64) -> [DVec3; 2] {
         let values = self.history.at(time);
         let given = [0, 3].map(|k| DVec3::from_slice(&values[k..k + 3]));
         match self.axes {
             Axes::Space => given,
             Axes::Body => {
-                let turn = self.turn(places);
-                given.map(|v| turn * v)
+                let rotation = self.rotation(places);
+                given.map(|v| rotation * v)
             }
         }
     }
 
-    /// Centroid of the present places [m].
+    /// Centroid of the current positions [m].
     fn centroid(&self, places: &Places) -> DVec3 {
         self.corners.iter().map(|corner| places.now(corner.tet, corner.corner) * corner.weight).sum()
     }
 
-    /// Rotation of the tetrahedra since the start: of the best affine map, by Higham's iteration (1986).
-    fn turn(&self, places: &Places) -> DMat3 {
+    /// Rotation of the tetrahedra since the start: polar part of the best affine map, by Higham's iteration (1986).
+    fn rotation(&self, places: &Places) -> DMat3 {
         let centroid = self.centroid(places);
         let moved =
             |corner: &Corner| outer(places.now(corner.tet, corner.corner) - centroid, corner.arm) * corner.weight;
-        let mut turn = self.corners.iter().fold(DMat3::ZERO, |sum, corner| sum + moved(corner)) * self.inverse_spread;
+        let mut rotation =
+            self.corners.iter().fold(DMat3::ZERO, |sum, corner| sum + moved(corner)) * self.inverse_spread;
         for _ in 0..ROUNDS {
-            turn = (turn + turn.inverse().transpose()) * 0.5;
+            rotation = (rotation + rotation.inverse().transpose()) * 0.5;
         }
-        turn
+        rotation
     }
 
-    /// Adds the forces at a time [s] to a list.
+    /// Appends the forces at a time [s] to a list.
     pub(super) fn forces(&self, places: &Places, time: f64, out: &mut Vec<CornerForce>) {
         let [force, moment] = self.asked_for(places, time);
         let centroid = self.centroid(places);

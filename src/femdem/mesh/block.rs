@@ -7,16 +7,16 @@ use glam::DVec3;
 use super::quality::triple_product;
 use super::{Body, Mesh, TriangleSet};
 
-/// How a cell of a box is cut into tetrahedra.
+/// Division of a cell of the box into tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
-    /// 6 tetrahedra around the diagonal of the cell (Kuhn 1960): few, but with one direction preferred.
+    /// 6 tetrahedra around the diagonal of the cell (Kuhn 1960): few, but with a preferred direction.
     Diagonal,
-    /// 24 tetrahedra around the centre, four on each side of the cell: the same along all axes.
+    /// 24 tetrahedra around the centre, four on each side of the cell: equal along all axes.
     Centred,
 }
 
-/// The six sides of a box by name, with the axis and whether it is the far end.
+/// The six sides of a box: name, axis, and whether it is the far end.
 const SIDES: [(&str, usize, bool); 6] = [
     ("xmin", 0, false),
     ("xmax", 0, true),
@@ -26,13 +26,13 @@ const SIDES: [(&str, usize, bool); 6] = [
     ("zmax", 2, true),
 ];
 
-/// Box from the origin to `lengths` [m], divided into `cells` along each axis: one body `block` and the sets `xmin`,
-/// `xmax`, `ymin`, `ymax`, `zmin`, `zmax`. Nodes and tetrahedra are numbered from one in the tags.
+/// Creates the mesh of a box from the origin to `lengths` [m], with `cells` along each axis. It has one body `block`
+/// and the sets `xmin`, `xmax`, `ymin`, `ymax`, `zmin`, `zmax`. The tags of nodes and tetrahedra count from one.
 ///
 /// # Panics
 /// If a length is not positive or a number of cells is zero.
 pub fn block(lengths: DVec3, cells: [usize; 3], pattern: Pattern) -> Mesh {
-    assert!(lengths.min_element() > 0.0 && cells.iter().all(|n| *n > 0), "a box of {lengths} m in {cells:?} cells");
+    assert!(lengths.min_element() > 0.0 && cells.iter().all(|n| *n > 0), "box of {lengths} m with {cells:?} cells");
     let mut lattice = Lattice { lengths, cells, known: HashMap::new(), mesh: Mesh::default() };
     for k in 0..cells[2] {
         for j in 0..cells[1] {
@@ -51,7 +51,7 @@ pub fn block(lengths: DVec3, cells: [usize; 3], pattern: Pattern) -> Mesh {
     mesh.sets = SIDES
         .map(|(name, axis, far)| {
             let end = if far { lengths[axis] } else { 0.0 };
-            // Exact: nodes at the ends are placed there without rounding.
+            // Exact comparison: positions of nodes at the ends are not rounded.
             TriangleSet { name: name.to_owned(), triangles: mesh.faces_within(|node| node[axis] == end) }
         })
         .to_vec();
@@ -67,37 +67,37 @@ struct Lattice {
 }
 
 impl Lattice {
-    fn node(&mut self, place: [usize; 3]) -> u32 {
-        *self.known.entry(place).or_insert_with(|| {
-            let part = |axis: usize| place[axis] as f64 / (2 * self.cells[axis]) as f64;
+    fn node(&mut self, index: [usize; 3]) -> u32 {
+        *self.known.entry(index).or_insert_with(|| {
+            let part = |axis: usize| index[axis] as f64 / (2 * self.cells[axis]) as f64;
             self.mesh.nodes.push(self.lengths * DVec3::new(part(0), part(1), part(2)));
             (self.mesh.nodes.len() - 1) as u32
         })
     }
 
-    /// Adds a tetrahedron, with a positive volume whatever the order of the places.
-    fn add(&mut self, places: [[usize; 3]; 4]) {
-        let mut nodes = places.map(|place| self.node(place));
+    /// Adds a tetrahedron with a positive volume for any order of its nodes.
+    fn add(&mut self, indices: [[usize; 3]; 4]) {
+        let mut nodes = indices.map(|index| self.node(index));
         if triple_product(nodes.map(|node| self.mesh.nodes[node as usize])) < 0.0 {
             nodes.swap(2, 3);
         }
         self.mesh.tets.push(nodes);
     }
 
-    /// One tetrahedron for each way along three edges from the first corner of the cell to the last.
+    /// Adds one tetrahedron for each path along three edges from the first corner of the cell to the last.
     fn cut_along_diagonal(&mut self, origin: [usize; 3]) {
         for [first, second] in [[0, 1], [1, 0], [1, 2], [2, 1], [2, 0], [0, 2]] {
             let (mut b, mut c) = (origin, origin);
             b[first] += 2;
             c[first] += 2;
             c[second] += 2;
-            self.add([origin, b, c, origin.map(|place| place + 2)]);
+            self.add([origin, b, c, origin.map(|index| index + 2)]);
         }
     }
 
-    /// One tetrahedron for each edge of each side, with the centres of the side and of the cell.
+    /// Adds one tetrahedron for each edge of each side, with the centres of the side and of the cell.
     fn cut_around_centre(&mut self, origin: [usize; 3]) {
-        let centre = origin.map(|place| place + 1);
+        let centre = origin.map(|index| index + 1);
         for axis in 0..3 {
             let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
             for end in [0, 2] {
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boxes_are_filled_and_their_sides_named() {
+    fn tetrahedra_fill_the_box_and_its_sides_are_named_sets() {
         let lengths = DVec3::new(0.3, 0.2, 0.5);
         for (pattern, tets, side) in [(Pattern::Diagonal, 6, 2), (Pattern::Centred, 24, 4)] {
             let mesh = block(lengths, [3, 2, 4], pattern);
@@ -139,10 +139,10 @@ mod tests {
     }
 
     #[test]
-    fn no_angle_of_a_cube_is_below_45_degrees() {
+    fn the_smallest_angle_between_faces_is_45_degrees() {
         for pattern in [Pattern::Diagonal, Pattern::Centred] {
             let quality = &prepare(block(DVec3::ONE, [1; 3], pattern)).unwrap().quality[0];
-            // Between a side and a plane through its edge and the opposite edge; up to the rounding of the arc cosine.
+            // Between a side and the plane through its edge and the opposite edge; rounding of the arc cosine.
             assert!((quality.angle_min_deg - 45.0).abs() < 1e-12, "{pattern:?}: {}", quality.angle_min_deg);
         }
     }

@@ -1,7 +1,7 @@
-//! Whether bodies are what they seem: apart from each other, each in one piece, joined inside, not overlapping.
+//! Conformity checks: bodies share no nodes, each body is in one piece, conforming inside and not overlapping.
 //!
-//! The faces of a mesh close its surface wherever nodes are not shared, be it by mistake. Such a mesh looks sound and
-//! comes apart at the first step; it shows by places where the surface touches or cuts itself.
+//! Where two parts of a body do not share nodes by mistake, both get a free surface. Such a mesh looks sound, but the
+//! body falls apart in the first time step. The checks find it because the surface then touches or cuts itself.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -14,14 +14,14 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::{Exterior, Faces};
 use super::{Body, Mesh};
 
-/// Distance of a node from a face, as a part of the shortest edge of the surface, within which it lies on the face. Far
-/// above the rounding of coordinates, far below any gap that a mesher can resolve.
+/// Distance from a face, over the shortest edge of the surface, up to which a node lies on the face [-]. It is far
+/// above the rounding of coordinates and far below any gap that a mesher can resolve.
 const TOUCHING: f64 = 1e-6;
 
-/// Mark of a node that no body has used yet.
+/// Marks a node that no body has used yet.
 const NOBODY: usize = usize::MAX;
 
-/// No node may belong to two bodies.
+/// Checks that no node belongs to two bodies.
 pub(super) fn check_bodies_apart(mesh: &Mesh) -> Result<(), MeshDefect> {
     let mut owner = vec![NOBODY; mesh.nodes.len()];
     for (number, body) in mesh.bodies.iter().enumerate() {
@@ -46,9 +46,9 @@ pub(super) fn check_bodies_apart(mesh: &Mesh) -> Result<(), MeshDefect> {
     Ok(())
 }
 
-/// The tetrahedra of each body must hang together by faces; cracks count as joined.
+/// Checks that faces connect all tetrahedra of each body; pre-cracks count as connected.
 pub(super) fn check_one_piece(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect> {
-    // Union-find: each tetrahedron points to one with a lower number, at last to the first of its piece.
+    // Union-find: each tetrahedron points to one with a lower number; the chain ends at the first of its piece.
     let mut leader: Vec<u32> = (0..mesh.tets.len() as u32).collect();
     for interface in &faces.interfaces {
         let [a, b] = interface.tets.map(|tet| find_leader(&mut leader, tet));
@@ -64,7 +64,7 @@ pub(super) fn check_one_piece(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefe
     Ok(())
 }
 
-/// First tetrahedron of a piece; shortens the way for the next who asks.
+/// Returns the first tetrahedron of a piece, and shortens the chain for later calls.
 fn find_leader(leader: &mut [u32], mut tet: u32) -> u32 {
     while leader[tet as usize] != tet {
         leader[tet as usize] = leader[leader[tet as usize] as usize];
@@ -73,7 +73,7 @@ fn find_leader(leader: &mut [u32], mut tet: u32) -> u32 {
     tet
 }
 
-/// The surface of a body must not touch or cut itself except along shared nodes.
+/// Checks that the surface of each body does not touch or cut itself, except at shared nodes.
 pub(super) fn check_surface(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect> {
     for body in &mesh.bodies {
         let bound = |tet: usize| faces.exteriors.partition_point(|face| (face.tet as usize) < tet);
@@ -86,7 +86,7 @@ pub(super) fn check_surface(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect
     Ok(())
 }
 
-/// Exterior faces of a body, to be searched by place.
+/// Exterior faces of a body with a tree for spatial search.
 struct Surface {
     corners: Vec<[u32; 3]>,
     triangles: Vec<Triangle>,
@@ -106,7 +106,7 @@ impl Surface {
         Self { corners, triangles, boxes, tree }
     }
 
-    /// Nodes on faces of which they are no corner.
+    /// Checks that no node lies on a face of which it is not a corner.
     fn check_nodes(&self, mesh: &Mesh, body: &Body) -> Result<(), MeshDefect> {
         let edges = self.triangles.iter().flat_map(|triangle| triangle.edges().map(|edge| edge.length()));
         let tolerance = TOUCHING * edges.fold(f64::INFINITY, f64::min);
@@ -143,9 +143,9 @@ impl Surface {
         }
     }
 
-    /// Centre [m] of the first face that another one without a common corner cuts.
+    /// Returns the centre [m] of the first face that is cut by a face without a common corner.
     fn first_cut(&self) -> Option<DVec3> {
-        // Shapes of one frame; triangles are supported, so that the test cannot fail.
+        // The intersection test supports triangles, so it cannot fail.
         let here = Pose::IDENTITY;
         let cuts = |a: usize, b: usize| {
             !self.corners[a].iter().any(|corner| self.corners[b].contains(corner))
@@ -169,7 +169,7 @@ mod tests {
     use super::super::prepare;
     use super::*;
 
-    /// Two meshes as one, with what is in the second moved; one body `block` or two.
+    /// Combines two meshes, the second one shifted, into one body `block` or into two bodies.
     fn joined(mut one: Mesh, other: Mesh, shift: DVec3, bodies: usize) -> Mesh {
         let [nodes, tets] = [one.nodes.len() as u32, one.tets.len() as u32];
         one.nodes.extend(other.nodes.iter().map(|node| *node + shift));
@@ -189,7 +189,7 @@ mod tests {
         block(DVec3::ONE, [cells; 3], Pattern::Diagonal)
     }
 
-    /// Makes nodes in the same place one.
+    /// Merges nodes at the same position.
     fn merged(mut mesh: Mesh) -> Mesh {
         for tet in &mut mesh.tets {
             *tet = tet.map(|node| {
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_side_by_side_are_fine_unless_they_share_nodes() {
+    fn adjacent_bodies_are_accepted_unless_they_share_nodes() {
         let apart = joined(cube(2), cube(2), DVec3::X, 2);
         assert_eq!(prepare(apart.clone()).unwrap().quality.len(), 2);
         let error = prepare(merged(apart)).unwrap_err();
@@ -211,12 +211,12 @@ mod tests {
     }
 
     #[test]
-    fn parts_meshed_apart_are_refused() {
-        // Joined by a bridge, so that the body is in one piece: only then does the interface itself tell.
+    fn parts_meshed_separately_are_refused() {
+        // A bridge keeps the body in one piece, so that the coincident nodes are the only defect.
         let bridge = |mesh: Mesh| {
             let far = joined(mesh, cube(1), DVec3::new(1.0, 1.0, 0.0), 1);
             let mut bridged = joined(far, cube(1), DVec3::Y, 1);
-            // Merges all but the nodes at x = 1, y < 1, where the first two cubes meet.
+            // Merges all nodes except those at x = 1, y < 1, between the first two cubes.
             for tet in &mut bridged.tets {
                 *tet = tet.map(|node| {
                     let at = bridged.nodes[node as usize];
@@ -234,10 +234,10 @@ mod tests {
     }
 
     #[test]
-    fn loose_pieces_are_refused() {
+    fn a_body_in_several_pieces_is_refused() {
         let error = prepare(joined(cube(1), cube(1), DVec3::splat(3.0), 1)).unwrap_err();
         assert!(matches!(error, MeshDefect::Pieces { pieces: 2, .. }), "{error}");
-        // Touching along an edge or at a corner joins nothing.
+        // Contact along an edge or at a corner does not connect pieces.
         for shift in [DVec3::new(1.0, 1.0, 0.0), DVec3::ONE] {
             let error = prepare(merged(joined(cube(1), cube(1), shift, 1))).unwrap_err();
             assert!(matches!(error, MeshDefect::Pieces { pieces: 2, .. }), "{error}");
@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn a_body_may_touch_itself_along_an_edge() {
-        // Four of eight cubes: two columns that meet along an edge, on a plate of three.
+        // Six of eight cubes: two upper cubes that meet along an edge, on a layer of four.
         let mut mesh = cube(2);
         let keep = |at: DVec3| (at.z < 0.5) || ((at.x < 0.5) == (at.y < 0.5));
         let kept: Vec<usize> = (0..mesh.tets.len()).filter(|tet| keep(mesh.centroid(*tet))).collect();
@@ -258,8 +258,8 @@ mod tests {
     }
 
     #[test]
-    fn nodes_on_faces_they_do_not_belong_to_are_found() {
-        // One of the two tetrahedra at an interface is divided at the middle of an edge of it, the other is not.
+    fn hanging_nodes_are_found() {
+        // One of the two tetrahedra at an interface is divided at the middle of an edge, the other is not.
         let mut mesh = Mesh {
             nodes: vec![
                 DVec3::ZERO,

@@ -1,16 +1,16 @@
-//! What can be wrong with a tetrahedral mesh.
+//! Defects of a tetrahedral mesh.
 
 use std::fmt;
 
 use glam::DVec3;
 use thiserror::Error;
 
-/// A node or a tetrahedron, by its number in the file and where it is.
+/// A node or a tetrahedron: its number in the file and its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spot {
     /// Number in the file.
     pub tag: u64,
-    /// Position, of a tetrahedron its centroid [m].
+    /// Position of the node, or centroid of the tetrahedron [m].
     pub at: DVec3,
 }
 
@@ -21,88 +21,88 @@ impl fmt::Display for Spot {
     }
 }
 
-/// Why a mesh cannot be computed with.
+/// Defect that makes a mesh unusable.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshDefect {
-    /// The whole body is turned inside out.
+    /// All tetrahedra of a body are inverted.
     #[error(
-        "body {body:?}: all {tets} tetrahedra have a negative volume: the mesh is mirrored; mesh the body itself, not a \
-         reflection of it, or reverse the elements in Gmsh (gmsh.model.mesh.reverse)"
+        "body {body:?}: all {tets} tetrahedra have a negative volume, so the mesh is mirrored; mesh the body itself instead \
+         of its reflection, or reverse the elements in Gmsh (gmsh.model.mesh.reverse)"
     )]
     AllInverted { body: String, tets: usize },
-    /// Some tetrahedra are turned inside out.
+    /// Some tetrahedra are inverted.
     #[error(
-        "body {body:?}: {count} of {tets} tetrahedra have a negative volume, the first {first}; mesh again, with \
+        "body {body:?}: {count} of {tets} tetrahedra have a negative volume, the first is {first}; mesh again with \
          `Mesh.Optimize = 1`"
     )]
     Inverted { body: String, count: usize, tets: usize, first: Spot },
     /// Some tetrahedra have no volume.
     #[error(
         "body {body:?}: {count} of {tets} tetrahedra are flat (volume below {limit:e} of the cube of the longest edge), the \
-         first {first}; mesh again, with `Mesh.Optimize = 1`"
+         first is {first}; mesh again with `Mesh.Optimize = 1`"
     )]
     Flat { body: String, count: usize, tets: usize, limit: f64, first: Spot },
-    /// More than two tetrahedra at one face.
+    /// More than two tetrahedra share a face.
     #[error(
-        "body {body:?}: more than two tetrahedra share a face, among them {first} and {second}: volumes that overlap were \
-         meshed twice; unite them first (BooleanUnion, or Coherence;)"
+        "body {body:?}: more than two tetrahedra share a face, among them {first} and {second}; overlapping volumes were \
+         meshed twice: unite them before meshing (BooleanUnion, or Coherence;)"
     )]
     CrowdedFace { body: String, first: Spot, second: Spot },
     /// Two tetrahedra fill the same space.
     #[error(
-        "body {body:?}: tetrahedra {first} and {second} lie on the same side of their common face; unite volumes that \
-         overlap before meshing (BooleanUnion)"
+        "body {body:?}: tetrahedra {first} and {second} lie on the same side of their common face; unite overlapping \
+         volumes before meshing (BooleanUnion)"
     )]
     SameSide { body: String, first: Spot, second: Spot },
-    /// Two bodies are glued together.
+    /// Two bodies share nodes.
     #[error(
-        "bodies {one:?} and {other:?} share {count} nodes, the first {first}; bodies meet by contact only: mesh each as a \
-         volume of its own (no BooleanFragments between bodies), or give them one physical volume"
+        "bodies {one:?} and {other:?} share {count} nodes, the first is {first}; bodies may only touch by contact: mesh each \
+         as a separate volume (no BooleanFragments between bodies), or put them into one physical volume"
     )]
     SharedNodes { one: String, other: String, count: usize, first: Spot },
-    /// A body falls apart.
+    /// A body has several unconnected pieces.
     #[error(
-        "body {body:?} is in {pieces} pieces that no face joins, one of them with tetrahedron {second}; give each piece a \
-         physical volume of its own, or unite them before meshing (BooleanUnion, BooleanFragments)"
+        "body {body:?} has {pieces} pieces without common faces, one of them with tetrahedron {second}; give each piece its \
+         own physical volume, or unite them before meshing (BooleanUnion, BooleanFragments)"
     )]
     Pieces { body: String, pieces: usize, second: Spot },
-    /// Two nodes in one place.
+    /// Two nodes have the same position.
     #[error(
-        "body {body:?}: nodes {first} and {second} are in the same place but not joined ({count} such nodes): the parts \
-         were meshed apart (use BooleanFragments or Coherence;), or a crack was opened by the Crack plugin (leave it \
-         closed and name it Physical Surface(\"crack...\"))"
+        "body {body:?}: nodes {first} and {second} have the same position but are not merged ({count} such nodes); either \
+         the parts were meshed separately (use BooleanFragments or Coherence;), or the Crack plugin opened a crack (leave \
+         the crack closed and name it Physical Surface(\"crack...\"))"
     )]
     CoincidentNodes { body: String, count: usize, first: Spot, second: Spot },
-    /// A node on a face that it does not belong to.
+    /// A node lies on a face of which it is not a corner.
     #[error(
-        "body {body:?}: {count} nodes lie on faces that do not have them as a corner, the first {first}: parts with \
-         different meshes touch; join them before meshing (BooleanFragments or Coherence;)"
+        "body {body:?}: {count} nodes lie on faces of which they are not a corner, the first is {first}; parts with \
+         different meshes touch: join the parts before meshing (BooleanFragments or Coherence;)"
     )]
     HangingNode { body: String, count: usize, first: Spot },
-    /// The surface of a body runs through itself.
+    /// The surface of a body cuts itself.
     #[error(
-        "body {body:?}: its surface cuts itself near ({:.6}, {:.6}, {:.6}) m: parts overlap; unite them before meshing \
+        "body {body:?}: its surface cuts itself near ({:.6}, {:.6}, {:.6}) m; parts overlap: unite them before meshing \
          (BooleanUnion)", at.x, at.y, at.z
     )]
     CutsItself { body: String, at: DVec3 },
-    /// A surface that the tetrahedra do not follow.
+    /// Triangles of a set are not faces of tetrahedra.
     #[error(
         "physical surface {set:?}: {hanging} of {count} triangles are no face of a tetrahedron, the first near ({:.6}, \
          {:.6}, {:.6}) m; make the surface part of the volume before meshing (BooleanFragments, or Surface {{...}} In \
          Volume {{...}})", at.x, at.y, at.z
     )]
     HangingTriangles { set: String, hanging: usize, count: usize, at: DVec3 },
-    /// A crack where there is nothing to break.
+    /// Triangles of a crack lie on the outside of a body.
     #[error(
         "physical surface {set:?} is a crack by its name, but {outside} of {count} triangles are on the outside of a body, \
-         the first near ({:.6}, {:.6}, {:.6}) m; a crack lies inside: take them out, leave it closed (no Crack plugin in \
-         Gmsh), or choose a name that does not begin with \"crack\"", at.x, at.y, at.z
+         the first near ({:.6}, {:.6}, {:.6}) m; a crack must lie inside: remove these triangles, leave the crack closed (no \
+         Crack plugin in Gmsh), or choose a name that does not begin with \"crack\"", at.x, at.y, at.z
     )]
     CrackOutside { set: String, outside: usize, count: usize, at: DVec3 },
-    /// A boundary where there is none.
+    /// Triangles of a boundary lie inside a body.
     #[error(
         "physical surface {set:?} is a boundary, but {inside} of {count} triangles are inside a body, the first near \
-         ({:.6}, {:.6}, {:.6}) m; take them out, or begin the name with \"crack\" for a pre-crack", at.x, at.y, at.z
+         ({:.6}, {:.6}, {:.6}) m; remove them, or begin the name with \"crack\" for a pre-crack", at.x, at.y, at.z
     )]
     BoundaryInside { set: String, inside: usize, count: usize, at: DVec3 },
 }

@@ -1,6 +1,6 @@
-//! Faces of a tetrahedral mesh: those between two tetrahedra, where joints go, and those on the outside.
+//! Faces of a tetrahedral mesh: interfaces between two tetrahedra, where joints are inserted, and exterior faces.
 //!
-//! Faces are matched by sorting: each is one 128-bit number, its three nodes in ascending order and where it comes from.
+//! Faces are matched by sorting 128-bit numbers: the three nodes in ascending order, then the number of the face.
 
 use std::array;
 
@@ -9,14 +9,13 @@ use glam::DVec3;
 use super::Mesh;
 use super::defect::{MeshDefect, Spot};
 
-/// Corners of each face of a tetrahedron, anticlockwise seen from outside; the face lies opposite the corner with its
-/// own number.
+/// Corners of each face of a tetrahedron, anticlockwise seen from outside. Face k lies opposite to corner k.
 pub const LOCAL_FACES: [[u8; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
-/// Largest number of tetrahedra whose faces 32 bits can count.
+/// Largest number of tetrahedra whose faces can be numbered with 32 bits.
 pub const MOST_TETS: usize = u32::MAX as usize / 4;
 
-/// Mark of a face that has no partner.
+/// Marks a face without a partner.
 const NONE: u32 = u32::MAX;
 
 /// The face between two tetrahedra.
@@ -24,8 +23,8 @@ const NONE: u32 = u32::MAX;
 pub struct Interface {
     /// The tetrahedra, the one with the lower number first.
     pub tets: [u32; 2],
-    /// Corners 0..3 of each tetrahedron; entries at the same place are the same node of the mesh. Those of the first
-    /// run anticlockwise seen from the second: the normal points from the first to the second.
+    /// Corners 0..3 of each tetrahedron; entries with the same index are the same mesh node. Those of the first run
+    /// anticlockwise seen from the second, so the normal points from the first to the second.
     pub nodes: [[u8; 3]; 2],
 }
 
@@ -61,36 +60,36 @@ pub struct Faces {
 }
 
 impl Faces {
-    /// Faces of a mesh, whose sets must be made of them.
+    /// Finds the faces of a mesh, and checks that its sets consist of them.
     ///
-    /// In a mesh that passes, no face has more than two tetrahedra and two that share one lie on its two sides. The
-    /// outside is then closed by itself: each edge borders an even number of exterior faces, two as a rule, four and
-    /// more where the body touches itself along an edge.
+    /// In a valid mesh no face has more than two tetrahedra, and two tetrahedra at a face lie on opposite sides. The
+    /// exterior faces are then closed: each edge borders an even number of them, usually two, but four or more where
+    /// the body touches itself along an edge.
     ///
     /// # Panics
     /// If the mesh has more than [`MOST_TETS`] tetrahedra.
     pub fn new(mesh: &Mesh) -> Result<Self, MeshDefect> {
-        assert!(mesh.tets.len() <= MOST_TETS, "{} tetrahedra", mesh.tets.len());
+        assert!(mesh.tets.len() <= MOST_TETS, "{} tetrahedra are too many", mesh.tets.len());
         let keys = sorted_keys(mesh);
         let partner = partners(mesh, &keys)?;
         let mut faces = Self::default();
-        // Place of each face in the list of interfaces or in that of exterior faces.
-        let mut place = vec![NONE; partner.len()];
+        // Index of each face in the list of interfaces or of exterior faces.
+        let mut index = vec![NONE; partner.len()];
         for (id, &other) in (0..).zip(&partner) {
             if other == NONE {
-                place[id as usize] = faces.exteriors.len() as u32;
+                index[id as usize] = faces.exteriors.len() as u32;
                 faces.exteriors.push(Exterior { tet: id / 4, nodes: LOCAL_FACES[id as usize % 4] });
             } else if id < other {
                 let interface = interface(mesh, id, other).ok_or_else(|| same_side(mesh, id, other))?;
-                place[id as usize] = faces.interfaces.len() as u32;
-                place[other as usize] = faces.interfaces.len() as u32;
+                index[id as usize] = faces.interfaces.len() as u32;
+                index[other as usize] = faces.interfaces.len() as u32;
                 faces.interfaces.push(interface);
             }
         }
         for set in &mesh.sets {
-            let ids: Vec<Option<u32>> = set.triangles.iter().map(|triangle| find(&keys, *triangle)).collect();
+            let ids: Vec<Option<u32>> = set.triangles.iter().map(|triangle| find_face(&keys, *triangle)).collect();
             let count = ids.len();
-            // How many triangles are not what they must be, and where the first of them is.
+            // Number of triangles that do not fit, and the position of the first.
             let misfits = |misfit: &dyn Fn(&Option<u32>) -> bool| {
                 let first = ids.iter().position(misfit)?;
                 Some((ids.iter().filter(|id| misfit(id)).count(), centre(mesh, set.triangles[first])))
@@ -107,7 +106,7 @@ impl Faces {
             } else if let Some((inside, at)) = misfits(&|id| !on_outside(id)) {
                 return Err(MeshDefect::BoundaryInside { set: name, inside, count, at });
             }
-            let mut numbers: Vec<u32> = ids.into_iter().flatten().map(|id| place[id as usize]).collect();
+            let mut numbers: Vec<u32> = ids.into_iter().flatten().map(|id| index[id as usize]).collect();
             numbers.sort_unstable();
             numbers.dedup();
             let sets = if set.is_crack() { &mut faces.cracks } else { &mut faces.boundaries };
@@ -117,7 +116,7 @@ impl Faces {
     }
 }
 
-/// Nodes of face `id` of the mesh, as they run in its tetrahedron; four faces a tetrahedron.
+/// Nodes of face `id` of the mesh, in the order of its tetrahedron; four faces per tetrahedron.
 fn face_nodes(mesh: &Mesh, id: u32) -> [u32; 3] {
     LOCAL_FACES[id as usize % 4].map(|v| mesh.tets[id as usize / 4][v as usize])
 }
@@ -128,7 +127,7 @@ fn key(mut nodes: [u32; 3]) -> u128 {
     nodes.iter().fold(0, |key, node| (key << 32) | u128::from(*node)) << 32
 }
 
-/// Key and number of every face, in ascending order.
+/// Keys with face numbers of all faces, in ascending order.
 fn sorted_keys(mesh: &Mesh) -> Vec<u128> {
     let faces = 0..4 * mesh.tets.len() as u32;
     let mut keys: Vec<u128> = faces.map(|id| key(face_nodes(mesh, id)) | u128::from(id)).collect();
@@ -136,7 +135,7 @@ fn sorted_keys(mesh: &Mesh) -> Vec<u128> {
     keys
 }
 
-/// For every face the same face of the tetrahedron on its other side.
+/// Returns for every face the matching face of the tetrahedron on the other side.
 fn partners(mesh: &Mesh, keys: &[u128]) -> Result<Vec<u32>, MeshDefect> {
     let mut partner = vec![NONE; keys.len()];
     for same in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
@@ -156,22 +155,22 @@ fn partners(mesh: &Mesh, keys: &[u128]) -> Result<Vec<u32>, MeshDefect> {
     Ok(partner)
 }
 
-/// The interface of two faces with the same nodes; `None` if both tetrahedra lie on the same side.
+/// Creates the interface of two faces with the same nodes; `None` if both tetrahedra lie on the same side.
 fn interface(mesh: &Mesh, id: u32, other: u32) -> Option<Interface> {
     let tets = [id / 4, other / 4];
     let corners = LOCAL_FACES[id as usize % 4];
     let nodes = face_nodes(mesh, id);
     let second = mesh.tets[tets[1] as usize];
-    // Every node of the face is one of the second tetrahedron.
+    // Every node of the face belongs to the second tetrahedron.
     let matching = nodes.map(|node| second.iter().position(|other| *other == node).unwrap_or_default() as u8);
-    // Seen from the second tetrahedron the face must run the other way, up to where it begins.
+    // Seen from the second tetrahedron the face must run in the opposite sense, starting at any corner.
     let [a, b, c] = LOCAL_FACES[other as usize % 4];
     let opposite = [[a, c, b], [c, b, a], [b, a, c]].contains(&matching);
     opposite.then_some(Interface { tets, nodes: [corners, matching] })
 }
 
-/// Number of the face with these nodes.
-fn find(keys: &[u128], triangle: [u32; 3]) -> Option<u32> {
+/// Returns the number of the face with these nodes.
+fn find_face(keys: &[u128], triangle: [u32; 3]) -> Option<u32> {
     let key = key(triangle);
     let found = *keys.get(keys.partition_point(|other| *other < key))?;
     (found >> 32 == key >> 32).then_some(found as u32)
@@ -218,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn each_local_face_turns_its_back_on_the_opposite_corner() {
+    fn local_face_normals_point_away_from_the_opposite_corner() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         for (opposite, face) in LOCAL_FACES.iter().enumerate() {
             let [a, b, c] = face.map(|v| corners[v as usize]);
@@ -238,7 +237,7 @@ mod tests {
         ) {
             let pattern = if centred { Pattern::Centred } else { Pattern::Diagonal };
             let mut mesh = block(DVec3::new(1.0, 0.7, 0.4), cells, pattern);
-            // Other numbers for the corners, by rotations, which keep the volume positive.
+            // Renumbers the corners by rotations, which keep the volume positive.
             for (tet, turn) in mesh.tets.iter_mut().zip(turns.iter().cycle()) {
                 tet[..3].rotate_left(turn % 3);
                 for _ in 0..turn / 3 {
@@ -260,20 +259,20 @@ mod tests {
                 let way = mesh.centroid(tets[1] as usize) - mesh.centroid(tets[0] as usize);
                 prop_assert!(area(positions(&mesh, tets[0], nodes[0])).dot(way) > 0.0);
             }
-            // Gauss: the area vectors of a closed surface add up to nothing, x.A to three times the volume.
+            // Gauss: over a closed surface the area vectors A add up to zero, and x.A to three times the volume.
             let outside = faces.exteriors.iter().map(|face| positions(&mesh, face.tet, face.nodes));
             let (mut sum, mut volume) = (DVec3::ZERO, 0.0);
             for corners in outside {
                 sum += area(corners);
                 volume += area(corners).dot(corners[0]) / 3.0;
             }
-            // Rounding of sums of some hundred terms of order one.
+            // Rounding of sums of a few hundred terms of order one.
             prop_assert!(sum.length() < 1e-13 && (volume - 0.28).abs() < 1e-13);
         }
     }
 
     #[test]
-    fn cracks_are_inside_and_boundaries_outside() {
+    fn cracks_must_be_inside_and_boundaries_outside() {
         let mesh = with_set("crack", |node| node.x == 0.5);
         let faces = Faces::new(&mesh).unwrap();
         assert_eq!((faces.cracks[0].faces.len(), faces.boundaries.len()), (8, 0));
@@ -288,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn triangles_that_no_tetrahedron_has_are_counted() {
+    fn triangles_that_are_no_face_of_a_tetrahedron_are_counted() {
         let mut mesh = with_set("side", |node| node.x == 0.0);
         let far = mesh.nodes.iter().position(|node| *node == DVec3::ONE).unwrap() as u32;
         mesh.sets[0].triangles[2][1] = far;

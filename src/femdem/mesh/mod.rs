@@ -1,15 +1,15 @@
 //! Tetrahedral meshes: reading, checking, ordering, faces.
 //!
-//! [`read`] is the entry: bytes of an MSH 4.1 file in, a [`PreparedMesh`] out that the solver can rely on.
+//! [`read`] is the entry: it reads an MSH 4.1 file and returns a checked [`PreparedMesh`].
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | `msh` | reading MSH 4.1: named volumes become bodies, surfaces sets of triangles, curves and points sets of nodes |
-//! | `quality` | volume, edges, heights and angles of each body; inverted and flat tetrahedra |
-//! | `order` | tetrahedra along a space-filling curve, nodes by first use |
+//! | `msh` | reads MSH 4.1: named volumes become bodies, surfaces triangle sets, curves and points node sets |
+//! | `quality` | volume, edges, heights and angles of each body; finds inverted and flat tetrahedra |
+//! | `order` | sorts tetrahedra along a space-filling curve, nodes by first use |
 //! | `faces` | interior faces with their two tetrahedra, exterior faces, cracks and boundaries |
-//! | `conformity` | bodies that are not what they seem: shared nodes, loose pieces, hanging nodes, overlaps |
-//! | `defect` | what can be wrong with a mesh, in words |
+//! | `conformity` | finds shared nodes, unconnected pieces, hanging nodes and overlaps |
+//! | `defect` | mesh defects and their messages |
 //! | `block` | structured meshes of a box, for verification |
 
 use std::fs;
@@ -34,7 +34,7 @@ use msh::MshError;
 use quality::BodyQuality;
 pub use unit_mesh::UnitMesh;
 
-/// Why a mesh file cannot be used.
+/// Reason why a mesh file cannot be used.
 #[derive(Debug, Error)]
 pub enum MeshError {
     /// The file cannot be opened or read.
@@ -43,7 +43,7 @@ pub enum MeshError {
     /// The file is not an MSH 4.1 file with named volumes of tetrahedra.
     #[error("{path}: {source}")]
     Msh { path: PathBuf, source: MshError },
-    /// The mesh in the file cannot be computed with.
+    /// The mesh in the file has a defect.
     #[error("{path}: {source}")]
     Defect { path: PathBuf, source: MeshDefect },
 }
@@ -55,15 +55,15 @@ pub struct Mesh {
     pub nodes: Vec<DVec3>,
     /// Number of each node in the file.
     pub node_tags: Vec<u64>,
-    /// Nodes of each tetrahedron; seen from the fourth, the first three run anticlockwise: the volume is positive.
+    /// Nodes of each tetrahedron; seen from the fourth, the first three run anticlockwise (positive volume).
     pub tets: Vec<[u32; 4]>,
     /// Number of each tetrahedron in the file.
     pub tet_tags: Vec<u64>,
-    /// The bodies; their tetrahedra follow each other without gaps.
+    /// Bodies; their ranges of tetrahedra are consecutive without gaps.
     pub bodies: Vec<Body>,
     /// Boundaries and cracks.
     pub sets: Vec<TriangleSet>,
-    /// Lines and points of nodes.
+    /// Node sets from physical curves and points.
     pub node_sets: Vec<NodeSet>,
 }
 
@@ -81,7 +81,7 @@ pub struct Body {
 pub struct TriangleSet {
     /// Name of the physical surface.
     pub name: String,
-    /// Nodes of each triangle, in any sense of rotation.
+    /// Nodes of each triangle, clockwise or anticlockwise.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -95,7 +95,7 @@ pub struct NodeSet {
 }
 
 impl TriangleSet {
-    /// Whether the set is a pre-crack, an interior surface that is broken from the start: its name begins with `crack`.
+    /// Whether the set is a pre-crack, an interior surface that is broken at the start: its name begins with `crack`.
     pub fn is_crack(&self) -> bool {
         self.name.starts_with("crack")
     }
@@ -112,12 +112,12 @@ impl Mesh {
         self.corners(tet).iter().sum::<DVec3>() / 4.0
     }
 
-    /// The body that a tetrahedron belongs to.
+    /// Returns the body that a tetrahedron belongs to.
     pub fn body_of(&self, tet: usize) -> &Body {
         &self.bodies[self.bodies.partition_point(|body| body.tets.end <= tet)]
     }
 
-    /// All faces of tetrahedra whose three nodes lie in the region, once each: to make sets by position [m].
+    /// Returns the faces whose three nodes lie in a region of positions [m], each face once.
     pub fn faces_within(&self, region: impl Fn(DVec3) -> bool) -> Vec<[u32; 3]> {
         let within: Vec<bool> = self.nodes.iter().map(|node| region(*node)).collect();
         let all = self.tets.iter().flat_map(|tet| faces::LOCAL_FACES.map(|face| face.map(|v| tet[v as usize])));
@@ -129,24 +129,24 @@ impl Mesh {
     }
 }
 
-/// A mesh in good order: checked, sorted, with its faces.
+/// A mesh that is checked and sorted, with its faces.
 #[derive(Debug, Clone)]
 pub struct PreparedMesh {
-    /// The mesh, sorted; the tags lead back to the file.
+    /// The sorted mesh; the tags are the numbers in the file.
     pub mesh: Mesh,
     /// Interior and exterior faces, cracks and boundaries.
     pub faces: Faces,
-    /// Sizes and shapes, one entry a body.
+    /// Sizes and shapes, one entry per body.
     pub quality: Vec<BodyQuality>,
 }
 
-/// Mesh in an MSH 4.1 file, its lengths multiplied by `scale` (0.001 for a file in mm).
+/// Reads an MSH 4.1 file; lengths are multiplied by `scale` (0.001 for a file in mm).
 pub fn read(path: &Path, scale: f64) -> Result<PreparedMesh, MeshError> {
     let bytes = fs::read(path).map_err(|source| MeshError::Io { path: path.to_owned(), source })?;
     parse(&bytes, path, scale)
 }
 
-/// The same from the file's content; `path` is its name in messages.
+/// Parses the content of an MSH 4.1 file; `path` is its name in messages.
 pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<PreparedMesh, MeshError> {
     let mesh = msh::parse(bytes, scale).map_err(|source| MeshError::Msh { path: path.to_owned(), source })?;
     prepare(mesh).map_err(|source| MeshError::Defect { path: path.to_owned(), source })

@@ -1,20 +1,20 @@
-//! Order of tetrahedra and nodes in memory: neighbours in space become neighbours in memory.
+//! Sorts tetrahedra and nodes so that neighbours in space are neighbours in memory.
 //!
-//! Tetrahedra follow the Z-shaped curve of Morton (1966) through their centroids; nodes follow in the order in which the
-//! tetrahedra first use them. The solver's gathers then mostly find their data in the cache.
+//! Tetrahedra follow the Z-order curve of Morton (1966) through their centroids; nodes are in the order in which the
+//! tetrahedra first use them. The solver then finds most data in the cache.
 
 use glam::DVec3;
 
 use super::{Mesh, TriangleSet};
 
-/// Bits of a Morton code for each axis; three times as many fit into 64.
+/// Bits of a Morton code per axis; 3 x 21 fit into 64 bits.
 const BITS: u32 = 21;
 
-/// Mark of a node without a new number.
+/// Marks a node without a new number.
 const UNUSED: u32 = u32::MAX;
 
-/// The same mesh in another order, body by body; tags move with what they belong to. Tetrahedra with the same code stay
-/// in their order, so that the result depends on the mesh only. Nodes that only triangles use come last.
+/// Returns the mesh sorted along the curve, body by body; tags move with their nodes and tetrahedra. Tetrahedra with
+/// the same code keep their order, so the result depends on the mesh only. Nodes used by triangles only come last.
 pub fn along_curve(mesh: &Mesh) -> Mesh {
     let mut order = Vec::with_capacity(mesh.tets.len());
     for body in &mesh.bodies {
@@ -51,14 +51,14 @@ pub fn along_curve(mesh: &Mesh) -> Mesh {
         *node = new_index[*node as usize];
     }
     for set in &mut sorted.node_sets {
-        // Nodes of tetrahedra, all of them.
+        // Every node of a set is a node of a tetrahedron.
         set.nodes.iter_mut().for_each(|node| *node = new_index[*node as usize]);
         set.nodes.sort_unstable();
     }
     sorted
 }
 
-/// Number along the curve of a point in the unit cube: the bits of its coordinates in turn.
+/// Morton code of a point in the unit cube: the interleaved bits of its coordinates.
 fn morton(point: DVec3) -> u64 {
     let cells = f64::from((1u32 << BITS) - 1);
     // A body of one tetrahedron has no size; the cast turns its 0/0 into 0.
@@ -66,7 +66,7 @@ fn morton(point: DVec3) -> u64 {
     x | (y << 1) | (z << 2)
 }
 
-/// Puts two zeros between the bits of a number of [`BITS`] bits.
+/// Inserts two zeros between the bits of a number of [`BITS`] bits.
 fn spread(number: u64) -> u64 {
     let mut bits = number;
     for (shift, mask) in [
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn codes_interleave_the_bits() {
+    fn morton_codes_interleave_the_bits() {
         assert_eq!(morton(DVec3::ZERO), 0);
         assert_eq!(morton(DVec3::ONE), (1 << (3 * BITS)) - 1);
         for bit in 0..BITS {
@@ -98,19 +98,19 @@ mod tests {
     }
 
     #[test]
-    fn the_same_mesh_in_another_order_comes_out_the_same() {
+    fn the_result_does_not_depend_on_the_order_in_the_file() {
         let mesh = block(DVec3::new(1.0, 2.0, 3.0), [4, 5, 6], Pattern::Centred);
         let sorted = along_curve(&mesh);
         assert_eq!(along_curve(&sorted), sorted);
         let mut turned = mesh.clone();
         turned.tets.reverse();
         turned.tet_tags.reverse();
-        // No two centroids of this mesh have the same code, so that nothing is left to the order of the file.
+        // No two centroids of this mesh have the same code, so the order of the file does not matter.
         assert_eq!(along_curve(&turned), sorted);
     }
 
     #[test]
-    fn tags_lead_back_and_neighbours_come_close() {
+    fn sorting_keeps_tags_and_brings_neighbours_together() {
         let mesh = block(DVec3::ONE, [16; 3], Pattern::Diagonal);
         let sorted = prepare(mesh.clone()).unwrap().mesh;
         for (tet, tag) in sorted.tets.iter().zip(&sorted.tet_tags) {
@@ -120,7 +120,7 @@ mod tests {
         for (node, tag) in sorted.nodes.iter().zip(&sorted.node_tags) {
             assert_eq!(*node, mesh.nodes[*tag as usize - 1]);
         }
-        // The nodes of a tetrahedron; layer by layer, as the generator makes them, they are 17 x 17 = 289 apart and more.
+        // Range of node numbers in a tetrahedron. The generator numbers layer by layer: at least 17 x 17 = 289.
         let span = |tet: &[u32; 4]| tet.iter().max().unwrap() - tet.iter().min().unwrap();
         let median = |mesh: &Mesh| {
             let mut spans: Vec<u32> = mesh.tets.iter().map(span).collect();

@@ -1,6 +1,6 @@
 //! Size and shape of the tetrahedra of each body.
 //!
-//! Of a tetrahedron with edges a, b, c from its first corner: volume V = (a x b).c / 6; height over a face of area A
+//! For a tetrahedron with edges a, b, c from its first corner: volume V = (a x b).c / 6; height over a face of area A
 //! h = 3 V / A; the angle between two faces with outward unit normals m, n has the cosine -m.n.
 
 use glam::DVec3;
@@ -9,12 +9,12 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::LOCAL_FACES;
 use super::{Body, Mesh};
 
-/// Below this volume, as a part of the cube of its longest edge, a tetrahedron is flat. Its height is then less than
-/// 1e-9 of its length, where the rounding of coordinates decides on which side of the face the fourth corner lies.
+/// Volume over the cube of the longest edge below which a tetrahedron is flat [-]. Its height is then less than 1e-9 of
+/// its length, and rounding of the coordinates decides on which side of the face the fourth corner lies.
 const FLAT: f64 = 1e-10;
 
-/// Smallest angle between faces [deg] that passes without a warning. Slivers below it take no part in the stiffness that
-/// a mesh is meant to have, and their height sets the time step of all; Gmsh's optimiser leaves 10 deg and more.
+/// Smallest angle between faces [deg] without a warning. Slivers below it do not have a realistic stiffness, and their
+/// height limits the time step. Gmsh's optimiser leaves at least 10 deg.
 pub const SHARP_DEG: f64 = 5.0;
 
 /// Size and shape of the tetrahedra of one body.
@@ -28,7 +28,7 @@ pub struct BodyQuality {
     pub volume: f64,
     /// Shortest edge [m].
     pub edge_min: f64,
-    /// Mean over the edges of all tetrahedra [m]; an edge counts once for each tetrahedron at it.
+    /// Mean edge length over all tetrahedra [m]; an edge counts once for each of its tetrahedra.
     pub edge_mean: f64,
     /// Longest edge [m].
     pub edge_max: f64,
@@ -43,25 +43,25 @@ pub struct BodyQuality {
 }
 
 impl BodyQuality {
-    /// What the user should know before computing with the mesh.
+    /// Returns a warning if the mesh has slivers.
     pub fn warning(&self) -> Option<String> {
         (self.sharp > 0).then(|| {
             format!(
-                "body {:?}: {} of {} tetrahedra have an angle between faces below {SHARP_DEG} deg, the smallest {:.2} deg \
-                 in {}; its least height {:.3e} m sets the time step. Mesh.Optimize = 1 or Mesh.OptimizeNetgen = 1 in \
-                 Gmsh removes most of them",
+                "body {:?}: {} of {} tetrahedra have an angle between faces below {SHARP_DEG} deg; the smallest is {:.2} \
+                 deg in {}. The smallest height of the body, {:.3e} m, limits the time step. Mesh.Optimize = 1 or \
+                 Mesh.OptimizeNetgen = 1 in Gmsh removes most of these tetrahedra",
                 self.body, self.sharp, self.tets, self.angle_min_deg, self.sharpest, self.height_min
             )
         })
     }
 }
 
-/// Six times the volume of a tetrahedron [m3], negative if it is turned inside out.
+/// Six times the volume of a tetrahedron [m3], negative if it is inverted.
 pub fn triple_product([a, b, c, d]: [DVec3; 4]) -> f64 {
     (b - a).cross(c - a).dot(d - a)
 }
 
-/// Sizes and shapes, one entry a body; inverted and flat tetrahedra are refused.
+/// Computes sizes and shapes, one entry per body; inverted and flat tetrahedra are refused.
 pub fn measure(mesh: &Mesh) -> Result<Vec<BodyQuality>, MeshDefect> {
     mesh.bodies.iter().map(|body| check_volumes(mesh, body).map(|()| measure_body(mesh, body))).collect()
 }
@@ -69,7 +69,7 @@ pub fn measure(mesh: &Mesh) -> Result<Vec<BodyQuality>, MeshDefect> {
 fn check_volumes(mesh: &Mesh, body: &Body) -> Result<(), MeshDefect> {
     let volumes: Vec<f64> = body.tets.clone().map(|tet| relative_volume(mesh.corners(tet))).collect();
     let inverted = |volume: &f64| *volume < -FLAT;
-    // A volume that is not a number is no volume.
+    // A NaN volume counts as flat.
     let flat = |volume: &f64| volume.is_nan() || volume.abs() <= FLAT;
     let found = |misfit: &dyn Fn(&f64) -> bool| {
         let tet = body.tets.start + volumes.iter().position(misfit)?;
@@ -85,7 +85,7 @@ fn check_volumes(mesh: &Mesh, body: &Body) -> Result<(), MeshDefect> {
     }
 }
 
-/// Volume as a part of the cube of the longest edge, 0.12 for a regular tetrahedron.
+/// Volume over the cube of the longest edge [-]; 0.12 for a regular tetrahedron.
 fn relative_volume(corners: [DVec3; 4]) -> f64 {
     triple_product(corners) / 6.0 / edges(corners).into_iter().fold(0.0, f64::max).powi(3)
 }
@@ -131,7 +131,7 @@ fn edges([a, b, c, d]: [DVec3; 4]) -> [f64; 6] {
     [b - a, c - a, d - a, c - b, d - b, d - c].map(DVec3::length)
 }
 
-/// Outward normals of the faces, as long as the faces are large [m2].
+/// Outward area vectors of the faces [m2].
 fn area_vectors(corners: [DVec3; 4]) -> [DVec3; 4] {
     LOCAL_FACES.map(|face| {
         let [a, b, c] = face.map(|v| corners[v as usize]);
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_of_a_cube_has_its_textbook_sizes() {
+    fn sizes_of_a_cube_corner_have_their_textbook_values() {
         let quality = &measure(&corner()).unwrap()[0];
         let close = |value: f64, expected: f64| (value - expected).abs() < 1e-14 * expected;
         assert!(close(quality.volume, 1.0 / 6.0));
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn slivers_bring_a_warning_with_their_place() {
+    fn slivers_give_a_warning_with_their_position() {
         let mut mesh = corner();
         mesh.nodes[3] = DVec3::new(0.5, 0.5, 0.02);
         let quality = &measure(&mesh).unwrap()[0];
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn inverted_and_flat_tetrahedra_are_counted_and_named() {
+    fn inverted_and_flat_tetrahedra_are_counted_and_reported() {
         let good = block(DVec3::ONE, [2; 3], Pattern::Diagonal);
         let mut mirrored = good.clone();
         mirrored.nodes.iter_mut().for_each(|node| node.x = -node.x);
@@ -208,7 +208,7 @@ mod tests {
         some.tets[3].swap(0, 1);
         some.tets[5].swap(0, 1);
         let message = measure(&some).unwrap_err().to_string();
-        assert!(message.contains("2 of 48") && message.contains("the first 4 at ("), "{message}");
+        assert!(message.contains("2 of 48") && message.contains("the first is 4 at ("), "{message}");
         for height in [DVec3::ZERO, DVec3::Z * 1e-12, DVec3::NAN, DVec3::INFINITY, DVec3::MAX] {
             let mut flat = corner();
             flat.nodes[3] = height;

@@ -1,4 +1,4 @@
-//! The datasets of `impacts.h5`, and the impacts made of them again.
+//! Reading of the datasets of `impacts.h5`, and their conversion to impacts.
 
 use glam::{DQuat, DVec3};
 use hdf5_metno::{File, Group};
@@ -7,7 +7,7 @@ use super::{FluidAtPeak, Impact, Impacts, NO_BODY, PARTNER, PartnerNumbers, Pres
 use crate::output::state_file::{Hdf5Result, read_rows, read_vectors};
 use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load};
 
-/// The datasets of a file as they are.
+/// The datasets of a file as stored.
 pub struct Columns {
     numbers: Vec<u64>,
     units: Vec<u32>,
@@ -24,7 +24,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// The datasets of an open file.
+    /// Reads the datasets of an open file.
     pub fn read(file: &File) -> Hdf5Result<Self> {
         let (impacts, history, pressure) = (file.group("impacts")?, file.group("history")?, file.group("pressure")?);
         let mut partners = [const { Vec::new() }; 4];
@@ -50,7 +50,7 @@ impl Columns {
         })
     }
 
-    /// The impacts, or the name of a dataset that does not fit the others.
+    /// Converts the datasets to impacts; the error is the name of a dataset that does not match the others.
     pub fn into_impacts(self) -> Result<Impacts, &'static str> {
         let [particles, to_surface] = &self.places;
         if particles.len() != to_surface.len() {
@@ -79,11 +79,11 @@ impl Columns {
                 .filter(|body| !body.position.is_nan()),
             ..NO_EVENT
         };
-        for ((name, of), column) in SCALARS.iter().zip(&self.scalars) {
-            *of(&mut event) = *column.get(row).ok_or(*name)?;
+        for ((name, field), column) in SCALARS.iter().zip(&self.scalars) {
+            *field(&mut event) = *column.get(row).ok_or(*name)?;
         }
-        for ((name, of), column) in VECTORS.iter().zip(&self.vectors) {
-            *of(&mut event) = *column.get(row).ok_or(*name)?;
+        for ((name, field), column) in VECTORS.iter().zip(&self.vectors) {
+            *field(&mut event) = *column.get(row).ok_or(*name)?;
         }
         let [start, end] = [row, row + 1].map(|row| self.offsets[row] as usize);
         let history = self.samples.get(start..end).ok_or("offset")?.to_vec();
@@ -106,7 +106,7 @@ impl Columns {
     }
 }
 
-/// An event to be filled in.
+/// An empty event.
 pub const NO_EVENT: ContactEvent = ContactEvent {
     number: 0,
     start: 0.0,
@@ -128,7 +128,7 @@ pub const NO_EVENT: ContactEvent = ContactEvent {
     impulse: [0.0; 3],
 };
 
-/// What was touched; none if the numbers are not those of [`super::partner_numbers`].
+/// Converts numbers of [`super::partner_numbers`] to the partner; `None` if they are invalid.
 fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
     let end = part.try_into().ok()?;
     Some(match kind {
@@ -140,7 +140,7 @@ fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
     })
 }
 
-/// States of the bodies; as many as there are rows in the shortest of their datasets.
+/// Reads the states of the bodies: as many as the shortest dataset has rows.
 fn read_bodies(group: &Group, prefix: &str) -> Hdf5Result<Vec<BodyState>> {
     let positions = read_vectors(group, &format!("{prefix}position_m"))?;
     let rotations = read_rows(group, &format!("{prefix}rotation_xyzw"))?.into_iter().map(DQuat::from_array);

@@ -1,13 +1,13 @@
-//! The hardest impacts of a run: `impacts.h5`, from which a fracture computation can go on.
+//! The hardest impacts of a run: `impacts.h5`, the input of the breakage analysis.
 //!
-//! | group | holds, a row an impact |
+//! | group | content, one row per impact |
 //! | --- | --- |
-//! | `impacts` | bodies, place, speeds, peak, impulse, the bodies' states before, load of the water; NaN where there is none |
-//! | `history` | the samples of all impacts, one impact after the other: those of impact k are `offset[k]..offset[k + 1]` |
-//! | `pressure` | pressure at the places of the boundary particles, NaN where it is not known |
+//! | `impacts` | bodies, position, velocities, peak, impulse, previous body states, water load; NaN if absent |
+//! | `history` | samples of all impacts, concatenated; impact k has `offset[k]..offset[k + 1]` |
+//! | `pressure` | pressure at the boundary particles, NaN where it is unknown |
 //!
-//! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the triangle
-//! surface, 3 for a wall; `partner_number` is the number of that unit, segment, face or wall.
+//! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the terrain
+//! surface, 3 for a wall. `partner_number` is the number of that unit, segment, face or wall.
 
 mod columns;
 
@@ -22,48 +22,48 @@ use super::state_file::{Hdf5Result, read_state, write_column, write_rows, write_
 use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load, RecordedContact};
 use columns::Columns;
 
-/// Layout of the file; raised when it changes.
+/// Version of the file layout; increased with every change.
 const VERSION: u32 = 1;
 
-/// Where the water's pressure at a unit is known, in the unit's axes from its centre of mass.
+/// A point of known water pressure at a unit, in body axes from the centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PressurePlace {
-    /// Boundary particle, inside the unit [m].
+    /// Position of the boundary particle, inside the unit [m].
     pub particle: DVec3,
-    /// From there to the nearest point of the surface [m].
+    /// Vector from the particle to the nearest point of the surface [m].
     pub to_surface: DVec3,
 }
 
-/// The water at the unit `event.body` in the step in which the force of an impact had its peak.
+/// Water load on the unit `event.body` in the time step of the peak force of an impact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FluidAtPeak {
-    /// Force and torque about the centre of mass, world axes, as means over the step.
+    /// Force and torque about the centre of mass in world axes, averaged over the time step.
     pub load: Load,
-    /// Pressure at each of [`Impacts::places`] [Pa].
+    /// Pressure at each point of [`Impacts::places`] [Pa].
     pub pressure: Vec<f32>,
 }
 
-/// An impact of a unit on another, the bed or a wall.
+/// An impact of a unit on another unit, the bed or a wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
-    /// Bodies, place and strength; times are those of the flume.
+    /// Bodies, position and strength; times are flume times.
     pub event: ContactEvent,
-    /// Force on `event.body` against flume time, without gaps; on a partner the opposite acts.
+    /// Force on `event.body` over flume time, without gaps; the opposite force acts on the partner.
     pub history: Vec<ForceSample>,
-    /// The water then; none in dry runs.
+    /// Water load at the peak; none in dry tests.
     pub fluid: Option<FluidAtPeak>,
 }
 
 /// The impacts of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Impacts {
-    /// Where pressures are known, the same for all units; empty in dry runs.
+    /// Points of known pressure, the same for all units; empty in dry tests.
     pub places: Vec<PressurePlace>,
-    /// The hardest first.
+    /// The impacts, the hardest first.
     pub impacts: Vec<Impact>,
 }
 
-/// What the text of the file says.
+/// Text of the file.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,
@@ -92,10 +92,10 @@ const VECTORS: [Vector; 5] = [
 ];
 
 impl Impact {
-    /// A contact with the water at its peak; `offset` [s] leads from the clock of the contacts to that of the flume.
+    /// Creates an impact from a contact and the water load at its peak; `offset` [s] is added to get flume time.
     pub fn new(contact: &RecordedContact, offset: f64, fluid: Option<FluidAtPeak>) -> Self {
-        let on_clock = |sample: &ForceSample| ForceSample { start: sample.start + offset, ..*sample };
-        let history = contact.history.samples().iter().map(on_clock).collect();
+        let in_flume_time = |sample: &ForceSample| ForceSample { start: sample.start + offset, ..*sample };
+        let history = contact.history.samples().iter().map(in_flume_time).collect();
         Self { event: contact.event.on_clock(offset), history, fluid }
     }
 }
@@ -104,10 +104,10 @@ impl Impacts {
     /// Name of the file in a run folder.
     pub const FILE: &str = "impacts.h5";
 
-    /// Writes the file: to a temporary name first, synced, then renamed.
+    /// Writes the file atomically.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let text = serde_json::to_string(&Header { version: VERSION }).map_err(OutputError::json(path))?;
         write_state(path, &text, |file| {
@@ -120,17 +120,20 @@ impl Impacts {
     /// Reads the file.
     ///
     /// # Errors
-    /// If there is none, or it is damaged or not one of impacts.
+    /// If the file is missing, damaged or not a file of impacts.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         std::fs::metadata(path).map_err(OutputError::io(path))?;
         let (text, columns) = read_state(path, Columns::read)?;
         let header: Header = serde_json::from_str(&text).map_err(OutputError::json(path))?;
         if header.version != VERSION {
-            let what = format!("was written by another version of breakwater (layout {})", header.version);
+            let what = format!(
+                "has layout {}, written by another version of breakwater; repeat the run with this version",
+                header.version
+            );
             return Err(OutputError::content(path, what));
         }
         let damaged = |name: &str| {
-            let what = format!("is damaged: `{name}` does not fit the number of impacts; make the run again");
+            let what = format!("is damaged: `{name}` does not match the number of impacts; repeat the run");
             OutputError::content(path, what)
         };
         columns.into_impacts().map_err(damaged)
@@ -149,11 +152,11 @@ impl Impacts {
         for (k, name) in PARTNER.into_iter().enumerate() {
             write_column(group, name, &partners.iter().map(|numbers| numbers[k]).collect::<Vec<i64>>())?;
         }
-        for (name, of) in SCALARS {
-            write_column(group, name, &self.events().map(|mut event| *of(&mut event)).collect::<Vec<f64>>())?;
+        for (name, field) in SCALARS {
+            write_column(group, name, &self.events().map(|mut event| *field(&mut event)).collect::<Vec<f64>>())?;
         }
-        for (name, of) in VECTORS {
-            write_rows(group, name, &self.events().map(|mut event| *of(&mut event)).collect::<Vec<_>>())?;
+        for (name, field) in VECTORS {
+            write_rows(group, name, &self.events().map(|mut event| *field(&mut event)).collect::<Vec<_>>())?;
         }
         write_bodies(group, "", self.events().map(|event| event.before))?;
         write_bodies(group, "partner_", self.events().map(|event| event.partner_before.unwrap_or(NO_BODY)))?;
@@ -195,7 +198,7 @@ const NO_BODY: BodyState = BodyState {
     angular_velocity: DVec3::NAN,
 };
 
-/// Kind, number, image and part or end of what was touched, in the columns of these names.
+/// Kind, number, image, and part or end of the partner, for the columns [`PARTNER`].
 type PartnerNumbers = [i64; 4];
 const PARTNER: [&str; 4] = ["partner_kind", "partner_number", "partner_image", "partner_part"];
 
@@ -210,7 +213,7 @@ fn partner_numbers(partner: Feature) -> PartnerNumbers {
 
 fn write_bodies(group: &Group, prefix: &str, bodies: impl Iterator<Item = BodyState>) -> Hdf5Result<()> {
     let bodies: Vec<BodyState> = bodies.collect();
-    let vectors = |of: fn(&BodyState) -> DVec3| bodies.iter().map(of).collect::<Vec<_>>();
+    let vectors = |quantity: fn(&BodyState) -> DVec3| bodies.iter().map(quantity).collect::<Vec<_>>();
     write_vectors(group, &format!("{prefix}position_m"), &vectors(|body| body.position))?;
     let rotations: Vec<[f64; 4]> = bodies.iter().map(|body| body.rotation.to_array()).collect();
     write_rows(group, &format!("{prefix}rotation_xyzw"), &rotations)?;
@@ -238,8 +241,8 @@ mod tests {
         let x = number as f64 / 3.0;
         let mut event = ContactEvent { number, body: 2, partner, before: body(x), ..NO_EVENT };
         event.partner_before = event.partner_unit().map(|_| body(x + 1.0));
-        SCALARS.iter().enumerate().for_each(|(k, (_, of))| *of(&mut event) = x + k as f64);
-        VECTORS.iter().enumerate().for_each(|(k, (_, of))| *of(&mut event) = [x, k as f64, -x]);
+        SCALARS.iter().enumerate().for_each(|(k, (_, field))| *field(&mut event) = x + k as f64);
+        VECTORS.iter().enumerate().for_each(|(k, (_, field))| *field(&mut event) = [x, k as f64, -x]);
         let sample = |k| ForceSample { start: f64::from(k), duration: 1.0, impulse: DVec3::new(x, 1.0, f64::from(k)) };
         let load = Load { force: DVec3::X * x, torque: DVec3::Z };
         let fluid = with_water.then(|| FluidAtPeak { load, pressure: vec![1.5, -x as f32] });
@@ -259,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_written_is_read_back_to_the_last_bit() {
+    fn impacts_read_back_to_the_last_bit() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(Impacts::FILE);
         let dry = Impacts { places: Vec::new(), impacts: vec![impact(5, Feature::Ground { place: 0, end: 0 }, false)] };
@@ -274,31 +277,31 @@ mod tests {
     fn missing_and_damaged_files_are_refused_by_name() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(Impacts::FILE);
-        let refused = || {
+        let refusal = || {
             let message = Impacts::read(&path).unwrap_err().to_string();
             assert!(message.contains(Impacts::FILE), "{message}");
             message
         };
-        assert!(refused().contains("No such file"));
+        assert!(refusal().contains("No such file"));
         std::fs::write(&path, b"not an HDF5 file").unwrap();
-        refused();
+        refusal();
         some_impacts().write(&path).unwrap();
         let whole = std::fs::read(&path).unwrap();
         std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
-        refused();
+        refusal();
         for name in ["impacts/unit", "impacts/partner_kind", "impacts/peak_force_n", "impacts/rotation_xyzw"] {
             some_impacts().write(&path).unwrap();
             let file = File::open_rw(&path).unwrap();
             file.unlink(name).unwrap();
             drop(file);
-            assert!(refused().contains("HDF5"));
+            assert!(refusal().contains("HDF5"));
         }
         for offsets in [[0_u64, 1, 3, 99, 6], [0, 3, 1, 3, 6]] {
             some_impacts().write(&path).unwrap();
             let file = File::open_rw(&path).unwrap();
             file.dataset("history/offset").unwrap().write_raw(&offsets).unwrap();
             drop(file);
-            assert!(refused().contains("offset"));
+            assert!(refusal().contains("offset"));
         }
     }
 }

@@ -1,10 +1,9 @@
-//! Moving points and surfaces for ParaView: VTKHDF temporal PolyData (version 2.0), one file a series.
+//! Moving points and surfaces for ParaView: VTKHDF temporal PolyData (version 2.0), one file per series.
 //!
-//! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step is one part. A cell kind
-//! has always the same number of corners, so that the `Offsets` of all steps are one and the same list 0, n, 2n, ...:
-//! it is written once, as long as the longest step needs, and every step starts at its beginning. Connectivity is
-//! written again only when it differs from that of the step before. `NSteps` is written last and the file is flushed
-//! after each step: a killed run leaves a file that ends with its last whole step.
+//! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step (recorded moment) is one
+//! part. All cells of a kind have the same number of corners, so all steps share one list of `Offsets` 0, n, 2n, ...
+//! The list is written once, as long as the longest step needs. Connectivity is written again only if it differs from
+//! the previous step. `NSteps` is written last, then the file is flushed: a killed run leaves a file of complete steps.
 
 use std::path::{Path, PathBuf};
 
@@ -27,10 +26,10 @@ mod tests;
 mod triangles;
 mod volume;
 
-/// What the cells of a series are.
+/// Kind of the cells of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
-    /// Every point is a cell of its own: particles.
+    /// One cell per point: particles.
     Vertices,
     /// Triangles: surfaces.
     Triangles,
@@ -52,7 +51,7 @@ impl Cells {
     }
 }
 
-/// What a field holds for each point or cell.
+/// Type of a field value at each point or cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldKind {
     /// One f32.
@@ -65,7 +64,7 @@ pub enum FieldKind {
     Integer,
 }
 
-/// Values of a field in one step, one for each point or cell.
+/// Values of a field in one step, one per point or cell.
 #[derive(Debug, Clone, Copy)]
 pub enum FieldValues<'a> {
     /// For [`FieldKind::Scalar`].
@@ -112,7 +111,7 @@ pub struct PolyDataSeries {
 }
 
 impl PolyDataSeries {
-    /// A new file for cells of one kind and point fields of the given names and kinds; an old file is overwritten.
+    /// Creates a file for cells of one kind and the given point fields. An old file is overwritten.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -135,10 +134,10 @@ impl PolyDataSeries {
         })
     }
 
-    /// Opens a file of an interrupted run and drops the steps beyond the first `steps`.
+    /// Opens the file of an interrupted run and keeps only the first `steps` steps.
     ///
     /// # Errors
-    /// If the file cannot be opened, is no file of such cells and fields, or has fewer steps.
+    /// If the file cannot be opened, has other fields, or has fewer steps.
     pub fn open_and_truncate(
         path: &Path,
         cells: Cells,
@@ -166,7 +165,7 @@ impl PolyDataSeries {
     /// If the file cannot be written.
     ///
     /// # Panics
-    /// If the fields do not match those of the file, or a field has not one value for each point.
+    /// If the fields do not match those of the file, or a field does not have one value per point.
     pub fn append(
         &mut self,
         time_s: f64,
@@ -174,8 +173,8 @@ impl PolyDataSeries {
         triangles: &[[u32; 3]],
         values: &[FieldValues<'_>],
     ) -> Result<(), OutputError> {
-        assert!(self.cells == Cells::Triangles || triangles.is_empty(), "vertices need no triangles");
-        assert_eq!(values.len(), self.fields.len(), "{}: one value list a field", self.path.display());
+        assert!(self.cells == Cells::Triangles || triangles.is_empty(), "a series of vertices has no triangles");
+        assert_eq!(values.len(), self.fields.len(), "{}: one list of values per field", self.path.display());
         for ((name, kind), value) in self.fields.iter().zip(values) {
             assert_eq!(*kind, value.kind(), "kind of field {name}");
             assert_eq!(points_m.len(), value.len(), "length of field {name}");
@@ -233,7 +232,7 @@ impl PolyDataSeries {
         self.file.flush()
     }
 
-    /// Writes what is new in the cells of this step; returns where its connectivity starts.
+    /// Writes the new cells of this step; returns the start of its connectivity.
     fn write_cells(&mut self, root: &Group, points: usize, triangles: &[[u32; 3]], count: usize) -> Hdf5Result<usize> {
         let group = root.group(TOPOLOGIES[self.cells.topology()])?;
         let offsets = group.dataset("Offsets")?;
@@ -259,7 +258,7 @@ impl PolyDataSeries {
         }
     }
 
-    /// Cuts every dataset behind the last kept step.
+    /// Cuts every dataset after the last kept step.
     fn truncate(&mut self) -> Hdf5Result<()> {
         let root = self.file.group("VTKHDF")?;
         let steps = root.group("Steps")?;
@@ -297,7 +296,7 @@ impl PolyDataSeries {
         self.file.flush()
     }
 
-    /// Reads the triangles of the last kept step and cuts the connectivity behind them.
+    /// Reads the triangles of the last kept step and cuts the connectivity after them.
     fn recall_last_triangles(&mut self, root: &Group, steps: &Group) -> Hdf5Result<()> {
         let group = root.group(TOPOLOGIES[Cells::Triangles.topology()])?;
         let connectivity = group.dataset("Connectivity")?;

@@ -1,4 +1,4 @@
-//! Reading the water of a run back, moment by moment.
+//! Reading of the water particles of a run, moment by moment.
 
 use std::path::{Path, PathBuf};
 
@@ -7,13 +7,13 @@ use hdf5_metno::File;
 use super::super::OutputError;
 use super::layout::{Hdf5Result, unlocked};
 
-/// The moments in a file of particles with their velocity, as [`super::PolyDataSeries`] writes it.
+/// A file of particles with velocities, as written by [`super::PolyDataSeries`].
 #[derive(Debug)]
 pub struct WaterSnapshots {
     path: PathBuf,
     file: File,
     times_s: Vec<f64>,
-    /// Number of particles of each moment, and where their points and velocities start.
+    /// Number of particles of each moment, and the start of its points and velocities.
     counts: Vec<usize>,
     point_starts: Vec<usize>,
     velocity_starts: Vec<usize>,
@@ -29,10 +29,10 @@ pub struct WaterSnapshot {
 }
 
 impl WaterSnapshots {
-    /// Opens the file; it may still be growing. None if it holds no velocity.
+    /// Opens the file, which may still grow. `None` if it has no velocities.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn open(path: &Path) -> Result<Option<Self>, OutputError> {
         Self::index(path).map_err(OutputError::hdf5(path))
     }
@@ -64,7 +64,7 @@ impl WaterSnapshots {
         &self.times_s
     }
 
-    /// The moment nearest to a time [s]; none in a file without moments.
+    /// Index of the moment nearest to a time [s]; `None` in a file without moments.
     pub fn nearest(&self, time_s: f64) -> Option<usize> {
         let distance = |step: &usize| (self.times_s[*step] - time_s).abs();
         (0..self.times_s.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -76,7 +76,7 @@ impl WaterSnapshots {
     /// If the file cannot be read.
     ///
     /// # Panics
-    /// If there are not so many moments.
+    /// If the file has fewer moments.
     pub fn read(&self, step: usize) -> Result<WaterSnapshot, OutputError> {
         assert!(step < self.times_s.len(), "{}: no moment {step}", self.path.display());
         let rows = |name: &str, start: usize| -> Hdf5Result<Vec<[f32; 3]>> {

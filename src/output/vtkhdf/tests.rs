@@ -23,7 +23,7 @@ fn the_number_of_particles_may_change_from_step_to_step() {
     for (step, count) in [5, 3, 7, 0, 2].into_iter().enumerate() {
         append_particles(&mut series, step, count);
     }
-    // A copy taken while the series is still open is what a killed run would leave.
+    // A killed run would leave this copy, made while the series is still open.
     let left_behind = folder.path().join("killed.vtkhdf");
     std::fs::copy(&path, &left_behind).unwrap();
     let file = File::open(&left_behind).unwrap();
@@ -44,7 +44,7 @@ fn the_number_of_particles_may_change_from_step_to_step() {
 }
 
 #[test]
-fn each_moment_reads_back() {
+fn every_moment_reads_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fluid.vtkhdf");
     let mut series = PolyDataSeries::create(&path, Cells::Vertices, &FLUID).unwrap();
@@ -67,7 +67,7 @@ fn each_moment_reads_back() {
 }
 
 #[test]
-fn a_resumed_series_goes_on_behind_the_checkpoint() {
+fn a_resumed_series_continues_after_the_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fluid.vtkhdf");
     let mut series = PolyDataSeries::create(&path, Cells::Vertices, &FLUID).unwrap();

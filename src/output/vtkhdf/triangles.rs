@@ -1,4 +1,4 @@
-//! Reading triangles back, moment by moment: surfaces, cracks, cut planes.
+//! Reading of triangles, moment by moment: surfaces, cracks, section planes.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use hdf5_metno::{File, H5Type};
 use super::super::OutputError;
 use super::layout::{Hdf5Result, unlocked};
 
-/// The moments in a file of triangles with corners of their own, as [`super::PolyDataSeries`] writes it.
+/// A file of triangles that share no points, as written by [`super::PolyDataSeries`].
 #[derive(Debug)]
 pub struct TriangleMoments {
     path: PathBuf,
@@ -18,10 +18,10 @@ pub struct TriangleMoments {
 }
 
 impl TriangleMoments {
-    /// Opens the file; it may still be growing.
+    /// Opens the file, which may still grow.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, OutputError> {
         let read = || -> Hdf5Result<Self> {
             let file = unlocked().open(path)?;
@@ -39,13 +39,13 @@ impl TriangleMoments {
         &self.times_s
     }
 
-    /// Corners of the triangles of a moment [m].
+    /// Reads the corners of the triangles of a moment [m].
     ///
     /// # Errors
     /// If the file cannot be read.
     ///
     /// # Panics
-    /// If there are not so many moments.
+    /// If the file has fewer moments.
     pub fn triangles(&self, moment: usize) -> Result<Vec<[DVec3; 3]>, OutputError> {
         let read = || -> Hdf5Result<Vec<[DVec3; 3]>> {
             let start = offsets(&self.file, "Steps/PointOffsets")?[moment];
@@ -58,13 +58,13 @@ impl TriangleMoments {
         read().map_err(OutputError::hdf5(&self.path))
     }
 
-    /// A field with one number a point, at the first corner of each triangle.
+    /// Reads a field with one number per point, at the first corner of each triangle.
     ///
     /// # Errors
     /// If the file cannot be read, or has no such field.
     ///
     /// # Panics
-    /// If there are not so many moments.
+    /// If the file has fewer moments.
     pub fn values<T: H5Type + Copy>(&self, moment: usize, field: &str) -> Result<Vec<T>, OutputError> {
         let read = || -> Hdf5Result<Vec<T>> {
             let start = offsets(&self.file, &format!("Steps/PointDataOffsets/{field}"))?[moment];

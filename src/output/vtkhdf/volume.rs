@@ -1,8 +1,8 @@
-//! Tetrahedra for ParaView: VTKHDF temporal UnstructuredGrid, one file a series.
+//! Tetrahedra for ParaView: VTKHDF temporal UnstructuredGrid, one file per series.
 //!
-//! As in [`super::PolyDataSeries`] every step is one part. Connectivity is written again only when nodes have come apart.
-//! `Offsets` and `Types` never change, but are written in every step: VTK looks for the offsets of a part behind those of
-//! the parts before it.
+//! As in [`super::PolyDataSeries`], every step is one part. Connectivity is written again only after nodes have
+//! separated. `Offsets` and `Types` never change but are written in every step, because VTK expects the offsets of a
+//! part after those of the previous parts.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use super::layout::{
 };
 use super::{FieldKind, FieldValues};
 
-/// VTK's number of a linear tetrahedron.
+/// VTK cell type of a linear tetrahedron.
 const VTK_TETRA: u8 = 10;
 /// Point field of every file.
 const VELOCITY: &str = "velocity";
@@ -32,23 +32,23 @@ pub struct TetSeries {
     last_connectivity_start: usize,
 }
 
-/// What a file of tetrahedra holds of a moment.
+/// Data of one moment in a file of tetrahedra.
 #[derive(Debug, Clone, Copy)]
 pub struct TetMoment<'a> {
     /// Time [s].
     pub time_s: f64,
-    /// Nodes [m].
+    /// Positions of the nodes [m].
     pub points_m: &'a [[f32; 3]],
     /// Velocity of each node [m/s].
     pub velocity_m_s: &'a [[f32; 3]],
-    /// Nodes of each tetrahedron; as many in every step.
+    /// Nodes of each tetrahedron; the number of tetrahedra is the same in every step.
     pub tets: &'a [[u32; 4]],
     /// Values of each field of the tetrahedra, in the order of creation.
     pub values: &'a [FieldValues<'a>],
 }
 
 impl TetSeries {
-    /// A new file with fields of the tetrahedra of the given names and kinds; an old file is overwritten.
+    /// Creates a file with the given fields of the tetrahedra. An old file is overwritten.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -63,10 +63,10 @@ impl TetSeries {
         Ok(Self::new(path, file, fields, 0))
     }
 
-    /// Opens a file of an interrupted run and drops the steps beyond the first `steps`.
+    /// Opens the file of an interrupted run and keeps only the first `steps` steps.
     ///
     /// # Errors
-    /// If the file cannot be opened, is no file of such fields, or has fewer steps.
+    /// If the file cannot be opened, lacks a field, or has fewer steps.
     pub fn open_and_truncate(path: &Path, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
         let file = open_with_steps(path, "CellData", fields, steps)?;
         let mut series = Self::new(path, file, fields, steps);
@@ -90,7 +90,7 @@ impl TetSeries {
     /// If the file cannot be written.
     ///
     /// # Panics
-    /// If the fields do not match those of the file, or a field has not one value for each tetrahedron.
+    /// If the fields do not match those of the file, or a field does not have one value per tetrahedron.
     pub fn append(&mut self, moment: &TetMoment<'_>) -> Result<(), OutputError> {
         assert_eq!(moment.points_m.len(), moment.velocity_m_s.len(), "one velocity a node");
         assert_eq!(moment.values.len(), self.fields.len(), "{}: one value list a field", self.path.display());
@@ -118,8 +118,9 @@ impl TetSeries {
             let start = append_values(&root.group("CellData")?.dataset(name)?, value)?;
             set_row(&steps.group("CellDataOffsets")?.dataset(name)?, row, start as i64)?;
         }
-        let of_part = [moment.points_m.len(), cells, 4 * cells];
-        for (name, count) in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"].into_iter().zip(of_part) {
+        let part_counts = [moment.points_m.len(), cells, 4 * cells];
+        for (name, count) in ["NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"].into_iter().zip(part_counts)
+        {
             set_row(&root.dataset(name)?, row, count as i64)?;
         }
         set_row(&steps.dataset("Values")?, row, moment.time_s)?;
@@ -132,7 +133,7 @@ impl TetSeries {
         self.file.flush()
     }
 
-    /// Cuts every dataset behind the last kept step.
+    /// Cuts every dataset after the last kept step.
     fn truncate(&mut self) -> Hdf5Result<()> {
         let root = self.file.group("VTKHDF")?;
         let steps = root.group("Steps")?;
@@ -175,10 +176,10 @@ impl TetSeries {
     }
 }
 
-/// Lists of the steps with one whole number each.
+/// Datasets with one integer per step.
 const STARTS: [&str; 5] = ["PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
 
-/// Groups, attributes and empty datasets.
+/// Creates groups, attributes and empty datasets.
 fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
     let [root, steps] = new_root::<16>(file, "UnstructuredGrid")?;
     steps.new_attr::<i64>().create("NSteps")?.write_scalar(&0_i64)?;
@@ -221,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_may_come_apart_and_a_resumed_series_goes_on_behind_the_checkpoint() {
+    fn nodes_may_separate_and_a_resumed_series_continues_after_the_checkpoint() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tets.vtkhdf");
         let (whole, split) = ([[0, 1, 2, 3], [1, 2, 3, 4]], [[0, 1, 2, 3], [5, 2, 3, 4]]);

@@ -1,4 +1,4 @@
-//! What the report reads from the folder of a fracture run.
+//! Data that the report reads from the folder of a fracture run.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use crate::output::{OutputError, Table, TriangleMoments};
 use crate::report::plot::short;
 use crate::simulation::fracture::summary::{FractureSummary, InitiationSummary};
 
-/// The contents of a run folder; what a run does not write is absent.
+/// The contents of a run folder. Data that the run did not write is `None`.
 pub struct FractureFolder {
     /// The folder.
     pub dir: PathBuf,
@@ -15,11 +15,11 @@ pub struct FractureFolder {
     pub case: FractureCase,
     /// `summary.json`.
     pub summary: FractureSummary,
-    /// The energy book.
+    /// Energy balance.
     pub energy: Option<Table>,
-    /// The faces that failed.
+    /// Failed faces.
     pub cracks: Option<Table>,
-    /// Outsides of the bodies, crack faces, cut plane.
+    /// Outer surfaces of the bodies, crack faces, section plane.
     pub pictures: Option<[TriangleMoments; 3]>,
 }
 
@@ -27,7 +27,7 @@ impl FractureFolder {
     /// Reads a run folder.
     ///
     /// # Errors
-    /// If case, mesh or summary are missing, or a file that is there cannot be understood.
+    /// If case, mesh or summary are missing, or an existing file is invalid.
     pub fn read(dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join("case.json");
         let case = FractureCase::load(&path).map_err(|error| OutputError::content(&path, error.to_string()))?;
@@ -48,21 +48,21 @@ impl FractureFolder {
         })
     }
 
-    /// Whether a face failed by sliding.
+    /// Returns whether any face failed by sliding.
     pub fn has_slid_faces(&self) -> bool {
         self.cracks.as_ref().and_then(|table| table.get("mode")).is_some_and(|modes| modes.contains(&2.0))
     }
 
-    /// Whether the folder holds a file of this name.
+    /// Returns whether the folder contains a file with this name.
     pub fn has(&self, file: &str) -> bool {
         self.dir.join(file).exists()
     }
 
-    /// Numbers of the bodies that the pictures are about: those that can crack; if there are none, those that nothing
-    /// holds; if there are none, all.
+    /// Indices of the bodies that the pictures show: bodies that can crack; if none can, unconstrained bodies; if there
+    /// are none, all bodies.
     pub fn shown_bodies(&self) -> Vec<usize> {
         let setup = &self.case.setup;
-        let held = |body: usize| {
+        let is_constrained = |body: usize| {
             let nodes = || setup.tets[setup.bodies[body].tets.clone()].iter().flatten();
             setup.constraints.iter().any(|constraint| nodes().any(|node| constraint.nodes.contains(node)))
         };
@@ -71,16 +71,16 @@ impl FractureFolder {
         if !cracking.is_empty() {
             return cracking;
         }
-        let free: Vec<usize> = all.clone().filter(|body| !held(*body)).collect();
+        let free: Vec<usize> = all.clone().filter(|body| !is_constrained(*body)).collect();
         if free.is_empty() { all.collect() } else { free }
     }
 
-    /// A time of the run as the report counts it [ms]: since the impact, or since the start if no bodies touched.
+    /// Converts a time of the run to report time [ms]: since the impact, or since the start if no bodies touched.
     pub fn clock_ms(&self, time_s: f64) -> f64 {
         (time_s - self.summary.impact_s.unwrap_or(0.0)) * 1e3
     }
 
-    /// A moment in words.
+    /// Describes a time of the run in words.
     pub fn time_in_words(&self, time_s: f64) -> String {
         let clock = self.clock_ms(time_s);
         match (self.summary.impact_s, clock < 0.0) {
@@ -90,17 +90,17 @@ impl FractureFolder {
         }
     }
 
-    /// Name of the clock for axes and tables.
+    /// Name of the report time, for axes and tables.
     pub fn clock_name(&self) -> &'static str {
         if self.summary.impact_s.is_some() { "time since the impact" } else { "time since the start" }
     }
 }
 
-/// Where a crack began, in words.
+/// Describes the position at which a crack started.
 pub fn place_in_words(initiation: &InitiationSummary) -> String {
     match (&initiation.near, initiation.distance_m) {
-        (Some(near), Some(0.0)) => format!("at the {}", bare(near)),
-        (Some(near), Some(distance)) => format!("{} mm from the {}", short(distance * 1e3, 0), bare(near)),
+        (Some(near), Some(0.0)) => format!("at the {}", without_article(near)),
+        (Some(near), Some(distance)) => format!("{} mm from the {}", short(distance * 1e3, 0), without_article(near)),
         _ => {
             let [x, y, z] = initiation.place.map(|c| short(c, 3));
             format!("at ({x}, {y}, {z}) m")
@@ -108,8 +108,8 @@ pub fn place_in_words(initiation: &InitiationSummary) -> String {
     }
 }
 
-/// A name without its article.
-fn bare(name: &str) -> &str {
+/// Returns a name without its article.
+fn without_article(name: &str) -> &str {
     name.strip_prefix("the ").unwrap_or(name)
 }
 
@@ -118,14 +118,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_told_in_words() {
-        let told = |near: Option<&str>, distance_m: Option<f64>| {
+    fn a_position_is_given_by_landmark_or_coordinates() {
+        let words = |near: Option<&str>, distance_m: Option<f64>| {
             let (body, mode, near) = ("unit".to_owned(), "opening".to_owned(), near.map(str::to_owned));
             let (place, since_impact_s, t_s, area_m2) = ([0.1, -0.2, 0.0], None, 0.0, 0.0);
             place_in_words(&InitiationSummary { t_s, since_impact_s, body, place, near, distance_m, mode, area_m2 })
         };
-        assert_eq!(told(Some("upper corner"), Some(0.0)), "at the upper corner");
-        assert_eq!(told(Some("the upper corner"), Some(0.0684)), "68 mm from the upper corner");
-        assert_eq!(told(None, None), "at (0.1, \u{2212}0.2, 0) m");
+        assert_eq!(words(Some("upper corner"), Some(0.0)), "at the upper corner");
+        assert_eq!(words(Some("the upper corner"), Some(0.0684)), "68 mm from the upper corner");
+        assert_eq!(words(None, None), "at (0.1, \u{2212}0.2, 0) m");
     }
 }

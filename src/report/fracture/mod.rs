@@ -1,15 +1,15 @@
-//! The report of a fracture run: one page in words, tables, charts and pictures, made from the files of the run folder.
+//! Report of a fracture run: text, tables, charts and pictures from the files of the run folder.
 //!
-//! | file | what it holds |
+//! | file | content |
 //! | --- | --- |
-//! | `folder` | what is read |
-//! | `moments` | which moments are shown |
-//! | `unit_picture` | units half transparent, with the crack faces in them |
-//! | `stress_picture` | the first principal stress in the cut plane |
-//! | `pictures` | the section with both |
-//! | `charts` | energy book and crack area against time |
+//! | `folder` | data read from the run folder |
+//! | `moments` | choice of the moments that are shown |
+//! | `unit_picture` | transparent units with crack faces |
+//! | `stress_picture` | first principal stress in the section plane |
+//! | `pictures` | report section with both kinds of picture |
+//! | `charts` | energy balance and crack area over time |
 //! | `tables` | cracks, pieces, bodies |
-//! | `sections` | the page in order |
+//! | `sections` | all report sections in order |
 
 mod charts;
 mod folder;
@@ -29,10 +29,10 @@ use crate::{
 
 use folder::FractureFolder;
 
-/// Write `report.html` into the folder of a fracture run.
+/// Writes `report.html` into the folder of a fracture run.
 ///
 /// # Errors
-/// If case, mesh or summary are missing, a file cannot be understood, or the report cannot be written.
+/// If case, mesh or summary are missing, a file is invalid, or the report cannot be written.
 pub fn write_fracture_report(dir: &Path) -> Result<PathBuf, OutputError> {
     let run = FractureFolder::read(dir)?;
     let path = dir.join("report.html");
@@ -40,11 +40,11 @@ pub fn write_fracture_report(dir: &Path) -> Result<PathBuf, OutputError> {
     Ok(path)
 }
 
-/// Pictures of the impact and of the end of the fracture run in a folder, for a page about many impacts; none where the
-/// run wrote no surfaces.
+/// Returns pictures of the impact and of the end of a fracture run, for a report about many impacts. `None` if the run
+/// wrote no surfaces.
 ///
 /// # Errors
-/// If case, mesh or summary are missing, or a file cannot be understood.
+/// If case, mesh or summary are missing, or a file is invalid.
 pub(crate) fn pictures_of_impact_and_end(dir: &Path) -> Result<Option<String>, OutputError> {
     pictures::of_impact_and_end(&FractureFolder::read(dir)?)
 }

@@ -1,18 +1,18 @@
-//! Which moments of a run are shown.
+//! Choice of the moments that the report shows.
 
 use crate::simulation::fracture::summary::InitiationSummary;
 
-/// Cracks that get a picture of their beginning, the largest of all.
+/// Number of main cracks: the largest cracks, whose initiation is shown.
 const MAIN_CRACKS: usize = 4;
-/// Least number of moments, if the run has so many.
+/// Minimum number of moments, if the run recorded so many.
 const LEAST: usize = 6;
 
 /// A moment that is shown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Moment {
-    /// Number of the moment in the files.
+    /// Index of the moment in the files.
     pub frame: usize,
-    /// Cracks, by their number from 1, that have begun since the one before.
+    /// Numbers (from 1) of the cracks that started since the previous moment.
     pub begun: Vec<usize>,
     /// Why it is shown.
     pub why: Why,
@@ -21,17 +21,17 @@ pub struct Moment {
 /// Why a moment is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Why {
-    /// The first one after the impact, or that of the start.
+    /// The first moment after the impact, or the start of the run.
     Impact,
-    /// A crack has just begun.
+    /// A crack has just started.
     Crack,
-    /// On the way from one to the other.
+    /// Halfway between two other moments.
     Between,
-    /// The last one.
+    /// The last moment.
     End,
 }
 
-/// Numbers of the main cracks, counted from 1, in order of time.
+/// Numbers of the main cracks (from 1), in order of time.
 pub fn main_cracks(initiations: &[InitiationSummary]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..initiations.len()).collect();
     order.sort_by(|a, b| initiations[*b].area_m2.total_cmp(&initiations[*a].area_m2));
@@ -40,13 +40,13 @@ pub fn main_cracks(initiations: &[InitiationSummary]) -> Vec<usize> {
     order.into_iter().map(|index| index + 1).collect()
 }
 
-/// Moments just after the impact, at the beginning of each main crack and at the end; some between them if there are few.
+/// Moments just after the impact, at the start of each main crack and at the end. If these are few, some are added.
 pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
     let mut shown = ends(times_s, impact_s);
     for crack in main_cracks(initiations) {
         shown.extend(first_after(times_s, initiations[crack - 1].t_s).map(|frame| (frame, Why::Crack)));
     }
-    // The end stays behind a crack that begins in the last moment.
+    // At the same moment, a crack goes before the end and is kept.
     shown.sort_by_key(|(frame, why)| (*frame, *why == Why::End));
     shown.dedup_by_key(|(frame, _)| *frame);
     while shown.len() < LEAST {
@@ -59,12 +59,12 @@ pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[Initiation
     with_cracks(shown, times_s, initiations)
 }
 
-/// Moments just after the impact and at the end alone.
+/// Only the moments just after the impact and at the end.
 pub fn impact_and_end(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
     with_cracks(ends(times_s, impact_s), times_s, initiations)
 }
 
-/// The first moment after the impact, and the last one if that is another.
+/// The first moment after the impact, and the last moment if it is a different one.
 fn ends(times_s: &[f64], impact_s: Option<f64>) -> Vec<(usize, Why)> {
     let impact = first_after(times_s, impact_s.unwrap_or(0.0)).map(|frame| (frame, Why::Impact));
     let end = times_s.len().checked_sub(1).map(|last| (last, Why::End));
@@ -73,20 +73,20 @@ fn ends(times_s: &[f64], impact_s: Option<f64>) -> Vec<(usize, Why)> {
     ends
 }
 
-/// The first moment that is not before a time, or else the last one; none if there are no moments.
+/// The first moment at or after a time, or else the last moment; `None` without moments.
 fn first_after(times_s: &[f64], time_s: f64) -> Option<usize> {
     times_s.iter().position(|t| *t >= time_s).or(times_s.len().checked_sub(1))
 }
 
-/// The moments with the cracks that begin between them.
+/// Adds to each moment the cracks that started since the previous moment.
 fn with_cracks(shown: Vec<(usize, Why)>, times_s: &[f64], initiations: &[InitiationSummary]) -> Vec<Moment> {
-    let mut told = 0;
+    let mut counted = 0;
     let begun_by = |frame: usize| initiations.iter().filter(|i| i.t_s <= times_s[frame]).count();
     shown
         .into_iter()
         .map(|(frame, why)| {
-            let begun = (told + 1..=begun_by(frame)).collect();
-            told = begun_by(frame);
+            let begun = (counted + 1..=begun_by(frame)).collect();
+            counted = begun_by(frame);
             Moment { frame, begun, why }
         })
         .collect()
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_without_cracks_is_shown_on_its_way() {
+    fn a_run_without_cracks_is_shown_at_intermediate_moments() {
         let times: Vec<f64> = (0..=20).map(f64::from).collect();
         let shown = moments(&times, None, &[]);
         assert_eq!(shown.iter().map(|m| m.frame).collect::<Vec<_>>(), [0, 5, 10, 15, 17, 20]);
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn impact_and_end_can_be_shown_alone() {
+    fn impact_and_end_can_be_shown_without_other_moments() {
         let times: Vec<f64> = (0..=20).map(f64::from).collect();
         let shown = impact_and_end(&times, Some(2.5), &[crack(5.5, 2.0), crack(12.0, 1.0)]);
         assert_eq!(shown.iter().map(|m| (m.frame, m.why)).collect::<Vec<_>>(), [(3, Why::Impact), (20, Why::End)]);

@@ -1,4 +1,4 @@
-//! The pictures of the run: units with their cracks, and the stress in the cut plane, at the same moments.
+//! Pictures of the run: units with cracks and stress in the section plane, at the same moments.
 
 use super::folder::{FractureFolder, place_in_words};
 use super::moments::{Moment, Why, impact_and_end, main_cracks, moments};
@@ -8,17 +8,17 @@ use crate::output::OutputError;
 use crate::report::plot::{escape, short};
 use crate::simulation::fracture::summary::InitiationSummary;
 
-/// The section's content; words where the run has no pictures.
+/// Returns the content of the section, or a note if the run has no pictures.
 ///
 /// # Errors
 /// If a file cannot be read.
 pub fn pictures(run: &FractureFolder) -> Result<String, OutputError> {
-    let words = "<p>The run wrote no surfaces: give the case an <code>output.surfaces_interval_s</code> above 0 for \
-                 pictures.</p>\n";
+    let words = "<p>No pictures: the run wrote no surfaces. Set <code>output.surfaces_interval_s</code> in the case to more \
+                 than 0.</p>\n";
     Ok(figures(run, moments, "in the table above")?.unwrap_or_else(|| words.to_owned()))
 }
 
-/// The impact and the end alone, for a page about many impacts; none where the run has no pictures.
+/// Returns pictures of the impact and the end, for a report about many impacts; `None` if the run has no pictures.
 ///
 /// # Errors
 /// If a file cannot be read.
@@ -26,25 +26,25 @@ pub fn of_impact_and_end(run: &FractureFolder) -> Result<Option<String>, OutputE
     figures(run, impact_and_end, "in the report of the impact")
 }
 
-/// Chooses moments from the times of a run, when bodies first touched, and where its cracks began.
+/// Chooses moments from the times of a run, the time of the impact and the crack initiations.
 type Choice = fn(&[f64], Option<f64>, &[InitiationSummary]) -> Vec<Moment>;
 
-/// Pictures of the chosen moments under their legend; `listed` says where the cracks are, which the pictures number.
+/// Legend and pictures of the chosen moments. `listed` says where the numbered cracks are listed.
 fn figures(run: &FractureFolder, choose: Choice, listed: &str) -> Result<Option<String>, OutputError> {
     let Some([surfaces, cracks, section]) = &run.pictures else { return Ok(None) };
-    let whole = [surfaces, cracks, section].map(|file| file.times_s().len()).into_iter().min().unwrap_or(0);
-    let times = &surfaces.times_s()[..whole];
+    let complete = [surfaces, cracks, section].map(|file| file.times_s().len()).into_iter().min().unwrap_or(0);
+    let times = &surfaces.times_s()[..complete];
     let shown = choose(times, run.summary.impact_s, &run.summary.initiation);
     let units = UnitScene::new(run);
     let stress = StressScene::new(run, &shown.iter().map(|moment| moment.frame).collect::<Vec<_>>())?;
     let mut html = legend(run, &stress, listed);
     for moment in &shown {
         let time = times[moment.frame];
-        let heading = format!("<strong>{}</strong>{}", run.time_in_words(time), why(run, moment));
+        let heading = format!("<strong>{}</strong>{}", run.time_in_words(time), events(run, moment));
         html += &format!(
             "<figure class=\"moment\">\n<figcaption>{heading}</figcaption>\n<div class=\"shots\">\n{}{}</div>\n</figure>\n",
-            picture("Units with their cracks", &units.picture(run, moment.frame)?, &labels(run, &units, time)),
-            picture("First principal stress in the cut plane", &stress.picture(run, moment.frame)?, ""),
+            picture("Units with cracks", &units.picture(run, moment.frame)?, &labels(run, &units, time)),
+            picture("First principal stress in the section plane", &stress.picture(run, moment.frame)?, ""),
         );
     }
     Ok(Some(html))
@@ -58,7 +58,7 @@ fn picture(title: &str, uri: &str, over: &str) -> String {
     )
 }
 
-/// Numbers of the main cracks that have begun, beside the places where they did.
+/// Numbers of the main cracks that have started, next to the positions where they started.
 fn labels(run: &FractureFolder, units: &UnitScene, time: f64) -> String {
     let mut svg = String::new();
     for number in main_cracks(&run.summary.initiation) {
@@ -79,22 +79,23 @@ fn labels(run: &FractureFolder, units: &UnitScene, time: f64) -> String {
     svg
 }
 
-/// What has happened since the moment before, in words.
-fn why(run: &FractureFolder, moment: &Moment) -> String {
+/// Describes the events since the previous moment.
+fn events(run: &FractureFolder, moment: &Moment) -> String {
     let main = main_cracks(&run.summary.initiation);
-    let of_crack = |number: &usize| {
+    let describe_crack = |number: &usize| {
         let initiation = &run.summary.initiation[*number - 1];
-        format!("crack {number} has begun ({}, {})", initiation.mode, place_in_words(initiation))
+        format!("crack {number} started ({}, {})", initiation.mode, place_in_words(initiation))
     };
-    let mut words: Vec<String> = moment.begun.iter().filter(|number| main.contains(number)).map(of_crack).collect();
+    let mut words: Vec<String> =
+        moment.begun.iter().filter(|number| main.contains(number)).map(describe_crack).collect();
     let small = moment.begun.len() - words.len();
     if small > 0 {
-        words.push(format!("{small} smaller ones have begun"));
+        words.push(format!("smaller cracks started: {small}"));
     }
     match moment.why {
         Why::Impact if run.summary.impact_s.is_some() => words.insert(0, "just after the impact".to_owned()),
-        Why::Impact => words.insert(0, "the start".to_owned()),
-        Why::End => words.insert(0, "the end of the run".to_owned()),
+        Why::Impact => words.insert(0, "start of the run".to_owned()),
+        Why::End => words.insert(0, "end of the run".to_owned()),
         Why::Crack | Why::Between => {}
     }
     if words.is_empty() { String::new() } else { escape(&format!(": {}", words.join("; "))) }
@@ -103,15 +104,15 @@ fn why(run: &FractureFolder, moment: &Moment) -> String {
 fn legend(run: &FractureFolder, stress: &StressScene, listed: &str) -> String {
     let setup = &run.case.setup;
     let slid = run.summary.initiation.iter().any(|i| i.mode == "sliding");
-    let mut entries = vec![("outside of the units, transparent", UNIT)];
+    let mut entries = vec![("unit surface (transparent)", UNIT)];
     if setup.bodies.iter().any(|body| body.cohesion.is_some()) {
-        entries.push(("crack that has opened (mode I)", OPENED));
+        entries.push(("opening crack (mode I)", OPENED));
     }
     if slid || run.has_slid_faces() {
-        entries.push(("crack that has slid (mode II)", SLID));
+        entries.push(("sliding crack (mode II)", SLID));
     }
     if !setup.cracks.is_empty() {
-        entries.push(("crack from before the run", OLD));
+        entries.push(("pre-existing crack", OLD));
     }
     let swatch =
         |(name, colour): (&str, [f32; 3])| format!("<span><i style=\"background:{}\"></i>{name}</span>", css(colour));
@@ -119,10 +120,10 @@ fn legend(run: &FractureFolder, stress: &StressScene, listed: &str) -> String {
     let plane = &run.case.section;
     let [x, y, z] = plane.point.to_array().map(|c| short(c, 3));
     format!(
-        "<p>Left: the units as glass, seen from the front, the left and above; numbers are those of the cracks {listed}. \
-         Right: \u{3c3}\u{2081} in the plane through ({x}, {y}, {z}) m {}, which moves with the bodies; black lines are \
-         outlines, thick ones cracks. {} Movements are drawn at true scale: openings of cracks are too small to \
-         be seen.</p>\n<div class=\"swatches\">{entries}</div>\n{}",
+        "<p>Left: transparent units, seen from the front, left and above; the numbers refer to the cracks {listed}. \
+         Right: \u{3c3}\u{2081} in the plane through ({x}, {y}, {z}) m {}, which moves with the bodies. Thin black lines are \
+         outlines, thick black lines are cracks. {} Displacements are drawn to scale, so crack openings are too small to \
+         see.</p>\n<div class=\"swatches\">{entries}</div>\n{}",
         normal_in_words(plane.normal),
         stress.scale_in_words(),
         stress.legend()
@@ -132,9 +133,9 @@ fn legend(run: &FractureFolder, stress: &StressScene, listed: &str) -> String {
 fn normal_in_words(normal: glam::DVec3) -> String {
     for (axis, name) in [(glam::DVec3::X, "x"), (glam::DVec3::Y, "y"), (glam::DVec3::Z, "z")] {
         if normal.dot(axis).abs() > 1.0 - 1e-9 {
-            return format!("square to {name}");
+            return format!("normal to {name}");
         }
     }
     let [x, y, z] = normal.to_array().map(|c| short(c, 3));
-    format!("with the normal ({x}, {y}, {z})")
+    format!("with normal ({x}, {y}, {z})")
 }

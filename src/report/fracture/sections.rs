@@ -1,4 +1,4 @@
-//! The page in order.
+//! Text of the report, section by section.
 
 use super::folder::{FractureFolder, place_in_words};
 use super::{charts, pictures, tables};
@@ -8,7 +8,7 @@ use crate::{
     report::page::{clock, grouped, section},
 };
 
-/// What stands between `<main>` and `</main>`.
+/// Returns the content of the `<main>` element.
 ///
 /// # Errors
 /// If a file of the run cannot be read.
@@ -16,12 +16,12 @@ pub fn body(run: &FractureFolder) -> Result<String, OutputError> {
     let mut html = header(run);
     html += &key_figures(run);
     html += &cracks(run);
-    html += &section("What it looked like", &pictures::pictures(run)?);
+    html += &section("Pictures", &pictures::pictures(run)?);
     html += &energy(run);
     html += &fragments(run);
-    html += &made(run);
-    html += &list("Warnings", "These may make the result doubtful.", &run.summary.warnings);
-    let words = "No source gives these; they were chosen and belong to the result.";
+    html += &facts(run);
+    html += &list("Warnings", "These may make the results unreliable.", &run.summary.warnings);
+    let words = "No source gives these values. They were chosen, and the results depend on them.";
     html += &list("Assumptions", words, &run.summary.assumptions);
     Ok(html + &files(run))
 }
@@ -40,9 +40,9 @@ fn header(run: &FractureFolder) -> String {
 
 fn joints_in_words(run: &FractureFolder) -> &'static str {
     match run.case.setup.bodies.iter().find_map(|body| body.cohesion) {
-        Some(cohesion) if cohesion.tied => "cracks run along faces that are tied until they reach their strength",
-        Some(_) => "joints at all faces from the start",
-        None => "nothing can crack",
+        Some(cohesion) if cohesion.tied => "cracks along element faces, tied until they reach their strength",
+        Some(_) => "joints at all element faces from the start",
+        None => "no body can crack",
     }
 }
 
@@ -52,7 +52,7 @@ fn key_figures(run: &FractureFolder) -> String {
     let pieces = summary.fragments.len();
     let heaviest = summary.fragments.first().map_or(String::new(), |piece| {
         let whole: f64 = summary.fragments.iter().filter(|f| f.body == piece.body).map(|f| f.mass_kg).sum();
-        format!("the heaviest has {} % of {}", short(100.0 * piece.mass_kg / whole, 1), piece.body)
+        format!("heaviest: {} % of {}", short(100.0 * piece.mass_kg / whole, 1), piece.body)
     });
     let faces =
         run.cracks.as_ref().map_or(String::new(), |table| format!("{} faces failed", grouped(table.rows() as u64)));
@@ -60,16 +60,16 @@ fn key_figures(run: &FractureFolder) -> String {
         (
             "First crack",
             first.map_or("none".to_owned(), |crack| format!("{:.2} ms", run.clock_ms(crack.t_s))),
-            first.map_or("nothing has cracked".to_owned(), |crack| {
+            first.map_or("no body cracked".to_owned(), |crack| {
                 format!("{}, {}", run.clock_name(), place_in_words(crack))
             }),
         ),
-        ("Cracked area", format!("{} cm\u{b2}", short(summary.crack_area_m2 * 1e4, 1)), faces),
+        ("Crack area", format!("{} cm\u{b2}", short(summary.crack_area_m2 * 1e4, 1)), faces),
         ("Pieces", pieces.to_string(), heaviest),
         (
-            "Energy book",
+            "Energy residual",
             format!("{} %", short(100.0 * summary.energy_residual_ratio, 2)),
-            "largest residual, of the largest kinetic energy".to_owned(),
+            "largest error of the energy balance, relative to the peak kinetic energy".to_owned(),
         ),
     ];
     let cells: String = (keys.iter())
@@ -82,27 +82,27 @@ fn key_figures(run: &FractureFolder) -> String {
 
 fn cracks(run: &FractureFolder) -> String {
     if run.summary.initiation.is_empty() {
-        return section("Where and when it cracked", "<p>Nothing has cracked.</p>\n");
+        return section("Crack initiation", "<p>No body cracked.</p>\n");
     }
     let since = match run.summary.impact_s {
         Some(impact) => format!(
-            "Times count from the impact, when two bodies first touched, {} \u{b5}s after the start of the run. ",
+            "Times count from the impact: the first contact of two bodies, {} \u{b5}s after the start of the run. ",
             short(impact * 1e6, 1)
         ),
-        None => "No two bodies touched; times count from the start of the run. ".to_owned(),
+        None => "No bodies touched. Times count from the start of the run. ".to_owned(),
     };
     let content = format!(
-        "<p>{since}A crack begins where the nearest face that failed before it is more than four edges away; what fails \
-         nearer belongs to that crack. Places are those of the middle of its first face in the unit as it stood at the \
-         start: a face of this mesh is some {} mm long, and no place is known better than that.</p>\n{}<figure>{}</figure>\n",
+        "<p>{since}A failed face starts a new crack if all faces that failed before it are more than four edges away; \
+         otherwise it belongs to the nearest crack. The position is the centre of the first face in the undeformed mesh. Its \
+         accuracy is the mesh size, about {} mm.</p>\n{}<figure>{}</figure>\n",
         short(face_length(run) * 1e3, 0),
         tables::cracks(run),
         charts::crack_area(run)
     );
-    section("Where and when it cracked", &content)
+    section("Crack initiation", &content)
 }
 
-/// Mean edge of the bodies that can crack [m].
+/// Largest mean edge length of the shown bodies [m].
 fn face_length(run: &FractureFolder) -> f64 {
     let lengths = run.shown_bodies().into_iter().map(|body| run.case.mesh.quality[body].edge_mean);
     lengths.fold(0.0, f64::max)
@@ -113,14 +113,14 @@ fn energy(run: &FractureFolder) -> String {
     if chart.is_empty() {
         return String::new();
     }
-    let taken = run.summary.energy_over_g_f.map_or(String::new(), |ratio| {
-        format!(" The cracked faces took {} times their area times the fracture energy.", short(ratio, 3))
+    let per_area = run.summary.energy_over_g_f.map_or(String::new(), |ratio| {
+        format!(" Cracks dissipated {} times crack area times fracture energy.", short(ratio, 3))
     });
     let content = format!(
-        "<p>What there is, what was lost and what was given since the start. The height is counted from the start.</p>\n\
-         <figure>{chart}</figure>\n<figure>{}<figcaption>The losses alone, on a scale of their own.</figcaption></figure>\n\
-         <figure>{}<figcaption>What the book leaves unexplained: all that there is and all that \
-         was lost, less what was given, against its value at the start. At most {} % of the largest kinetic energy.{taken}\
+        "<p>Stored, dissipated and supplied energy since the start of the run. The gravity energy is zero at the start.</p>\n\
+         <figure>{chart}</figure>\n<figure>{}<figcaption>Dissipated and released energy on its own scale.</figcaption></figure>\n\
+         <figure>{}<figcaption>Error of the energy balance: stored plus dissipated minus supplied energy, relative to the \
+         initial value. It is at most {} % of the peak kinetic energy.{per_area}\
          </figcaption></figure>\n",
         charts::losses(run),
         charts::residual(run),
@@ -133,12 +133,12 @@ fn fragments(run: &FractureFolder) -> String {
     if run.summary.fragments.is_empty() {
         return String::new();
     }
-    let words = "<p>What unbroken faces hold together at the end of the run, the heaviest first. A body in one piece may \
-                 still have deep cracks.</p>\n";
+    let words = "<p>Pieces at the end of the run, the heaviest first. Intact faces hold a piece together. A body in one \
+                 piece may still have deep cracks.</p>\n";
     section("Pieces", &format!("{words}{}", tables::fragments(run)))
 }
 
-fn made(run: &FractureFolder) -> String {
+fn facts(run: &FractureFolder) -> String {
     let (summary, case) = (&run.summary, &run.case);
     let friction = |a: usize, b: usize| {
         let coefficient = case.setup.friction([a, b]);
@@ -150,27 +150,27 @@ fn made(run: &FractureFolder) -> String {
         let (velocity, turn) = (body.velocity.length(), body.angular_velocity.length());
         let both = [(velocity, "m/s"), (turn, "rad/s")].into_iter().filter(|(size, _)| *size > 0.0);
         let words: Vec<String> = both.map(|(size, unit)| format!("{} {unit}", short(size, 4))).collect();
-        (!words.is_empty()).then(|| format!("{name} with {}", words.join(" and ")))
+        (!words.is_empty()).then(|| format!("{name} {}", words.join(" and ")))
     });
     let moving: Vec<String> = moving.collect();
     let or_none = |words: Vec<String>| if words.is_empty() { "none".to_owned() } else { words.join("; ") };
     let rows = [
         ("Faces between tetrahedra", format!("{}; {}", grouped(summary.joints as u64), joints_in_words(run))),
-        ("Moving at the start", or_none(moving)),
-        ("Friction", or_none(pairs)),
+        ("Initial velocity", or_none(moving)),
+        ("Friction coefficient", or_none(pairs)),
         (
             "Time step",
             format!(
-                "{:.3} \u{b5}s, {} steps, {} ms",
+                "{:.3} \u{b5}s; {} time steps, {} ms",
                 summary.dt_s * 1e6,
                 grouped(summary.steps),
                 short(summary.simulated_s * 1e3, 3)
             ),
         ),
         (
-            "Wall clock",
+            "Computing time",
             format!(
-                "{} with {} threads, {} million tetrahedra a second",
+                "{} with {} threads, {} million tetrahedra per second",
                 clock(summary.execution.wall_s),
                 summary.execution.threads,
                 short(summary.tet_steps_per_s * 1e-6, 2)
@@ -180,9 +180,9 @@ fn made(run: &FractureFolder) -> String {
     ];
     let mut html: String =
         rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{}</td></tr>\n", escape(value))).collect();
-    html += &format!("<tr><td>Case</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
-    let facts = format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n");
-    section("How the run was made", &(tables::bodies(run) + &facts))
+    html += &format!("<tr><td>Case hash</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
+    let table = format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n");
+    section("How the run was made", &(tables::bodies(run) + &table))
 }
 
 fn list(heading: &str, words: &str, items: &[String]) -> String {
@@ -191,26 +191,26 @@ fn list(heading: &str, words: &str, items: &[String]) -> String {
     section(heading, &content)
 }
 
-/// What the files of a run folder hold, in the order of the list.
+/// Files of a run folder and their contents, in the order of the table.
 const FILES: [(&str, &str); 11] = [
-    ("cracks.csv", "every face that failed: time, place, area, mode (1 opening, 2 sliding)"),
-    ("fragments.csv", "the pieces at the end: mass, centre, velocity"),
-    ("energy.csv", "the energy book, crack area, pairs of tetrahedra that press each other"),
-    ("bodies.csv", "the energies of each body at the times of the energy book"),
-    ("surfaces.vtkhdf", "outsides of the bodies with velocity and stress: open in ParaView 5.12 or later"),
+    ("cracks.csv", "every failed face: time, position, area, mode (1 opening, 2 sliding)"),
+    ("fragments.csv", "pieces at the end: mass, centre, velocity"),
+    ("energy.csv", "energy balance, crack area, pairs of tetrahedra in contact"),
+    ("bodies.csv", "energies of each body at the times of the energy balance"),
+    ("surfaces.vtkhdf", "outer surfaces of the bodies with velocity and stress: open in ParaView 5.12 or later"),
     ("cracks.vtkhdf", "crack faces with time and mode: open in ParaView together with the surfaces"),
-    ("section.vtkhdf", "the cut plane with velocity and stress"),
+    ("section.vtkhdf", "section plane with velocity and stress"),
     ("tets.vtkhdf", "all tetrahedra with stress tensor, principal stresses, body and piece"),
-    ("summary.json", "the numbers of this page for other programs"),
+    ("summary.json", "the numbers of this page, for other programs"),
     ("case.json", "the case as it was run"),
-    ("mesh.msh", "its mesh"),
+    ("mesh.msh", "the mesh of the case"),
 ];
 
 fn files(run: &FractureFolder) -> String {
     let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
         .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
         .collect();
-    let words = "<p>Tables are plain CSV in SI units, the unit is in each column's name; their times count from the start of \
-                 the run.</p>\n";
+    let words = "<p>Tables are plain CSV in SI units; each column name includes the unit. Their times count from the start \
+                 of the run.</p>\n";
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
 }

@@ -1,4 +1,4 @@
-//! The first principal stress in the cut plane.
+//! Pictures of the first principal stress in the section plane.
 
 use glam::DVec3;
 
@@ -11,9 +11,9 @@ use crate::report::raster::{Canvas, Colour, View, mixed};
 
 const PAPER: Colour = [1.0; 3];
 const INK: Colour = [0.1; 3];
-/// Margin of a picture, as a share of it.
+/// Margin relative to the size of a picture.
 const MARGIN: f64 = 0.05;
-/// From compression over nothing to tension: a scale that is the same to all eyes, blue and red of equal weight.
+/// Colours from compression (blue) over zero to tension (red), balanced and safe for colour-blind readers.
 const SCALE: [Colour; 7] = [
     [0.13, 0.26, 0.52],
     [0.32, 0.54, 0.76],
@@ -23,22 +23,23 @@ const SCALE: [Colour; 7] = [
     [0.88, 0.42, 0.33],
     [0.60, 0.06, 0.14],
 ];
-/// Colours of the legend.
+/// Number of colours in the legend.
 const STEPS: usize = 40;
 
-/// What all pictures of a run share.
+/// Settings that all pictures of a run share.
 pub struct StressScene {
     view: View,
     shown: Vec<usize>,
-    /// Tensile strength, zero without one [Pa].
+    /// Largest tensile strength of the bodies; zero if no body can crack [Pa].
     strength: f64,
     /// End of the scale [Pa].
     top: f64,
 }
 
 impl StressScene {
-    /// The scene of a run: the window holds the shown bodies, the scale ends at twice their tensile strength, for stresses
-    /// beyond it carry on where a face is not square to them; where there is none, at the largest in the shown moments.
+    /// Creates the scene of a run. The view contains the shown bodies. The scale ends at twice the tensile strength,
+    /// because stresses exceed the strength where no face is normal to them. Without a strength it ends at the largest
+    /// stress of the given moments.
     ///
     /// # Errors
     /// If the files cannot be read.
@@ -60,7 +61,7 @@ impl StressScene {
         Ok(Self { view, shown, strength, top: if top > 0.0 { top } else { 1.0 } })
     }
 
-    /// The picture of a moment as the address of an image.
+    /// Returns the picture of a moment as a data URI.
     ///
     /// # Errors
     /// If the files cannot be read.
@@ -68,24 +69,24 @@ impl StressScene {
         let Some([surfaces, cracks, section]) = &run.pictures else { return Ok(String::new()) };
         let (cut, sigma) = (section.triangles(frame)?, section.values::<f32>(frame, "sigma_1")?);
         let cut_body = section.values::<i32>(frame, "body")?;
-        let flat = |corner: DVec3| {
+        let project_flat = |corner: DVec3| {
             let [x, y, _] = self.view.project(corner);
             [x, y, 0.0]
         };
         let mut canvas = Canvas::new(&self.view, PAPER);
         for (corners, sigma) in cut.iter().zip(&sigma) {
-            canvas.fill(corners.map(flat), self.colour(f64::from(*sigma)));
+            canvas.fill(corners.map(project_flat), self.colour(f64::from(*sigma)));
         }
         let (outside, of_body) = (surfaces.triangles(frame)?, surfaces.values::<i32>(frame, "body")?);
         let (faces, crack_body) = (cracks.triangles(frame)?, cracks.values::<i32>(frame, "body")?);
         for body in 0..run.case.setup.bodies.len() {
-            let of_it = cut.iter().zip(&cut_body).filter(|(_, number)| **number == body as i32).map(|(c, _)| c);
-            let Some(plane) = plane_of(of_it) else { continue };
+            let cut_triangles = cut.iter().zip(&cut_body).filter(|(_, number)| **number == body as i32).map(|(c, _)| c);
+            let Some(plane) = plane_of(cut_triangles) else { continue };
             let strength = if self.shown.contains(&body) { 0.9 } else { 0.45 };
             let mut trace = |triangles: &[[DVec3; 3]], bodies: &[i32], width: f64, strength: f32| {
                 for (corners, _) in triangles.iter().zip(bodies).filter(|(_, number)| **number == body as i32) {
                     if let Some(ends) = crossing(&plane, corners) {
-                        canvas.line(ends.map(flat), width, INK, strength, f64::INFINITY);
+                        canvas.line(ends.map(project_flat), width, INK, strength, f64::INFINITY);
                     }
                 }
             };
@@ -101,11 +102,11 @@ impl StressScene {
         mixed(SCALE[low], SCALE[low + 1], (at - low as f64) as f32)
     }
 
-    /// The colours with their stresses.
+    /// Returns the legend: the colours with their stresses.
     pub fn legend(&self) -> String {
         let (left, width) = (10.0, 420.0);
         let mut svg = String::from(
-            "<svg class=\"scale\" viewBox=\"0 0 450 58\" role=\"img\" aria-label=\"Scale of the stress\">\
+            "<svg class=\"scale\" viewBox=\"0 0 450 58\" role=\"img\" aria-label=\"Stress scale\">\
              <text class=\"label\" x=\"10\" y=\"12\">first principal stress \u{3c3}\u{2081} [MPa], tension positive</text>",
         );
         let step = width / STEPS as f64;
@@ -131,24 +132,24 @@ impl StressScene {
         svg + "</svg>\n"
     }
 
-    /// What the ends of the scale are.
+    /// Explains the mark or the end of the scale.
     pub fn scale_in_words(&self) -> String {
         let megapascals = |stress: f64| short(stress * 1e-6, 2);
         if self.strength > 0.0 {
-            format!("The mark in its scale is the tensile strength, {} MPa.", megapascals(self.strength))
+            format!("The mark on the stress scale is the tensile strength, {} MPa.", megapascals(self.strength))
         } else {
-            format!("Its scale ends at the largest stress shown, {} MPa.", megapascals(self.top))
+            format!("The stress scale ends at the largest stress shown, {} MPa.", megapascals(self.top))
         }
     }
 }
 
-/// A colour in the words of a style sheet.
+/// Formats a colour for CSS.
 pub fn css(colour: Colour) -> String {
     let [r, g, b] = colour.map(|part| (part * 255.0).round() as u8);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Where the cut through a body is now, as it moves with the body.
+/// Current section plane of a body; the plane moves with the body.
 fn plane_of<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<Plane> {
     let (mut normal, mut weight, mut moment) = (DVec3::ZERO, 0.0, DVec3::ZERO);
     for [a, b, c] in triangles {
@@ -160,7 +161,7 @@ fn plane_of<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<Plane
     (weight > 0.0).then(|| Plane { point: moment / weight, normal: normal.normalize_or(DVec3::Y) })
 }
 
-/// The line in which a triangle crosses a plane.
+/// Intersection line of a triangle and a plane.
 fn crossing(plane: &Plane, corners: &[DVec3; 3]) -> Option<[DVec3; 2]> {
     let height = corners.map(|corner| plane.height(corner));
     let mut ends = (0..3)
@@ -175,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_triangle_crosses_a_plane_in_a_line() {
+    fn a_triangle_intersects_a_plane_in_a_line() {
         let plane = Plane { point: DVec3::new(0.0, 0.5, 0.0), normal: DVec3::Y };
         let corners = [DVec3::ZERO, DVec3::new(2.0, 1.0, 0.0), DVec3::new(0.0, 1.0, 2.0)];
         assert_eq!(crossing(&plane, &corners), Some([DVec3::new(1.0, 0.5, 0.0), DVec3::new(0.0, 0.5, 1.0)]));
@@ -183,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cut_is_found_again_after_a_turn() {
+    fn the_section_plane_follows_a_rotated_body() {
         let turn = glam::DQuat::from_axis_angle(DVec3::X, 0.1);
         let square = [[DVec3::ZERO, DVec3::Z, DVec3::X], [DVec3::X, DVec3::Z, DVec3::X + DVec3::Z]];
         let turned = square.map(|triangle| triangle.map(|corner| turn * corner));

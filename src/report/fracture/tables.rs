@@ -1,13 +1,13 @@
-//! Cracks, pieces and bodies as tables.
+//! Tables of cracks, pieces and bodies.
 
 use super::folder::{FractureFolder, place_in_words};
 use crate::report::page::grouped;
 use crate::report::plot::{escape, short};
 
-/// Rows of a table at most; `summary.json` has all.
+/// Maximum number of rows of a table; `summary.json` lists everything.
 const MOST: usize = 20;
 
-/// Where cracks began, in order of time.
+/// Table of crack initiation, in order of time.
 pub fn cracks(run: &FractureFolder) -> String {
     let all = &run.summary.initiation;
     let row = |(index, crack): (usize, &crate::simulation::fracture::summary::InitiationSummary)| {
@@ -27,20 +27,20 @@ pub fn cracks(run: &FractureFolder) -> String {
     if all.len() > MOST {
         let rest: f64 = all[MOST..].iter().map(|crack| crack.area_m2).sum();
         rows += &format!(
-            "<tr class=\"sum\"><td colspan=\"8\">{} more, in summary.json</td><td>{}</td></tr>\n",
+            "<tr class=\"sum\"><td colspan=\"8\">{} more in summary.json</td><td>{}</td></tr>\n",
             all.len() - MOST,
             short(rest * 1e4, 1)
         );
     }
     format!(
-        "<div class=\"scroll\"><table>\n<thead><tr><th>Crack</th><th>{} [ms]</th><th>Body</th><th class=\"words\">Where it began</th>\
-         <th>x&nbsp;[m]</th><th>y&nbsp;[m]</th><th>z&nbsp;[m]</th><th>Mode</th><th>Area at the end [cm\u{b2}]</th></tr></thead>\n\
+        "<div class=\"scroll\"><table>\n<thead><tr><th>Crack</th><th>{} [ms]</th><th>Body</th><th class=\"words\">Initiation</th>\
+         <th>x&nbsp;[m]</th><th>y&nbsp;[m]</th><th>z&nbsp;[m]</th><th>Mode</th><th>Final area [cm\u{b2}]</th></tr></thead>\n\
          <tbody>\n{rows}</tbody></table></div>\n",
         capital(run.clock_name())
     )
 }
 
-/// Pieces at the end, the heaviest first.
+/// Table of the pieces at the end, the heaviest first.
 pub fn fragments(run: &FractureFolder) -> String {
     let all = &run.summary.fragments;
     let mass_of = |body: &str| all.iter().filter(|f| f.body == body).map(|f| f.mass_kg).sum::<f64>();
@@ -61,7 +61,7 @@ pub fn fragments(run: &FractureFolder) -> String {
     if all.len() > MOST {
         let rest: f64 = all[MOST..].iter().map(|piece| piece.mass_kg).sum();
         rows += &format!(
-            "<tr class=\"sum\"><td colspan=\"3\">{} smaller ones</td><td>{}</td><td colspan=\"5\"></td></tr>\n",
+            "<tr class=\"sum\"><td colspan=\"3\">{} smaller pieces</td><td>{}</td><td colspan=\"5\"></td></tr>\n",
             all.len() - MOST,
             short(rest, 3)
         );
@@ -73,14 +73,14 @@ pub fn fragments(run: &FractureFolder) -> String {
     )
 }
 
-/// Bodies with mesh and material.
+/// Table of the bodies with mesh and material.
 pub fn bodies(run: &FractureFolder) -> String {
     let case = &run.case;
     let mut rows = String::new();
     for ((name, body), quality) in case.names.iter().zip(&case.setup.bodies).zip(&case.mesh.quality) {
         let (elastic, none) = (&body.elastic, "\u{2013}".to_owned());
         let strength = body.cohesion.map(|cohesion| cohesion.strength);
-        let of = |value: fn(&crate::femdem::material::Strength) -> f64| {
+        let strength_value = |value: fn(&crate::femdem::material::Strength) -> f64| {
             strength.as_ref().map_or(none.clone(), |strength| short(value(strength), 2))
         };
         rows += &format!(
@@ -93,21 +93,21 @@ pub fn bodies(run: &FractureFolder) -> String {
             short(elastic.density, 0),
             short(elastic.young_modulus * 1e-9, 2),
             short(elastic.poisson_ratio, 2),
-            of(|s| s.tensile * 1e-6),
-            of(|s| s.cohesion * 1e-6),
-            of(|s| s.friction.atan().to_degrees()),
-            of(|s| s.opening_energy)
+            strength_value(|s| s.tensile * 1e-6),
+            strength_value(|s| s.cohesion * 1e-6),
+            strength_value(|s| s.friction.atan().to_degrees()),
+            strength_value(|s| s.opening_energy)
         );
     }
     format!(
-        "<div class=\"scroll\"><table>\n<thead><tr><th>Body</th><th>Tetra&shy;hedra</th><th>Edge, mean [mm]</th><th>Mass [kg]</th>\
-         <th>Density [kg/m\u{b3}]</th><th>E [GPa]</th><th>\u{3bd}</th><th>Tensile strength [MPa]</th><th>Cohesion [MPa]</th>\
-         <th>Friction angle [&deg;]</th><th>Fracture energy [J/m\u{b2}]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
-         <figcaption>Bodies without a strength deform and do not crack.</figcaption>\n"
+        "<div class=\"scroll\"><table>\n<thead><tr><th>Body</th><th>Tetra&shy;hedra</th><th>Mean edge length [mm]</th><th>Mass [kg]</th>\
+         <th>Density [kg/m\u{b3}]</th><th>Young's modulus [GPa]</th><th>Poisson ratio</th><th>Tensile strength [MPa]</th><th>Cohesion [MPa]</th>\
+         <th>Friction angle [&deg;]</th><th>Fracture energy, mode I [J/m\u{b2}]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
+         <figcaption>Bodies without a strength deform but do not crack.</figcaption>\n"
     )
 }
 
-/// A coordinate [m] to the millimetre, without a minus sign before zero.
+/// Formats a coordinate [m], rounded to millimetres, without a minus sign before zero.
 fn to_millimetres(coordinate: f64) -> String {
     let rounded = (coordinate * 1e3).round() / 1e3 + 0.0;
     format!("{rounded:.3}").replace('-', "\u{2212}")

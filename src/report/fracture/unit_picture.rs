@@ -1,4 +1,4 @@
-//! Units half transparent, with the crack faces in them.
+//! Pictures of transparent units with their crack faces.
 
 use std::collections::BTreeMap;
 
@@ -8,32 +8,31 @@ use super::folder::FractureFolder;
 use crate::output::OutputError;
 use crate::report::raster::{Canvas, Colour, View, mixed};
 
-/// Width and height of a picture [px], twice as fine as it is shown.
+/// Width and height of a picture [px], twice its size on the page.
 pub const SIZE: [f64; 2] = [900.0, 660.0];
-/// From the front, a little from the left and above: the corner between stem and upright fluke is in sight.
+/// Viewing direction: from the front, slightly left and above, so that the corner of stem and upright fluke is visible.
 const AHEAD: DVec3 = DVec3::new(0.26, 0.86, -0.43);
-/// Margin of a picture, as a share of it.
+/// Margin relative to the size of a picture.
 const MARGIN: f64 = 0.05;
 
-/// Colours of the paper's figures: units yellow, new cracks blue where they opened. Sliding and cracks from before the run
-/// need colours of their own.
+/// Colour of the units. As in the figures of the paper, units are yellow and new opening cracks are blue.
 pub const UNIT: Colour = [0.97, 0.83, 0.32];
-/// New crack, opened.
+/// Colour of new cracks that opened (mode I).
 pub const OPENED: Colour = [0.05, 0.25, 0.75];
-/// New crack, slid.
+/// Colour of new cracks that slid (mode II).
 pub const SLID: Colour = [0.85, 0.28, 0.05];
-/// Crack from before the run.
+/// Colour of pre-existing cracks.
 pub const OLD: Colour = [0.30, 0.62, 0.66];
 const OTHERS: Colour = [0.80, 0.80, 0.79];
 const PAPER: Colour = [1.0; 3];
 const INK: Colour = [0.25, 0.20, 0.05];
 
-/// What one face of a unit takes of the light from behind it.
+/// Opacity of one outer face of a unit.
 const VEIL: f32 = 0.26;
-/// Faces that meet at less than this angle are one to the eye: its cosine.
+/// Cosine of the angle below which two adjacent faces have no visible edge.
 const SMOOTH: f64 = 0.94;
 
-/// Colour of a crack face by its mode in the files.
+/// Colour of a crack face for its mode in the files.
 pub fn crack_colour(mode: i32) -> Colour {
     match mode {
         0 => OLD,
@@ -42,31 +41,31 @@ pub fn crack_colour(mode: i32) -> Colour {
     }
 }
 
-/// What all pictures of a run share.
+/// Settings that all pictures of a run share.
 pub struct UnitScene {
     /// The view.
     pub view: View,
     shown: Vec<usize>,
-    /// Edges to draw: faces with the corners of both sides.
+    /// Edges to draw: for both adjacent faces, the face and the edge's first corner in it.
     edges: Vec<[(usize, usize); 2]>,
 }
 
 impl UnitScene {
-    /// The scene of a run.
+    /// Creates the scene of a run.
     pub fn new(run: &FractureFolder) -> Self {
         let mesh = &run.case.mesh;
         let shown = run.shown_bodies();
         let exteriors = &mesh.faces.exteriors;
         let corners =
             |face: usize| exteriors[face].nodes.map(|k| mesh.mesh.tets[exteriors[face].tet as usize][usize::from(k)]);
-        let of_shown = |tet: usize| shown.iter().any(|body| run.case.setup.bodies[*body].tets.contains(&tet));
-        let nodes = (0..exteriors.len()).filter(|face| of_shown(exteriors[*face].tet as usize)).flat_map(corners);
+        let is_shown = |tet: usize| shown.iter().any(|body| run.case.setup.bodies[*body].tets.contains(&tet));
+        let nodes = (0..exteriors.len()).filter(|face| is_shown(exteriors[*face].tet as usize)).flat_map(corners);
         let view = View::along(AHEAD, nodes.map(|node| mesh.mesh.nodes[node as usize]), SIZE, MARGIN);
         let normal = |face: usize| {
             let [a, b, c] = corners(face).map(|node| mesh.mesh.nodes[node as usize]);
             (b - a).cross(c - a).normalize_or_zero()
         };
-        // Faces at each edge, with the number of the edge's first corner in the face.
+        // The faces at each edge, with the index of the edge's first corner in the face.
         let mut at_edge: BTreeMap<[u32; 2], Vec<(usize, usize)>> = BTreeMap::new();
         for face in 0..exteriors.len() {
             let nodes = corners(face);
@@ -75,14 +74,14 @@ impl UnitScene {
                 at_edge.entry([a.min(b), a.max(b)]).or_default().push((face, k));
             }
         }
-        let sharp = |faces: &Vec<(usize, usize)>| match faces.as_slice() {
+        let sharp_edge = |faces: &Vec<(usize, usize)>| match faces.as_slice() {
             [a, b] if normal(a.0).dot(normal(b.0)) < SMOOTH => Some([*a, *b]),
             _ => None,
         };
-        Self { view, edges: at_edge.values().filter_map(sharp).collect(), shown }
+        Self { view, edges: at_edge.values().filter_map(sharp_edge).collect(), shown }
     }
 
-    /// The picture of a moment as the address of an image.
+    /// Returns the picture of a moment as a data URI.
     ///
     /// # Errors
     /// If the files cannot be read.
@@ -91,21 +90,21 @@ impl UnitScene {
         let (outside, body) = (surfaces.triangles(frame)?, surfaces.values::<i32>(frame, "body")?);
         let is_unit = |face: usize| self.shown.contains(&(body[face] as usize));
         let (faces, modes) = (cracks.triangles(frame)?, cracks.values::<i32>(frame, "mode")?);
-        let place = |corners: &[DVec3; 3]| corners.map(|corner| self.view.project(corner));
+        let project = |corners: &[DVec3; 3]| corners.map(|corner| self.view.project(corner));
         let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
         let lit = |colour: Colour, normal: DVec3| mixed([0.0; 3], colour, self.view.light(normal) as f32);
 
-        // Behind everything: the other bodies.
+        // The other bodies are the background.
         let mut canvas = Canvas::new(&self.view, PAPER);
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| !is_unit(*face)) {
-            canvas.fill(place(corners), lit(OTHERS, normal(corners)));
+            canvas.fill(project(corners), lit(OTHERS, normal(corners)));
         }
         self.draw_edges(&mut canvas, &outside, |face| !is_unit(face), [0.45; 3], 0.5);
-        // The sides of the units that look away, which hide the others where these are further off.
+        // Back faces of the units hide other bodies farther away.
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| is_unit(*face)) {
             if !self.view.faces(normal(corners)) {
-                // A face that presses another body lies a hair behind its surface.
-                let nearer = place(corners).map(|[x, y, depth]| [x, y, depth - 3.0 / self.view.scale]);
+                // A face in contact may lie slightly behind the other body's surface.
+                let nearer = project(corners).map(|[x, y, depth]| [x, y, depth - 3.0 / self.view.scale]);
                 canvas.fill(nearer, mixed(PAPER, UNIT, 0.55));
             }
         }
@@ -113,15 +112,15 @@ impl UnitScene {
         for (corners, mode) in faces.iter().zip(&modes) {
             let towards = normal(corners);
             let towards = if self.view.faces(towards) { towards } else { -towards };
-            canvas.fill(place(corners), lit(crack_colour(*mode), towards));
+            canvas.fill(project(corners), lit(crack_colour(*mode), towards));
         }
-        // Every side that looks this way is a veil over what it hides; the nearest one gives the shade.
+        // Every front face is a translucent layer over what it hides; the nearest one gives the shade.
         let mut veil = vec![(0_i32, f64::INFINITY, PAPER); behind.len()];
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| is_unit(*face)) {
             let normal = normal(corners);
             if self.view.faces(normal) {
                 let colour = lit(UNIT, normal);
-                canvas.visit(place(corners), |sample, depth| {
+                canvas.visit(project(corners), |sample, depth| {
                     let of_sample = &mut veil[sample];
                     if depth <= canvas.depth[sample] {
                         of_sample.0 += 1;
@@ -144,18 +143,18 @@ impl UnitScene {
         Ok(canvas.data_uri())
     }
 
-    /// Draws the sharp edges of some faces that are in sight.
+    /// Draws the visible sharp edges of the faces selected by `is_drawn`.
     fn draw_edges(
         &self,
         canvas: &mut Canvas,
         outside: &[[DVec3; 3]],
-        of: impl Fn(usize) -> bool,
+        is_drawn: impl Fn(usize) -> bool,
         ink: Colour,
         strength: f32,
     ) {
-        // A few pixels: a line lies on the faces that it bounds.
+        // A tolerance of a few pixels, because a line lies on the faces that it bounds.
         let hidden = 3.0 / self.view.scale;
-        for [(face, k), _] in self.edges.iter().filter(|[(face, _), _]| of(*face)) {
+        for [(face, k), _] in self.edges.iter().filter(|[(face, _), _]| is_drawn(*face)) {
             let Some(corners) = outside.get(*face) else { continue };
             let ends = [corners[*k], corners[(*k + 1) % 3]].map(|corner| self.view.project(corner));
             canvas.line(ends, 1.6, ink, strength, hidden);

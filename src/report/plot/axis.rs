@@ -1,11 +1,11 @@
-//! An axis: its range, and round numbers along it.
+//! Linear chart axis with round tick values.
 
 use super::short;
 
 /// A linear axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit.
+    /// Label: quantity and unit.
     pub label: String,
     low: f64,
     high: f64,
@@ -13,7 +13,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis that holds all finite `values`, begins and ends at round numbers and has about `ticks` of them.
+    /// Creates an axis that covers all finite `values`, has round numbers at both ends and about `ticks` ticks.
     pub fn round(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let (low, high) = range(values);
         let step = round_step((high - low) / ticks.max(1) as f64);
@@ -21,7 +21,7 @@ impl Axis {
         Self { label: label.to_owned(), low, high: if high > low { high } else { low + step }, step }
     }
 
-    /// An axis that ends exactly at the smallest and the largest of the values.
+    /// Creates an axis that ends exactly at the smallest and the largest value.
     pub fn tight(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let (low, high) = range(values);
         Self { label: label.to_owned(), low, high, step: round_step((high - low) / ticks.max(1) as f64) }
@@ -33,21 +33,21 @@ impl Axis {
         (self.low, self.high)
     }
 
-    /// Where a value lies between the ends, 0 to 1.
+    /// Relative position of a value between the ends, 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
     }
 
-    /// Round numbers inside the axis.
+    /// Tick values: round numbers within the range.
     pub fn ticks(&self) -> Vec<f64> {
         let first = (self.low / self.step - 1e-6).ceil() as i64;
         let last = (self.high / self.step + 1e-6).floor() as i64;
         (first..=last).map(|i| i as f64 * self.step).collect()
     }
 
-    /// A tick's number with as many decimals as the step needs.
+    /// Formats a tick value with as many decimals as the step needs.
     pub fn number(&self, tick: f64) -> String {
-        // One part in a million of a step covers the rounding of i * step.
+        // The tolerance covers the rounding error of i * step.
         let decimals = (0..9).find(|d| {
             let scaled = self.step * 10_f64.powi(*d);
             (scaled - scaled.round()).abs() < 1e-6 * scaled
@@ -58,7 +58,7 @@ impl Axis {
     }
 }
 
-/// Smallest and largest finite value; a range that is never empty.
+/// Smallest and largest finite value; widened if the range is empty.
 fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .into_iter()
@@ -72,7 +72,7 @@ fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     }
 }
 
-/// The round number (1, 2 or 5 times a power of ten) next above `step`.
+/// Rounds `step` up to 1, 2 or 5 times a power of ten.
 fn round_step(step: f64) -> f64 {
     let power = 10_f64.powf(step.log10().floor());
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= step * (1.0 - 1e-9)).unwrap_or(10.0);
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_round_and_hold_the_values() {
+    fn ticks_are_round_and_cover_the_values() {
         let axis = Axis::round("x [m]", [0.013, 0.198], 5);
         let numbers: Vec<String> = axis.ticks().iter().map(|t| axis.number(*t)).collect();
         assert_eq!(numbers, ["0", "0.05", "0.10", "0.15", "0.20"]);
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_without_values_or_with_one_is_still_an_axis() {
+    fn an_axis_without_values_or_with_one_value_has_a_range() {
         for values in [vec![], vec![f64::NAN], vec![0.0, 0.0], vec![39.0, 39.0], vec![-2.0]] {
             let axis = Axis::round("x", values, 5);
             let (low, high) = axis.range();

@@ -1,36 +1,36 @@
-//! Bars in groups.
+//! Bar charts.
 
 use super::{Axis, Frame, escape, marks, short, text};
 
-/// One set of bars, one bar for each group.
+/// One set of bars, one bar per group.
 #[derive(Debug, Clone, Default)]
 pub struct Bars {
     /// Name in the legend; empty for none.
     pub name: String,
-    /// Heights; what is not finite is left out.
+    /// Heights; values that are not finite are left out.
     pub values: Vec<f64>,
-    /// Colour of the palette.
+    /// Index in the colour palette.
     pub colour: usize,
-    /// Outlined instead of filled, for measurements beside calculations.
+    /// Outlined instead of filled, to set measurements apart from calculations.
     pub hollow: bool,
 }
 
-/// A chart of bars.
+/// A bar chart.
 #[derive(Debug, Clone, Default)]
 pub struct BarChart {
-    /// What it shows, for readers who do not see it.
+    /// Title, for screen readers.
     pub title: String,
-    /// What the groups are.
+    /// Label of the groups.
     pub x_label: String,
-    /// Quantity and unit of the heights.
+    /// Label of the vertical axis: quantity and unit.
     pub y_label: String,
     /// Names of the groups.
     pub groups: Vec<String>,
-    /// Sets of bars.
+    /// The sets of bars.
     pub bars: Vec<Bars>,
-    /// Draw the sets of a group in the same place; each group should then have one value.
+    /// Whether all sets share one position in a group; each group should then have one value.
     pub stacked: bool,
-    /// Horizontal lines with words at them.
+    /// Horizontal lines with labels.
     pub marks: Vec<(f64, String)>,
     /// Width and height [px].
     pub size: [f64; 2],
@@ -51,15 +51,15 @@ impl BarChart {
         let mut svg = frame.open(&self.title);
         svg += &frame.vertical_axis(&y);
         let pitch = (frame.right - frame.left) / self.groups.len().max(1) as f64;
-        let places = if self.stacked { 1 } else { self.bars.len().max(1) };
-        let bar_width = (0.76 * pitch / places as f64).min(34.0);
+        let slots = if self.stacked { 1 } else { self.bars.len().max(1) };
+        let bar_width = (0.76 * pitch / slots as f64).min(34.0);
         for (group, name) in self.groups.iter().enumerate() {
             let middle = frame.left + pitch * (group as f64 + 0.5);
-            let first = middle - 0.5 * bar_width * places as f64;
+            let first = middle - 0.5 * bar_width * slots as f64;
             for (index, bars) in self.bars.iter().enumerate() {
                 let Some(value) = bars.values.get(group).copied().filter(|v| v.is_finite()) else { continue };
                 let (top, foot) = (frame.y(&y, value.max(0.0)), frame.y(&y, value.min(0.0)));
-                let left = first + bar_width * (index % places) as f64;
+                let left = first + bar_width * (index % slots) as f64;
                 let series = if bars.name.is_empty() { &self.y_label } else { &bars.name };
                 svg += &format!(
                     "<rect class=\"{}\" x=\"{:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\"><title>{}, {}: {}</title></rect>",
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bars_stand_on_zero_and_missing_values_are_left_out() {
+    fn missing_values_have_no_bar() {
         let chart = BarChart {
             groups: vec!["1".to_owned(), "2".to_owned()],
             bars: vec![

@@ -1,4 +1,4 @@
-//! Lines against time or place.
+//! Line charts.
 
 use super::{Axis, Frame, marks, text};
 
@@ -7,32 +7,32 @@ use super::{Axis, Frame, marks, text};
 pub struct Line {
     /// Name in the legend; empty for none.
     pub name: String,
-    /// Points in the units of the axes; the line breaks at values that are not finite.
+    /// Points in the units of the axes; values that are not finite interrupt the line.
     pub points: Vec<[f64; 2]>,
-    /// Colour of the palette.
+    /// Index in the colour palette.
     pub colour: usize,
-    /// Dashed instead of drawn through.
+    /// Dashed instead of solid.
     pub dashed: bool,
-    /// Thin and pale, for one of many.
+    /// Thin and pale, for a line among many.
     pub faint: bool,
-    /// A dot at each point.
+    /// Whether each point has a dot.
     pub dots: bool,
-    /// Half width of a shaded band about the line, one for each point; empty for none.
+    /// Half height of a shaded band around the line at each point; empty for none.
     pub band: Vec<f64>,
 }
 
-/// A chart of lines. The vertical axis always holds zero.
+/// A line chart. The vertical axis always includes zero.
 #[derive(Debug, Clone, Default)]
 pub struct LineChart {
-    /// What it shows, for readers who do not see it.
+    /// Title, for screen readers.
     pub title: String,
-    /// Quantity and unit of the horizontal axis.
+    /// Label of the horizontal axis: quantity and unit.
     pub x_label: String,
-    /// Quantity and unit of the vertical axis.
+    /// Label of the vertical axis: quantity and unit.
     pub y_label: String,
     /// The lines, drawn in this order.
     pub lines: Vec<Line>,
-    /// Horizontal lines with words at them.
+    /// Horizontal lines with labels.
     pub marks: Vec<(f64, String)>,
     /// Width and height [px].
     pub size: [f64; 2],
@@ -80,7 +80,7 @@ impl LineChart {
     }
 }
 
-/// What the legend shows of a line.
+/// Sample of a line in the legend.
 fn sample(line: &Line) -> String {
     if line.points.len() == 1 && line.dots {
         return format!("<circle class=\"dot c{}\" cx=\"12\" cy=\"0\" r=\"4.5\"/>", line.colour % super::COLOURS);
@@ -94,7 +94,7 @@ fn class(line: &Line) -> String {
     format!("line c{}{dashed}{faint}", line.colour % super::COLOURS)
 }
 
-/// The line as path data; of the points that fall on one pixel column only first, lowest, highest and last are kept.
+/// Path data of a line. Of the points in one half-pixel column, only first, lowest, highest and last are kept.
 fn path(frame: &Frame, x: &Axis, y: &Axis, points: &[[f64; 2]]) -> String {
     let mut data = String::new();
     for piece in points.split(|p| !(p[0].is_finite() && p[1].is_finite())).filter(|piece| !piece.is_empty()) {
@@ -124,7 +124,7 @@ fn thinned(column: &[[f64; 2]]) -> Vec<[f64; 2]> {
     kept.into_iter().map(|i| column[i]).collect()
 }
 
-/// The shaded band about a line.
+/// The shaded band around a line.
 fn band(frame: &Frame, x: &Axis, y: &Axis, line: &Line) -> String {
     if line.band.is_empty() {
         return String::new();
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_breaks_where_there_is_no_value() {
+    fn missing_values_interrupt_a_line() {
         let points = vec![[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, 1.0], [4.0, 0.0]];
         let chart =
             LineChart { lines: vec![Line { points, ..Line::default() }], size: [600.0, 240.0], ..LineChart::default() };

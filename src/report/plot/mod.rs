@@ -1,8 +1,7 @@
-//! Charts as inline SVG: a frame with axes, lines or bars in it, colours from the page's style sheet; or as files of their
-//! own that bring it along.
+//! Line, bar and tornado charts as SVG: inline with the style sheet of the page, or as files with their own style.
 //!
-//! Colours are the classes `c0` to `c5`; the style sheet gives them a palette that colour-blind readers can tell apart
-//! (Okabe & Ito 2008) and that differs between light and dark pages.
+//! The classes `c0` to `c5` are the colours. Their palette suits colour-blind readers (Okabe & Ito 2008) and differs
+//! between light and dark pages.
 
 mod axis;
 mod bar;
@@ -20,22 +19,22 @@ pub const CHART_STYLE: &str = include_str!("chart.css");
 pub const COLOURS: usize = 6;
 /// Left edge of the plot area [px].
 const LEFT: f64 = 58.0;
-/// Width of a letter [px], on the safe side.
+/// Upper estimate of the width of a letter [px].
 const LETTER: f64 = 7.2;
 
-/// A length with at most `decimals` figures after the point, without trailing zeros, with a true minus sign.
+/// Formats a number with at most `decimals` decimals, without trailing zeros and with a true minus sign.
 pub fn short(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.replace('-', "\u{2212}") }
 }
 
-/// Text that may stand in HTML and SVG.
+/// Escapes text for HTML and SVG.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A chart as a file of its own for browsers, with its style sheet, on paper.
+/// Turns a chart into a self-contained SVG file with style sheet and background.
 pub fn standalone(chart: &str) -> String {
     let letters = "\"Source Sans 3\", \"Segoe UI\", \"Helvetica Neue\", Helvetica, Arial, \"DejaVu Sans\", sans-serif";
     let style = format!(
@@ -49,7 +48,7 @@ pub fn standalone(chart: &str) -> String {
     opened.replacen("</title>\n", &format!("</title>\n{style}"), 1)
 }
 
-/// The plot area inside the picture [px], and the two axes that map into it.
+/// The plot area of a chart [px].
 #[derive(Debug, Clone)]
 struct Frame {
     width: f64,
@@ -61,7 +60,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// A frame with room for the legend above and for the words of `marks` at the right.
+    /// Creates a frame with space for the legend above and for the labels of `marks` at the right.
     fn new([width, height]: [f64; 2], legend: &[&str], marks: &[(f64, String)]) -> Self {
         let words = marks.iter().map(|(_, words)| words.chars().count()).max();
         let right = width - words.map_or(14.0, |letters| 18.0 + LETTER * letters as f64);
@@ -85,7 +84,7 @@ impl Frame {
         )
     }
 
-    /// Horizontal grid lines with their numbers, and the label of the vertical axis above them.
+    /// Horizontal grid lines with their values, and the label of the vertical axis.
     fn vertical_axis(&self, axis: &Axis) -> String {
         let mut svg = String::new();
         for tick in axis.ticks() {
@@ -102,7 +101,7 @@ impl Frame {
         svg
     }
 
-    /// Numbers and label of the horizontal axis.
+    /// Ticks, values and label of the horizontal axis.
     fn horizontal_axis(&self, axis: &Axis) -> String {
         let mut svg = format!("<path class=\"axis\" d=\"M{:.1} {:.1}H{:.1}\"/>", self.left, self.bottom, self.right);
         for tick in axis.ticks() {
@@ -118,8 +117,8 @@ impl Frame {
         text(0.5 * (self.left + self.right), self.height - 6.0, "label mid", label) + "\n"
     }
 
-    /// Legend entries from left to right above the plot area; each is a name and the SVG of its sample, drawn to the
-    /// right of the origin within 22 px.
+    /// Legend entries from left to right above the plot area. An entry is a name and the SVG of its sample; the sample
+    /// is up to 22 px wide and starts at the origin.
     fn legend(&self, entries: &[(String, String)]) -> String {
         let (mut x, mut y, mut svg) = (self.left, 14.0, String::new());
         for (name, sample) in entries {
@@ -135,7 +134,7 @@ impl Frame {
     }
 }
 
-/// Rows that a legend needs in a picture of this width.
+/// Number of rows of a legend in a chart of this width.
 fn legend_rows(width: f64, names: &[&str]) -> usize {
     let (mut x, mut rows) = (LEFT, usize::from(!names.is_empty()));
     for name in names {
@@ -157,7 +156,7 @@ fn text(x: f64, y: f64, class: &str, words: &str) -> String {
     format!("<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escape(words))
 }
 
-/// Horizontal lines with their words at the right of the plot area, moved apart where they would overlap.
+/// Horizontal lines with labels at the right of the plot area; labels that would overlap are moved apart.
 fn marks(frame: &Frame, axis: &Axis, marks: &[(f64, String)]) -> String {
     let mut sorted: Vec<(f64, &str)> = marks.iter().map(|(v, words)| (frame.y(axis, *v), words.as_str())).collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -176,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short_and_text_is_safe() {
+    fn numbers_have_no_trailing_zeros_and_text_is_escaped() {
         assert_eq!(short(0.2500, 3), "0.25");
         assert_eq!(short(-1.5, 1), "\u{2212}1.5");
         assert_eq!(short(-0.0001, 2), "0");
@@ -185,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chart_of_its_own_brings_its_colours() {
+    fn a_standalone_chart_contains_its_style_sheet() {
         let lines = vec![Line { name: "a".to_owned(), points: vec![[0.0, 1.0], [1.0, 2.0]], ..Line::default() }];
         let file = standalone(&LineChart { lines, size: [400.0, 300.0], ..LineChart::default() }.svg());
         assert!(

@@ -1,8 +1,8 @@
-//! How much a result hangs on each of several inputs: bars to the left and right of the result as it is.
+//! Tornado charts: sensitivity of a result to several inputs, as bars to both sides of the base case.
 
 use super::{Axis, Frame, LETTER, escape, short, text};
 
-/// Height of a bar with the space about it [px].
+/// Height of a bar with the space around it [px].
 const BAR: f64 = 19.0;
 /// Space between the inputs [px].
 const GAP: f64 = 7.0;
@@ -12,16 +12,16 @@ const GAP: f64 = 7.0;
 pub struct Lever {
     /// Name of the input.
     pub name: String,
-    /// Its values in words, and what each changes; what is not finite is left out.
+    /// Label of each tested value, and the change that it causes; changes that are not finite are left out.
     pub values: Vec<(String, f64)>,
 }
 
-/// A tornado chart: one group of bars an input, that which changes most on top.
+/// A tornado chart: one group of bars per input, the most influential input on top.
 #[derive(Debug, Clone, Default)]
 pub struct TornadoChart {
-    /// What it shows, for readers who do not see it.
+    /// Title, for screen readers.
     pub title: String,
-    /// Quantity and unit of the changes.
+    /// Label of the horizontal axis: quantity and unit of the changes.
     pub x_label: String,
     /// The inputs, in any order.
     pub levers: Vec<Lever>,
@@ -32,18 +32,18 @@ pub struct TornadoChart {
 impl TornadoChart {
     /// The chart as an `<svg>` element.
     pub fn svg(&self) -> String {
-        let most = |lever: &Lever| lever.values.iter().map(|(_, change)| change.abs()).fold(0.0, f64::max);
+        let largest_change = |lever: &Lever| lever.values.iter().map(|(_, change)| change.abs()).fold(0.0, f64::max);
         let mut levers: Vec<&Lever> = self.levers.iter().collect();
-        // Stable: inputs that change as much stay in their order.
-        levers.sort_by(|a, b| most(b).total_cmp(&most(a)));
-        let letters = |words: &str| LETTER * words.chars().count() as f64;
-        let names = levers.iter().map(|lever| letters(&lever.name)).fold(0.0, f64::max);
+        // The sort is stable: inputs of equal influence keep their order.
+        levers.sort_by(|a, b| largest_change(b).total_cmp(&largest_change(a)));
+        let text_width = |words: &str| LETTER * words.chars().count() as f64;
+        let name_width = levers.iter().map(|lever| text_width(&lever.name)).fold(0.0, f64::max);
         let rows: usize = levers.iter().map(|lever| lever.values.len()).sum();
         let height = 14.0 + BAR * rows as f64 + GAP * levers.len() as f64 + 42.0;
         let mut frame = Frame::new([self.width, height], &[], &[]);
-        frame.left = names + 24.0;
+        frame.left = name_width + 24.0;
         let bars =
-            levers.iter().flat_map(|lever| &lever.values).map(|(words, change)| (letters(words) + 12.0, *change));
+            levers.iter().flat_map(|lever| &lever.values).map(|(words, change)| (text_width(words) + 12.0, *change));
         let axis = self.axis(frame.right - frame.left, &bars.collect::<Vec<_>>());
 
         let mut svg = frame.open(&self.title);
@@ -65,21 +65,21 @@ impl TornadoChart {
         svg + "</svg>\n"
     }
 
-    /// An axis of a length [px] with room for the words at the ends of the bars, which are as wide [px] as each bar says
-    /// beside its change. Words take pixels whatever the scale, so that their range follows from the scale they leave.
+    /// Creates an axis of a length [px] with space for the labels at the ends of the bars; `bars` holds the label width
+    /// [px] and the change of each bar. Label widths are fixed in pixels, so the bars get the remaining length.
     fn axis(&self, length: f64, bars: &[(f64, f64)]) -> Axis {
-        let most = |of: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(of).fold(0.0, f64::max);
-        let (below, above) = (most(&|(_, change)| -change), most(&|(_, change)| *change));
+        let largest = |quantity: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(quantity).fold(0.0, f64::max);
+        let (below, above) = (largest(&|(_, change)| -change), largest(&|(_, change)| *change));
         let range = if below + above > 0.0 { below + above } else { 1.0 };
-        let left = most(&|(words, change)| if *change < 0.0 { *words } else { 0.0 });
-        let right = most(&|(words, change)| if *change < 0.0 { 0.0 } else { *words });
-        // Never less than a third of the picture for the bars.
+        let left = largest(&|(words, change)| if *change < 0.0 { *words } else { 0.0 });
+        let right = largest(&|(words, change)| if *change < 0.0 { 0.0 } else { *words });
+        // The bars always keep at least a third of the length.
         let scale = (length - left - right).max(length / 3.0) / range;
         Axis::tight(&self.x_label, [-below - left / scale, above + right / scale], (length / 90.0) as usize)
     }
 }
 
-/// A bar from zero with its words at the end.
+/// Draws a bar from zero with its label at the end.
 fn bar(zero: f64, y: f64, pixels: f64, name: &str, words: &str, change: f64) -> String {
     let (left, class) = if pixels < 0.0 { (zero + pixels, "note end") } else { (zero, "note") };
     let end = zero + pixels + if pixels < 0.0 { -5.0 } else { 5.0 };
@@ -117,19 +117,19 @@ mod tests {
     }
 
     #[test]
-    fn what_changes_most_is_on_top_and_bars_are_in_proportion() {
+    fn the_largest_change_is_on_top_and_bars_are_to_scale() {
         let svg = chart(&[("small", &[("1", 2.0)]), ("large", &[("low", -8.0), ("high", 4.0)])]).svg();
         let [low, high, small] = edges(&svg)[..] else { panic!("{svg}") };
         assert!(svg.find(">large<").unwrap() < svg.find(">small<").unwrap());
         let zero = low[1];
-        // Written to a tenth of a pixel.
+        // Coordinates are rounded to a tenth of a pixel.
         assert!((high[0] - zero).abs() < 0.2 && (small[0] - zero).abs() < 0.2);
         assert!(((zero - low[0]) / (high[1] - zero) - 2.0).abs() < 0.01, "{svg}");
         assert!(((high[1] - zero) / (small[1] - zero) - 2.0).abs() < 0.01, "{svg}");
     }
 
     #[test]
-    fn words_at_the_ends_stay_inside_the_picture() {
+    fn labels_stay_inside_the_chart() {
         let long = "[35.5,41.0] instead";
         let svg = chart(&[("key", &[(long, -3.0), (long, 1.0)])]).svg();
         let [low, high] = edges(&svg)[..] else { panic!("{svg}") };
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_show_is_still_a_picture() {
+    fn a_chart_without_changes_is_valid() {
         for chart in [chart(&[]), chart(&[("key", &[("a", 0.0), ("b", f64::NAN)])])] {
             assert!(!chart.svg().contains("NaN") && chart.svg().ends_with("</svg>\n"));
         }

@@ -1,4 +1,4 @@
-//! Pixels with a depth, and triangles and lines on them.
+//! Pixel image with depth buffer for triangles and lines.
 
 use super::View;
 use super::image;
@@ -6,28 +6,28 @@ use super::image;
 /// Red, green and blue, 0 to 1.
 pub type Colour = [f32; 3];
 
-/// Samples of a pixel along each side: smooth edges.
+/// Samples per pixel in each direction, for smooth edges.
 const FINER: usize = 2;
 
-/// A picture in the making. Coordinates are those of a [`View`] of its size.
+/// An image being drawn. Coordinates are those of a [`View`] of the same size.
 #[derive(Debug, Clone)]
 pub struct Canvas {
     columns: usize,
     rows: usize,
-    /// Colour of each sample, row by row from the upper left.
+    /// Colour of each sample, row by row from the upper left corner.
     pub colour: Vec<Colour>,
-    /// Distance of what each sample shows [m]; infinite where there is nothing.
+    /// Depth of each sample [m]; infinite where nothing is drawn.
     pub depth: Vec<f64>,
 }
 
 impl Canvas {
-    /// An empty picture of the size of a view.
+    /// Creates an empty image of the size of a view.
     pub fn new(view: &View, ground: Colour) -> Self {
         let [columns, rows] = view.size.map(|length| length.round().max(1.0) as usize * FINER);
         Self { columns, rows, colour: vec![ground; columns * rows], depth: vec![f64::INFINITY; columns * rows] }
     }
 
-    /// Calls `visit` with every sample in a triangle (across [px], down [px], depth [m]) and its depth there.
+    /// Calls `visit` with the index and depth of every sample in a triangle (across [px], down [px], depth [m]).
     pub fn visit(&self, corners: [[f64; 3]; 3], mut visit: impl FnMut(usize, f64)) {
         let [a, b, c] = corners.map(|[x, y, depth]| [x * FINER as f64 - 0.5, y * FINER as f64 - 0.5, depth]);
         let double = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -51,7 +51,7 @@ impl Canvas {
         }
     }
 
-    /// Paints a triangle where nothing is nearer.
+    /// Draws a triangle where nothing is nearer.
     pub fn fill(&mut self, corners: [[f64; 3]; 3], colour: Colour) {
         let (mut colours, mut depths) = (std::mem::take(&mut self.colour), std::mem::take(&mut self.depth));
         self.visit(corners, |sample, depth| {
@@ -62,7 +62,7 @@ impl Canvas {
         (self.colour, self.depth) = (colours, depths);
     }
 
-    /// Draws a line of a width [px] over what is not nearer than it by more than `hidden` [m], mixed in by `strength`.
+    /// Draws a line of a width [px] and opacity `strength`, except where something is nearer by more than `hidden` [m].
     pub fn line(&mut self, [a, b]: [[f64; 3]; 2], width: f64, colour: Colour, strength: f32, hidden: f64) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let length = dx.hypot(dy);
@@ -82,7 +82,7 @@ impl Canvas {
         self.colour = colours;
     }
 
-    /// The picture as a PNG inside the address of an image.
+    /// Returns the image as a PNG data URI.
     pub fn data_uri(&self) -> String {
         let (width, height) = (self.columns / FINER, self.rows / FINER);
         let mut bytes = Vec::with_capacity(3 * width * height);
@@ -102,7 +102,7 @@ impl Canvas {
     }
 }
 
-/// One colour with a share of another.
+/// Mixes a share of the other colour into one colour.
 pub fn mixed(one: Colour, other: Colour, share: f32) -> Colour {
     [0, 1, 2].map(|k| one[k] + share * (other[k] - one[k]))
 }
@@ -113,7 +113,7 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn what_is_nearer_is_seen() {
+    fn nearer_triangles_and_lines_hide_farther_ones() {
         let view = View::along(DVec3::Y, [DVec3::ZERO, DVec3::ONE], [10.0, 10.0], 0.0);
         let mut canvas = Canvas::new(&view, [1.0; 3]);
         let triangle = |depth: f64| [[0.0, 0.0, depth], [10.0, 0.0, depth], [0.0, 10.0, depth]];
@@ -122,11 +122,11 @@ mod tests {
         canvas.fill(triangle(3.0), [0.0, 0.0, 1.0]);
         assert_eq!(canvas.colour[0], [0.0, 1.0, 0.0]);
         assert_eq!(canvas.colour[399], [1.0; 3]);
-        // Half of the samples, and those on the edge.
+        // Half of the samples, plus those on the edge.
         let mut inside = 0;
         canvas.visit(triangle(0.0), |_, _| inside += 1);
         assert!((190..=210).contains(&inside), "{inside}");
-        // Behind the triangle a line is hidden, before it is not.
+        // A line behind the triangle is hidden, a line in front of it is visible.
         canvas.line([[0.0, 2.0, 5.0], [6.0, 2.0, 5.0]], 2.0, [0.0; 3], 1.0, 0.0);
         assert_eq!(canvas.colour[4 * 20 + 4], [0.0, 1.0, 0.0]);
         canvas.line([[0.0, 2.0, 0.5], [6.0, 2.0, 0.5]], 2.0, [0.0; 3], 1.0, 0.0);

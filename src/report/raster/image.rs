@@ -1,21 +1,21 @@
-//! PNG inside a page.
+//! PNG images embedded in a page.
 
-/// Letters of base64 (RFC 4648).
+/// Alphabet of base64 (RFC 4648).
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// A picture of 8 bits a colour, red, green and blue, row by row, as the address of an image.
+/// Returns an 8-bit RGB image, given row by row, as a PNG data URI.
 ///
 /// # Panics
-/// If there are not three bytes a pixel.
+/// If `rgb` does not have three bytes per pixel.
 pub fn data_uri(width: u32, height: u32, rgb: &[u8]) -> String {
-    assert_eq!(rgb.len(), 3 * width as usize * height as usize, "three bytes a pixel");
+    assert_eq!(rgb.len(), 3 * width as usize * height as usize, "three bytes per pixel");
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(rgb));
-    // Writing to memory fails for no picture of the right length.
+    // Writing to memory cannot fail if the length is right.
     debug_assert!(written.is_ok());
     format!("data:image/png;base64,{}", base64(&bytes))
 }
@@ -37,15 +37,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn base64_is_that_of_the_rfc() {
+    fn base64_agrees_with_the_rfc_examples() {
         let cases = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")];
         cases.into_iter().for_each(|(text, expected)| assert_eq!(base64(text.as_bytes()), expected));
     }
 
     #[test]
-    fn a_picture_is_a_png() {
+    fn the_data_uri_contains_a_png() {
         let uri = data_uri(2, 1, &[255, 0, 0, 0, 0, 255]);
-        // The eight bytes that a PNG begins with.
+        // The eight-byte signature of a PNG.
         assert!(uri.starts_with("data:image/png;base64,iVBORw0KGgo"), "{uri}");
     }
 }

@@ -1,10 +1,10 @@
-//! Pictures of solids as pixels, for scenes with too many faces to be drawn as lines and areas.
+//! Pixel images of solids, for scenes with too many faces for SVG paths.
 //!
-//! | file | what it does |
+//! | file | content |
 //! | --- | --- |
-//! | `view` | from places to the paper: a parallel view |
-//! | `canvas` | pixels with a depth, triangles and lines on them |
-//! | `image` | PNG inside a page |
+//! | `view` | parallel projection of positions to the image |
+//! | `canvas` | pixel image with depth buffer for triangles and lines |
+//! | `image` | PNG images embedded in a page |
 
 mod canvas;
 mod image;

@@ -1,25 +1,25 @@
-//! A parallel view of a scene.
+//! Parallel projection of a scene.
 
 use glam::DVec3;
 
-/// Where the paper is: parallel rays fall on it along one direction.
+/// A parallel projection along one viewing direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     right: DVec3,
     up: DVec3,
-    /// Away from the viewer.
+    /// Viewing direction, away from the viewer.
     ahead: DVec3,
-    /// Middle of the picture [m].
+    /// Centre of the image [m].
     centre: DVec3,
-    /// Pixels of a metre [px/m].
+    /// Scale [px/m].
     pub scale: f64,
-    /// Width and height of the picture [px].
+    /// Width and height of the image [px].
     pub size: [f64; 2],
 }
 
 impl View {
-    /// The view along `ahead` (of any length) that shows all `places` [m] in a picture of a size [px], with a margin as a
-    /// share of it. The z axis points upwards on the paper; the y axis where the view is along z.
+    /// Creates a view along `ahead` (of any length) that shows all `places` [m] in an image of a size [px]; `margin` is
+    /// relative to that size. The z axis points upwards in the image, or the y axis if the view is along z.
     pub fn along(ahead: DVec3, places: impl IntoIterator<Item = DVec3>, size: [f64; 2], margin: f64) -> Self {
         let ahead = ahead.normalize_or(DVec3::Y);
         let upwards = if ahead.z.abs() > 0.999 { DVec3::Y } else { DVec3::Z };
@@ -37,7 +37,7 @@ impl View {
         Self { right, up, ahead, centre, scale, size }
     }
 
-    /// Where a place [m] is on the paper: across and down from the upper left corner [px], and away from the viewer [m].
+    /// Projects a position [m]: distance right of and below the upper left corner [px], depth away from the viewer [m].
     pub fn project(&self, place: DVec3) -> [f64; 3] {
         let from = place - self.centre;
         [
@@ -47,12 +47,12 @@ impl View {
         ]
     }
 
-    /// Whether a face with this normal looks at the viewer.
+    /// Returns whether a face with this normal faces the viewer.
     pub fn faces(&self, normal: DVec3) -> bool {
         normal.dot(self.ahead) < 0.0
     }
 
-    /// How bright a face with this normal (of any length) is, 0 to 1, in a light over the viewer's left shoulder.
+    /// Brightness of a face with this normal (of any length), 0 to 1. Light comes from over the viewer's left shoulder.
     pub fn light(&self, normal: DVec3) -> f64 {
         let towards = (self.up * 0.75 - self.right * 0.45 - self.ahead * 0.8).normalize();
         0.5 + 0.5 * normal.normalize_or_zero().dot(towards).max(0.0)

@@ -1,18 +1,18 @@
-//! The charts of the report.
+//! Charts of the report.
 
 use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
 use super::folder::RunFolder;
 use super::motion::{UnitMotion, mean_and_deviation};
 use crate::output::Table;
 
-/// A chart over the whole width [px].
+/// Size of a full-width chart [px].
 const WIDE: [f64; 2] = [920.0, 300.0];
-/// One of two charts side by side [px].
+/// Size of a chart that shares its row with another [px].
 const HALF: [f64; 2] = [452.0, 250.0];
-/// Units up to this number get a colour each; more are told apart by odd and even numbers.
+/// Up to this number, each unit has its own colour; otherwise odd and even units have one colour each.
 const COLOURED_UNITS: usize = 6;
 
-/// Displacement of each unit against the damage distance.
+/// Bar chart of the displacement of each unit, with damage distance and mean.
 pub fn displacements(run: &RunFolder) -> String {
     let summary = &run.summary;
     if summary.units.is_empty() {
@@ -23,12 +23,12 @@ pub fn displacements(run: &RunFolder) -> String {
     };
     let mut marks = Vec::new();
     if let Some(distance) = summary.damage_distance_m {
-        marks.push((distance, format!("damage {} m", short(distance, 3))));
+        marks.push((distance, format!("damage distance {} m", short(distance, 3))));
     }
     if let Some(mean) = summary.mean_displacement_m {
         marks.push((mean, format!("mean {} m", short(mean, 3))));
     }
-    let set = |name: &str, damaged: bool, colour: usize| Bars {
+    let bar_set = |name: &str, damaged: bool, colour: usize| Bars {
         name: name.to_owned(),
         values: heights(damaged),
         colour,
@@ -39,7 +39,7 @@ pub fn displacements(run: &RunFolder) -> String {
         x_label: "unit".to_owned(),
         y_label: "displacement [m]".to_owned(),
         groups: summary.units.iter().map(|u| u.unit.to_string()).collect(),
-        bars: vec![set("damaged", true, 1), set("not damaged", false, 0)],
+        bars: vec![bar_set("damaged", true, 1), bar_set("not damaged", false, 0)],
         stacked: true,
         marks,
         size: WIDE,
@@ -47,17 +47,17 @@ pub fn displacements(run: &RunFolder) -> String {
     .svg()
 }
 
-/// Way of each unit towards the shore against time.
+/// Shoreward displacement of each unit over time.
 pub fn paths(run: &RunFolder) -> String {
-    let way = |motion: &UnitMotion| -> Vec<[f64; 2]> {
+    let shoreward = |motion: &UnitMotion| -> Vec<[f64; 2]> {
         let start = motion.position_m.first().map_or(0.0, |p| p[0]);
         motion.time_s.iter().zip(&motion.position_m).map(|(t, p)| [*t, p[0] - start]).collect()
     };
-    let lines = unit_lines(&run.motions, way);
-    line_chart("Way of the units towards the shore", "way shoreward x \u{2212} x(0) [m]", lines, WIDE)
+    let lines = unit_lines(&run.motions, shoreward);
+    line_chart("Shoreward displacement of the units", "x \u{2212} x(0) [m]", lines, WIDE)
 }
 
-/// One line a unit: a colour each for a few, odd and even numbers for many.
+/// One line per unit. Few units have a colour each; of many, odd and even units share a colour.
 fn unit_lines(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 2]>) -> Vec<Line> {
     let few = motions.len() <= COLOURED_UNITS;
     let mut lines: Vec<Line> = Vec::new();
@@ -74,8 +74,8 @@ fn unit_lines(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 
     lines
 }
 
-/// Force of the water along and up, and force of bed and neighbours: mean over the units with the standard deviation
-/// as a band, and the single units where there are few.
+/// Charts of the horizontal and vertical force of the water and of the contact force: mean over the units. Few units
+/// are also shown individually; for many, a band shows the standard deviation.
 pub fn forces(run: &RunFolder) -> [String; 3] {
     let force = |title: &str, label: &str, colour: usize, histories: Vec<Vec<f64>>, size| {
         let Some(first) = run.motions.first() else { return String::new() };
@@ -89,17 +89,17 @@ pub fn forces(run: &RunFolder) -> [String; 3] {
                 faint: true,
                 ..Line::default()
             }));
-            lines[0].name = "single units".to_owned();
+            lines[0].name = "individual units".to_owned();
         }
-        let name = if histories.len() > 1 { "mean of the units" } else { "the unit" };
+        let name = if histories.len() > 1 { "mean of all units" } else { "unit" };
         let band = if histories.len() > COLOURED_UNITS { deviation } else { Vec::new() };
         lines.push(Line { name: name.to_owned(), points: with_time(&mean), colour, band, ..Line::default() });
         line_chart(title, label, lines, size)
     };
     let change = |component: usize| run.motions.iter().map(|m| m.fluid_change_n(component)).collect::<Vec<_>>();
     [
-        force("Force of the water along the flume", "\u{0394}Fx [N]", 0, change(0), HALF),
-        force("Force of the water upwards", "\u{0394}Fz [N]", 2, change(2), HALF),
+        force("Horizontal force of the water", "\u{0394}Fx [N]", 0, change(0), HALF),
+        force("Vertical force of the water", "\u{0394}Fz [N]", 2, change(2), HALF),
         force(
             "Contact force",
             "contact force [N]",
@@ -110,7 +110,7 @@ pub fn forces(run: &RunFolder) -> [String; 3] {
     ]
 }
 
-/// One chart for each elevation gauge, particles beside flume model, then one for each other quantity.
+/// One chart per elevation gauge with particles and flume model, then one per pressure or velocity gauge.
 pub fn gauges(run: &RunFolder) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
     for table in [&run.gauges, &run.flume_gauges].into_iter().flatten() {
@@ -120,7 +120,7 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
             }
         }
     }
-    let place = |gauge: &str| run.summary.gauges.iter().find(|g| g.name == gauge).map(|g| g.x_m);
+    let position = |gauge: &str| run.summary.gauges.iter().find(|g| g.name == gauge).map(|g| g.x_m);
     let mut charts: Vec<String> = Vec::new();
     for name in names {
         let gauge = name.trim_end_matches("_eta_m");
@@ -132,7 +132,7 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
             line
         }));
         lines.extend(particles);
-        let at = place(gauge).map_or(String::new(), |x| format!(" at x = {} m", short(x, 3)));
+        let at = position(gauge).map_or(String::new(), |x| format!(" at x = {} m", short(x, 3)));
         let chart = line_chart(&format!("{gauge}{at}"), "elevation \u{03b7} [m]", lines, HALF);
         charts.push(format!("<figure><figcaption>{}{at}</figcaption>{chart}</figure>", escape(gauge)));
     }
@@ -140,16 +140,16 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
     charts
 }
 
-/// The time over which the flume model is shown [s]: that of the particles and half as long before and after it; where
-/// there are no particles at the gauge, all that came before the end of the run.
+/// Time range for the flume model [s]: the range of the particles, extended by half its length on both sides. Without
+/// particles at the gauge, everything before the end of the run.
 fn shown_time(particles: Option<&Table>, at_gauge: bool) -> [f64; 2] {
     let times = particles.and_then(|table| table.get("time_s")).unwrap_or_default();
     let (Some(start), Some(end)) = (times.first(), times.last()) else { return [f64::MIN, f64::MAX] };
-    let beside = 0.5 * (end - start);
-    if at_gauge { [start - beside, end + beside] } else { [f64::MIN, *end] }
+    let extension = 0.5 * (end - start);
+    if at_gauge { [start - extension, end + extension] } else { [f64::MIN, *end] }
 }
 
-/// Pressure and velocity gauges.
+/// Charts of the pressure and velocity gauges.
 fn other_gauges(table: Option<&Table>) -> Vec<String> {
     let Some(table) = table else { return Vec::new() };
     let mut charts = Vec::new();
@@ -176,7 +176,7 @@ fn column_line(table: Option<&Table>, column: &str, name: &str, colour: usize, d
     Some(Line { name: name.to_owned(), points, colour, dashed, ..Line::default() })
 }
 
-/// Every energy column against time, less its first value.
+/// Chart of every energy column over time, minus its first value.
 pub fn energy(run: &RunFolder) -> String {
     let Some(table) = &run.energy else { return String::new() };
     let lines: Vec<Line> = (table.names().iter().filter(|n| n.ends_with("_j")).enumerate())
@@ -188,7 +188,7 @@ pub fn energy(run: &RunFolder) -> String {
             Some(line)
         })
         .collect();
-    line_chart("Change of energy", "change of energy [J]", lines, WIDE)
+    line_chart("Change in energy", "change in energy [J]", lines, WIDE)
 }
 
 fn line_chart(title: &str, y_label: &str, lines: Vec<Line>, size: [f64; 2]) -> String {

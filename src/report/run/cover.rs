@@ -1,8 +1,8 @@
-//! What is covered on paper already, so that faces behind it can be left out.
+//! Coverage map of a drawing: faces behind covered areas can be left out.
 
 use super::window::{WIDTH, Window};
 
-/// Size of a cell [px]: a fraction of the finest detail that is drawn.
+/// Size of a cell [px]: a fraction of the finest visible detail.
 const CELL: f64 = 0.5;
 
 /// Cells of a drawing, covered or free.
@@ -13,18 +13,18 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// Nothing covered yet.
+    /// Creates an empty map.
     pub fn new(window: &Window) -> Self {
         let [columns, rows] = [WIDTH, window.height()].map(|length| (length / CELL).ceil() as usize);
         Self { columns, rows, covered: vec![false; columns * rows] }
     }
 
-    /// Whether all of a triangle [px] is covered; one too thin to be seen counts as covered.
+    /// Returns whether a triangle [px] is fully covered. A triangle too thin to be visible counts as covered.
     pub fn hides(&self, triangle: [[f64; 2]; 3]) -> bool {
         self.cells(triangle).all(|cell| self.covered[cell])
     }
 
-    /// Covers the triangles.
+    /// Marks the triangles as covered.
     pub fn add(&mut self, triangles: impl IntoIterator<Item = [[f64; 2]; 3]>) {
         for triangle in triangles {
             let cells: Vec<usize> = self.cells(triangle).collect();
@@ -32,7 +32,7 @@ impl Cover {
         }
     }
 
-    /// Cells on the paper whose middle is in the triangle.
+    /// Cells of the drawing whose centre is in the triangle.
     fn cells(&self, triangle: [[f64; 2]; 3]) -> impl Iterator<Item = usize> {
         let corners = triangle.map(|corner| corner.map(|c| c / CELL - 0.5));
         let span = |axis: usize, end: usize| {
@@ -43,14 +43,14 @@ impl Cover {
         let columns = self.columns;
         let columns_touched = span(0, self.columns);
         span(1, self.rows).flat_map(move |row| {
-            let inside = move |column: &usize| holds(corners, [*column as f64, row as f64]);
+            let inside = move |column: &usize| contains(corners, [*column as f64, row as f64]);
             columns_touched.clone().filter(inside).map(move |column| row * columns + column)
         })
     }
 }
 
-/// Whether a point is in a triangle of either sense of rotation.
-fn holds([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> bool {
+/// Returns whether a point is in a triangle of either orientation.
+fn contains([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> bool {
     let side =
         |from: [f64; 2], to: [f64; 2]| (to[0] - from[0]) * (p[1] - from[1]) - (to[1] - from[1]) * (p[0] - from[0]);
     let sides = [side(a, b), side(b, c), side(c, a)];
@@ -62,15 +62,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_behind_is_hidden_and_what_looks_out_is_not() {
+    fn triangles_behind_are_hidden_and_protruding_ones_are_not() {
         let mut cover = Cover::new(&Window::new([0.0, 1.0], [0.0, 0.3]));
         let front = [[100.0, 100.0], [200.0, 100.0], [100.0, 200.0]];
         let behind = [[110.0, 110.0], [130.0, 110.0], [110.0, 130.0]];
-        let beside = [[190.0, 105.0], [230.0, 105.0], [190.0, 140.0]];
+        let protruding = [[190.0, 105.0], [230.0, 105.0], [190.0, 140.0]];
         assert!(!cover.hides(behind));
         cover.add([front]);
-        assert!(cover.hides(front) && cover.hides(behind) && !cover.hides(beside));
-        // Off the paper there is nothing to see.
+        assert!(cover.hides(front) && cover.hides(behind) && !cover.hides(protruding));
+        // Outside the drawing everything counts as covered.
         assert!(cover.hides([[-50.0, 10.0], [-10.0, 10.0], [-10.0, 40.0]]));
     }
 }

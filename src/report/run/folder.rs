@@ -1,4 +1,4 @@
-//! What the report reads from a run folder.
+//! Data that the report reads from a run folder.
 
 use std::path::{Path, PathBuf};
 
@@ -6,39 +6,39 @@ use super::motion::{UnitMotion, motions};
 use crate::output::{OutputError, Summary, Table, UnitSurface};
 use crate::simulation::breakage::results::Breakage;
 
-/// The contents of a run folder; what a run does not write is absent.
+/// The contents of a run folder. Data that the run did not write is empty or `None`.
 #[derive(Debug)]
 pub struct RunFolder {
     /// The folder.
     pub dir: PathBuf,
     /// `summary.json`.
     pub summary: Summary,
-    /// Bed with mound as corner points [x, z] [m].
+    /// Bed profile with the mound, as corner points [x, z] [m].
     pub profile: Vec<[f64; 2]>,
-    /// Water at the gauges, by the particles.
+    /// Gauge series of the particles.
     pub gauges: Option<Table>,
-    /// Water at the elevation gauges, by the flume model.
+    /// Elevation gauge series of the flume model.
     pub flume_gauges: Option<Table>,
     /// Motion and forces of each unit.
     pub motions: Vec<UnitMotion>,
-    /// Energy.
+    /// Energy balance.
     pub energy: Option<Table>,
     /// Surface of a unit about its centre of mass.
     pub surface: Option<UnitSurface>,
-    /// What came of the impacts that were handed over.
+    /// Results of the breakage analysis.
     pub breakage: Option<Breakage>,
 }
 
 impl RunFolder {
-    /// The particles of the water.
+    /// Name of the file with the water particles.
     pub const WATER: &str = "fluid.vtkhdf";
-    /// One moment of the run as a picture of its own.
+    /// Name of the picture of one moment of the run.
     pub const PICTURE: &str = "picture.svg";
 
-    /// Reads a run folder; only `summary.json` must be there.
+    /// Reads a run folder. Only `summary.json` is required.
     ///
     /// # Errors
-    /// If the summary is missing, or a file that is there cannot be understood.
+    /// If the summary is missing, or an existing file is invalid.
     pub fn read(run_dir: &Path) -> Result<Self, OutputError> {
         let summary = Summary::read(run_dir)?;
         let table = |name: &str| Table::read_if_present(&run_dir.join(name));
@@ -61,7 +61,7 @@ impl RunFolder {
         })
     }
 
-    /// Whether the folder holds a file of this name.
+    /// Returns whether the folder contains a file with this name.
     pub fn has(&self, file: &str) -> bool {
         self.dir.join(file).exists()
     }

@@ -1,7 +1,7 @@
-//! The report of a run: one page that can be printed, mailed and signed.
+//! Report of a run.
 //!
-//! Everything is in the one file `report.html`: style sheet and charts are inline, there are no scripts. Beside it lies
-//! `picture.svg`, one moment of the run as a picture of its own.
+//! `report.html` is self-contained: style sheet and charts are inline, and there are no scripts. `picture.svg` shows
+//! one moment of the run as a separate picture.
 
 mod breakage;
 mod charts;
@@ -23,11 +23,11 @@ use crate::report::page::page;
 use folder::RunFolder;
 use moments::Moments;
 
-/// Writes `report.html` into the run folder from the files that are there; only `summary.json` must be. Where the water
-/// of a moment is there, `picture.svg` too.
+/// Writes `report.html` into the run folder, and `picture.svg` if the folder holds particle data of the water.
+/// Only `summary.json` is required; sections whose files are missing are left out.
 ///
 /// # Errors
-/// If the summary is missing, a file cannot be understood, or the report cannot be written.
+/// If the summary is missing, a file is invalid, or the report cannot be written.
 pub fn write_report(run_dir: &Path) -> Result<PathBuf, OutputError> {
     let run = RunFolder::read(run_dir)?;
     let moments = Moments::read(&run)?;

@@ -1,4 +1,4 @@
-//! The wave at the units: water and units from the side at a few moments, and one of them as a picture of its own.
+//! Side views of water and units at a few moments, and one of them as a separate picture.
 
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
@@ -9,41 +9,41 @@ use super::water::{Dot, Slab, SpeedScale};
 use super::window::{Window, label, svg};
 use crate::output::{OutputError, WaterSnapshots};
 
-/// Water shown on either side of the mound [m].
+/// Length of water shown on each side of the mound [m].
 const BESIDE_MOUND_M: f64 = 0.5;
-/// A corner of the bed this near to the units belongs to their mound [m].
+/// A corner of the bed profile within this distance of the units belongs to their mound [m].
 const MOUND_REACH_M: f64 = 1.5;
-/// Where the units are fastest while the force is largest, the moment this much later is shown instead [s].
+/// If the units are fastest when the force peaks, the moment this much later is shown instead [s].
 const LATER_S: f64 = 0.5;
-/// Share of the dots that must be under the upper edge; the rest is spray.
+/// Share of the dots that must lie below the upper edge; the rest is spray [-].
 const UNDER_EDGE: f64 = 0.999;
-/// Room that the name of the wavemaker needs [px].
+/// Space for the label of the wavemaker [px].
 const WAVEMAKER_ROOM: f64 = 100.0;
-/// Room about the drawing in the picture, and height of its heading and of its legend [px].
+/// Margin around the drawing in the picture, and heights of its heading and legend [px].
 const MARGIN: f64 = 40.0;
 const HEADING: f64 = 74.0;
 const LEGEND: f64 = 60.0;
-/// Size of the picture's title, and width of its letters as a share of it: a long title is written smaller [px].
+/// Font size of the picture's title [px], and width of a letter relative to it. A long title gets a smaller font.
 const TITLE_SIZE: f64 = 19.0;
 const LETTER: f64 = 0.58;
 
-/// The snapshots reach the wavemaker if their water begins this near to it at the start, in particle distances; else
-/// they hold a box of the water.
+/// The snapshots include the wavemaker if their water starts within this distance of it, in particle spacings.
+/// Otherwise they hold only a box of the water.
 const AT_WAVEMAKER: f64 = 2.0;
 
 /// One moment of the run.
 struct Moment {
     time_s: f64,
     words: String,
-    /// Whether the picture shows it.
+    /// Whether `picture.svg` shows this moment.
     pictured: bool,
     dots: Vec<Dot>,
-    /// Where the wavemaker is if there is one: at the seaward end of the water [m].
+    /// Position of the wavemaker, if it is shown: the seaward end of the water [m].
     wavemaker_x: Option<f64>,
     poses: Poses,
 }
 
-/// The moments of a run, and how they are drawn.
+/// The moments of a run and the settings for drawing them.
 pub struct Moments<'a> {
     run: &'a RunFolder,
     scene: Scene<'a>,
@@ -53,17 +53,17 @@ pub struct Moments<'a> {
 }
 
 impl<'a> Moments<'a> {
-    /// Reads the moments of a run from the particles of its water; none if there are none, or none with velocities.
+    /// Reads the moments of a run from its water particles; `None` without particles or without their velocities.
     ///
     /// # Errors
-    /// If the file of the water cannot be read.
+    /// If the file with the water particles cannot be read.
     pub fn read(run: &'a RunFolder) -> Result<Option<Self>, OutputError> {
         if !run.has(RunFolder::WATER) || run.summary.dp_m <= 0.0 {
             return Ok(None);
         }
         let Some(water) = WaterSnapshots::open(&run.dir.join(RunFolder::WATER))? else { return Ok(None) };
         let slab = Slab::in_the_middle(run.summary.domain_width_m, run.summary.dp_m);
-        let x = along(run);
+        let x = shown_x(run);
         let mut moments = Vec::new();
         let mut shows_wavemaker = run.summary.wave.is_some();
         for Choice { step, words, pictured } in choices(run, &water) {
@@ -83,28 +83,28 @@ impl<'a> Moments<'a> {
             return Ok(None);
         }
         let scale = SpeedScale::holding(moments.iter().map(|moment| moment.dots.as_slice()));
-        let scene = Scene::new(run, Window::new(x, heights(run, x, &moments)), Eye::Side);
+        let scene = Scene::new(run, Window::new(x, shown_z(run, x, &moments)), Eye::Side);
         Ok(Some(Self { run, scene, slab, scale, moments }))
     }
 
-    /// The section's heading.
+    /// Heading of the section.
     pub fn heading(&self) -> &'static str {
         if self.run.motions.is_empty() { "The wave in the flume" } else { "The wave at the units" }
     }
 
-    /// What the section shows.
+    /// Content of the section.
     pub fn section(&self) -> String {
         let mut html = format!(
-            "<p>Side views, one scale for both directions. The dots are the water particles less than {} mm from y = {} m, \
-             coloured by their speed, in the darkest colour also above the scale{} Times are flume times, 0 when the paddle starts.</p>\n<figure>{}</figure>\n",
+            "<p>Side views at equal horizontal and vertical scale. Dots are water particles less than {} mm from y = {} m, \
+             coloured by speed; the darkest colour includes all faster particles{} Flume time 0 is the start of the wavemaker.</p>\n<figure>{}</figure>\n",
             short(1000.0 * self.slab.half(), 1),
             short(self.slab.y, 4),
             if self.run.motions.is_empty() {
                 "."
             } else {
-                "; the units are drawn whole, also before and behind these."
+                ". All units are shown, including those in front of and behind this slice."
             },
-            svg("Colours of the speed of the water", 48.0, &self.scale.legend([58.0, 0.0], 340.0))
+            svg("Colour scale of the water speed", 48.0, &self.scale.legend([58.0, 0.0], 340.0))
         );
         for (number, moment) in self.moments.iter().enumerate() {
             let title = format!("{} s: {}", short(moment.time_s, 2), moment.words);
@@ -116,7 +116,7 @@ impl<'a> Moments<'a> {
         html
     }
 
-    /// One moment as a picture of its own, with its background and its fonts.
+    /// Returns the chosen moment as a self-contained SVG, with background and fonts.
     pub fn picture(&self) -> Option<String> {
         let moment = self.moments.iter().find(|moment| moment.pictured)?;
         let (width, drawing_height) = (super::window::WIDTH + 2.0 * MARGIN, self.scene.window.height());
@@ -138,7 +138,7 @@ impl<'a> Moments<'a> {
         ))
     }
 
-    /// The name of the wavemaker where it has come into the window with room for it.
+    /// Label of the wavemaker, if the wavemaker is in the window and the label fits.
     fn wavemaker(&self, moment: &Moment) -> String {
         let Some(x) = moment.wavemaker_x else { return String::new() };
         let [left, _, _, _] = self.scene.window.edges();
@@ -158,17 +158,17 @@ impl<'a> Moments<'a> {
     }
 }
 
-/// A moment worth showing.
+/// A moment chosen for the report.
 struct Choice {
     step: usize,
     words: String,
     pictured: bool,
 }
 
-/// The moments in the order of time; without units, four at equal distances.
+/// Chooses the moments, in order of time. Without units there are four, equally spaced.
 fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
     let Some(last) = water.times_s().len().checked_sub(1) else { return Vec::new() };
-    let mut choices = vec![Choice { step: 0, words: "The start of the particles".to_owned(), pictured: false }];
+    let mut choices = vec![Choice { step: 0, words: "Start of the particle simulation".to_owned(), pictured: false }];
     let mut add = |step: usize, words: String, pictured: bool| {
         let new = choices.iter().all(|choice| choice.step != step);
         if new {
@@ -178,31 +178,31 @@ fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
     };
     let force = largest_mean(run, |motion| motion.fluid_change_n(0));
     if let Some((force_s, force_n)) = force {
-        let towards = if force_n < 0.0 { "sea" } else { "shore" };
+        let towards = if force_n < 0.0 { "seaward" } else { "shoreward" };
         let at = short(force_s, 2);
         let words = format!(
-            "Near the largest mean force of the water along the flume, {} N on a unit towards the {towards} at {at} s",
+            "Near the peak of the mean horizontal force of the water, {} N per unit {towards} at {at} s",
             short(force_n.abs(), 2)
         );
         add(water.nearest(force_s).unwrap_or(0), words, true);
         let fastest = largest_mean(run, UnitMotion::speed_m_s).is_some_and(|(fastest_s, speed)| {
             let words = format!(
-                "Near the moment at which the units move fastest, {} m/s on average at {} s",
+                "Near the peak of the mean speed of the units, {} m/s at {} s",
                 short(speed, 2),
                 short(fastest_s, 2)
             );
             add(water.nearest(fastest_s).unwrap_or(0), words, false)
         });
         if !fastest {
-            let words = format!("{} s after the largest mean force", short(LATER_S, 1));
+            let words = format!("{} s after the peak of the mean force", short(LATER_S, 1));
             add(water.nearest(force_s + LATER_S).unwrap_or(0), words, false);
         }
     } else {
         for third in 1..3 {
-            add(last * third / 3, "On the way".to_owned(), false);
+            add(last * third / 3, "During the run".to_owned(), false);
         }
     }
-    add(last, "The end of the run".to_owned(), false);
+    add(last, "End of the run".to_owned(), false);
     choices.sort_by_key(|choice| choice.step);
     if let Some(end) = choices.last_mut().filter(|_| force.is_none()) {
         end.pictured = true;
@@ -210,7 +210,7 @@ fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
     choices
 }
 
-/// Time and value where the mean over the units is furthest from zero; none where it is zero throughout.
+/// Time and value at which the mean over the units is furthest from zero; `None` if it is always zero.
 fn largest_mean(run: &RunFolder, history: impl Fn(&UnitMotion) -> Vec<f64>) -> Option<(f64, f64)> {
     let (mean, _) = mean_and_deviation(&run.motions.iter().map(history).collect::<Vec<_>>());
     let times = &run.motions.first()?.time_s;
@@ -218,8 +218,8 @@ fn largest_mean(run: &RunFolder, history: impl Fn(&UnitMotion) -> Vec<f64>) -> O
     known.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
 }
 
-/// The part of the flume that is shown [m]: the mound with water beside it, and all of the units' paths.
-fn along(run: &RunFolder) -> [f64; 2] {
+/// Range of x that is shown [m]: the mound with some water on each side, and the paths of all units.
+fn shown_x(run: &RunFolder) -> [f64; 2] {
     let radius = unit_radius(run);
     let [begin, end] = run.summary.domain_x_m;
     let units = range(run.motions.iter().flat_map(|m| m.position_m.iter().map(|p| p[0])));
@@ -232,8 +232,8 @@ fn along(run: &RunFolder) -> [f64; 2] {
     if end > begin { [low.max(begin), high.min(end)] } else { [low, high] }
 }
 
-/// From below the bed to above water and units [m].
-fn heights(run: &RunFolder, x: [f64; 2], moments: &[Moment]) -> [f64; 2] {
+/// Range of z that is shown [m]: from below the bed to above water and units.
+fn shown_z(run: &RunFolder, x: [f64; 2], moments: &[Moment]) -> [f64; 2] {
     let radius = unit_radius(run);
     let highest = |moment: &Moment| {
         let mut heights: Vec<f64> = moment.dots.iter().map(|dot| dot.z).collect();

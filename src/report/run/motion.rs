@@ -1,8 +1,8 @@
-//! The history of each unit, out of the rows of `units.csv`.
+//! Motion and forces of each unit over time, from `units.csv`.
 
 use crate::output::{OutputError, Table};
 
-/// Time over which the force at the start is averaged, before the wave arrives [s].
+/// Averaging time of the initial force, before the wave arrives [s].
 const START_S: f64 = 0.2;
 
 /// Motion and forces of one unit.
@@ -18,14 +18,14 @@ pub struct UnitMotion {
     pub orientation: Vec<[f64; 4]>,
     /// Velocity of the centre of mass [m/s].
     pub velocity_m_s: Vec<[f64; 3]>,
-    /// Force of the water [N]; not a number where the run had not found it yet.
+    /// Force of the water [N]; NaN where it was not computed yet.
     pub fluid_n: Vec<[f64; 3]>,
-    /// Force of bed and neighbours [N].
+    /// Force of bed and neighbouring units [N].
     pub contact_n: Vec<[f64; 3]>,
 }
 
 impl UnitMotion {
-    /// Force of the water less its mean over the first 0.2 s, component 0 to 2 [N].
+    /// Component 0 to 2 of the force of the water, minus its mean over the first 0.2 s [N].
     pub fn fluid_change_n(&self, component: usize) -> Vec<f64> {
         let first = self.time_s.first().copied().unwrap_or(0.0);
         let at_start: Vec<f64> = (self.time_s.iter().zip(&self.fluid_n))
@@ -33,27 +33,27 @@ impl UnitMotion {
             .map(|(_, force)| force[component])
             .filter(|force| force.is_finite())
             .collect();
-        let mean = at_start.iter().sum::<f64>() / at_start.len().max(1) as f64;
-        self.fluid_n.iter().map(|force| force[component] - mean).collect()
+        let initial_mean = at_start.iter().sum::<f64>() / at_start.len().max(1) as f64;
+        self.fluid_n.iter().map(|force| force[component] - initial_mean).collect()
     }
 
-    /// Size of the force of bed and neighbours [N].
+    /// Magnitude of the force of bed and neighbouring units [N].
     pub fn contact_size_n(&self) -> Vec<f64> {
-        self.contact_n.iter().map(size).collect()
+        self.contact_n.iter().map(magnitude).collect()
     }
 
     /// Speed of the centre of mass [m/s].
     pub fn speed_m_s(&self) -> Vec<f64> {
-        self.velocity_m_s.iter().map(size).collect()
+        self.velocity_m_s.iter().map(magnitude).collect()
     }
 
-    /// Position and orientation at the moment nearest to a time.
+    /// Position and orientation at the recorded moment nearest to a time.
     pub fn at(&self, time_s: f64) -> Option<Pose> {
         let distance = |i: &usize| (self.time_s[*i] - time_s).abs();
         (0..self.time_s.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|i| self.pose(i))
     }
 
-    /// Position and orientation at the first and at the last moment.
+    /// Position and orientation at the first and the last moment.
     pub fn ends(&self) -> Option<[Pose; 2]> {
         let last = self.time_s.len().checked_sub(1)?;
         Some([0, last].map(|i| self.pose(i)))
@@ -64,11 +64,11 @@ impl UnitMotion {
     }
 }
 
-fn size(v: &[f64; 3]) -> f64 {
+fn magnitude(v: &[f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// Place and orientation of a unit.
+/// Position and orientation of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// Centre of mass [m].
@@ -78,7 +78,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// A point of the body axes in the axes of the flume [m].
+    /// Transforms a point from body axes to flume axes [m].
     pub fn place(&self, body: [f64; 3]) -> [f64; 3] {
         let [x, y, z, w] = self.orientation;
         let q = [x, y, z];
@@ -92,7 +92,7 @@ impl Pose {
     }
 }
 
-/// Sorts the rows of `units.csv` by unit.
+/// Groups the rows of `units.csv` by unit.
 ///
 /// # Errors
 /// If a column is missing.
@@ -117,7 +117,7 @@ pub fn motions(units: &Table) -> Result<Vec<UnitMotion>, OutputError> {
         motion.orientation.push(orientation.map(|c| c[row]));
         motion.velocity_m_s.push(velocity.map(|c| c[row]));
         let force = fluid.map(|c| c[row]);
-        // The first row may be written before the first step, which finds the forces.
+        // The first row may be written before the first time step computes the forces.
         let unknown = motion.fluid_n.is_empty() && force == [0.0; 3];
         motion.fluid_n.push(if unknown { [f64::NAN; 3] } else { force });
         motion.contact_n.push(contact.map(|c| c[row]));
@@ -126,7 +126,7 @@ pub fn motions(units: &Table) -> Result<Vec<UnitMotion>, OutputError> {
     Ok(motions)
 }
 
-/// Mean and standard deviation over the units at each moment; the moments are those of the first unit.
+/// Mean and standard deviation over the units at each moment.
 pub fn mean_and_deviation(histories: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
     let length = histories.iter().map(Vec::len).min().unwrap_or(0);
     let count = histories.len().max(1) as f64;
@@ -147,7 +147,7 @@ mod tests {
     use crate::output::columns;
 
     #[test]
-    fn a_quarter_turn_about_the_vertical_brings_x_to_y() {
+    fn a_quarter_turn_about_the_vertical_maps_x_to_y() {
         let half = std::f64::consts::FRAC_PI_4;
         let pose = Pose { position_m: [39.0, 0.0, 1.0], orientation: [0.0, 0.0, half.sin(), half.cos()] };
         let placed = pose.place([0.1, 0.0, 0.02]);
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_force_that_was_not_found_yet_is_not_zero() {
+    fn a_force_not_yet_computed_is_nan() {
         let row = |time: f64, force: f64| {
             let mut row = vec![0.0; columns::UNITS.len()];
             (row[0], row[1], row[15]) = (time, 1.0, force);
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn the_force_at_the_start_is_taken_off() {
+    fn the_initial_mean_force_is_subtracted() {
         let motion = UnitMotion {
             time_s: vec![0.0, 0.1, 0.2, 1.0],
             fluid_n: vec![[f64::NAN; 3], [1.0, 0.0, 2.0], [3.0, 0.0, 2.0], [7.0, 0.0, 2.0]],

@@ -1,4 +1,4 @@
-//! What every drawing of the flume shows: bed, still water level, and the units where they are.
+//! Elements of every drawing of the flume: bed, still water level and units.
 
 use super::cover::Cover;
 use super::folder::RunFolder;
@@ -7,42 +7,42 @@ use super::solids::{Eye, coarsened, reach, shaded, silhouette};
 use super::window::{Window, label, path_point};
 use crate::output::UnitSurface;
 
-/// Far enough outside the window not to be seen [px].
+/// Distance beyond the window at which outlines are no longer visible [px].
 const OUTSIDE: f64 = 5.0;
 
-/// Units by their numbers, where they are.
+/// Unit numbers with their poses.
 pub type Poses = Vec<(u32, Pose)>;
 
-/// The flume with its units, seen through a window from one direction.
+/// The flume with its units, in one window and one viewing direction.
 pub struct Scene<'a> {
     run: &'a RunFolder,
-    /// The window.
+    /// Part of the flume that is drawn.
     pub window: Window,
     eye: Eye,
     surface: Option<UnitSurface>,
 }
 
 impl<'a> Scene<'a> {
-    /// The scene behind a window.
+    /// Creates the scene for a window.
     pub fn new(run: &'a RunFolder, window: Window, eye: Eye) -> Self {
         let surface = run.surface.as_ref().map(|surface| coarsened(surface, window.scale));
         Self { run, window, eye, surface }
     }
 
-    /// A white ground in light and dark pages alike, for colours that need one.
+    /// Draws a white background, also on dark pages, for colours that need it.
     pub fn sky(&self) -> String {
         let [left, top, right, bottom] = self.window.edges();
         format!("<path class=\"sky\" d=\"M{left:.1} {top:.1}H{right:.1}V{bottom:.1}H{left:.1}Z\"/>\n")
     }
 
-    /// Bed, mound and obstacles seen from the side, the bed filled down to the lower edge.
+    /// Draws bed, mound and obstacles in side view; the bed is filled down to the lower edge.
     pub fn bed(&self) -> String {
         let bottom = self.window.edges()[3];
         let bed: Vec<[f64; 2]> =
             bed_in(self.run, self.window.x).iter().map(|point| self.window.at(point[0], point[1])).collect();
         let (Some([x0, y0]), Some([x1, y1])) = (bed.first(), bed.last()) else { return String::new() };
         let line = bed.iter().map(|point| path_point(*point)).collect::<Vec<_>>().join("L");
-        // The ends are drawn beyond the window, which cuts off their outline.
+        // The ends extend beyond the window, so that their outline is clipped.
         let (left, right, bottom) = (x0 - OUTSIDE, x1 + OUTSIDE, bottom + OUTSIDE);
         self.obstacles()
             + &format!(
@@ -50,7 +50,7 @@ impl<'a> Scene<'a> {
             )
     }
 
-    /// The fixed obstacles as rectangles.
+    /// Draws the fixed obstacles as rectangles.
     fn obstacles(&self) -> String {
         let rectangle = |[low, high]: &[[f64; 3]; 2]| {
             let [[x0, up0, _], [x1, up1, _]] = [low, high].map(|corner| self.eye.project(*corner));
@@ -60,14 +60,14 @@ impl<'a> Scene<'a> {
         self.run.summary.obstacles_m.iter().map(rectangle).collect()
     }
 
-    /// The still water, filled down to the lower edge.
+    /// Draws the still water, filled down to the lower edge.
     pub fn still_water(&self) -> String {
         let [left, _, right, bottom] = self.window.edges();
         let surface = self.window.at(0.0, self.run.summary.still_water_level_m)[1];
         format!("<path class=\"water\" d=\"M{left:.1} {surface:.1}H{right:.1}V{bottom:.1}H{left:.1}Z\"/>\n")
     }
 
-    /// The line of the still water with its name.
+    /// Draws the line of the still water level with its label.
     pub fn still_level(&self) -> String {
         let [left, _, right, _] = self.window.edges();
         let surface = self.window.at(0.0, self.run.summary.still_water_level_m)[1];
@@ -76,7 +76,7 @@ impl<'a> Scene<'a> {
             + "\n"
     }
 
-    /// Units, those further from the eye first; the damaged ones in their colour if `judged`.
+    /// Draws the units, distant units first. If `judged`, damaged units have a different colour.
     pub fn units(&self, poses: &[(u32, Pose)], judged: bool) -> String {
         let damaged = |unit: u32| judged && self.run.summary.units.iter().any(|u| u.unit == unit && u.damaged);
         let mut order: Vec<&(u32, Pose)> = poses.iter().collect();
@@ -91,18 +91,18 @@ impl<'a> Scene<'a> {
             };
             format!("<g class=\"{class}\"><title>unit {unit}</title>{shape}</g>\n")
         });
-        // Found from front to back, painted from back to front.
+        // Computed from front to back, painted from back to front.
         units.collect::<Vec<_>>().into_iter().rev().collect()
     }
 
-    /// The silhouette of a unit as a pale fill with a rim.
+    /// Draws the silhouette of a unit as a pale area with an outline.
     pub fn outline(&self, pose: Pose) -> String {
         let Some(surface) = &self.surface else { return format!("<g class=\"ghost\">{}</g>", self.disc(pose)) };
         let data = silhouette(surface, pose, &self.window, self.eye);
         format!("<path class=\"ghost\" d=\"{data}\"/>\n")
     }
 
-    /// A unit whose shape is not known.
+    /// Draws a unit of unknown shape as a disc.
     fn disc(&self, pose: Pose) -> String {
         let [x, up, _] = self.eye.project(pose.position_m);
         let ([cx, cy], r) = (self.window.at(x, up), unit_radius(self.run) * self.window.scale);
@@ -110,13 +110,13 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Half the size of a unit [m], for margins and for units without a surface.
+/// Half the size of a unit [m], for margins and for units of unknown shape.
 pub fn unit_radius(run: &RunFolder) -> f64 {
     let surface = run.surface.as_ref().map_or(0.0, reach);
     if surface > 0.0 { surface } else { 0.5 * run.summary.damage_distance_m.unwrap_or(0.1) }
 }
 
-/// The bed between two places as corner points, ends included [m]; empty where it is not known.
+/// Corner points of the bed between two positions, ends included [m]; empty where the bed is unknown.
 pub fn bed_in(run: &RunFolder, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let end = |x: f64| bed_z(run, x).map(|z| [x, z]);
     let corners = run.profile.iter().copied().filter(|p| from < p[0] && p[0] < to);
@@ -126,11 +126,11 @@ pub fn bed_in(run: &RunFolder, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
 fn bed_z(run: &RunFolder, x: f64) -> Option<f64> {
     let piece = run.profile.windows(2).find(|w| w[0][0] <= x && x <= w[1][0])?;
     let ([x0, z0], [x1, z1]) = (piece[0], piece[1]);
-    // A wall has two corners at one place.
+    // A vertical wall has two corners at the same x.
     Some(if x1 > x0 { z0 + (z1 - z0) * (x - x0) / (x1 - x0) } else { z1 })
 }
 
-/// The range that holds all values; none without values.
+/// Smallest and largest value; `None` without values.
 pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     values.into_iter().fold(None, |range, v| Some(range.map_or([v, v], |[a, b]: [f64; 2]| [a.min(v), b.max(v)])))
 }

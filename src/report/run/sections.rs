@@ -1,15 +1,15 @@
-//! The words and tables of the report, section by section.
+//! Text and tables of the report, section by section.
 
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use super::moments::Moments;
 use super::{breakage, charts, views};
 use crate::{
-    output::{Summary, UnitSummary},
+    output::{Summary, UnitSummary, WaveSummary},
     report::page::{clock, grouped, section},
 };
 
-/// What stands between `<main>` and `</main>`.
+/// Returns the content of the `<main>` element.
 pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     let mut html = header(&run.summary);
     html += &key_figures(&run.summary);
@@ -18,7 +18,7 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     html += &displacement(run);
     html += &water(run);
     html += &forces(run);
-    html += &section("Which units break", &breakage::breakage(run));
+    html += &section("Breakage of the units", &breakage::breakage(run));
     html += &energy(run);
     html += &warnings(&run.summary);
     html += &assumptions(&run.summary);
@@ -29,24 +29,35 @@ pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
 fn header(summary: &Summary) -> String {
     let mut parts = Vec::new();
     parts.push(match &summary.wave {
-        Some(wave) => format!("{} wave, H = {} cm offshore", capitalised(&wave.kind), short(100.0 * wave.height_m, 2)),
-        None => "No wave from the wavemaker".to_owned(),
+        Some(wave) => wave_in_words(wave),
+        None => "No wave height given".to_owned(),
     });
     match summary.units.len() {
         0 => parts.push("no armour units".to_owned()),
         1 => parts.push("one armour unit".to_owned()),
-        n => parts.push(format!("{n} armour units in one row")),
+        n => parts.push(format!("{n} armour units")),
     }
     parts.push(match summary.two_dimensional {
         true => "two-dimensional".to_owned(),
-        false => format!("{} m of flume width", short(summary.domain_width_m, 3)),
+        false => format!("domain {} m wide", short(summary.domain_width_m, 3)),
     });
     format!("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape(&summary.title), escape(&parts.join(" \u{b7} ")))
 }
 
-/// Width and sides of the domain.
-fn across(summary: &Summary) -> String {
-    let sides = if summary.side_walls { "between side walls" } else { "periodic across the flume" };
+fn wave_in_words(wave: &WaveSummary) -> String {
+    let noun = if wave.kind == "solitary" { "wave" } else { "waves" };
+    let (kind, height) = (capitalised(&wave.kind), short(100.0 * wave.height_m, 2));
+    format!("{kind} {noun}, {} = {height} cm at the wavemaker", height_symbol(wave))
+}
+
+/// Symbol of the wave height: the summary holds the significant height of irregular waves.
+fn height_symbol(wave: &WaveSummary) -> &'static str {
+    if wave.kind == "irregular" { "H_s" } else { "H" }
+}
+
+/// Width and side boundaries of the domain.
+fn width_and_sides(summary: &Summary) -> String {
+    let sides = if summary.side_walls { "with side walls" } else { "periodic across the flume" };
     match summary.two_dimensional {
         true => "two-dimensional".to_owned(),
         false => format!("{} m wide, {sides}", short(summary.domain_width_m, 3)),
@@ -69,18 +80,18 @@ fn key_figures(summary: &Summary) -> String {
         }
         let force = summary.units.iter().max_by(|a, b| a.peak_fluid_force_n.total_cmp(&b.peak_fluid_force_n));
         if let Some(unit) = force {
-            let weightless = "beyond the mean force of the still water".to_owned();
-            keys.push(("Largest force of the water", format!("{} N", short(unit.peak_fluid_force_n, 2)), weightless));
+            let note = "minus the mean force of still water".to_owned();
+            keys.push(("Peak force of the water", format!("{} N", short(unit.peak_fluid_force_n, 2)), note));
         }
     } else {
-        let crest = |of: fn(&crate::output::GaugeSummary) -> Option<f64>| {
-            summary.gauges.iter().filter_map(|g| Some((of(g)?, g.name.clone()))).max_by(|a, b| a.0.total_cmp(&b.0))
+        let highest = |crest: fn(&crate::output::GaugeSummary) -> Option<f64>| {
+            summary.gauges.iter().filter_map(|g| Some((crest(g)?, g.name.clone()))).max_by(|a, b| a.0.total_cmp(&b.0))
         };
-        if let Some((crest, name)) = crest(|g| g.crest_sph_m) {
-            keys.push(("Highest water", format!("{crest:.3} m"), format!("above still water, at {name}")));
+        if let Some((crest, name)) = highest(|g| g.crest_sph_m) {
+            keys.push(("Highest water level", format!("{crest:.3} m"), format!("above still water level, at {name}")));
         }
         keys.push(("Simulated time", format!("{} s", short(summary.simulated_s, 2)), String::new()));
-        keys.push(("Particles", grouped(summary.particles), format!("{} mm apart", short(1000.0 * summary.dp_m, 2))));
+        keys.push(("Particles", grouped(summary.particles), format!("spacing {} mm", short(1000.0 * summary.dp_m, 2))));
         keys.push(("Time steps", grouped(summary.steps), String::new()));
     }
     let cells: String = (keys.iter())
@@ -96,8 +107,8 @@ fn displacement(run: &RunFolder) -> String {
         return String::new();
     }
     let mut content = format!(
-        "<p>Displacement is the horizontal distance between first and last position, seen from above. A unit counts as \
-         damaged when it has moved further than {} m.</p>\n<figure>{}</figure>\n",
+        "<p>Displacement is the horizontal distance between initial and final position of the centre of mass. A unit counts \
+         as damaged if its displacement exceeds {} m.</p>\n<figure>{}</figure>\n",
         short(run.summary.damage_distance_m.unwrap_or(0.0), 3),
         charts::displacements(run)
     );
@@ -129,11 +140,11 @@ fn unit_table(summary: &Summary) -> String {
     let mean = summary.mean_displacement_m.unwrap_or(0.0);
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Unit</th><th>Displace&shy;ment [m]</th><th>Damaged</th><th>Direction [&deg;]</th>\
-         <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Turned by [&deg;]</th><th>Peak force of water [N]</th>\
+         <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Rotation [&deg;]</th><th>Peak force of the water [N]</th>\
          <th>Peak contact force [N]</th><th>Contacts with bed</th><th>Contacts with units</th></tr></thead>\n<tbody>\n{rows}\
          <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"8\"></td></tr>\n</tbody></table></div>\n\
-         <figcaption>Direction seen from above: 0 is straight to the shore, positive towards larger y. The force of the \
-         water is that beyond the mean force of the still water.</figcaption>\n",
+         <figcaption>Direction in plan view: 0 is shoreward, positive towards larger y. The mean force of still water is \
+         subtracted from the force of the water.</figcaption>\n",
         summary.damaged(),
         summary.units.len()
     )
@@ -144,11 +155,11 @@ fn water(run: &RunFolder) -> String {
     if charts.is_empty() {
         return String::new();
     }
-    let mut content = String::from("<p>Elevation \u{3b7} is counted from the still water level.");
+    let mut content = String::from("<p>The surface elevation \u{3b7} is relative to the still water level.");
     if run.flume_gauges.is_some() {
-        content += " The flume model carries the wave from the wavemaker through the whole flume; it knows neither units nor \
-                    breaking. Where it and the particles agree before the wave meets the units, the wave has entered the \
-                    particles as intended.";
+        content += " The flume model carries the wave along the whole flume, without units and without wave breaking. If it \
+                    agrees with the particles until the wave reaches the units, the wave has entered the particle domain \
+                    correctly.";
     }
     content += "</p>\n";
     content += &gauge_table(&run.summary);
@@ -191,12 +202,12 @@ fn forces(run: &RunFolder) -> String {
     }
     let contacts = &run.summary.contacts;
     let content = format!(
-        "<p>Force of the water beyond that of the still water, which is here the mean over the first 0.2 s. Where there are \
-         many units, the band is one standard deviation to either side of their mean.</p>\n\
-         <div class=\"pair\">\n<figure><figcaption>Along the flume, positive to the shore</figcaption>{along}</figure>\n\
-         <figure><figcaption>Upwards</figcaption>{up}</figure>\n</div>\n\
-         <figure>{contact}<figcaption>Force of bed and neighbours together. {} contact events with the bed and {} between \
-         units; largest force in one event {} N, largest approach velocity {} m/s.</figcaption></figure>\n",
+        "<p>Force of the water minus the force of still water (mean over the first 0.2 s). For many units, the band shows \
+         the mean \u{b1} one standard deviation.</p>\n\
+         <div class=\"pair\">\n<figure><figcaption>Horizontal force, positive shoreward</figcaption>{along}</figure>\n\
+         <figure><figcaption>Vertical force, positive upwards</figcaption>{up}</figure>\n</div>\n\
+         <figure>{contact}<figcaption>Resultant force of bed and neighbouring units. Contact events: {} with the bed, {} \
+         between units. Largest force in one event: {} N. Largest approach velocity: {} m/s.</figcaption></figure>\n",
         grouped(contacts.with_bed),
         grouped(contacts.between_units),
         short(contacts.peak_force_n, 1),
@@ -210,29 +221,26 @@ fn energy(run: &RunFolder) -> String {
     if chart.is_empty() {
         return String::new();
     }
-    let mut words = String::from("Each kind of energy less its value at the start.");
+    let mut words = String::from("Each energy minus its initial value.");
     if let Some(energy) = &run.summary.energy {
         let change = energy.end_j - energy.start_j;
-        words += &format!(
-            " Over the run the sum changed by {} J: the wavemaker's work less what is dissipated.",
-            short(change, 2)
-        );
+        words += &format!(" The total changed by {} J: work of the wavemaker minus dissipation.", short(change, 2));
     }
     section("Energy", &format!("<figure>{chart}<figcaption>{words}</figcaption></figure>\n"))
 }
 
 fn warnings(summary: &Summary) -> String {
     let items: String = summary.warnings.iter().map(|warning| format!("<li>{}</li>\n", escape(warning))).collect();
-    let words = "<p>These may make the result doubtful.</p>\n";
+    let words = "<p>These may make the results unreliable.</p>\n";
     section("Warnings", &if items.is_empty() { items } else { format!("{words}<ul>\n{items}</ul>\n") })
 }
 
 fn assumptions(summary: &Summary) -> String {
     let items: String = summary.assumptions.iter().map(|a| format!("<li>{}</li>\n", escape(a))).collect();
     if items.is_empty() {
-        return section("Assumptions", "<p>The case file names none.</p>\n");
+        return section("Assumptions", "<p>The case file lists none.</p>\n");
     }
-    let words = "<p>No source gives these; they were chosen and belong to the result.</p>\n";
+    let words = "<p>No source gives these values. They were chosen, and the results depend on them.</p>\n";
     section("Assumptions", &format!("{words}<ul>\n{items}</ul>\n"))
 }
 
@@ -250,20 +258,20 @@ fn facts(summary: &Summary) -> String {
                 grouped(counts.units)
             ),
         ),
-        ("Distance between particles", format!("{} mm", short(1000.0 * summary.dp_m, 3))),
+        ("Particle spacing", format!("{} mm", short(1000.0 * summary.dp_m, 3))),
         (
             "Domain",
             format!(
                 "x = {} to {} m, {}",
                 short(summary.domain_x_m[0], 3),
                 short(summary.domain_x_m[1], 3),
-                across(summary)
+                width_and_sides(summary)
             ),
         ),
         (
-            "Time",
+            "Simulated time",
             format!(
-                "{} s simulated from flume time {} s; end: {}",
+                "{} s from flume time {} s; stopped: {}",
                 short(summary.simulated_s, 3),
                 short(summary.start_s, 3),
                 summary.stopped
@@ -272,7 +280,7 @@ fn facts(summary: &Summary) -> String {
         (
             "Time steps",
             format!(
-                "{}, {} \u{b5}s on average ({} to {} \u{b5}s)",
+                "{}; mean {} \u{b5}s, range {} to {} \u{b5}s",
                 grouped(summary.steps),
                 short(1e6 * step.mean, 1),
                 short(1e6 * step.min, 1),
@@ -281,9 +289,9 @@ fn facts(summary: &Summary) -> String {
         ),
         ("Speed of sound", format!("{} m/s (artificial)", short(summary.speed_of_sound_m_s, 2))),
         (
-            "Wall clock",
+            "Computing time",
             format!(
-                "{} with {} threads, water on the {}, {} steps a second",
+                "{} with {} threads, water on the {}, {} time steps per second",
                 clock(execution.wall_s),
                 execution.threads,
                 execution.device.as_deref().unwrap_or("processor"),
@@ -293,44 +301,44 @@ fn facts(summary: &Summary) -> String {
     ];
     if let Some(mach) = summary.largest_mach {
         let words =
-            format!("{} times the speed of sound; up to 0.1 the water counts as incompressible", short(mach, 3));
-        rows.push(("Fastest water", words));
+            format!("{} times the speed of sound; below 0.1 the water is nearly incompressible", short(mach, 3));
+        rows.push(("Highest water speed", words));
     }
     if let Some(wave) = &summary.wave {
         let theory = if wave.theory.is_empty() { String::new() } else { format!(" ({})", wave.theory) };
-        rows.push(("Wave", format!("{}{theory}, H = {} m", wave.kind, short(wave.height_m, 4))));
+        rows.push(("Wave", format!("{}{theory}, {} = {} m", wave.kind, height_symbol(wave), short(wave.height_m, 4))));
     }
     rows.push(("breakwater", format!("version {}", summary.breakwater_version)));
     rows.extend(execution.processor.clone().map(|name| ("Processor", name)));
     let mut html: String =
         rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{}</td></tr>\n", escape(value))).collect();
-    html += &format!("<tr><td>Case</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
+    html += &format!("<tr><td>Case hash</td><td><code>{}</code></td></tr>\n", escape(&summary.case_hash));
     section("How the run was made", &format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n"))
 }
 
-/// What the files of a run folder hold, in the order of the list.
+/// Files of a run folder and their contents, in the order of the table.
 const FILES: [(&str, &str); 16] = [
-    (RunFolder::PICTURE, "one moment of the wave at the units as a picture of its own"),
+    (RunFolder::PICTURE, "picture of one moment of the wave"),
     (
         RunFolder::WATER,
-        "particles of the water with velocity, pressure and density: open in ParaView 5.12 or later, show as <em>Point Gaussian</em>, colour by velocity",
+        "water particles with velocity, pressure and density: open in ParaView 5.12 or later, show as <em>Point Gaussian</em>, colour by velocity",
     ),
     ("units.vtkhdf", "moving surfaces of the units: open in ParaView together with the water"),
-    ("units.csv", "place, orientation, velocity, force of the water and contact force of each unit against time"),
-    ("contacts.csv", "every contact event with its place, velocity, peak force and impulse"),
-    ("impacts.h5", "the hardest impacts of each unit with their forces against time: HDF5, for other programs"),
+    ("units.csv", "position, orientation, velocity, force of the water and contact force of each unit over time"),
+    ("contacts.csv", "every contact event with position, velocity, peak force and impulse"),
+    ("impacts.h5", "the hardest impacts of each unit with their force histories: HDF5, for other programs"),
     (
         "breakage.csv",
-        "displacement, hardest hit, stresses, cracks and pieces of each unit, forces and stresses of the prototype",
+        "displacement, peak impact force, stresses, cracks and pieces of each unit; forces and stresses at prototype scale",
     ),
-    ("breakage.json", "the same with the impacts that were computed again"),
-    ("impacts", "folder with a fracture case and its results for each of these impacts"),
-    ("gauges.csv", "water at the gauges, by the particles"),
-    ("flume_gauges.csv", "water at the gauges, by the flume model"),
-    ("energy.csv", "energy of water and units"),
-    ("diagnostics.csv", "whether the run is sound: volume, Mach number and densities of the water, time steps"),
-    ("profile.csv", "bed with mound"),
-    ("summary.json", "the numbers of this page for other programs"),
+    ("breakage.json", "the same, and the impacts that were re-run at prototype scale"),
+    ("impacts", "fracture case and results of each of these impacts"),
+    ("gauges.csv", "gauge series of the particles"),
+    ("flume_gauges.csv", "gauge series of the flume model"),
+    ("energy.csv", "energy balance of water and units"),
+    ("diagnostics.csv", "checks of the run: volume, Mach number and density of the water, time steps"),
+    ("profile.csv", "bed profile with the mound"),
+    ("summary.json", "the numbers of this page, for other programs"),
     ("case.json", "the case as it was run"),
 ];
 
@@ -338,12 +346,24 @@ fn files(run: &RunFolder) -> String {
     let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
         .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
         .collect();
-    let words = "<p>Tables are plain CSV in SI units, the unit is in each column's name; times are flume times, 0 when the \
-                 paddle starts.</p>\n";
+    let words = "<p>Tables are plain CSV in SI units; each column name includes the unit. Flume time 0 is the start of the \
+                 wavemaker.</p>\n";
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
 }
 
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_height_of_irregular_waves_is_significant() {
+        let wave = |kind: &str| WaveSummary { kind: kind.to_owned(), height_m: 0.12, ..WaveSummary::default() };
+        assert_eq!(wave_in_words(&wave("irregular")), "Irregular waves, H_s = 12 cm at the wavemaker");
+        assert_eq!(wave_in_words(&wave("solitary")), "Solitary wave, H = 12 cm at the wavemaker");
+    }
 }

@@ -1,4 +1,4 @@
-//! Units as shaded solids on paper.
+//! Drawings of units as shaded solids.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use super::motion::Pose;
 use super::window::{Window, path_point};
 use crate::output::UnitSurface;
 
-/// Levels of light on a surface.
+/// Number of brightness levels.
 const SHADES: f64 = 7.0;
-/// Finest detail of a surface that is drawn [px].
+/// Size of the finest detail that is drawn [px].
 const DETAIL: f64 = 1.8;
-/// Layers of a unit, from back to front, in which faces of one shade are drawn together.
+/// Number of depth layers of a unit. Within a layer, faces of one shade are drawn together.
 const LAYERS: f64 = 16.0;
 
-/// Direction from which a view looks.
+/// Viewing direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Eye {
     /// Along y: x to the right, z upwards.
@@ -24,7 +24,7 @@ pub enum Eye {
 }
 
 impl Eye {
-    /// Horizontal and vertical coordinate on the paper, and distance towards the eye [m].
+    /// Horizontal and vertical coordinate in the drawing, and distance towards the viewer [m].
     pub fn project(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Side => [x, z, -y],
@@ -38,7 +38,7 @@ impl Eye {
     }
 }
 
-/// The surface with no more detail than can be seen at `scale` [px/m]: vertices in one cell of a grid become their
+/// Simplifies a surface to the detail visible at `scale` [px/m]: all vertices in one grid cell are merged into their
 /// mean.
 pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
     let cell = |v: &[f64; 3]| v.map(|c| (c * scale / DETAIL).floor() as i64);
@@ -62,20 +62,20 @@ pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
     UnitSurface { vertices_m, triangles }
 }
 
-/// Half the size of a unit: the distance of its furthest vertex from its centre of mass [m].
+/// Half the size of a unit: largest distance of a vertex from the centre of mass [m].
 pub fn reach(surface: &UnitSurface) -> f64 {
     surface.vertices_m.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max)
 }
 
-/// A face on paper: its layer from back to front, its level of light, its corners [px].
+/// A projected face: depth layer from back to front, brightness level, corners [px].
 type Face = (i64, usize, [[f64; 2]; 3]);
 
-/// The faces of a unit that look towards the eye, shaded by a light from above left, but for those that are covered;
-/// what is drawn covers what is drawn behind it later.
+/// Draws the visible faces of a unit, lit from above left. Covered faces are left out; the drawn faces are added to
+/// `cover`.
 pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cover: &mut Cover) -> String {
     let reach = reach(surface).max(f64::MIN_POSITIVE);
     let middle = eye.project(pose.position_m)[2];
-    let mut faces: Vec<Face> = (placed(surface, pose))
+    let mut faces: Vec<Face> = (placed_triangles(surface, pose))
         .filter_map(|corners| {
             let [nx, nup, towards] = eye.project(normal(corners));
             let light = (-0.35 * nx + 0.62 * nup + 0.70 * towards).max(0.0);
@@ -99,28 +99,28 @@ pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cove
     layers.into_iter().rev().collect()
 }
 
-/// The silhouette of a unit as path data: all faces that look towards the eye.
+/// Path data of a unit's silhouette: all faces towards the viewer.
 pub fn silhouette(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye) -> String {
-    (placed(surface, pose))
+    (placed_triangles(surface, pose))
         .filter(|corners| eye.project(normal(*corners))[2] > 0.0)
         .map(|corners| triangle(corners.map(|c| eye.on_paper(window, c))))
         .collect()
 }
 
-/// The triangles of a unit where it is [m].
-fn placed(surface: &UnitSurface, pose: Pose) -> impl Iterator<Item = [[f64; 3]; 3]> {
+/// Triangles of a unit in flume axes [m].
+fn placed_triangles(surface: &UnitSurface, pose: Pose) -> impl Iterator<Item = [[f64; 3]; 3]> {
     let points: Vec<[f64; 3]> = surface.vertices_m.iter().map(|v| pose.place(*v)).collect();
     surface.triangles.iter().map(move |t| t.map(|i| points[i as usize]))
 }
 
-/// A triangle as path data: its first corner, and the way to the others.
+/// Path data of a triangle: the first corner, then relative steps to the others.
 fn triangle(corners: [[f64; 2]; 3]) -> String {
     let tenths = corners.map(|corner| corner.map(|c| (10.0 * c).round()));
     let way = |i: usize| [0, 1].map(|axis| 0.1 * (tenths[i][axis] - tenths[i - 1][axis]));
     format!("M{}l{} {}z", path_point(corners[0]), path_point(way(1)), path_point(way(2)))
 }
 
-/// Unit normal of a triangle; zero for one without area.
+/// Unit normal of a triangle; zero if the triangle has no area.
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let (u, v) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
     let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
@@ -133,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn detail_that_cannot_be_seen_is_left_out() {
+    fn invisible_detail_is_merged() {
         // Two triangles of 1 m, and one of 1 mm between them.
         let surface = UnitSurface {
             vertices_m: vec![[0.5; 3], [0.501, 0.5, 0.5], [0.5, 0.501, 0.5], [1.5, 0.5, 0.5], [0.5, 1.5, 0.5]],

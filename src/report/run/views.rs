@@ -1,4 +1,4 @@
-//! Side view and top view of the units before and after the wave.
+//! Side views and top view of the units before and after the wave.
 
 use super::super::plot::short;
 use super::folder::RunFolder;
@@ -7,7 +7,7 @@ use super::scene::{Poses, Scene, bed_in, range, unit_radius};
 use super::solids::Eye;
 use super::window::{Window, label, svg};
 
-/// The three views of a run: side before, side after, from above; empty without units.
+/// Returns the three views of a run: side before, side after, top. Empty without units.
 pub fn views(run: &RunFolder) -> String {
     let ends: Vec<(u32, [Pose; 2])> = run.motions.iter().filter_map(|m| Some((m.unit, m.ends()?))).collect();
     let places = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[0]));
@@ -17,35 +17,35 @@ pub fn views(run: &RunFolder) -> String {
     let times = run.motions.iter().find_map(|m| Some([*m.time_s.first()?, *m.time_s.last()?])).unwrap_or_default();
     let mut html = String::new();
     for (moment, title) in [(0, "Side view before the wave"), (1, "Side view after the wave")] {
-        let drawing = side(run, x, &ends, moment, title);
+        let drawing = side_view(run, x, &ends, moment, title);
         let time = short(times[moment], 2);
         html += &format!("<figure>{drawing}<figcaption>{title}, at {time} s.</figcaption></figure>\n");
     }
-    let sides = if run.summary.side_walls { "between side walls" } else { "periodic across the flume" };
+    let sides = if run.summary.side_walls { "with side walls" } else { "periodic across the flume" };
     html += &format!(
-        "<figure>{}<figcaption>Seen from above, {sides}: outlines where the units stood, solid where they came to rest, \
-         an arrow for each displacement. Thin lines are the toes and edges of the mound.</figcaption></figure>\n",
-        above(run, x, &ends)
+        "<figure>{}<figcaption>Top view, {sides}. Outlines: initial positions. Solid: final positions. Arrows: \
+         displacements. Thin lines: toes and crest edges of the mound.</figcaption></figure>\n",
+        top_view(run, x, &ends)
     );
     html
 }
 
-fn at_end(ends: &[(u32, [Pose; 2])], moment: usize) -> Poses {
+fn poses_at(ends: &[(u32, [Pose; 2])], moment: usize) -> Poses {
     ends.iter().map(|(unit, poses)| (*unit, poses[moment])).collect()
 }
 
-fn side(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])], moment: usize, title: &str) -> String {
+fn side_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])], moment: usize, title: &str) -> String {
     let (level, radius) = (run.summary.still_water_level_m, unit_radius(run));
     let centres = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[2]));
     let heights = centres.flat_map(|z| [z - radius, z + radius]).chain(bed_in(run, x).into_iter().map(|p| p[1]));
     let [low, high] = range(heights.chain([level])).unwrap_or([0.0, 1.0]);
     let scene = Scene::new(run, Window::new(x, [low - 0.5 * radius, high + 0.6 * radius]), Eye::Side);
     let drawing =
-        scene.still_water() + &scene.bed() + &scene.units(&at_end(ends, moment), moment == 1) + &scene.still_level();
+        scene.still_water() + &scene.bed() + &scene.units(&poses_at(ends, moment), moment == 1) + &scene.still_level();
     svg(title, scene.window.height(), &scene.window.framed(&format!("side{moment}"), "z [m]", &drawing))
 }
 
-fn above(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
+fn top_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
     let across = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[1]));
     let [low, high] = range(across.chain([0.0, run.summary.domain_width_m])).unwrap_or([0.0, 1.0]);
     let radius = unit_radius(run);
@@ -61,7 +61,7 @@ fn above(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
     for (_, poses) in ends {
         drawing += &scene.outline(poses[0]);
     }
-    drawing += &scene.units(&at_end(ends, 1), true);
+    drawing += &scene.units(&poses_at(ends, 1), true);
     for (unit, poses) in ends {
         let [from, to] = poses.map(|pose| window.at(pose.position_m[0], pose.position_m[1]));
         drawing += &arrow(from, to);
@@ -69,11 +69,11 @@ fn above(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
         drawing += &label(beyond + 4.0, to[1] + 4.0, "note halo", &unit.to_string());
     }
     drawing += &format!("<path class=\"side\" d=\"M{left:.1} {top:.1}H{right:.1}M{left:.1} {bottom:.1}H{right:.1}\"/>");
-    let title = "Units seen from above before and after the wave";
+    let title = "Top view of the units before and after the wave";
     svg(title, window.height(), &window.framed("above", "y [m]", &drawing))
 }
 
-/// An arrow between two places on paper; none for less than 6 px.
+/// Draws an arrow between two points [px]; nothing if they are less than 6 px apart.
 fn arrow([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> String {
     let length = (x1 - x0).hypot(y1 - y0);
     if length < 6.0 {

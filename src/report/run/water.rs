@@ -1,4 +1,4 @@
-//! Water particles of one lengthwise slab as dots coloured by their speed.
+//! Water particles of one vertical slice along the flume, drawn as dots coloured by speed.
 
 use std::collections::BTreeSet;
 
@@ -6,52 +6,52 @@ use super::super::plot::Axis;
 use super::window::{Window, label};
 use crate::output::WaterSnapshot;
 
-/// Colours from slow to fast: `dense` of cmocean (Thyng et al. 2016), perceptually uniform and dark where it is fast.
+/// Colours from slow to fast: `dense` of cmocean (Thyng et al. 2016), perceptually uniform and dark at high speed.
 const COLOURS: [&str; 10] =
     ["#c4e0e6", "#9ecbe2", "#80b3e3", "#7498e4", "#767bdb", "#795dc4", "#7642a5", "#6d2b7f", "#5c1956", "#421130"];
-/// Half the thickness of the slab, in distances between particles: a layer of particles at rest, and of those that have
-/// mixed none too many.
+/// Half the thickness of the slab, in particle spacings: one layer of particles at rest, and not too many particles
+/// once they have mixed.
 const HALF_SLAB: f64 = 0.75;
-/// Diameter of a dot, in distances between particles.
+/// Diameter of a dot, in particle spacings.
 const DOT: f64 = 0.95;
-/// Least distance between dots; of particles closer together one is drawn [px].
+/// Minimum distance between dots; of particles closer together only one is drawn [px].
 const LEAST_DISTANCE: f64 = 2.0;
-/// Share of the particles whose speed the scale holds; the few faster ones have its last colour.
+/// Share of the particles within the speed scale; the few faster particles get its last colour [-].
 const HELD: f64 = 0.995;
 
 /// A particle in the slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dot {
-    /// Along the flume [m].
+    /// Position along the flume [m].
     pub x: f64,
-    /// Height [m].
+    /// Elevation z [m].
     pub z: f64,
     /// Speed [m/s].
     pub speed: f64,
 }
 
-/// A slab along the flume, one layer of particles thick.
+/// A vertical slab along the flume, one particle layer thick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slab {
-    /// Its middle across the flume [m].
+    /// Position of its mid-plane across the flume [m].
     pub y: f64,
-    /// Distance between particles [m].
+    /// Particle spacing [m].
     pub spacing: f64,
 }
 
 impl Slab {
-    /// The slab about the layer of particles next to the middle of the flume; layers lie at half spacings from the
-    /// side.
+    /// Returns the slab around the particle layer nearest to the middle of the flume. The first layer is half a spacing
+    /// from the side.
     pub fn in_the_middle(width: f64, spacing: f64) -> Self {
         Self { y: ((0.5 * width / spacing).floor() + 0.5) * spacing, spacing }
     }
 
-    /// Half its thickness [m].
+    /// Half the thickness of the slab [m].
     pub fn half(&self) -> f64 {
         HALF_SLAB * self.spacing
     }
 
-    /// The particles in it between two places along the flume [m].
+    /// Returns the particles of the slab between two positions along the flume [m].
     pub fn dots(&self, water: &WaterSnapshot, x: [f64; 2]) -> Vec<Dot> {
         let inside = |p: &[f64; 3]| (p[1] - self.y).abs() < self.half() && x[0] <= p[0] && p[0] <= x[1];
         (water.points_m.iter().zip(&water.velocity_m_s))
@@ -62,14 +62,14 @@ impl Slab {
     }
 }
 
-/// Speeds from zero to a round number in equal levels, a colour each.
+/// Colour scale: equal speed intervals from zero to a round number, one colour each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedScale {
     top: f64,
 }
 
 impl SpeedScale {
-    /// The scale that holds the speeds of all moments.
+    /// Returns a scale for the speeds of all moments.
     pub fn holding<'a>(moments: impl IntoIterator<Item = &'a [Dot]>) -> Self {
         let fast = |dots: &[Dot]| {
             let mut speeds: Vec<f64> = dots.iter().map(|dot| dot.speed).filter(|speed| speed.is_finite()).collect();
@@ -83,7 +83,7 @@ impl SpeedScale {
         ((speed / self.top * COLOURS.len() as f64) as usize).min(COLOURS.len() - 1)
     }
 
-    /// The dots inside the window, one path a level, faster ones over slower ones.
+    /// Draws the dots inside the window, one path per level, fast dots over slow dots.
     pub fn drawing(&self, dots: &[Dot], window: &Window, spacing: f64) -> String {
         let distance = spacing * window.scale;
         let cell = distance.max(LEAST_DISTANCE);
@@ -95,7 +95,7 @@ impl SpeedScale {
             if distance < LEAST_DISTANCE && !taken.insert(place) {
                 continue;
             }
-            // Row by row, so that the way from dot to dot is short; in tenths of a pixel.
+            // In tenths of a pixel, sorted by row to keep the steps between dots short.
             let [tx, ty] = [x, y].map(|c| (10.0 * c).round() as i64);
             levels[self.level(dot.speed)].insert([place[0], tx, ty]);
         }
@@ -108,11 +108,11 @@ impl SpeedScale {
         )
     }
 
-    /// The colours with their speeds, 46 px high; `[x, y]` is the upper left corner [px].
+    /// Draws the legend of the scale, 46 px high; `[x, y]` is the upper left corner [px].
     pub fn legend(&self, [x, y]: [f64; 2], width: f64) -> String {
         let step = width / COLOURS.len() as f64;
         let axis = Axis::tight("", [0.0, self.top], 8);
-        let mut svg = label(x, y + 11.0, "label", "speed of the water [m/s]");
+        let mut svg = label(x, y + 11.0, "label", "water speed [m/s]");
         for (level, colour) in COLOURS.into_iter().enumerate() {
             let left = x + step * level as f64;
             svg += &format!(
@@ -127,19 +127,19 @@ impl SpeedScale {
     }
 }
 
-/// Dots as lines of no length, each from the one before; [row, x, y] in tenths of a pixel.
+/// Path data of the dots: zero-length lines, positioned relative to the previous dot; [row, x, y] in tenths of a pixel.
 fn steps(dots: &BTreeSet<[i64; 3]>) -> String {
     let (mut data, mut from) = (String::new(), [0, 0]);
     for [_, x, y] in dots {
         let (dx, dy) = (x - from[0], y - from[1]);
-        // A minus sign parts two numbers as well as a blank.
+        // A minus sign separates two numbers, so no blank is needed.
         data += &if dy < 0 { format!("m{dx}{dy}h0") } else { format!("m{dx} {dy}h0") };
         from = [*x, *y];
     }
     data
 }
 
-/// The next round number, for the end of a scale; not zero.
+/// Rounds up to the next round number for the end of a scale; never zero.
 fn round_up(value: f64) -> f64 {
     let value = value.max(0.01);
     let power = 10_f64.powf(value.log10().floor());
@@ -153,29 +153,29 @@ mod tests {
 
     #[test]
     fn the_slab_holds_one_layer_of_particles_at_rest() {
-        // 12 layers across 0.06 m: the middle lies between two of them.
+        // 12 layers across 0.06 m: the middle lies between two layers.
         let slab = Slab::in_the_middle(0.06, 0.005);
         let layers = (0..12).map(|i| 0.005 * (f64::from(i) + 0.5));
         assert_eq!(layers.filter(|y| (y - slab.y).abs() < slab.half()).count(), 1);
     }
 
     #[test]
-    fn dots_are_steps_in_tenths_of_a_pixel() {
+    fn dots_are_relative_steps_in_tenths_of_a_pixel() {
         let window = Window::new([0.0, 1.0], [0.0, 0.2]);
         let dot = |x: f64, speed: f64| Dot { x, z: 0.1, speed };
         let dots = [dot(0.5, 0.0), dot(0.52, 0.0), dot(0.54, 0.0), dot(0.56, 0.9), dot(7.0, 0.0)];
         let scale = SpeedScale::holding([&dots[..4]]);
         assert_eq!(scale.top, 1.0);
         let svg = scale.drawing(&dots, &window, 0.02);
-        // 848 px a metre: 0.02 m are 17 px.
+        // 848 px per metre: 0.02 m are 17 px.
         assert!(svg.contains(&format!("stroke=\"{}\" d=\"m4820 928h0m170 0h0m169 0h0\"", COLOURS[0])), "{svg}");
         assert!(svg.contains(COLOURS[9]) && svg.matches("h0").count() == 4);
-        // Of particles nearer than two pixels one is drawn.
+        // Of two particles closer than two pixels, only one is drawn.
         assert_eq!(scale.drawing(&[dot(0.5, 0.0), dot(0.5005, 0.0)], &window, 5e-4).matches("h0").count(), 1);
     }
 
     #[test]
-    fn a_scale_ends_at_a_round_number() {
+    fn the_speed_scale_ends_at_a_round_number() {
         for (value, expected) in [(0.0, 0.01), (0.113, 0.12), (1.0, 1.0), (1.3, 1.5), (0.91, 1.0)] {
             assert!((round_up(value) - expected).abs() < 1e-12, "{value}");
         }

@@ -1,30 +1,30 @@
-//! A piece of the flume on paper, with one scale for both directions and an axis for each.
+//! Part of the flume as a drawing with two axes at equal scale.
 
 use super::super::plot::{Axis, escape, short};
 
 /// Width of a drawing [px].
 pub const WIDTH: f64 = 920.0;
-/// Height of a window at most [px].
+/// Maximum height of a window [px].
 const MAX_HEIGHT: f64 = 560.0;
-/// Room for the vertical axis, and for half a number at the right end of the other one [px].
+/// Space for the vertical axis, and for half a number at the right end of the horizontal axis [px].
 const MARGINS: [f64; 2] = [58.0, 14.0];
-/// Room for half a number above the window, and for the axis along the flume below it [px].
+/// Space for half a number above the window, and for the horizontal axis below it [px].
 const TOP: f64 = 8.0;
 const BELOW: f64 = 40.0;
 
-/// A piece of the flume on paper.
+/// A part of the flume and its mapping to the drawing.
 pub struct Window {
-    /// Along the flume [m].
+    /// Range along the flume [m].
     pub x: [f64; 2],
-    /// Upwards on the paper: z or y [m].
+    /// Range of the vertical axis of the drawing: z or y [m].
     pub up: [f64; 2],
-    /// Pixels of a metre [px/m].
+    /// Scale [px/m].
     pub scale: f64,
     left: f64,
 }
 
 impl Window {
-    /// The window over these ranges [m], as large as fits.
+    /// Creates the largest window that fits for these ranges [m].
     pub fn new(x: [f64; 2], up: [f64; 2]) -> Self {
         let room = WIDTH - MARGINS[0] - MARGINS[1];
         let scale = (room / (x[1] - x[0])).min(MAX_HEIGHT / (up[1] - up[0]));
@@ -32,7 +32,7 @@ impl Window {
         Self { x, up, scale, left }
     }
 
-    /// Where a place of the flume [m] is on the paper [px].
+    /// Maps a position in the flume [m] to the drawing [px].
     pub fn at(&self, x: f64, up: f64) -> [f64; 2] {
         [self.left + (x - self.x[0]) * self.scale, TOP + (self.up[1] - up) * self.scale]
     }
@@ -43,7 +43,7 @@ impl Window {
         [left, top, right, bottom]
     }
 
-    /// Whether a place [m] is inside.
+    /// Returns whether a position [m] is in the window.
     pub fn holds(&self, x: f64, up: f64) -> bool {
         self.x[0] <= x && x <= self.x[1] && self.up[0] <= up && up <= self.up[1]
     }
@@ -53,7 +53,7 @@ impl Window {
         self.edges()[3] + BELOW
     }
 
-    /// A drawing cut at the edges of the window, with the axes; `id` names the edges and is unique on its page.
+    /// Clips a drawing to the window and adds the axes. `id` names the clip path and must be unique on the page.
     pub fn framed(&self, id: &str, up_label: &str, drawing: &str) -> String {
         let [left, top, right, bottom] = self.edges();
         let (w, h) = (right - left, bottom - top);
@@ -74,7 +74,7 @@ impl Window {
             svg += &format!("<path class=\"axis\" d=\"M{x:.1} {bottom:.1}v5\"/>");
             svg += &label(x, bottom + 18.0, "tick mid", &axis.number(tick));
         }
-        let words = "x along the flume [m], the wave comes from the left";
+        let words = "x along the flume [m], waves from the left";
         svg + &label(0.5 * (left + right), bottom + 35.0, "label mid", words)
     }
 
@@ -95,7 +95,7 @@ impl Window {
     }
 }
 
-/// A drawing as wide as the page.
+/// Returns a drawing of the full page width as an `<svg>` element.
 pub fn svg(title: &str, height: f64, content: &str) -> String {
     let title = escape(title);
     format!(
@@ -104,12 +104,12 @@ pub fn svg(title: &str, height: f64, content: &str) -> String {
     )
 }
 
-/// Words in a drawing.
+/// Returns a text label for a drawing.
 pub fn label(x: f64, y: f64, class: &str, words: &str) -> String {
     format!("<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escape(words))
 }
 
-/// A place on the paper in the words of a path.
+/// Formats a point of the drawing as path data.
 pub fn path_point([x, y]: [f64; 2]) -> String {
     format!("{} {}", short(x, 1).replace('\u{2212}', "-"), short(y, 1).replace('\u{2212}', "-"))
 }

@@ -1,4 +1,4 @@
-//! What contacts remember from step to step, taken down and put back.
+//! Saves and restores the history of the contacts.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -8,26 +8,26 @@ use super::super::super::setup::Setup;
 use super::super::friction::TangentialSpring;
 use super::{Contacts, Pair};
 
-/// Memory of the contacts of a world. Who can touch whom follows from the faces that have broken.
+/// History of the contacts of a world. Which tetrahedra can touch follows from the broken faces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactSnapshot {
-    /// Tetrahedra of each pair, the pairs in rising order.
+    /// Tetrahedra of each pair, the pairs in ascending order.
     pub tets: Vec<[u32; 2]>,
-    /// Overlap of each pair that does not count [m3]; not a number before the pair was first looked at.
+    /// Initial overlap of each pair that does not count [m3]; NaN before the first evaluation of the pair.
     pub born: Vec<f64>,
-    /// Numbers of the pairs whose friction has a spring, in rising order.
+    /// Numbers of the pairs with a friction spring, in ascending order.
     pub sprung: Vec<u32>,
     /// Extension and normal of each spring [m, -].
     pub springs: Vec<[f64; 6]>,
     /// Tetrahedra whose joint has broken since the last search.
     pub opened: Vec<[u32; 2]>,
-    /// Energy that it leaves to them [J].
+    /// Energy that the joint leaves to them [J].
     pub left: Vec<f64>,
     /// Everything else.
     pub scalars: ContactScalars,
 }
 
-/// Numbers of the contacts of a world as a whole; see [`Contacts`].
+/// Scalars of the contacts of a world; see [`Contacts`].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactScalars {
     travelled: f64,
@@ -40,7 +40,7 @@ pub struct ContactScalars {
 }
 
 impl Contacts {
-    /// What the contacts remember after a step.
+    /// Returns the history of the contacts after a time step.
     pub fn snapshot(&self) -> ContactSnapshot {
         let sprung = self.pairs.iter().zip(0u32..).filter_map(|(pair, number)| Some((number, pair.spring?)));
         let (sprung, springs) = sprung
@@ -66,11 +66,10 @@ impl Contacts {
         }
     }
 
-    /// Puts back what contacts remembered. These are new, with the groups of now; at the tetrahedra `open`, faces have
-    /// broken.
+    /// Restores the history into new contacts whose groups are up to date. The tetrahedra `open` have broken faces.
     ///
     /// # Errors
-    /// If the memory cannot be that of this world: what is wrong.
+    /// Says why the snapshot does not belong to this world.
     pub fn restore(
         &mut self,
         snapshot: ContactSnapshot,
@@ -78,22 +77,22 @@ impl Contacts {
         setup: &Setup,
         tets: &Tets,
     ) -> Result<(), &'static str> {
-        let ContactSnapshot { tets: of_pairs, born, sprung, springs, opened, left, scalars } = snapshot;
-        let known = |of: &[u32; 2]| of[0] < of[1] && (of[1] as usize) < setup.tets.len();
-        if born.len() != of_pairs.len() || !of_pairs.iter().all(known) || !of_pairs.is_sorted_by(|a, b| a < b) {
-            return Err("its pairs in contact are not those of the mesh");
+        let ContactSnapshot { tets: pair_tets, born, sprung, springs, opened, left, scalars } = snapshot;
+        let is_valid = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < setup.tets.len();
+        if born.len() != pair_tets.len() || !pair_tets.iter().all(is_valid) || !pair_tets.is_sorted_by(|a, b| a < b) {
+            return Err("its contact pairs do not match the mesh");
         }
-        if springs.len() != sprung.len() || sprung.iter().any(|number| *number as usize >= of_pairs.len()) {
-            return Err("its springs of friction belong to no pair");
+        if springs.len() != sprung.len() || sprung.iter().any(|number| *number as usize >= pair_tets.len()) {
+            return Err("its friction springs do not match its contact pairs");
         }
-        if left.len() != opened.len() || !opened.iter().all(known) {
-            return Err("its broken faces are not those of the mesh");
+        if left.len() != opened.len() || !opened.iter().all(is_valid) {
+            return Err("its broken faces do not match the mesh");
         }
-        let pair = |(of, born): (&[u32; 2], &f64)| Pair {
+        let pair = |(tets_of_pair, born): (&[u32; 2], &f64)| Pair {
             born: (!born.is_nan()).then_some(*born),
-            ..Pair::new(*of, setup, tets)
+            ..Pair::new(*tets_of_pair, setup, tets)
         };
-        self.pairs = of_pairs.iter().zip(&born).map(pair).collect();
+        self.pairs = pair_tets.iter().zip(&born).map(pair).collect();
         for (number, [x, y, z, nx, ny, nz]) in sprung.into_iter().zip(springs) {
             let (extension, normal) = (DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
             self.pairs[number as usize].spring = Some(TangentialSpring { extension, normal });

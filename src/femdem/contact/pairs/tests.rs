@@ -1,4 +1,4 @@
-//! The birth of a contact: what a pair has and gives that overlaps before it counts.
+//! Tests of the start of a contact: energy and force of a pair with an initial overlap.
 
 use super::super::samples::regular_tetrahedron;
 use super::*;
@@ -12,41 +12,41 @@ fn pair(left: f64) -> Pair {
     Pair { tets, penalty: PENALTY, law, born, left, spring, forces, stored: 0.0, dissipated: 0.0 }
 }
 
-/// Two tetrahedra with a size of about 1 cm, one deep in the other and pushed `further` into it [m].
+/// Two tetrahedra of about 1 cm, one deep inside the other and moved `further` into it [m].
 fn corners(further: f64) -> [[DVec3; 4]; 2] {
     let one = regular_tetrahedron(DVec3::ZERO, 0.01);
     let shift = DVec3::new(6e-3, 1e-3, -2e-3) - further * DVec3::X;
     [one, one.map(|vertex| vertex + shift)]
 }
 
-/// Force on the second one along the way that parts them [N].
-fn push(pair: &Pair) -> f64 {
+/// Force on the second tetrahedron in the direction that separates the pair [N].
+fn force_x(pair: &Pair) -> f64 {
     pair.forces.map_or(0.0, |forces| forces[1].iter().sum::<DVec3>().x)
 }
 
 #[test]
-fn a_pair_is_born_with_the_energy_that_its_joint_leaves() {
+fn a_new_pair_has_the_energy_that_its_joint_leaves() {
     for left in [0.0, 1e-4, 1e-2] {
         let mut pair = pair(left);
         pair.evaluate(corners(0.0), || STILL);
-        // Rounding, against the overlap's own energy of some joule.
+        // Rounding, relative to the overlap energy of a few joules.
         assert!((pair.stored - left).abs() < 1e-12 && (pair.left - left).abs() < 1e-12, "{left}: {}", pair.stored);
         assert_eq!(pair.forces.is_some(), left > 0.0);
     }
-    // More than the overlap holds: the rest is lost.
-    let mut rich = pair(1e3);
-    rich.evaluate(corners(0.0), || STILL);
-    assert!(rich.stored < 1e3 && (rich.left - rich.stored).abs() < 1e-12 && rich.born == Some(0.0));
+    // More than the overlap can store: the rest is dissipated.
+    let mut excess = pair(1e3);
+    excess.evaluate(corners(0.0), || STILL);
+    assert!(excess.stored < 1e3 && (excess.left - excess.stored).abs() < 1e-12 && excess.born == Some(0.0));
 }
 
 #[test]
-fn what_is_left_is_that_of_half_a_step_ago() {
+fn the_pair_has_the_energy_of_the_joint_half_a_time_step_earlier() {
     let way = 1e-6;
     let moves = [[DVec3::ZERO; 4], [-way * DVec3::X; 4]];
     let mut pair = pair(1e-2);
     pair.evaluate(corners(0.0), || moves);
-    // The force of now acts for half of the step; rounding, against the energy of the whole overlap.
-    let work = push(&pair) * 0.5 * way;
+    // The current force acts for half of the time step. Rounding, relative to the energy of the whole overlap.
+    let work = force_x(&pair) * 0.5 * way;
     assert!((pair.stored - work - 1e-2).abs() < 1e-9 && (pair.left - 1e-2).abs() < 1e-9, "{} {work}", pair.stored);
 }
 
@@ -56,25 +56,25 @@ fn the_force_rises_from_zero_and_is_the_gradient_of_the_energy() {
     born.evaluate(corners(0.0), || STILL);
     assert!(born.forces.is_none());
     full.born = Some(0.0);
-    let mut at = |further: f64| {
+    let mut evaluate_at = |further: f64| {
         born.evaluate(corners(further), || STILL);
         full.evaluate(corners(further), || STILL);
-        (born.stored, push(&born), push(&full))
+        (born.stored, force_x(&born), force_x(&full))
     };
-    let (_, little, whole) = at(1e-9);
-    // A step of 1e-9 of 1e-3 m: a millionth of the force of the whole overlap.
-    assert!(little > 0.0 && little < 1e-5 * whole, "{little:.3e} of {whole:.3e} N");
+    let (_, small, whole) = evaluate_at(1e-9);
+    // A displacement of 1e-9 m against 1e-3 m: a millionth of the force of the whole overlap.
+    assert!(small > 0.0 && small < 1e-5 * whole, "{small:.3e} of {whole:.3e} N");
     for further in [1e-6, 1e-5, 1e-4] {
         let step = 1e-3 * further;
-        let [before, (_, force, _), after] = [further - step, further, further + step].map(&mut at);
+        let [before, (_, force, _), after] = [further - step, further, further + step].map(&mut evaluate_at);
         let slope = (after.0 - before.0) / (2.0 * step);
-        // Differences of the second order over a thousandth of the way.
+        // Central differences over a thousandth of the displacement.
         assert!((force / slope - 1.0).abs() < 1e-5, "{further}: {force:.6e} {slope:.6e}");
     }
 }
 
 #[test]
-fn pieces_that_come_apart_meet_like_any_others() {
+fn fragments_that_separate_and_meet_again_are_a_normal_contact() {
     let (mut pair, mut fresh) = (pair(0.0), pair(0.0));
     pair.evaluate(corners(0.0), || STILL);
     assert!(pair.born.unwrap() > 0.0);

@@ -1,4 +1,4 @@
-//! From the sections of a file to bodies and sets.
+//! Builds bodies and sets from the sections of a file.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -8,10 +8,10 @@ use super::super::{Body, Mesh, NodeSet, TriangleSet, faces};
 use super::error::MshError;
 use super::sections::{ElementBlock, Key, Sections, TRIANGLE, element_type};
 
-/// Mark of a node that no element uses.
+/// Marks a node that no element uses.
 const UNUSED: u32 = u32::MAX;
 
-/// Mesh with lengths multiplied by `scale`.
+/// Builds the mesh, with lengths multiplied by `scale`.
 pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
     let volumes = volume_blocks(file)?;
     let surfaces = surface_blocks(file)?;
@@ -62,7 +62,7 @@ pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
 /// Blocks of elements by physical group.
 type Groups<'a> = BTreeMap<i32, Vec<&'a ElementBlock>>;
 
-/// Every volume must be in exactly one body.
+/// Collects the volumes of each body; every volume must be in exactly one body.
 fn volume_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     let mut groups = declared(file, 3);
     if groups.is_empty() {
@@ -82,14 +82,14 @@ fn volume_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     Ok(groups)
 }
 
-/// A surface may be in several sets, or in none.
+/// Collects the surfaces of each set; a surface may be in several sets or in none.
 fn surface_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     let mut groups = declared(file, 2);
     for block in file.blocks.iter().filter(|block| block.dimension == 2) {
         for group in file.groups.get(&(2, block.entity)).into_iter().flatten() {
             if block.kind != TRIANGLE {
                 let ElementBlock { dimension, entity, kind, .. } = *block;
-                let expected = "triangles (type 2), as it is in a physical surface: do not recombine";
+                let expected = "triangles (type 2), because it is in a physical surface: do not recombine the mesh";
                 return Err(MshError::WrongShape { dimension, entity, kind, name: element_type(kind).0, expected });
             }
             groups.entry(*group).or_default().push(block);
@@ -98,7 +98,7 @@ fn surface_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     Ok(groups)
 }
 
-/// Curves or points: sets of nodes.
+/// Collects the curves or points of each node set.
 fn line_blocks(file: &Sections, dimension: i32) -> Groups<'_> {
     let mut groups = declared(file, dimension);
     for block in file.blocks.iter().filter(|block| block.dimension == dimension) {
@@ -109,7 +109,7 @@ fn line_blocks(file: &Sections, dimension: i32) -> Groups<'_> {
     groups
 }
 
-/// What Gmsh calls a physical group of a dimension.
+/// Gmsh's name for the physical groups of a dimension.
 fn kind_of(dimension: i32) -> &'static str {
     match dimension {
         0 => "Point",
@@ -119,14 +119,14 @@ fn kind_of(dimension: i32) -> &'static str {
     }
 }
 
-/// All groups of a dimension that the file speaks of, so that none is lost because it is empty.
+/// All groups of a dimension in the file, including empty ones, which are refused later.
 fn declared(file: &Sections, dimension: i32) -> Groups<'_> {
     let named = file.names.keys().filter(|key| key.0 == dimension).map(|key| key.1);
     let used = file.groups.iter().filter(|(key, _)| key.0 == dimension).flat_map(|(_, groups)| groups.iter().copied());
     named.chain(used).map(|group| (group, Vec::new())).collect()
 }
 
-/// The groups with their names, all different, none empty.
+/// Returns the groups with their names; checks that names are unique and groups not empty.
 fn named<'a>(
     file: &Sections,
     dimension: i32,
@@ -152,7 +152,7 @@ fn named<'a>(
     Ok(result)
 }
 
-/// Elements of `N` nodes as indices.
+/// Returns elements of `N` nodes as node indices.
 fn elements<const N: usize>(block: &ElementBlock, nodes: &mut NodeTable) -> Result<Vec<[u32; N]>, MshError> {
     let mut result = Vec::with_capacity(block.tags.len());
     for (element, tags) in block.tags.iter().zip(block.nodes.as_chunks::<N>().0) {
@@ -200,7 +200,7 @@ impl NodeTable {
         Some(index)
     }
 
-    /// Hands the used nodes to the mesh and renumbers its elements.
+    /// Moves the used nodes to the mesh and renumbers its elements.
     fn drop_unused(self, mesh: &mut Mesh) {
         let mut new_index = vec![UNUSED; self.positions.len()];
         for (old, (tag, position)) in self.positions.iter().enumerate().filter(|(old, _)| self.used[*old]) {

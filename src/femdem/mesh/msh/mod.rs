@@ -1,7 +1,7 @@
-//! MSH 4.1, the mesh format of Gmsh, text or binary.
+//! Reads and writes MSH 4.1, the mesh format of Gmsh, as text or binary.
 //!
-//! Each named physical volume is a body, each named physical surface a set of triangles, each named physical curve or
-//! point a set of nodes. Format: Gmsh reference manual, section "MSH file format".
+//! Each named physical volume is a body, each named physical surface a triangle set, each named physical curve or point
+//! a node set. Format: Gmsh reference manual, section "MSH file format".
 
 mod assemble;
 mod error;
@@ -17,10 +17,10 @@ pub use write::write;
 use super::Mesh;
 use sections::Sections;
 
-/// Mesh in a file's content, its lengths multiplied by `scale` to metres (0.001 for a file in mm).
+/// Parses the content of a file; `scale` converts its lengths to metres (0.001 for a file in mm).
 ///
-/// Bodies and sets come in the order of their physical tags, elements and nodes in the order of the file; nodes that
-/// nothing uses are left out. Indices are valid and coordinates finite; the shape of the mesh is not checked yet.
+/// Bodies and sets are in the order of their physical tags, elements and nodes in the order of the file. Unused nodes
+/// are left out. Indices are valid and coordinates finite; the shape of the mesh is not checked yet.
 pub fn parse(bytes: &[u8], scale: f64) -> Result<Mesh, MshError> {
     assemble::mesh(&Sections::read(bytes)?, scale)
 }

@@ -1,7 +1,7 @@
-//! What an MSH 4.1 file says, section by section, before anything is made of it.
+//! Raw content of an MSH 4.1 file, section by section.
 //!
-//! Format: Gmsh reference manual, section "MSH file format". Read here rather than with `mshio` 0.4.2, which drops the
-//! tags of nodes whose numbers have no gaps, and so mixes up the nodes of every mesh that was renumbered.
+//! Format: Gmsh reference manual, section "MSH file format". The crate `mshio` 0.4.2 is not used: it drops the tags of
+//! nodes numbered without gaps, and so mixes up the nodes of every renumbered mesh.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub(super) struct Sections {
     pub names: BTreeMap<Key, String>,
     /// Physical groups of each entity.
     pub groups: BTreeMap<Key, Vec<i32>>,
-    /// Tag and position in units of the file.
+    /// Tag and position of each node, in the units of the file.
     pub nodes: Vec<(u64, DVec3)>,
     /// Elements of all entities.
     pub blocks: Vec<ElementBlock>,
@@ -47,7 +47,7 @@ pub(super) struct ElementBlock {
 }
 
 impl Sections {
-    /// Reads a whole file. Memory and time grow with its size only, whatever counts it claims.
+    /// Reads a whole file. Memory and time depend only on its size, even if its counts are wrong.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, MshError> {
         let mut source = Source::new(bytes)?;
         let mut content = Self::default();
@@ -77,7 +77,7 @@ impl Sections {
         Ok(content)
     }
 
-    /// `dimension tag "name"` in each line; text in binary files too.
+    /// Reads lines `dimension tag "name"`, which are text in binary files, too.
     fn read_names(&mut self, source: &mut Source) -> Result<(), MshError> {
         let start = source.position();
         let line = source.text_line()?;
@@ -92,19 +92,19 @@ impl Sections {
         Ok(())
     }
 
-    /// Points, curves, surfaces and volumes; their groups are what counts.
+    /// Reads the physical groups of points, curves, surfaces and volumes.
     fn read_entities(&mut self, source: &mut Source) -> Result<(), MshError> {
         let counts = [source.size()?, source.size()?, source.size()?, source.size()?];
         for (dimension, count) in (0..).zip(counts) {
             for _ in 0..count {
                 let entity = source.int()?;
-                // A point has a position, everything else a box.
+                // A point has a position, other entities have a bounding box.
                 for _ in 0..if dimension == 0 { 3 } else { 6 } {
                     source.real()?;
                 }
                 let mut groups = Vec::new();
                 for _ in 0..source.size()? {
-                    // The sign tells how the entity is turned in the group.
+                    // The sign is the orientation of the entity in the group.
                     groups.push(source.int()?.saturating_abs());
                 }
                 groups.sort_unstable();
@@ -120,10 +120,10 @@ impl Sections {
         Ok(())
     }
 
-    /// Blocks of tags followed by positions.
+    /// Reads blocks of node tags followed by positions.
     fn read_nodes(&mut self, source: &mut Source) -> Result<(), MshError> {
         let blocks = source.size()?;
-        // Number of nodes, smallest and largest tag: nothing that the blocks do not say.
+        // Number of nodes, smallest and largest tag: redundant.
         for _ in 0..3 {
             source.size()?;
         }
@@ -152,10 +152,10 @@ impl Sections {
         Ok(())
     }
 
-    /// Blocks of elements of one shape.
+    /// Reads blocks of elements of one shape.
     fn read_elements(&mut self, source: &mut Source) -> Result<(), MshError> {
         let blocks = source.size()?;
-        // Number of elements, smallest and largest tag.
+        // Number of elements, smallest and largest tag: redundant.
         for _ in 0..3 {
             source.size()?;
         }
@@ -174,7 +174,7 @@ impl Sections {
                 return Err(MshError::ElementType { place, count, kind, name, entity, dimension, remedy });
             };
             if shape_dimension != dimension {
-                let expected = "elements of its own dimension: write the mesh again";
+                let expected = "elements of its own dimension; write the mesh again";
                 return Err(MshError::WrongShape { dimension, entity, kind, name, expected });
             }
             let mut block = ElementBlock { dimension, entity, kind, tags: Vec::new(), nodes: Vec::new() };
@@ -193,7 +193,7 @@ impl Sections {
     }
 }
 
-/// Dimension, tag and name in a line of $PhysicalNames.
+/// Parses a line of $PhysicalNames: dimension, tag and name.
 fn physical_name(line: &str) -> Option<(Key, String)> {
     let (numbers, rest) = line.split_once('"')?;
     let name = rest.strip_suffix('"')?;
@@ -202,7 +202,7 @@ fn physical_name(line: &str) -> Option<(Key, String)> {
     (numbers.next().is_none() && !name.is_empty()).then(|| (key, name.to_owned()))
 }
 
-/// Name of an element type and, for those that may occur in a mesh of linear tetrahedra, dimension and number of nodes.
+/// Name of an element type; for types allowed in a mesh of linear tetrahedra also dimension and number of nodes.
 pub(super) fn element_type(kind: i32) -> (&'static str, Option<(i32, usize)>) {
     match kind {
         1 => ("lines", Some((1, 2))),

@@ -1,22 +1,22 @@
-//! The numbers of an MSH file one after another, written as text or as bytes.
+//! Reads the numbers of an MSH file one by one, from text or binary.
 
 use super::error::{MshError, Place};
 
-/// Longest piece of a file [characters] that a message repeats.
+/// Longest quote from a file in a message [characters].
 const LONGEST_QUOTE: usize = 40;
 
-/// A file's content and how far it has been read.
+/// The content of a file and the current reading position.
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
-    at: usize,
+    offset: usize,
     binary: bool,
     section: &'a str,
 }
 
 impl<'a> Source<'a> {
-    /// Reads the header; what follows is a list of sections.
+    /// Reads the header, which is followed by the sections.
     pub(super) fn new(bytes: &'a [u8]) -> Result<Self, MshError> {
-        let mut source = Self { bytes, at: 0, binary: false, section: "MeshFormat" };
+        let mut source = Self { bytes, offset: 0, binary: false, section: "MeshFormat" };
         let first = source.line().unwrap_or_default();
         if first.trim_ascii() != b"$MeshFormat" {
             return Err(MshError::NotMsh);
@@ -31,31 +31,31 @@ impl<'a> Source<'a> {
             "1 8" => true,
             other => return Err(MshError::Header(other.to_owned())),
         };
-        // A one, written so that the order of the bytes shows.
-        if source.binary && source.take()? != 1i32.to_le_bytes() {
+        // The integer 1, which shows the byte order.
+        if source.binary && source.take_bytes()? != 1i32.to_le_bytes() {
             return Err(MshError::Header(format!("{layout} (binary, big-endian)")));
         }
         source.end()?;
         Ok(source)
     }
 
-    /// Name of the section that starts here, `None` at the end of the file.
+    /// Returns the name of the section that starts here, `None` at the end of the file.
     pub(super) fn next_section(&mut self) -> Result<Option<&'a str>, MshError> {
         self.skip_space();
-        if self.at == self.bytes.len() {
+        if self.offset == self.bytes.len() {
             return Ok(None);
         }
-        let start = self.at;
+        let start = self.offset;
         let line = self.line().unwrap_or_default().trim_ascii();
         let name = line.strip_prefix(b"$").and_then(|name| std::str::from_utf8(name).ok());
         self.section = name.ok_or_else(|| self.unexpected(start, "the start of the next section", line))?;
         Ok(Some(self.section))
     }
 
-    /// The line that ends the present section.
+    /// Reads the line that ends the current section.
     pub(super) fn end(&mut self) -> Result<(), MshError> {
         self.skip_space();
-        let start = self.at;
+        let start = self.offset;
         let line = self.line().ok_or_else(|| self.truncated())?.trim_ascii();
         if line.strip_prefix(b"$End") == Some(self.section.as_bytes()) {
             return Ok(());
@@ -63,68 +63,68 @@ impl<'a> Source<'a> {
         Err(self.unexpected(start, "the end of the section", line))
     }
 
-    /// Goes past the present section without reading it.
+    /// Skips the current section.
     pub(super) fn skip_section(&mut self) -> Result<(), MshError> {
         let end = format!("$End{}", self.section).into_bytes();
-        let rest = &self.bytes[self.at..];
+        let rest = &self.bytes[self.offset..];
         let found = rest.windows(end.len()).position(|window| window == end).ok_or_else(|| self.truncated())?;
-        self.at += found + end.len();
+        self.offset += found + end.len();
         Ok(())
     }
 
-    /// The rest of the present line, without its end; `None` at the end of the file.
+    /// Reads the rest of the current line, without its line end; `None` at the end of the file.
     pub(super) fn line(&mut self) -> Option<&'a [u8]> {
-        let rest = &self.bytes[self.at..];
+        let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
             return None;
         }
         let length = rest.iter().position(|byte| *byte == b'\n');
-        self.at += length.map_or(rest.len(), |length| length + 1);
+        self.offset += length.map_or(rest.len(), |length| length + 1);
         Some(&rest[..length.unwrap_or(rest.len())])
     }
 
-    /// The next line that is not blank, as text.
+    /// Reads the next non-blank line as text.
     pub(super) fn text_line(&mut self) -> Result<&'a str, MshError> {
         self.skip_space();
-        let start = self.at;
+        let start = self.offset;
         let line = self.line().ok_or_else(|| self.truncated())?.trim_ascii();
         std::str::from_utf8(line).map_err(|_| self.unexpected(start, "text in UTF-8", line))
     }
 
-    /// An integer with a sign: a dimension, an entity, a type.
+    /// Reads a signed integer: a dimension, an entity, a type.
     pub(super) fn int(&mut self) -> Result<i32, MshError> {
-        if self.binary { Ok(i32::from_le_bytes(self.take()?)) } else { self.word("an integer") }
+        if self.binary { Ok(i32::from_le_bytes(self.take_bytes()?)) } else { self.word("an integer") }
     }
 
-    /// An integer without a sign: a count, a node, an element.
+    /// Reads an unsigned integer: a count, a node, an element.
     pub(super) fn size(&mut self) -> Result<u64, MshError> {
-        if self.binary { Ok(u64::from_le_bytes(self.take()?)) } else { self.word("a count or a tag") }
+        if self.binary { Ok(u64::from_le_bytes(self.take_bytes()?)) } else { self.word("a count or a tag") }
     }
 
-    /// A coordinate.
+    /// Reads a coordinate.
     pub(super) fn real(&mut self) -> Result<f64, MshError> {
-        if self.binary { Ok(f64::from_le_bytes(self.take()?)) } else { self.word("a number") }
+        if self.binary { Ok(f64::from_le_bytes(self.take_bytes()?)) } else { self.word("a number") }
     }
 
     /// Number of bytes read so far.
     pub(super) fn position(&self) -> usize {
-        self.at
+        self.offset
     }
 
-    /// Name of a position for messages; counts the lines before it.
+    /// Returns a position as line or byte for messages.
     pub(super) fn place(&self, position: usize) -> Place {
         if self.binary {
             Place::Byte(position + 1)
         } else {
             let read = &self.bytes[..position];
             let line = 1 + read.iter().filter(|byte| **byte == b'\n').count();
-            // The space between two numbers belongs to the line of the second.
+            // White space between two numbers belongs to the line of the second.
             let space = self.bytes[position..].iter().take_while(|byte| byte.is_ascii_whitespace());
             Place::Line(line + space.filter(|byte| **byte == b'\n').count())
         }
     }
 
-    /// The error of something else at `position` than what must be there.
+    /// Creates the error for unexpected content at `position`.
     pub(super) fn unexpected(&self, position: usize, expected: &'static str, found: &[u8]) -> MshError {
         let section = quote(self.section.as_bytes());
         MshError::Unexpected { place: self.place(position), section, expected, found: quote(found) }
@@ -135,32 +135,32 @@ impl<'a> Source<'a> {
     }
 
     fn skip_space(&mut self) {
-        self.at += self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+        self.offset += self.bytes[self.offset..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
     }
 
-    /// The next bytes of a binary file.
-    fn take<const N: usize>(&mut self) -> Result<[u8; N], MshError> {
-        let bytes = self.bytes[self.at..].first_chunk().ok_or_else(|| self.truncated())?;
-        self.at += N;
+    /// Reads the next bytes of a binary file.
+    fn take_bytes<const N: usize>(&mut self) -> Result<[u8; N], MshError> {
+        let bytes = self.bytes[self.offset..].first_chunk().ok_or_else(|| self.truncated())?;
+        self.offset += N;
         Ok(*bytes)
     }
 
-    /// The next word of a text file, as a number.
+    /// Reads the next word of a text file as a number.
     fn word<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, MshError> {
         self.skip_space();
-        let rest = &self.bytes[self.at..];
+        let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
             return Err(self.truncated());
         }
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         let number = std::str::from_utf8(&rest[..length]).ok().and_then(|word| word.parse().ok());
-        let number = number.ok_or_else(|| self.unexpected(self.at, expected, &rest[..length]))?;
-        self.at += length;
+        let number = number.ok_or_else(|| self.unexpected(self.offset, expected, &rest[..length]))?;
+        self.offset += length;
         Ok(number)
     }
 }
 
-/// The start of a piece of a file, for a message.
+/// Returns the start of some bytes as a quote for a message.
 fn quote(bytes: &[u8]) -> String {
     String::from_utf8_lossy(&bytes[..bytes.len().min(4 * LONGEST_QUOTE)]).chars().take(LONGEST_QUOTE).collect()
 }

@@ -1,9 +1,8 @@
-//! Writing meshes in MSH 4.1: one entity for each body and set, as small as the format allows. Sets of nodes
-//! are points.
+//! Writes meshes in MSH 4.1, as compact as the format allows: one entity per body and set. Node sets are points.
 
 use super::super::Mesh;
 
-/// Text or bytes in the making.
+/// Output buffer for text or binary content.
 struct Sink {
     bytes: Vec<u8>,
     binary: bool,
@@ -45,8 +44,8 @@ impl Sink {
     }
 }
 
-/// The mesh as the content of a file, text or binary: bodies are the volumes 1, 2, ..., sets the surfaces 1, 2, ..., those of
-/// nodes the points 1, 2, ...
+/// Returns the content of a mesh file, text or binary. Bodies are the volumes 1, 2, ..., triangle sets the surfaces
+/// 1, 2, ..., node sets the points 1, 2, ...
 pub fn write(mesh: &Mesh, binary: bool) -> Vec<u8> {
     let mut sink = Sink { bytes: Vec::new(), binary };
     sink.text(if binary { "$MeshFormat\n4.1 1 8\n" } else { "$MeshFormat\n4.1 0 8\n" });

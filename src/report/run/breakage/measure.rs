@@ -1,5 +1,5 @@
-//! Forces and areas in the unit that suits the largest of a table: a unit of 40 t is hit with meganewtons, one of the flume
-//! with newtons.
+//! Units of measurement for the forces and areas of a table, chosen by the largest value: impact forces are
+//! meganewtons on a unit of 40 t, but newtons on a unit in the flume.
 
 /// A unit of measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,25 +11,25 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// For forces up to the largest of these [N].
+    /// Returns the unit for these forces [N].
     pub fn of_forces(forces: impl Iterator<Item = f64>) -> Self {
         Self::holding(forces, [("N", 1.0), ("kN", 1e3), ("MN", 1e6)])
     }
 
-    /// For areas up to the largest of these [m2].
+    /// Returns the unit for these areas [m2].
     pub fn of_areas(areas: impl Iterator<Item = f64>) -> Self {
         // Square centimetres up to 0.1 m2.
         Self::holding(areas.map(|area| 10.0 * area), [("cm\u{b2}", 1e-4), ("m\u{b2}", 1.0)])
     }
 
-    /// The largest of some units that is no larger than the largest value, else the smallest of them.
+    /// Returns the largest unit not larger than the largest value, or else the smallest unit.
     fn holding<const N: usize>(values: impl Iterator<Item = f64>, units: [(&'static str, f64); N]) -> Self {
         let largest = values.fold(0.0, f64::max);
         let fitting = units.iter().rev().find(|(_, size)| *size <= largest).unwrap_or(&units[0]);
         Self { name: fitting.0, size: fitting.1 }
     }
 
-    /// A value in this unit, without a minus sign before zero.
+    /// Formats a value in this unit, without a minus sign before zero.
     pub fn show(self, value: f64) -> String {
         format!("{:.3}", value / self.size + 0.0)
     }

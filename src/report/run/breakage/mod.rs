@@ -1,9 +1,9 @@
-//! Which units break: the section about the impacts that were computed again with units that deform and crack.
+//! Report section of the breakage analysis: impacts that were re-run at prototype scale with breakable units.
 //!
-//! | file | what it holds |
+//! | file | content |
 //! | --- | --- |
-//! | `measure` | forces and areas in the unit that suits the largest |
-//! | `tables` | a row for each unit, a row for each impact |
+//! | `measure` | units of measurement for forces and areas |
+//! | `tables` | table of the units, table of the impacts |
 //! | `worst` | pictures of the worst impact |
 
 mod measure;
@@ -14,44 +14,44 @@ use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use crate::simulation::breakage::results::{BROKEN, Breakage, UnitBreakage};
 
-/// The section's content; empty where no impacts were handed over.
+/// Returns the content of the section; empty without a breakage analysis.
 pub fn breakage(run: &RunFolder) -> String {
     let Some(breakage) = &run.breakage else { return String::new() };
-    let mut html = in_words(breakage);
+    let mut html = introduction(breakage);
     html += &tables::units(breakage);
     html += &tables::impacts(breakage, run);
     html += &failures(breakage);
     html + &worst::worst(breakage, run)
 }
 
-/// Size, damage by movement and by breakage, and what a broken unit is.
-fn in_words(breakage: &Breakage) -> String {
+/// Introduction: scale, damage by movement and by breakage, and the definition of a broken unit.
+fn introduction(breakage: &Breakage) -> String {
     let count = |is: fn(&UnitBreakage) -> bool| breakage.units.iter().filter(|unit| is(unit)).count();
-    let (units, told) = (breakage.units.len(), count(|unit| unit.broken.is_some()));
+    let (units, analysed) = (breakage.units.len(), count(|unit| unit.broken.is_some()));
     let size = if breakage.scale == 1.0 {
-        "At the size of the run".to_owned()
+        "At the scale of the run".to_owned()
     } else {
-        format!("In a prototype {} times as large as the run", short(breakage.scale, 3))
+        format!("At prototype scale, {} times the size of the run", short(breakage.scale, 3))
     };
-    // A deep crack may need longer than the computed time to part a unit.
+    // A deep crack may need more than the computed time to split a unit.
     let cracked = count(|unit| unit.broken == Some(false) && unit.crack_area_m2 > Some(0.0));
     let cracked = match cracked {
         0 => String::new(),
-        1 => " One more unit has cracks without being broken.".to_owned(),
-        more => format!(" {more} more units have cracks without being broken."),
+        1 => " One other unit has cracks but is not broken.".to_owned(),
+        more => format!(" {more} other units have cracks but are not broken."),
     };
-    let rest = if told < units {
+    let rest = if analysed < units {
         format!(
-            " Impacts of {told} of the {units} units were handed over to the fracture computation; the others count as not broken."
+            " Impacts of {analysed} of the {units} units were re-run at prototype scale; the other units count as not broken."
         )
     } else {
         String::new()
     };
     format!(
         "<p>{size}, {} % of the units are damaged by movement ({} of {units}) and {} % by breakage ({} of {units}).{cracked}{rest}</p>\n\
-         <p>The hardest impacts were computed again with units that deform and crack. Displacements are those of the run; \
-         forces, stresses and cracks are those of the prototype. A unit is broken when its heaviest piece has less than {} % \
-         of its mass.</p>\n",
+         <p>The hardest impacts were re-run at prototype scale with breakable units. Displacements are at the scale of the run; \
+         forces, stresses and cracks are at prototype scale. A unit counts as broken when its heaviest piece has less than \
+         {} % of its mass.</p>\n",
         short(100.0 * breakage.damaged_ratio, 0),
         count(|unit| unit.damaged),
         short(100.0 * breakage.broken_ratio, 0),
@@ -60,13 +60,12 @@ fn in_words(breakage: &Breakage) -> String {
     )
 }
 
-/// Which computations went astray, and why.
+/// List of the failed fracture runs with their errors.
 fn failures(breakage: &Breakage) -> String {
     let failed = breakage.impacts.iter().filter_map(|impact| Some((&impact.name, impact.failure.as_ref()?)));
     let items: String =
         failed.map(|(name, why)| format!("<li><code>{}</code>: {}</li>\n", escape(name), escape(why))).collect();
-    let words =
-        "<p>These impacts could not be computed; what they would have done to the units is not in the tables.</p>\n";
+    let words = "<p>The fracture runs of these impacts failed. Their effect on the units is not in the tables.</p>\n";
     if items.is_empty() { items } else { format!("{words}<ul>\n{items}</ul>\n") }
 }
 
@@ -128,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_tells_which_units_break() {
+    fn the_report_lists_the_broken_units() {
         let folder = tempfile::tempdir().unwrap();
         let breakage = Breakage {
             scale: 25.0,
@@ -142,28 +141,28 @@ mod tests {
         fs::create_dir_all(&report).unwrap();
         fs::write(report.join("report.html"), "").unwrap();
         let html = page(folder.path());
-        let told = [
-            "<h2>Which units break</h2>",
-            "In a prototype 25 times as large as the run, 33 % of the units are damaged by movement (1 of 3) and 33 % by \
-             breakage (1 of 3). One more unit has cracks without being broken. Impacts of 2 of the 3 units",
+        let expected = [
+            "<h2>Breakage of the units</h2>",
+            "At prototype scale, 25 times the size of the run, 33 % of the units are damaged by movement (1 of 3) and 33 % by \
+             breakage (1 of 3). One other unit has cracks but is not broken. Impacts of 2 of the 3 units",
             "<td>3</td><td class=\"yes\">yes</td></tr>",
-            "not handed over",
-            "Hardest hit [MN]",
+            "not re-run",
+            "Peak impact force [MN]",
             "<td>0.500</td><td>2.500</td>",
             "href=\"impacts/impact-01-unit-01/report.html\"",
             "<code>impact-02-unit-01</code>: a tetrahedron &lt; 0",
-            "There are no pictures of it",
+            "No pictures of this impact",
         ];
-        for words in told {
+        for words in expected {
             assert!(html.contains(words), "{words} in\n{html}");
         }
         assert!(!html.contains("href=\"impacts/impact-02-unit-01"));
     }
 
     #[test]
-    fn a_run_without_handed_over_impacts_has_no_such_section() {
+    fn without_a_breakage_analysis_there_is_no_breakage_section() {
         let folder = tempfile::tempdir().unwrap();
         let html = page(folder.path());
-        assert!(!html.contains("Which units break") && !html.contains("breakage.csv"));
+        assert!(!html.contains("Breakage of the units") && !html.contains("breakage.csv"));
     }
 }

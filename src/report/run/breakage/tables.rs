@@ -1,4 +1,4 @@
-//! Units and impacts as tables.
+//! Tables of units and impacts.
 
 use super::super::super::plot::{escape, short};
 use super::super::folder::RunFolder;
@@ -8,15 +8,15 @@ use crate::simulation::breakage::froude::Froude;
 use crate::simulation::breakage::results::{Breakage, Found, Outcome, UnitBreakage};
 use crate::simulation::breakage::run::FOLDER;
 
-/// Residuals of the energy book below this are not told apart [%].
+/// Residuals of the energy balance smaller than this are shown as "below" [%].
 const LEAST_RESIDUAL: f64 = 0.01;
 
-/// Megapascals.
+/// Formats a stress [Pa] in megapascals.
 fn megapascals(stress: f64) -> String {
     format!("{:.2}", stress * 1e-6 + 0.0)
 }
 
-/// The units: how far they moved, how hard they were hit, what broke.
+/// Table of the units: displacement, peak impact force, stresses and breakage.
 pub fn units(breakage: &Breakage) -> String {
     let force = Measure::of_forces(breakage.units.iter().map(|unit| unit.peak_force_n));
     let area = Measure::of_areas(breakage.units.iter().filter_map(|unit| unit.crack_area_m2));
@@ -28,7 +28,7 @@ pub fn units(breakage: &Breakage) -> String {
                 let broken = if broken { "<td class=\"yes\">yes</td>" } else { "<td>no</td>" };
                 format!("<td>{}</td><td>{}</td><td>{pieces}</td>{broken}", megapascals(sigma_1), area.show(cracks))
             }
-            _ => "<td colspan=\"4\">not handed over</td>".to_owned(),
+            _ => "<td colspan=\"4\">not re-run</td>".to_owned(),
         };
         format!(
             "<tr><td>{}</td><td>{:.3}</td>{damaged}<td>{}</td><td>{nominal}</td>{found}</tr>\n",
@@ -41,13 +41,13 @@ pub fn units(breakage: &Breakage) -> String {
     let count = |is: fn(&UnitBreakage) -> bool| breakage.units.iter().filter(|unit| is(unit)).count();
     format!(
         "<div class=\"scroll\"><table>\n<thead><tr><th>Unit</th><th>Displace&shy;ment [m]</th><th>Damaged by movement</th>\
-         <th>Hardest hit [{}]</th><th>Nominal stress [MPa]</th><th>\u{3c3}\u{2081} [MPa]</th><th>Area of cracks [{}]</th>\
+         <th>Peak impact force [{}]</th><th>Nominal stress [MPa]</th><th>\u{3c3}\u{2081} [MPa]</th><th>Crack area [{}]</th>\
          <th>Pieces</th><th>Broken</th></tr></thead>\n<tbody>\n{rows}\
          <tr class=\"sum\"><td>All</td><td></td><td>{} of {units}</td><td colspan=\"5\"></td><td>{} of {units}</td></tr>\n\
          </tbody></table></div>\n\
-         <figcaption>Hardest hit: the largest force of all recorded impacts by Hertz's law; nominal stress: what such forces \
-         mean by the theory of bars. \u{3c3}\u{2081}, the largest first principal stress, cracks and pieces come from the \
-         fracture computations, the worst of all of a unit's impacts.</figcaption>\n",
+         <figcaption>Peak impact force: the largest force of all recorded impacts, by Hertz's law. Nominal stress: the stress \
+         under such forces by beam theory. \u{3c3}\u{2081} (largest first principal stress), cracks and pieces are from \
+         the fracture runs: the worst of all impacts of a unit.</figcaption>\n",
         force.name,
         area.name,
         count(|unit| unit.damaged),
@@ -56,11 +56,10 @@ pub fn units(breakage: &Breakage) -> String {
     )
 }
 
-/// The impacts that were computed again.
+/// Table of the impacts that were re-run at prototype scale.
 pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
     if breakage.impacts.is_empty() {
-        return "<p>No impact was handed over: none was as hard as <code>fracture.select</code> asks for.</p>\n"
-            .to_owned();
+        return "<p>No impact was re-run: none met the criteria in <code>fracture.select</code>.</p>\n".to_owned();
     }
     let found = || breakage.impacts.iter().flat_map(|impact| &impact.found);
     let area = Measure::of_areas(found().map(|found| found.crack_area_m2));
@@ -69,14 +68,14 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
         let results = if impact.failure.is_some() {
             "<td colspan=\"4\">not computed</td>".to_owned()
         } else {
-            let of = |show: &dyn Fn(&Found) -> String| {
+            let both_units = |show: &dyn Fn(&Found) -> String| {
                 impact.found.iter().map(show).collect::<Vec<_>>().join("&nbsp;|&nbsp;")
             };
             format!(
                 "<td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
-                of(&|found| megapascals(found.sigma_1_pa)),
-                of(&|found| area.show(found.crack_area_m2)),
-                of(&|found| found.pieces.to_string()),
+                both_units(&|found| megapascals(found.sigma_1_pa)),
+                both_units(&|found| area.show(found.crack_area_m2)),
+                both_units(&|found| found.pieces.to_string()),
                 impact.energy_residual_ratio.map_or("\u{2013}".to_owned(), percent)
             )
         };
@@ -87,31 +86,31 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
             impact.t_s,
             impact.approach_m_s,
             impact.approach_m_s * prototype,
-            way(impact.way),
+            method(impact.way),
             link(impact, run)
         )
         .replace(">-", ">\u{2212}")
     };
     let rows: String = breakage.impacts.iter().map(row).collect();
     format!(
-        "<p>The impacts that were computed again, the hardest first:</p>\n\
-         <div class=\"scroll\"><table>\n<thead><tr><th>Unit</th><th>On</th><th>Flume time [s]</th><th>Approach in the run [m/s]</th>\
-         <th>in the prototype [m/s]</th><th class=\"words\">Computed by</th><th>\u{3c3}\u{2081} [MPa]</th><th>Area of cracks [{}]</th><th>Pieces</th>\
+        "<p>Impacts that were re-run at prototype scale, the hardest first:</p>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th>Unit</th><th>Hits</th><th>Flume time [s]</th><th>Approach velocity, run [m/s]</th>\
+         <th>Approach velocity, prototype [m/s]</th><th class=\"words\">Method</th><th>\u{3c3}\u{2081} [MPa]</th><th>Crack area [{}]</th><th>Pieces</th>\
          <th>Energy residual [%]</th><th>Details</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
-         <figcaption>Velocities of approach scale with the square root of lengths (Froude). Collision: both bodies collide \
-         again from their poses and velocities just before; recorded forces: those of the run act on the unit alone. Of two \
-         units that met, the second value is that of the one that was hit. The energy residual is what the energy book leaves \
-         unexplained, of the largest kinetic energy.</figcaption>\n",
+         <figcaption>Approach velocities scale with the square root of length (Froude). Collision: both bodies collide again \
+         from their positions and velocities just before the impact. Recorded forces: the forces of the run act on the unit \
+         alone. Two values in a cell: first the unit, then the unit that it hit. Energy residual: error of the energy balance, \
+         relative to the largest kinetic energy.</figcaption>\n",
         area.name
     )
 }
 
-/// What the unit hit.
+/// Name of the body that the unit hit.
 pub fn partner(impact: &Outcome) -> String {
     impact.partner.map_or("bed or wall".to_owned(), |unit| format!("unit {unit}"))
 }
 
-fn way(way: HandoverWay) -> &'static str {
+fn method(way: HandoverWay) -> &'static str {
     match way {
         HandoverWay::LoadHistory => "recorded forces",
         HandoverWay::ReEnact | HandoverWay::Both => "collision",
@@ -123,7 +122,7 @@ fn percent(ratio: f64) -> String {
     if percent < LEAST_RESIDUAL { format!("below {LEAST_RESIDUAL}") } else { short(percent, 2) }
 }
 
-/// The report of an impact, if it has one.
+/// Link to the report of an impact, or a dash if there is none.
 fn link(impact: &Outcome, run: &RunFolder) -> String {
     let path = format!("{FOLDER}/{}/report.html", impact.name);
     if run.has(&path) { format!("<a href=\"{}\">report</a>", escape(&path)) } else { "\u{2013}".to_owned() }

@@ -1,0 +1,28 @@
+//! Still water in a small tank: the pressure on the bed must stay that of the water above it.
+//!
+//!     cargo run --release --example still_water
+
+use std::{error::Error, sync::Arc};
+
+use breakwater::{Case, Simulation};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let case = Arc::new(Case::load("cases/verification/still-water.json")?);
+    let mut simulation = Simulation::new(case.clone())?;
+    println!("{}: {} water particles", case.title, simulation.water.len());
+
+    while simulation.time < 0.5 {
+        simulation.step()?;
+    }
+
+    let mut now = simulation.begin_step()?;
+    for gauge in &case.gauges {
+        let point = now.place_of(gauge);
+        if let Some(sample) = now.sampler()?.sample(point) {
+            let depth = case.flume.still_level - point.z;
+            let hydrostatic = case.fluid.rho0 * case.fluid.gravity * depth;
+            println!("{}: {:.0} Pa, hydrostatic {hydrostatic:.0} Pa", gauge.name, sample.pressure);
+        }
+    }
+    Ok(())
+}
