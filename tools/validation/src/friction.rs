@@ -63,7 +63,7 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared], publ
             }
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let name = format!("{} cm, {} mm", centimetres(wave), millimetres(dp_m));
-            lines.push(Line { name, points, colour: 1 + lines.len(), dots: true, ..Line::default() });
+            lines.push(Line { name, points, colour: 1 + lines.len() % 5, dots: true, ..Line::default() });
         }
         let is_same = |published: &&Published| (published.height_m - wave.height_m).abs() < 1e-9;
         if let Some(published) = published.iter().find(is_same).filter(|_| lines.len() > before) {
