@@ -84,7 +84,7 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared], publ
         ..LineChart::default()
     };
     let caption = format!(
-        "Mean displacement against the friction coefficient of the mound, {} in the experiment.",
+        "Mean displacement against the friction coefficient of the mound ({} in the experiment), with the two published points.",
         change::base_friction()
     );
     page.figure("fudo-friction.svg", &chart.svg(), &caption);

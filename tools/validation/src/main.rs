@@ -95,7 +95,7 @@ fn write(folders: &Folders, new: &[PathBuf]) -> Result<Vec<PathBuf>, Box<dyn Err
         written.push(folders.page.join(name));
         write_atomically(&folders.page.join(name), svg.as_bytes())?;
     }
-    write_atomically(&path, format!("{}{notes}", page.text()).as_bytes())?;
+    write_atomically(&path, format!("{}{notes}", page.text().trim_end()).as_bytes())?;
     written.push(path);
     Ok(written)
 }
