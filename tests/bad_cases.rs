@@ -1,5 +1,4 @@
-//! Every file in `tests/bad_cases` is refused with the message that lies beside it: each line of `NAME.expect` must
-//! appear in what the user sees.
+//! Every file in `tests/bad_cases` is refused. The error message for `NAME.json` contains each line of `NAME.expect`.
 
 use std::path::{Path, PathBuf};
 
@@ -24,12 +23,12 @@ fn bad_cases() -> Vec<(PathBuf, Vec<String>)> {
         .collect()
 }
 
-/// What a message lacks.
-fn complaints(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
+/// Lists the expected lines that the message lacks, and its lines that do not name the file.
+fn message_faults(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
     let name = path.file_name().unwrap().to_string_lossy();
     let mut found = Vec::new();
     if expected.is_empty() {
-        found.push(format!("{name}: nothing is expected"));
+        found.push(format!("{name}: its .expect file is empty"));
     }
     for line in expected.iter().filter(|line| !message.contains(line.as_str())) {
         found.push(format!("{name}:\n  expected: {line}\n  message:  {message}"));
@@ -48,20 +47,20 @@ fn every_bad_case_is_refused_with_its_message() {
     for (path, expected) in cases {
         match Case::load(&path) {
             Ok(_) => found.push(format!("{} was accepted", path.display())),
-            Err(errors) => found.extend(complaints(&errors.to_string(), &path, &expected)),
+            Err(errors) => found.extend(message_faults(&errors.to_string(), &path, &expected)),
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]
-fn a_missing_file_is_named() {
+fn a_missing_file_is_refused_by_name() {
     let errors = Case::load("tests/bad_cases/no-such-file.json").unwrap_err();
     assert!(errors.to_string().starts_with("tests/bad_cases/no-such-file.json: cannot be read: "), "{errors}");
 }
 
 #[test]
-fn a_folder_is_no_case() {
+fn a_folder_is_refused_as_a_case() {
     let errors = Case::load("tests/bad_cases").unwrap_err();
     assert!(errors.to_string().starts_with("tests/bad_cases: cannot be read: "), "{errors}");
 }
@@ -76,17 +75,17 @@ fn truncated_cases_are_refused_at_every_length() {
 }
 
 #[test]
-fn odd_values_anywhere_give_an_error_or_a_sound_case() {
-    let odd = ["0", "-1", "1e308", "-1e308", "5e-324", "4294967295", "0.001", "null", "\"\"", "[]", "{}", "true"];
+fn extreme_values_give_an_error_or_a_valid_case() {
+    let extreme = ["0", "-1", "1e308", "-1e308", "5e-324", "4294967295", "0.001", "null", "\"\"", "[]", "{}", "true"];
     let file: breakwater::case::file::CaseFile = serde_json::from_str(&breakwater::case::template_text()).unwrap();
-    let sound = serde_json::to_value(&file).unwrap();
+    let valid = serde_json::to_value(&file).unwrap();
     let mut pointers = Vec::new();
-    collect_pointers(&sound, String::new(), &mut pointers);
+    collect_pointers(&valid, String::new(), &mut pointers);
     for pointer in &pointers {
-        for value in odd {
-            let mut changed = sound.clone();
+        for value in extreme {
+            let mut changed = valid.clone();
             *changed.pointer_mut(pointer).unwrap() = serde_json::from_str(value).unwrap();
-            match Case::from_str(&changed.to_string(), "odd.json") {
+            match Case::from_str(&changed.to_string(), "extreme.json") {
                 Ok(case) => {
                     let size = case.estimate();
                     let finite = size.dt > 0.0 && size.dt.is_finite() && size.bytes.is_finite();
@@ -98,18 +97,18 @@ fn odd_values_anywhere_give_an_error_or_a_sound_case() {
     }
 }
 
-/// JSON pointers of a value and everything inside it.
-fn collect_pointers(value: &serde_json::Value, at: String, pointers: &mut Vec<String>) {
+/// Collects the JSON pointers of a value and of everything inside it.
+fn collect_pointers(value: &serde_json::Value, pointer: String, pointers: &mut Vec<String>) {
     match value {
         serde_json::Value::Object(object) => {
-            object.iter().for_each(|(key, inner)| collect_pointers(inner, format!("{at}/{key}"), pointers));
+            object.iter().for_each(|(key, inner)| collect_pointers(inner, format!("{pointer}/{key}"), pointers));
         }
         serde_json::Value::Array(list) => {
-            list.iter().enumerate().for_each(|(i, inner)| collect_pointers(inner, format!("{at}/{i}"), pointers));
+            list.iter().enumerate().for_each(|(i, inner)| collect_pointers(inner, format!("{pointer}/{i}"), pointers));
         }
         _ => {}
     }
-    pointers.push(at);
+    pointers.push(pointer);
 }
 
 #[test]

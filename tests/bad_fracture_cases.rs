@@ -1,5 +1,5 @@
-//! Every file in `tests/bad_fracture_cases` is refused with the message that lies beside it, and so is every spoilt mesh;
-//! whatever is done to case and mesh, nothing panics.
+//! Every file in `tests/bad_fracture_cases` and every corrupted mesh is refused with its expected message. No corrupted
+//! case or mesh makes the program panic.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,7 +13,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Case files with the lines that must appear in what the user sees.
+/// Lists the case files with the lines that must appear in their error messages.
 fn bad_cases() -> Vec<(PathBuf, Vec<String>)> {
     let entries = std::fs::read_dir(root().join("tests/bad_fracture_cases")).unwrap();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -26,14 +26,14 @@ fn bad_cases() -> Vec<(PathBuf, Vec<String>)> {
     files.into_iter().map(with_lines).collect()
 }
 
-/// What a message lacks.
-fn complaints(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
+/// Lists the expected lines that the message lacks, and its lines that do not name the file.
+fn message_faults(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
     let name = path.file_name().unwrap().to_string_lossy();
     let missing = expected.iter().filter(|line| !message.contains(line.as_str()));
     let mut found: Vec<String> =
         missing.map(|line| format!("{name}:\n  expected: {line}\n  message:  {message}")).collect();
     if expected.is_empty() {
-        found.push(format!("{name}: nothing is expected"));
+        found.push(format!("{name}: its .expect file is empty"));
     }
     let nameless = message.lines().filter(|line| !line.contains(&*name));
     found.extend(nameless.map(|line| format!("{name}: a line of the message does not name the file: {line}")));
@@ -48,7 +48,7 @@ fn every_bad_case_is_refused_with_its_message() {
     for (path, expected) in cases {
         match FractureCase::load(&path) {
             Ok(_) => found.push(format!("{} was accepted", path.display())),
-            Err(errors) => found.extend(complaints(&errors.to_string(), &path, &expected)),
+            Err(errors) => found.extend(message_faults(&errors.to_string(), &path, &expected)),
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
@@ -63,14 +63,14 @@ fn program_refuses_every_bad_case_with_exit_code_2() {
         let run = program.arg("fracture").arg(&path).arg("--out").arg(&out).output().unwrap();
         let message = String::from_utf8_lossy(&run.stderr);
         assert_eq!(run.status.code(), Some(2), "{}: {message}", path.display());
-        let found = complaints(&message, &path, &expected);
+        let found = message_faults(&message, &path, &expected);
         assert!(found.is_empty(), "{}", found.join("\n"));
         assert!(!out.exists(), "{} left a folder", path.display());
     }
 }
 
-/// A case of a block on a plate, and its mesh.
-fn sound() -> (String, String) {
+/// Returns a valid case, a block on a plate, and its mesh.
+fn valid_case_and_mesh() -> (String, String) {
     let mesh = std::fs::read_to_string(root().join("tests/data/meshes/block_on_plate.msh")).unwrap();
     let case = json!({
         "title": "A block on a plate",
@@ -94,18 +94,18 @@ fn sound() -> (String, String) {
     (serde_json::to_string_pretty(&case).unwrap(), mesh)
 }
 
-/// What is said of the sound case with another mesh.
-fn with_mesh(folder: &Path, mesh: &[u8]) -> Result<FractureCase, String> {
+/// Loads the valid case with another mesh; returns the error message if it is refused.
+fn load_with_mesh(folder: &Path, mesh: &[u8]) -> Result<FractureCase, String> {
     std::fs::write(folder.join("mesh.msh"), mesh).unwrap();
     let name = folder.join("case.json");
-    FractureCase::from_str(&sound().0, name.to_str().unwrap()).map_err(|errors| errors.to_string())
+    FractureCase::from_str(&valid_case_and_mesh().0, name.to_str().unwrap()).map_err(|errors| errors.to_string())
 }
 
 #[test]
-fn every_spoilt_mesh_is_refused_with_its_message() {
+fn every_corrupted_mesh_is_refused_with_its_message() {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = sound().1;
-    with_mesh(folder.path(), mesh.as_bytes()).unwrap();
+    let mesh = valid_case_and_mesh().1;
+    load_with_mesh(folder.path(), mesh.as_bytes()).unwrap();
     let replaced = |from: &str, to: &str| {
         assert!(mesh.contains(from), "{from:?} not in the mesh");
         mesh.replacen(from, to, 1)
@@ -122,7 +122,10 @@ fn every_spoilt_mesh_is_refused_with_its_message() {
         (replaced("\n29 1 2 3 4\n", "\n29 2 1 3 4\n"), "72 tetrahedra have a negative volume, the first is 29 at ("),
         (replaced("\n29 1 2 3 4\n", "\n29 1 2 3 3\n"), "1 of 72 tetrahedra are flat"),
         (replaced("\n29 1 2 3 4\n", "\n29 1 2 3 77\n"), "element 29 refers to node 77, which is not in section $Nodes"),
-        (hanging_face(&mesh), "physical surface \"plate_bottom\": 1 of 12 triangles are no face of a tetrahedron"),
+        (
+            with_detached_triangle(&mesh),
+            "physical surface \"plate_bottom\": 1 of 12 triangles are no face of a tetrahedron",
+        ),
         (replaced("3 2 \"plate\"\n", "").replacen("\n5\n2 1", "\n4\n2 1", 1), "physical Volume 2 has no name"),
         (
             replaced("\n2 0 0 0 0 0 0 1 2 0\n$EndEntities", "\n2 0 0 0 0 0 0 0 0\n$EndEntities"),
@@ -139,114 +142,114 @@ fn every_spoilt_mesh_is_refused_with_its_message() {
         ),
     ];
     for (mesh, expected) in cases {
-        let message = with_mesh(folder.path(), mesh.as_bytes()).map(|_| ()).unwrap_err();
+        let message = load_with_mesh(folder.path(), mesh.as_bytes()).map(|_| ()).unwrap_err();
         assert!(message.contains(expected), "expected: {expected}\nmessage:  {message}");
         assert!(message.contains("case.json: fracture.mesh = \"") && message.contains("docs/cases.md"), "{message}");
         assert_eq!(message.lines().count(), 1, "{message}");
     }
 }
 
-/// The first triangle of the first set between nodes that no tetrahedron joins.
-fn hanging_face(mesh: &str) -> String {
+/// Returns the mesh with the first triangle of its first set moved to nodes that no tetrahedron joins.
+fn with_detached_triangle(mesh: &str) -> String {
     let set = "\n2 1 2 12\n";
     let start = mesh.find(set).unwrap() + set.len();
     let end = start + mesh[start..].find('\n').unwrap();
     format!("{}1 37 48 60{}", &mesh[..start], &mesh[end..])
 }
 
-/// Two steps of a case that was accepted: they may fail, with a reason.
-fn try_out(case: &FractureCase) {
+/// Advances an accepted case by two time steps; they may return an error but must not panic.
+fn run_two_steps(case: &FractureCase) {
     let Ok(mut world) = world(case) else { return };
     let _ = world.step().and_then(|()| world.step()).and_then(|()| world.watch());
 }
 
 #[test]
 fn truncated_cases_are_refused_at_every_length() {
-    let text = sound().0;
+    let text = valid_case_and_mesh().0;
     for length in 0..text.trim_end().len() {
         assert!(FractureCase::from_str(&text[..length], "cut.json").is_err(), "accepted when cut at {length}");
     }
 }
 
 #[test]
-fn odd_values_anywhere_give_an_error_or_a_case_that_runs() {
-    let odd = ["0", "-1", "1e308", "-1e308", "5e-324", "4294967295", "0.001", "null", "\"\"", "[]", "{}", "true"];
+fn extreme_values_give_an_error_or_a_case_that_runs() {
+    let extreme = ["0", "-1", "1e308", "-1e308", "5e-324", "4294967295", "0.001", "null", "\"\"", "[]", "{}", "true"];
     let folder = tempfile::tempdir().unwrap();
-    let (text, mesh) = sound();
+    let (text, mesh) = valid_case_and_mesh();
     std::fs::write(folder.path().join("mesh.msh"), mesh).unwrap();
-    let name = folder.path().join("odd.json");
+    let name = folder.path().join("extreme.json");
     let file: breakwater::case::file::FractureFile = serde_json::from_str(&text).unwrap();
-    let sound = serde_json::to_value(&file).unwrap();
+    let valid = serde_json::to_value(&file).unwrap();
     let mut pointers = Vec::new();
-    collect_pointers(&sound, String::new(), &mut pointers);
+    collect_pointers(&valid, String::new(), &mut pointers);
     for pointer in &pointers {
-        for value in odd {
-            let mut changed = sound.clone();
+        for value in extreme {
+            let mut changed = valid.clone();
             *changed.pointer_mut(pointer).unwrap() = serde_json::from_str(value).unwrap();
             match FractureCase::from_str(&changed.to_string(), name.to_str().unwrap()) {
-                Ok(case) => try_out(&case),
+                Ok(case) => run_two_steps(&case),
                 Err(errors) => assert!(!errors.errors.is_empty(), "{pointer} = {value}: refused without a reason"),
             }
         }
     }
 }
 
-/// JSON pointers of a value and everything inside it.
-fn collect_pointers(value: &Value, at: String, pointers: &mut Vec<String>) {
+/// Collects the JSON pointers of a value and of everything inside it.
+fn collect_pointers(value: &Value, pointer: String, pointers: &mut Vec<String>) {
     match value {
         Value::Object(object) => {
-            object.iter().for_each(|(key, inner)| collect_pointers(inner, format!("{at}/{key}"), pointers));
+            object.iter().for_each(|(key, inner)| collect_pointers(inner, format!("{pointer}/{key}"), pointers));
         }
         Value::Array(list) => {
-            list.iter().enumerate().for_each(|(i, inner)| collect_pointers(inner, format!("{at}/{i}"), pointers));
+            list.iter().enumerate().for_each(|(i, inner)| collect_pointers(inner, format!("{pointer}/{i}"), pointers));
         }
         _ => {}
     }
-    pointers.push(at);
+    pointers.push(pointer);
 }
 
-/// A way to spoil a text.
+/// A corruption of a text file.
 #[derive(Debug, Clone)]
 enum Damage {
-    /// Another byte at a place.
+    /// The byte at a position is replaced.
     Byte(usize, u8),
-    /// A line left out.
-    Without(usize),
-    /// A line twice.
-    Twice(usize),
-    /// A line put in the place of another.
-    Moved(usize, usize),
-    /// A word replaced by a number that is hard to swallow.
+    /// A line is removed.
+    Removed(usize),
+    /// A line is duplicated.
+    Duplicated(usize),
+    /// A copy of the first line replaces the second.
+    Copied(usize, usize),
+    /// An extreme number replaces a word.
     Number(usize, &'static str),
 }
 
 fn damage() -> impl Strategy<Value = Damage> {
     let number = prop::sample::select(vec!["0", "-1", "1e300", "-1e-300", "1e9", "4294967296", "18446744073709551615"]);
     prop_oneof![
-        (any::<usize>(), any::<u8>()).prop_map(|(place, byte)| Damage::Byte(place, byte)),
-        (any::<usize>(), b'0'..=b'9').prop_map(|(place, digit)| Damage::Byte(place, digit)),
-        any::<usize>().prop_map(Damage::Without),
-        any::<usize>().prop_map(Damage::Twice),
-        (any::<usize>(), any::<usize>()).prop_map(|(from, to)| Damage::Moved(from, to)),
+        (any::<usize>(), any::<u8>()).prop_map(|(position, byte)| Damage::Byte(position, byte)),
+        (any::<usize>(), b'0'..=b'9').prop_map(|(position, digit)| Damage::Byte(position, digit)),
+        any::<usize>().prop_map(Damage::Removed),
+        any::<usize>().prop_map(Damage::Duplicated),
+        (any::<usize>(), any::<usize>()).prop_map(|(from, to)| Damage::Copied(from, to)),
         (any::<usize>(), number).prop_map(|(word, number)| Damage::Number(word, number)),
     ]
 }
 
-fn spoilt(text: &str, damages: &[Damage]) -> Vec<u8> {
+fn corrupted(text: &str, damages: &[Damage]) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     for damage in damages {
         let separator = if matches!(damage, Damage::Number(..)) { b' ' } else { b'\n' };
         let mut lines: Vec<Vec<u8>> = bytes.split(|byte| *byte == separator).map(<[u8]>::to_vec).collect();
         let count = lines.len();
         match *damage {
-            Damage::Byte(place, byte) => {
-                let place = place % bytes.len().max(1);
-                bytes.iter_mut().skip(place).take(1).for_each(|old| *old = byte);
+            Damage::Byte(position, byte) => {
+                let position = position % bytes.len().max(1);
+                bytes.iter_mut().skip(position).take(1).for_each(|old| *old = byte);
                 continue;
             }
-            Damage::Without(line) => drop(lines.remove(line % count)),
-            Damage::Twice(line) => lines.insert(line % count, lines[line % count].clone()),
-            Damage::Moved(from, to) => lines[to % count] = lines[from % count].clone(),
+            Damage::Removed(line) => drop(lines.remove(line % count)),
+            Damage::Duplicated(line) => lines.insert(line % count, lines[line % count].clone()),
+            Damage::Copied(from, to) => lines[to % count] = lines[from % count].clone(),
             Damage::Number(word, number) => lines[word % count] = number.as_bytes().to_vec(),
         }
         bytes = lines.join(&separator);
@@ -258,22 +261,22 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
-    fn spoilt_meshes_do_no_harm(damages in prop::collection::vec(damage(), 1..4)) {
+    fn corrupted_meshes_are_refused_or_run(damages in prop::collection::vec(damage(), 1..4)) {
         let folder = tempfile::tempdir().unwrap();
-        match with_mesh(folder.path(), &spoilt(&sound().1, &damages)) {
-            Ok(case) => try_out(&case),
+        match load_with_mesh(folder.path(), &corrupted(&valid_case_and_mesh().1, &damages)) {
+            Ok(case) => run_two_steps(&case),
             Err(message) => prop_assert!(message.contains("case.json: "), "{}", message),
         }
     }
 
     #[test]
-    fn spoilt_cases_do_no_harm(damages in prop::collection::vec(damage(), 1..4)) {
-        let (text, mesh) = sound();
+    fn corrupted_cases_are_refused_or_run(damages in prop::collection::vec(damage(), 1..4)) {
+        let (text, mesh) = valid_case_and_mesh();
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("mesh.msh"), mesh).unwrap();
-        let text = String::from_utf8_lossy(&spoilt(&text, &damages)).into_owned();
+        let text = String::from_utf8_lossy(&corrupted(&text, &damages)).into_owned();
         match FractureCase::from_str(&text, folder.path().join("case.json").to_str().unwrap()) {
-            Ok(case) => try_out(&case),
+            Ok(case) => run_two_steps(&case),
             Err(errors) => prop_assert!(!errors.errors.is_empty()),
         }
     }

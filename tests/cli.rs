@@ -1,4 +1,4 @@
-//! The program as its users meet it: exit codes, messages, files, going on after an interruption.
+//! The command line: exit codes, messages, output files, and resuming after an interruption.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -37,14 +37,14 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// The command must succeed; returns what it printed.
+/// Runs a command that must succeed; returns its standard output.
 fn succeed(arguments: &[&str]) -> String {
     let output = run(arguments);
     assert!(output.status.success(), "{arguments:?}: {}\n{}", output.status, text(&output.stderr));
     text(&output.stdout)
 }
 
-/// The command must refuse its input with exit code 2 and without a panic; returns what it said.
+/// Runs a command that must refuse its input with exit code 2 and without a panic; returns the error message.
 fn refuse(arguments: &[&str]) -> String {
     let output = run(arguments);
     let message = text(&output.stderr);
@@ -57,7 +57,7 @@ fn path(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Water round one big Tetrapod that is let go after a moment: seconds, with contact and motion.
+/// Writes a case that runs for seconds: water around one large Tetrapod, which is released after 0.02 s and moves.
 fn tiny_case(folder: &Path) -> PathBuf {
     let case = json!({
         "title": "One unit in a tank",
@@ -87,7 +87,7 @@ fn read_json(file: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap()
 }
 
-/// The summary without the keys in which two runs of one case may differ.
+/// Returns the summary without the keys in which two runs of one case may differ.
 fn lasting_summary(dir: &Path) -> Value {
     let mut summary = read_json(&dir.join("summary.json"));
     for key in ["wall_s", "steps_per_s", "threads", "processor"] {
@@ -102,11 +102,11 @@ fn assert_same_tables(a: &Path, b: &Path) {
         assert!(bytes_a == bytes_b, "{table}: {} and {} differ", a.display(), b.display());
     }
     assert_eq!(lasting_summary(a), lasting_summary(b));
-    let [of_a, of_b] = [a, b].map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
-    assert!(of_a == of_b, "{}: {} and {} differ", Impacts::FILE, a.display(), b.display());
+    let [impacts_a, impacts_b] = [a, b].map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
+    assert!(impacts_a == impacts_b, "{}: {} and {} differ", Impacts::FILE, a.display(), b.display());
 }
 
-/// The bits of a dataset, as they are in the file.
+/// Returns the bits of a dataset as the file holds them.
 fn numbers(file: &Path, dataset: &str) -> Vec<u64> {
     let values = hdf5_metno::File::open(file).unwrap().dataset(dataset).unwrap().read_raw::<f64>().unwrap();
     values.into_iter().map(f64::to_bits).collect()
@@ -183,16 +183,16 @@ fn schema_prints_json() {
     assert_eq!(sweep["required"], serde_json::json!(["title", "case", "vary"]));
 }
 
-/// As with `breakwater schema | head`.
+/// As in `breakwater schema | head`.
 #[test]
-fn a_reader_that_leaves_early_is_no_error() {
+fn a_reader_that_closes_the_pipe_early_causes_no_error() {
     let mut program = breakwater().arg("schema").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(program.stdout.take());
     assert_eq!(text(&program.wait_with_output().unwrap().stderr), "");
 }
 
 #[test]
-fn a_run_writes_what_it_promises() {
+fn a_run_writes_all_output_files_and_summary_keys() {
     let folder = tempfile::tempdir().unwrap();
     let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
     let printed = succeed(&["run", path(&case), "--out", path(&out), "--quiet"]);
@@ -208,7 +208,7 @@ fn a_run_writes_what_it_promises() {
 
     let summary = read_json(&out.join("summary.json"));
     for key in ["particles", "steps", "simulated_s", "wall_s", "damage_ratio", "mean_displacement_m"] {
-        assert!(summary[key].is_number(), "{key} is not at the top of the summary");
+        assert!(summary[key].is_number(), "the summary has no top-level key {key}");
     }
     assert!(summary["units"][0]["displacement_m"].is_number() && summary["units"][0]["damaged"].is_boolean());
     assert!((summary["simulated_s"].as_f64().unwrap() - 0.3).abs() < 1e-3);
@@ -222,20 +222,20 @@ fn a_run_writes_what_it_promises() {
     let mach = summary["largest_mach"].as_f64().unwrap();
     assert!((0.03..0.3).contains(&mach), "{mach}");
     assert_eq!(summary["warnings"].as_array().map(Vec::is_empty), Some(mach <= 0.1));
-    impacts_come_with_the_water(&out);
+    impacts_hold_the_water_loads(&out);
     files_are_about_as_large_as_estimated(&case, &out);
     refuse_to_overwrite(&case, &out);
     compare_needs_a_measured_wave(&out);
-    report_is_made_anew(&out);
+    report_can_be_rewritten(&out);
 }
 
-fn impacts_come_with_the_water(out: &Path) {
+fn impacts_hold_the_water_loads(out: &Path) {
     let Impacts { places, impacts } = Impacts::read(&out.join(Impacts::FILE)).unwrap();
     assert!(!impacts.is_empty() && impacts.len() <= 16 && !places.is_empty());
     assert!(impacts.is_sorted_by(|a, b| a.event.peak_force >= b.event.peak_force));
     for impact in &impacts {
         let (event, water) = (&impact.event, impact.fluid.as_ref().unwrap());
-        // Let go on the bed after a moment, in a tank 0.3 m deep at most.
+        // The run lasts 0.3 s, and the water is at most 0.3 m deep.
         assert!(event.start >= 0.0 && event.start <= event.peak_time && event.peak_time <= event.end);
         assert!(event.end < 0.31 && event.before.position.is_finite());
         assert!(water.load.force.is_finite() && water.pressure.len() == places.len());
@@ -244,7 +244,7 @@ fn impacts_come_with_the_water(out: &Path) {
     assert!(impacts.iter().any(|impact| impact.fluid.as_ref().is_some_and(|f| f.pressure.iter().any(|p| *p > 100.0))));
 }
 
-/// Within a factor of two: a file this small has large parts that are reserved and empty.
+/// Asserts a factor of two at most: large parts of so small a file are reserved and empty.
 fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
     let estimate = breakwater::case::Case::load(case).unwrap().output_size();
     let size = |file: &str| std::fs::metadata(out.join(file)).unwrap().len() as f64;
@@ -293,7 +293,7 @@ fn run_keeps_the_measurements_and_can_be_moved() {
     assert!(message.contains("no wave of known height"), "{message}");
 }
 
-fn report_is_made_anew(out: &Path) {
+fn report_can_be_rewritten(out: &Path) {
     std::fs::remove_file(out.join("report.html")).unwrap();
     succeed(&["report", path(out)]);
     assert!(std::fs::read_to_string(out.join("report.html")).unwrap().contains("One unit in a tank"));
@@ -313,7 +313,7 @@ fn threads_do_not_change_the_tables() {
 }
 
 #[test]
-fn a_killed_run_goes_on_to_the_same_end() {
+fn a_killed_run_resumes_to_the_same_results() {
     let folder = tempfile::tempdir().unwrap();
     let case = tiny_case(folder.path());
     let [whole, killed] = ["whole", "killed"].map(|name| folder.path().join(name));
@@ -325,21 +325,21 @@ fn a_killed_run_goes_on_to_the_same_end() {
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
-    let begun = Instant::now();
+    let start = Instant::now();
     while !killed.join("checkpoint.h5").exists() {
-        assert!(begun.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
+        assert!(start.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
         std::thread::sleep(Duration::from_millis(2));
     }
-    // Some rows beyond the checkpoint, which must not stay.
+    // Leaves time for rows after the checkpoint; resuming must remove them.
     std::thread::sleep(Duration::from_millis(100));
     child.kill().unwrap();
-    assert!(child.wait().unwrap().code().is_none(), "the run was over before it was killed");
+    assert!(child.wait().unwrap().code().is_none(), "the run ended before it was killed");
     assert!(!killed.join("summary.json").exists());
 
     succeed(&["resume", path(&killed), "--quiet"]);
     assert_same_tables(&whole, &killed);
     for file in FILES {
-        assert!(killed.join(file).exists(), "{file} is missing after going on");
+        assert!(killed.join(file).exists(), "{file} is missing after resuming");
     }
     for file in ["fluid.vtkhdf", "units.vtkhdf"] {
         for dataset in ["VTKHDF/Points", "VTKHDF/PointData/velocity", "VTKHDF/Steps/Values"] {
@@ -350,7 +350,7 @@ fn a_killed_run_goes_on_to_the_same_end() {
 }
 
 #[test]
-fn resume_of_what_is_no_run_is_refused() {
+fn resume_refuses_a_folder_without_a_run() {
     let folder = tempfile::tempdir().unwrap();
     let message = refuse(&["resume", path(folder.path())]);
     assert!(message.contains("case.json"), "{message}");
@@ -371,7 +371,7 @@ fn resume_before_the_first_checkpoint_says_what_to_do() {
 }
 
 #[test]
-fn compare_and_report_of_what_is_no_run_are_refused() {
+fn compare_and_report_refuse_a_folder_without_a_run() {
     let folder = tempfile::tempdir().unwrap();
     let message = refuse(&["report", path(folder.path())]);
     assert!(message.contains("summary.json"), "{message}");
@@ -379,17 +379,17 @@ fn compare_and_report_of_what_is_no_run_are_refused() {
     assert!(message.contains("summary.json"), "{message}");
 }
 
-/// Snapshots that the disk does not take end the run with the message of their file.
+/// A failed write ends the run with a message that names the file.
 #[cfg(unix)]
 #[test]
-fn a_disk_that_is_full_ends_the_run() {
+fn a_full_disk_ends_the_run_with_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let (case, out) = (tiny_case(folder.path()), folder.path().join("out"));
     let mut many_snapshots = read_json(&case);
     many_snapshots["output"] = json!({ "fluid_interval_s": 0.002, "units_interval_s": 0.0 });
     std::fs::write(&case, many_snapshots.to_string()).unwrap();
-    // No file may grow beyond 2400 blocks of 512 or 1024 bytes, a fifth of what the water would need. Ignoring the
-    // signal makes the limit an error of the write, as on a full disk.
+    // Files are limited to 2400 blocks of 512 or 1024 bytes, a fifth of the size of fluid.vtkhdf. With the signal
+    // ignored, the write fails as on a full disk.
     let output = Command::new("sh")
         .args(["-c", "trap '' XFSZ; ulimit -f 2400; exec \"$0\" run \"$1\" --out \"$2\" --quiet"])
         .args([env!("CARGO_BIN_EXE_breakwater"), path(&case), path(&out)])
@@ -401,9 +401,9 @@ fn a_disk_that_is_full_ends_the_run() {
     assert!(!message.contains("panicked") && !out.join("summary.json").exists(), "{message}");
 }
 
-/// A wave along a short flume beside itself, as OpenFOAM's function object interfaceHeight would write it.
+/// The other record is the wave itself, 10 % higher, in the format of OpenFOAM's function object interfaceHeight.
 #[test]
-fn wave_beside_another_program() {
+fn wave_compares_its_gauges_with_those_of_another_program() {
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("flume.json");
     let content = json!({
@@ -428,8 +428,8 @@ fn wave_beside_another_program() {
     let other = folder.path().join("height");
     std::fs::create_dir_all(other.join("0")).unwrap();
     std::fs::write(other.join("0/position.dat"), table.lines().skip(1).map(position).collect::<String>()).unwrap();
-    let said = succeed(&["wave", path(&case), "--out", path(&beside), "--beside", path(&other)]);
-    assert!(said.contains("(+10.0 %)") && said.contains("0.00 s)"), "{said}");
+    let printed = succeed(&["wave", path(&case), "--out", path(&beside), "--beside", path(&other)]);
+    assert!(printed.contains("(+10.0 %)") && printed.contains("0.00 s)"), "{printed}");
     assert!(std::fs::read_to_string(beside.join("wave.html")).unwrap().contains("dashed"));
 
     let message = refuse(&["wave", path(&case), "--out", path(&folder.path().join("none")), "--beside", path(&alone)]);
@@ -437,9 +437,9 @@ fn wave_beside_another_program() {
     assert!(!folder.path().join("none").exists());
 }
 
-/// What `tools/openfoam` writes; running it needs OpenFOAM.
+/// Checks the files that `tools/openfoam` writes; running them needs OpenFOAM.
 #[test]
-fn the_flume_for_openfoam_is_written() {
+fn openfoam_tool_writes_the_flume_case() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("vof");
@@ -447,7 +447,7 @@ fn the_flume_for_openfoam_is_written() {
     let command = ["--out", path(&out), "--coarsen", "4", "2", "--breakwater", env!("CARGO_BIN_EXE_breakwater")];
     let script = root.join("tools/openfoam/flume");
     let Ok(done) = Command::new("python3").arg(script).arg(&case).args(command).output() else {
-        println!("skipped: no python3");
+        println!("skipped: python3 is not installed");
         return;
     };
     assert!(done.status.success(), "{}", text(&done.stderr));

@@ -1,4 +1,4 @@
-//! Runs that begin at the checkpoint of another one: the same bits, or a refusal that says why.
+//! Runs that start at the checkpoint of another run: they give the same bits, or are refused with a reason.
 
 use std::{
     fs,
@@ -8,7 +8,7 @@ use std::{
 
 use serde_json::{Value, json};
 
-/// Water that falls towards one big Tetrapod and reaches it after 0.1 s: the unit stands still until then.
+/// A dam break that reaches one large Tetrapod after 0.1 s; the unit is at rest until then.
 fn surge(friction: f64, duration: f64) -> Value {
     json!({
         "title": format!("Surge, friction {friction}"),
@@ -45,21 +45,21 @@ fn run(case: &Path, out: &Path, from: Option<&Path>) -> Output {
     breakwater(&arguments)
 }
 
-fn succeed(ended: &Output) {
+fn assert_succeeded(ended: &Output) {
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
 }
 
-fn refused(ended: &Output, why: &str) {
+fn assert_refused(ended: &Output, reason: &str) {
     let message = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(2), "{message}");
-    assert!(message.contains(why), "{message}");
+    assert!(message.contains(reason), "{message}");
 }
 
 fn summary(dir: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(dir.join("summary.json")).unwrap()).unwrap()
 }
 
-/// A sweep of the surge over friction or another key.
+/// Writes the case and a sweep that varies the given keys.
 fn sweep_of(folder: &Path, vary: &Value, start: f64) -> PathBuf {
     write(folder, "surge.json", &surge(0.5, 0.25));
     let sweep = json!({ "title": "Friction", "case": "surge.json", "vary": vary, "common_start_s": start });
@@ -71,21 +71,21 @@ fn displacement(dir: &Path) -> f64 {
 }
 
 #[test]
-fn runs_with_a_common_start_end_like_unbroken_ones() {
+fn runs_from_a_common_start_equal_uninterrupted_runs() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let friction = json!([{ "key": "friction[0].coefficient", "values": [0.5, 0.1] }]);
     let sweep = sweep_of(folder.path(), &friction, 0.06);
     let out = at("out");
-    succeed(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]));
-    let begun = summary(&out.join("000_start"))["simulated_s"].as_f64().unwrap();
-    assert!((0.06..0.065).contains(&begun), "{begun}");
+    assert_succeeded(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]));
+    let start_time = summary(&out.join("000_start"))["simulated_s"].as_f64().unwrap();
+    assert!((0.06..0.065).contains(&start_time), "{start_time}");
     let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
     assert!(table.lines().count() == 3 && !table.contains("000_start"), "{table}");
 
-    // Same friction as the start.
+    // This run has the friction coefficient of the start.
     let branched = out.join("001_coefficient=0.5");
-    succeed(&run(&at("surge.json"), &at("whole"), None));
+    assert_succeeded(&run(&at("surge.json"), &at("whole"), None));
     let (unbroken, summary) = (summary(&at("whole")), summary(&branched));
     for key in ["steps", "simulated_s", "mean_displacement_m", "damage_ratio", "units", "contacts", "largest_mach"] {
         assert!(!unbroken[key].is_null() && unbroken[key] == summary[key], "{key}: {unbroken:#} {summary:#}");
@@ -98,49 +98,49 @@ fn runs_with_a_common_start_end_like_unbroken_ones() {
     let slippery = out.join("002_coefficient=0.1");
     assert!(displacement(&slippery) > 1.1 * displacement(&branched));
 
-    // The same by hand.
+    // The same run started from the command line.
     let case = write(folder.path(), "slippery.json", &surge(0.1, 0.25));
-    succeed(&run(&case, &at("slippery"), Some(&out.join("000_start"))));
+    assert_succeeded(&run(&case, &at("slippery"), Some(&out.join("000_start"))));
     assert_eq!(displacement(&at("slippery")), displacement(&slippery));
 }
 
 #[test]
-fn a_run_begins_only_where_it_can() {
+fn starting_at_an_unsuitable_checkpoint_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let case = write(folder.path(), "case.json", &surge(0.1, 0.3));
-    refused(&run(&case, &at("out"), Some(&at("none"))), "the run cannot begin there: there is no checkpoint.h5");
+    assert_refused(&run(&case, &at("out"), Some(&at("none"))), "the run cannot begin there: there is no checkpoint.h5");
     assert!(!at("out").exists());
 
-    // The surge has pushed this unit.
-    succeed(&run(&case, &at("moved"), None));
-    refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
+    // In this run the surge has moved the unit.
+    assert_succeeded(&run(&case, &at("moved"), None));
+    assert_refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
     assert!(at("moved").join("summary.json").exists());
     let rough = write(folder.path(), "rough.json", &surge(0.4, 0.3));
-    refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all stand still");
+    assert_refused(&run(&rough, &at("rough"), Some(&at("moved"))), "begin while all units are still");
 
     let mut deeper = surge(0.1, 0.4);
     deeper["flume"]["still_water_level_m"] = json!(0.31);
     let deeper = write(folder.path(), "deeper.json", &deeper);
-    refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "the cases differ in flume, stop; only title,");
+    assert_refused(&run(&deeper, &at("deeper"), Some(&at("moved"))), "the cases differ in flume, stop; only title,");
     let dry = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/contact/tilt-tetrapod.json");
-    refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only runs with water can begin at another");
+    assert_refused(&run(&dry, &at("dry"), Some(&at("moved"))), "only flume cases can begin at the checkpoint");
     assert!(!at("rough").exists() && !at("deeper").exists() && !at("dry").exists());
 }
 
 #[test]
-fn a_common_start_is_refused_where_runs_differ_from_the_start() {
+fn a_common_start_is_refused_if_runs_differ_before_it() {
     let folder = tempfile::tempdir().unwrap();
     let friction = json!([{ "key": "friction[0].coefficient", "values": [0.1, 0.5] }]);
     let size = json!([{ "key": "domain.dp_m", "values": [0.025, 0.024] }]);
-    let bad = [
+    let refused_sweeps = [
         (&size, 0.06, "common_start_s: the cases differ in domain;"),
         (&friction, 0.25, "common_start_s = 0.25: must be above 0 and below stop.duration_s, 0.25"),
         (&friction, 0.0, "common_start_s = 0: must be"),
     ];
-    for (vary, start, why) in bad {
+    for (vary, start, reason) in refused_sweeps {
         let (sweep, out) = (sweep_of(folder.path(), vary, start), folder.path().join("out"));
-        refused(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]), why);
+        assert_refused(&breakwater(&[Path::new("sweep"), &sweep, Path::new("--out"), &out]), reason);
         assert!(!out.exists());
     }
 }

@@ -1,4 +1,4 @@
-//! What a fracture run leaves: tables, files for ParaView, and a report with its sections and pictures.
+//! The output files of a fracture run: tables, files for ParaView, and the report with its sections and pictures.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,14 +9,14 @@ use glam::DVec3;
 use hdf5_metno::File;
 use serde_json::{Value, json};
 
-/// Weak enough to crack when it hits the slab that fast.
+/// Impact speed of the beam [m/s]; the beam is weak enough to crack at this speed.
 const SPEED: f64 = 4.0;
 
-/// A small block that falls on a slab.
+/// Writes the case and the mesh of a small beam that falls on a slab.
 fn case(folder: &Path) -> PathBuf {
     let beam = block(DVec3::new(0.4, 0.1, 0.1), [8, 2, 2], Pattern::Diagonal);
     let slab = block(DVec3::new(0.4, 0.1, 0.1), [4, 1, 1], Pattern::Diagonal);
-    // The beam stands over the slab by 0.1 mm and beyond it by half of its length.
+    // The beam starts 0.1 mm above the slab; half of its length overhangs.
     let bodies = [("beam", beam, DVec3::new(0.2, 0.0, 0.1001)), ("slab", slab, DVec3::ZERO)];
     std::fs::write(folder.join("beam.msh"), msh(&bodies)).unwrap();
     let case = json!({
@@ -40,17 +40,17 @@ fn case(folder: &Path) -> PathBuf {
     file
 }
 
-/// Bodies as an MSH 4.1 file.
+/// Returns bodies as the text of an MSH 4.1 file.
 fn msh(bodies: &[(&str, breakwater::femdem::mesh::Mesh, DVec3)]) -> String {
     let mut names = format!("$PhysicalNames\n{}\n", bodies.len());
     let mut entities = format!("$Entities\n0 0 0 {}\n", bodies.len());
     let (mut nodes, mut tets, mut first_node, mut first_tet) = (String::new(), String::new(), 1, 1);
-    for (tag, (name, mesh, moved)) in (1..).zip(bodies) {
+    for (tag, (name, mesh, shift)) in (1..).zip(bodies) {
         names += &format!("3 {tag} \"{name}\"\n");
         entities += &format!("{tag} -1 -1 -1 2 2 2 1 {tag} 0\n");
         nodes += &format!("3 {tag} 0 {}\n", mesh.nodes.len());
         (0..mesh.nodes.len()).for_each(|k| nodes += &format!("{}\n", first_node + k));
-        mesh.nodes.iter().map(|node| *node + *moved).for_each(|n| nodes += &format!("{} {} {}\n", n.x, n.y, n.z));
+        mesh.nodes.iter().map(|node| *node + *shift).for_each(|n| nodes += &format!("{} {} {}\n", n.x, n.y, n.z));
         tets += &format!("3 {tag} 4 {}\n", mesh.tets.len());
         for (k, tet) in mesh.tets.iter().enumerate() {
             let [a, b, c, d] = tet.map(|node| first_node + node as usize);
@@ -70,17 +70,17 @@ fn msh(bodies: &[(&str, breakwater::femdem::mesh::Mesh, DVec3)]) -> String {
 
 fn breakwater(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_breakwater")).args(arguments).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{arguments:?}: {said}");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{arguments:?}: {message}");
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 #[test]
-fn a_fracture_run_leaves_tables_films_and_a_report() {
+fn a_fracture_run_writes_tables_paraview_files_and_a_report() {
     let folder = tempfile::tempdir().unwrap();
     let (file, dir) = (case(folder.path()), folder.path().join("run"));
-    let check = breakwater(&["check", file.to_str().unwrap()]);
-    assert!(check.contains("tets.vtkhdf"), "{check}");
+    let check_output = breakwater(&["check", file.to_str().unwrap()]);
+    assert!(check_output.contains("tets.vtkhdf"), "{check_output}");
     breakwater(&["fracture", file.to_str().unwrap(), "--out", dir.to_str().unwrap(), "--quiet"]);
 
     let summary: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("summary.json")).unwrap()).unwrap();
@@ -88,11 +88,11 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
         assert!(!summary[key].is_null(), "{key}");
     }
     let impact = summary["impact_s"].as_f64().unwrap();
-    // 0.1 mm at that speed, and a step or two until the overlap is felt.
+    // The beam falls 0.1 mm; the contact is detected one or two time steps later.
     let expected = 1e-4 / SPEED;
     assert!((expected..1.5 * expected).contains(&impact), "{impact}");
     let initiation = summary["initiation"].as_array().unwrap();
-    assert!(!initiation.is_empty(), "nothing has cracked");
+    assert!(!initiation.is_empty(), "no joint has cracked");
     for crack in initiation {
         let since = crack["t_s"].as_f64().unwrap() - impact;
         assert_eq!(crack["since_impact_s"].as_f64().unwrap(), since);
@@ -102,19 +102,20 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
 
     let cracks = Table::read(&dir.join("cracks.csv")).unwrap();
     let area: f64 = cracks.column("area_m2").unwrap().iter().sum();
-    // The same sum in the same order, written and read without loss.
+    // The sum has the same order, and the files keep all digits.
     assert_eq!(area, summary["crack_area_m2"].as_f64().unwrap());
     let fragments = Table::read(&dir.join("fragments.csv")).unwrap();
     assert_eq!(fragments.rows(), summary["fragments"].as_array().unwrap().len());
     let mass: f64 = fragments.column("mass_kg").unwrap().iter().sum();
-    // Rounding of some hundred volumes.
+    // 1e-12: rounding of some hundred volumes.
     assert!((mass / (0.4 * 0.1 * 0.1 * 2340.0) - 1.0).abs() < 1e-12, "{mass}");
 
     let section = TriangleMoments::open(&dir.join("section.vtkhdf")).unwrap();
     assert_eq!(section.times_s().len(), 11);
-    let cut: f64 = section.triangles(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
-    // Both bodies along their middle; places are single precision.
-    assert!((cut - 0.08).abs() < 1e-6, "{cut}");
+    let section_area: f64 =
+        section.triangles(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
+    // The section cuts both bodies along their middle; positions are in single precision.
+    assert!((section_area - 0.08).abs() < 1e-6, "{section_area}");
     let tets = File::open(dir.join("tets.vtkhdf")).unwrap();
     let count = summary["tets"].as_u64().unwrap() as i64;
     let cells: Vec<i64> = tets.dataset("VTKHDF/NumberOfCells").unwrap().read_raw().unwrap();
@@ -130,10 +131,10 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
     }
     let pictures = report.matches("data:image/png;base64,").count();
     assert!((8..=12).contains(&pictures), "{pictures} pictures of four to six moments");
-    // The letters of a picture may be any.
-    let words: String = report.split('"').filter(|part| !part.starts_with("data:")).collect();
-    assert!(words.contains("the edge of the slab") && !words.contains("NaN"));
-    // Small enough to be mailed.
+    // The base64 text of a picture may contain any letters.
+    let text: String = report.split('"').filter(|part| !part.starts_with("data:")).collect();
+    assert!(text.contains("the edge of the slab") && !text.contains("NaN"));
+    // The report must be small enough for an e-mail.
     assert!(report.len() < 2_000_000, "{} bytes", report.len());
     std::fs::remove_file(dir.join("report.html")).unwrap();
     breakwater(&["report", dir.to_str().unwrap()]);
@@ -141,7 +142,7 @@ fn a_fracture_run_leaves_tables_films_and_a_report() {
 }
 
 #[test]
-fn places_that_make_no_sense_are_refused() {
+fn invalid_landmarks_and_sections_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = case(folder.path());
     let mut value: Value = serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
@@ -152,9 +153,9 @@ fn places_that_make_no_sense_are_refused() {
     std::fs::write(&file, value.to_string()).unwrap();
     let output =
         Command::new(env!("CARGO_BIN_EXE_breakwater")).args(["check", file.to_str().unwrap()]).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
     let keys =
         ["landmarks[0].high_m[1] = -0.1", "landmarks[0].name", "output.section.normal", "output.tets_interval_s = -1"];
-    keys.into_iter().for_each(|key| assert!(said.contains(key), "{key} in {said}"));
+    keys.into_iter().for_each(|key| assert!(message.contains(key), "{key} in {message}"));
 }

@@ -1,4 +1,4 @@
-//! Fracture runs as their users meet them: files, exit codes, going on after an interruption, stopping with a reason.
+//! Fracture runs from the command line: files, exit codes, resuming after an interruption, and failure messages.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -29,7 +29,7 @@ const FILES: [&str; 13] = [
     "tets.vtkhdf",
 ];
 
-/// A block with a crack, 12 x 8 x 8 cm, thrown at a plate: 108 tetrahedra, of which it loses some within a millisecond.
+/// Case of a block with a crack, 12 x 8 x 8 cm, thrown at a plate: 108 tetrahedra, some of which break off within 1 ms.
 fn thrown() -> Value {
     json!({
         "title": "A block thrown at a plate",
@@ -80,7 +80,7 @@ fn succeed(arguments: &[&str]) {
     assert!(output.status.success(), "{arguments:?}: {}\n{}", output.status, message(&output));
 }
 
-/// What the program said that ended with an exit code and without a panic.
+/// Runs a command that must end with this exit code and without a panic; returns its error message.
 fn end_with(code: i32, arguments: &[&str]) -> String {
     let output = breakwater(arguments);
     let message = message(&output);
@@ -97,7 +97,7 @@ fn read_json(file: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap()
 }
 
-/// Names and contents of all datasets of an HDF5 file, bit by bit.
+/// Returns the names and the bytes of all datasets of an HDF5 file.
 fn datasets(file: &Path) -> Vec<(String, Vec<u8>)> {
     fn collect(group: &hdf5_metno::Group, found: &mut Vec<(String, Vec<u8>)>) {
         for dataset in group.datasets().unwrap() {
@@ -125,7 +125,7 @@ fn datasets(file: &Path) -> Vec<(String, Vec<u8>)> {
     found
 }
 
-/// The summary without what depends on the clock and the machine.
+/// Returns the summary without the keys that depend on clock and machine.
 fn lasting_summary(dir: &Path) -> Value {
     let mut summary = read_json(&dir.join("summary.json"));
     summary["tet_steps_per_s"].take();
@@ -149,7 +149,7 @@ fn assert_same_results(a: &Path, b: &Path) {
 }
 
 #[test]
-fn a_run_writes_what_it_promises() {
+fn a_run_writes_all_output_files_and_summary_keys() {
     let folder = tempfile::tempdir().unwrap();
     let (case, out) = (written(&thrown(), folder.path()), folder.path().join("out"));
     succeed(&["fracture", path(&case), "--out", path(&out), "--quiet"]);
@@ -169,7 +169,7 @@ fn a_run_writes_what_it_promises() {
     let first = &summary["initiation"][0];
     assert!(first["t_s"].as_f64().unwrap() > 0.0 && ["opening", "sliding"].contains(&first["mode"].as_str().unwrap()));
     assert_eq!(first["place"].as_array().unwrap().len(), 3);
-    // Heading and a row every 2e-5 s of 1e-3 s, the first at 0 and the last at the end.
+    // A heading, and a row every 2e-5 s from 0 to 1e-3 s.
     let rows = std::fs::read_to_string(out.join("energy.csv")).unwrap().lines().count();
     assert!((51..=53).contains(&rows), "{rows} rows");
     let message = end_with(2, &["fracture", path(&case), "--out", path(&out)]);
@@ -184,7 +184,7 @@ fn a_refused_case_leaves_no_folder() {
     case["materials"][0]["density_kg_m3"] = json!(-1.0);
     let message = end_with(2, &["fracture", path(&written(&case, folder.path())), "--out", path(&out)]);
     assert!(message.contains("materials[0].density_kg_m3 = -1: must be at least 1"), "{message}");
-    // Only the world knows the longest step.
+    // The longest stable time step is known only after the model is assembled.
     let mut case = thrown();
     case["fracture"]["dt_s"] = json!(1e-4);
     let file = written(&case, folder.path());
@@ -197,9 +197,9 @@ fn a_refused_case_leaves_no_folder() {
     assert!(!out.exists());
 }
 
-/// Restoring into a new world at several moments, and going on with one or two threads.
+/// Restores snapshots of several moments into new worlds and continues with one or two threads.
 #[test]
-fn a_world_goes_on_from_any_moment_to_the_same_bits() {
+fn a_world_restored_at_any_moment_ends_with_the_same_bits() {
     for joints in ["tied", "intrinsic"] {
         let mut case = thrown();
         case["fracture"]["joints"] = json!(joints);
@@ -207,51 +207,51 @@ fn a_world_goes_on_from_any_moment_to_the_same_bits() {
         let mut whole = world(&case).unwrap();
         let nodes_at_start = whole.nodes.count();
         let mut moments: Vec<(&str, Snapshot)> = Vec::new();
-        let mut once = |name, happened: bool, world: &World| {
+        let mut keep_first = |name, happened: bool, world: &World| {
             if happened && moments.iter().all(|(known, _)| *known != name) {
                 moments.push((name, world.snapshot()));
             }
         };
         while whole.time < case.duration {
             whole.step().unwrap();
-            once("first step", true, &whole);
-            once("contact", whole.contacts.touching > 0, &whole);
-            once("split nodes", whole.nodes.count() > nodes_at_start, &whole);
-            once("first failure", !whole.failures.is_empty(), &whole);
-            once("rubbing", whole.failures.len() > 5 && whole.contacts.friction > 0.0, &whole);
-            once("half way", whole.time > 0.5 * case.duration, &whole);
+            keep_first("first time step", true, &whole);
+            keep_first("contact", whole.contacts.touching > 0, &whole);
+            keep_first("split nodes", whole.nodes.count() > nodes_at_start, &whole);
+            keep_first("first failure", !whole.failures.is_empty(), &whole);
+            keep_first("friction on cracks", whole.failures.len() > 5 && whole.contacts.friction > 0.0, &whole);
+            keep_first("half way", whole.time > 0.5 * case.duration, &whole);
         }
         let names: Vec<&str> = moments.iter().map(|(name, _)| *name).collect();
         assert_eq!(moments.len(), if joints == "tied" { 6 } else { 5 }, "{names:?}");
-        let (end, book) = (whole.snapshot(), whole.step_with_ledger().unwrap());
+        let (end, energies) = (whole.snapshot(), whole.step_with_ledger().unwrap());
         for (number, (name, moment)) in moments.into_iter().enumerate() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(1 + number % 2).build().unwrap();
             pool.install(|| {
                 let mut resumed = world(&case).unwrap();
                 resumed.restore(moment.clone()).unwrap();
-                assert!(resumed.snapshot() == moment, "{joints}, {name}: not what was put back");
+                assert!(resumed.snapshot() == moment, "{joints}, {name}: the restored state differs from the snapshot");
                 while resumed.time < case.duration {
                     resumed.step().unwrap();
                 }
-                assert!(resumed.snapshot() == end, "{joints}, {name}: another end");
-                assert_eq!(resumed.step_with_ledger().unwrap(), book, "{joints}, {name}");
+                assert!(resumed.snapshot() == end, "{joints}, {name}: the final state differs");
+                assert_eq!(resumed.step_with_ledger().unwrap(), energies, "{joints}, {name}");
             });
         }
     }
 }
 
-/// What is said of a state, and what is wrong with it.
-type Spoilt = (&'static str, fn(&mut Snapshot));
+/// A fragment of the error message, and the function that corrupts the state.
+type Corruption = (&'static str, fn(&mut Snapshot));
 
 #[test]
-fn a_state_of_another_world_is_refused() {
+fn a_state_that_does_not_fit_the_mesh_is_refused() {
     let case = loaded(&thrown());
-    let mut of_case = world(&case).unwrap();
-    while of_case.failures.len() < 3 {
-        of_case.step().unwrap();
+    let mut reference = world(&case).unwrap();
+    while reference.failures.len() < 3 {
+        reference.step().unwrap();
     }
-    let sound = of_case.snapshot();
-    let spoil: [Spoilt; 9] = [
+    let valid = reference.snapshot();
+    let corrupt: [Corruption; 9] = [
         ("nodes", |s| s.place.truncate(3)),
         ("nodes", |s| s.vertices[7][2] = u32::MAX),
         ("nodes", |s| s.vertices.truncate(5)),
@@ -262,19 +262,19 @@ fn a_state_of_another_world_is_refused() {
         ("pairs", |s| s.contacts.tets[0] = [u32::MAX; 2]),
         ("friction", |s| s.contacts.sprung.push(u32::MAX)),
     ];
-    for (expected, spoil) in spoil {
-        let mut spoilt = sound.clone();
-        spoil(&mut spoilt);
-        let error = world(&case).unwrap().restore(spoilt).unwrap_err();
-        assert!(error.contains(expected), "{error}, {expected} expected");
+    for (expected, corrupt) in corrupt {
+        let mut corrupted = valid.clone();
+        corrupt(&mut corrupted);
+        let error = world(&case).unwrap().restore(corrupted).unwrap_err();
+        assert!(error.contains(expected), "expected: {expected}\nmessage:  {error}");
     }
 }
 
 #[test]
-fn a_killed_run_goes_on_to_the_same_end() {
+fn a_killed_run_resumes_to_the_same_results() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = thrown();
-    // Long enough to be killed in.
+    // The run lasts long enough to be killed.
     case["stop"]["duration_s"] = json!(5e-3);
     case["output"]["surfaces_interval_s"] = json!(2e-4);
     case["output"]["checkpoint_interval_s"] = json!(2e-4);
@@ -288,31 +288,31 @@ fn a_killed_run_goes_on_to_the_same_end() {
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
-    let begun = Instant::now();
+    let start = Instant::now();
     while !killed.join("checkpoint.h5").exists() {
-        assert!(begun.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
+        assert!(start.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
         std::thread::sleep(Duration::from_millis(1));
     }
-    // Some rows beyond a checkpoint, which must not stay.
+    // Leaves time for rows after the checkpoint; resuming must remove them.
     std::thread::sleep(Duration::from_millis(10));
     child.kill().unwrap();
-    assert!(child.wait().unwrap().code().is_none(), "the run was over before it was killed");
+    assert!(child.wait().unwrap().code().is_none(), "the run ended before it was killed");
     assert!(!killed.join("summary.json").exists());
 
     succeed(&["resume", path(&killed), "--quiet", "--threads", "2"]);
     assert_same_results(&whole, &killed);
-    // A run that is over goes on from its last checkpoint, to the same end again.
+    // A finished run resumes from its last checkpoint to the same results.
     succeed(&["resume", path(&killed), "--quiet", "--threads", "1"]);
     assert_same_results(&whole, &killed);
 }
 
 #[test]
-fn resume_tells_what_is_wrong_with_a_checkpoint() {
+fn resume_reports_what_is_wrong_with_a_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
-    let mut without = thrown();
-    without["output"]["checkpoint_interval_s"] = json!(0.0);
-    without["stop"]["duration_s"] = json!(1e-4);
-    let (case, out) = (written(&without, folder.path()), folder.path().join("out"));
+    let mut no_checkpoint = thrown();
+    no_checkpoint["output"]["checkpoint_interval_s"] = json!(0.0);
+    no_checkpoint["stop"]["duration_s"] = json!(1e-4);
+    let (case, out) = (written(&no_checkpoint, folder.path()), folder.path().join("out"));
     succeed(&["fracture", path(&case), "--out", path(&out), "--quiet"]);
     let message = end_with(2, &["resume", path(&out)]);
     assert!(message.contains("there is no checkpoint") && message.contains("breakwater fracture"), "{message}");
@@ -331,10 +331,10 @@ fn resume_tells_what_is_wrong_with_a_checkpoint() {
 }
 
 #[test]
-fn a_run_that_goes_astray_keeps_its_state_and_its_checkpoint() {
+fn an_unstable_run_keeps_its_state_and_its_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = thrown();
-    // Nothing withstands such a speed.
+    // At 5 km/s the block is destroyed.
     case["bodies"][0]["velocity_m_s"] = json!([0.0, 0.0, -4.0]);
     case["bodies"][0]["angular_velocity_rad_s"] = json!([0.0, 0.0, 0.0]);
     case["bodies"][1]["velocity_m_s"] = json!([0.0, 0.0, 5000.0]);
@@ -356,46 +356,46 @@ fn a_run_that_goes_astray_keeps_its_state_and_its_checkpoint() {
     assert!(!out.join("summary.json").exists());
 }
 
-/// A world of the case after a few steps, and what a run would say of the error that comes within some more.
-fn astray(case: &Value, spoil: impl Fn(&mut World), steps: usize) -> (StepError, String) {
+/// Corrupts a world after three time steps and advances it until it fails; returns the error and the run's message.
+fn run_corrupted(case: &Value, corrupt: impl Fn(&mut World), steps: usize) -> (StepError, String) {
     let case = loaded(case);
     let mut world = world(&case).unwrap();
     (0..3).for_each(|_| world.step().unwrap());
-    spoil(&mut world);
+    corrupt(&mut world);
     for step in 3..3 + steps {
         if let Err(error) = world.step().and_then(|()| world.watch()) {
             return (error, Failure::of(&case, &world, step as u64, error).to_string());
         }
     }
-    panic!("nothing happened");
+    panic!("the corrupted world did not fail");
 }
 
 #[test]
-fn what_goes_astray_is_named() {
+fn an_unstable_world_names_the_node_or_element() {
     let mut thrown = thrown();
-    // The springs of joints would throw a node's neighbours in the same step.
+    // With joints, the springs would move the neighbours of the node in the same time step.
     thrown["fracture"]["joints"] = json!("tied");
-    let far = |to: DVec3| move |world: &mut World| world.nodes.place[5] = to;
-    let (error, message) = astray(&thrown, |world| world.nodes.velocity[5].y = f64::NAN, 2);
-    // Viscosity hands it over to the neighbours.
+    let move_node_to = |to: DVec3| move |world: &mut World| world.nodes.place[5] = to;
+    let (error, message) = run_corrupted(&thrown, |world| world.nodes.velocity[5].y = f64::NAN, 2);
+    // Viscosity passes the value on to neighbouring nodes, so any of them may be named.
     assert!(matches!(error, StepError::NotFinite { .. }), "{message}");
     assert!(message.contains(" of body \"block\", in the mesh at (0.") && message.contains("step_share"), "{message}");
-    let (error, message) = astray(&thrown, far(DVec3::new(f64::INFINITY, 0.0, 0.0)), 2);
+    let (error, message) = run_corrupted(&thrown, move_node_to(DVec3::new(f64::INFINITY, 0.0, 0.0)), 2);
     assert!(matches!(error, StepError::NotFinite { node: 5, .. }), "{message}");
 
-    // Far below itself.
-    let (error, message) = astray(&thrown, far(DVec3::NEG_Z), 2);
+    // The node is moved 1 m down, through its tetrahedra.
+    let (error, message) = run_corrupted(&thrown, move_node_to(DVec3::NEG_Z), 2);
     assert!(matches!(error, StepError::Inverted { .. }) && message.contains("is inverted"), "{message}");
     assert!(message.contains("tetrahedron ") && message.contains("(step 3)"), "{message}");
 
-    // The celerity of the concrete is 3514 m/s.
-    let (error, message) = astray(&thrown, |world| world.nodes.velocity[5].x = 1e5, 2);
+    // The wave speed of the concrete is 3514 m/s.
+    let (error, message) = run_corrupted(&thrown, |world| world.nodes.velocity[5].x = 1e5, 2);
     assert!(matches!(error, StepError::TooFast { node: 5, .. }), "{message}");
     assert!(message.contains("more than the limit of 7.0") && message.contains("node "), "{message}");
 
-    // All of it, so that nothing is torn: 50 diagonals of 0.3 m are 15 m.
-    let away = |world: &mut World| world.nodes.place.iter_mut().for_each(|place| place.x += 30.0);
-    let (error, message) = astray(&thrown, away, 2);
+    // All nodes move, so no element is distorted; the limit is 50 diagonals of 0.3 m, 15 m.
+    let move_all = |world: &mut World| world.nodes.place.iter_mut().for_each(|place| place.x += 30.0);
+    let (error, message) = run_corrupted(&thrown, move_all, 2);
     assert!(matches!(error, StepError::Escaped { .. }), "{message}");
     assert!(message.contains("m from the middle of the mesh") && message.contains("stop.duration_s"), "{message}");
 }
@@ -406,7 +406,7 @@ fn a_contact_that_is_too_soft_is_named() {
     case["fracture"]["contact_penalty"] = json!(1e-3);
     case["fracture"]["joints"] = json!("unbreakable");
     case["bodies"][0]["velocity_m_s"] = json!([0.0, 0.0, -200.0]);
-    let (error, message) = astray(&case, |_| {}, 2000);
+    let (error, message) = run_corrupted(&case, |_| {}, 2000);
     assert!(matches!(error, StepError::TooDeep { .. }), "{message}");
     assert!(message.contains("overlap by 2") && message.contains("raise fracture.contact_penalty"), "{message}");
 }

@@ -1,4 +1,4 @@
-//! Every case file that comes with the program loads, and the schema tells about every key.
+//! Every case file that comes with the program loads, and the schema lists every key.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ fn all_files() -> Vec<PathBuf> {
     json_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"))
 }
 
-/// Cases with water.
+/// Lists the flume cases.
 fn cases() -> Vec<PathBuf> {
     let others = [dry_cases(), fracture_cases(), sweeps()].concat();
     all_files()
@@ -34,8 +34,8 @@ fn cases() -> Vec<PathBuf> {
 }
 
 fn fracture_cases() -> Vec<PathBuf> {
-    let is_one = |path: &PathBuf| FractureCase::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_one).collect()
+    let is_of_kind = |path: &PathBuf| FractureCase::is_one(&std::fs::read_to_string(path).unwrap());
+    all_files().into_iter().filter(is_of_kind).collect()
 }
 
 fn dry_cases() -> Vec<PathBuf> {
@@ -44,8 +44,8 @@ fn dry_cases() -> Vec<PathBuf> {
 }
 
 fn sweeps() -> Vec<PathBuf> {
-    let is_one = |path: &PathBuf| Sweep::is_one(&std::fs::read_to_string(path).unwrap());
-    all_files().into_iter().filter(is_one).collect()
+    let is_of_kind = |path: &PathBuf| Sweep::is_one(&std::fs::read_to_string(path).unwrap());
+    all_files().into_iter().filter(is_of_kind).collect()
 }
 
 fn is_placement(path: &Path) -> bool {
@@ -80,22 +80,22 @@ fn every_case_file_loads() {
 }
 
 #[test]
-fn every_dry_case_loads_and_survives_being_written_and_read() {
+fn every_dry_test_loads_and_survives_a_round_trip() {
     let files = dry_cases();
-    assert!(files.len() >= 5, "only {} dry cases found", files.len());
+    assert!(files.len() >= 5, "only {} dry tests found", files.len());
     for path in files {
         let case = DryCase::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
         assert!(!case.assumptions.is_empty(), "{}: no assumption listed", path.display());
         let file: DryFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
         assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
-        // What a run keeps needs no file but those that the run writes, and is the same case.
+        // The case that a run keeps needs only files that the run writes, and is the same case.
         let folder = tempfile::tempdir().unwrap();
         if let Some(terrain) = &case.site.terrain {
             std::fs::write(folder.path().join("terrain.stl"), terrain.content.as_slice()).unwrap();
         }
-        if let Some(handover) = &case.fracture {
-            std::fs::write(folder.path().join(Handover::MESH), &handover.mesh_file).unwrap();
+        if let Some(breakage) = &case.fracture {
+            std::fs::write(folder.path().join(Handover::MESH), &breakage.mesh_file).unwrap();
         }
         let name = folder.path().join("case.json").display().to_string();
         let kept = DryCase::from_str(&case.text, &name).unwrap_or_else(|errors| panic!("{errors}"));
@@ -105,7 +105,7 @@ fn every_dry_case_loads_and_survives_being_written_and_read() {
 }
 
 #[test]
-fn every_fracture_case_loads_and_survives_being_written_and_read() {
+fn every_fracture_case_loads_and_survives_a_round_trip() {
     let files = fracture_cases();
     assert!(!files.is_empty());
     for path in files {
@@ -114,7 +114,7 @@ fn every_fracture_case_loads_and_survives_being_written_and_read() {
         let file: FractureFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
         assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
-        // What a run keeps is the same case.
+        // The case that a run keeps is the same case.
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(FractureCase::MESH), &case.mesh_file).unwrap();
         let name = folder.path().join("case.json").display().to_string();
@@ -143,19 +143,19 @@ fn template_loads_without_a_warning() {
 }
 
 #[test]
-fn case_files_survive_being_written_and_read() {
+fn flume_cases_survive_a_round_trip() {
     for path in cases() {
         let file: CaseFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
-        let again: CaseFile = serde_json::from_str(&written).unwrap();
-        assert_eq!(file, again, "{}", path.display());
+        let reread: CaseFile = serde_json::from_str(&written).unwrap();
+        assert_eq!(file, reread, "{}", path.display());
         let case = Case::load(&path).unwrap();
-        let again = path.with_file_name("again.json").display().to_string();
-        assert_eq!(Case::from_str(&written, &again).unwrap().hash, case.hash, "{}", path.display());
-        // What a run keeps needs the mesh and the measurements that it writes, and is the same case.
-        let Some(handover) = &case.fracture else { continue };
+        let reread = path.with_file_name("again.json").display().to_string();
+        assert_eq!(Case::from_str(&written, &reread).unwrap().hash, case.hash, "{}", path.display());
+        // The case that a run keeps needs only the mesh and the measurements that the run writes, and is the same case.
+        let Some(breakage) = &case.fracture else { continue };
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(Handover::MESH), &handover.mesh_file).unwrap();
+        std::fs::write(folder.path().join(Handover::MESH), &breakage.mesh_file).unwrap();
         if let Some(reference) = &case.reference {
             let folder = folder.path().join(Reference::FOLDER);
             std::fs::create_dir(&folder).unwrap();
@@ -167,7 +167,7 @@ fn case_files_survive_being_written_and_read() {
 }
 
 #[test]
-fn hash_sees_values_and_not_layout() {
+fn hash_depends_on_values_and_not_on_layout() {
     let text = template_text();
     let hash = Case::from_str(&text, "a").unwrap().hash;
     assert_eq!(hash.len(), 32);
@@ -178,7 +178,7 @@ fn hash_sees_values_and_not_layout() {
 }
 
 #[test]
-fn the_usual_wavemaker_written_out_is_the_same_case() {
+fn naming_the_default_wavemaker_gives_the_same_case() {
     let text = template_text();
     let explicit = text.replacen("\"wave\":", "\"wavemaker\": { \"kind\": \"ml_piston\" }, \"wave\":", 1);
     assert_ne!(explicit, text);
@@ -187,7 +187,7 @@ fn the_usual_wavemaker_written_out_is_the_same_case() {
 }
 
 #[test]
-fn derived_numbers_are_those_of_the_published_run() {
+fn derived_numbers_equal_those_of_the_published_run() {
     let case = case("fudo/H6.4-full.json");
     // Mitsui et al. 2023, section 4.1: h = 1.2 sqrt(3) dp = 0.0104 m at dp = 0.005 m.
     assert!((case.numerics.h - 0.010_392).abs() < 1e-6);
@@ -210,7 +210,7 @@ fn derived_numbers_are_those_of_the_published_run() {
 }
 
 #[test]
-fn estimate_counts_the_water_of_the_dam_break() {
+fn estimate_counts_the_water_particles_of_the_dam_break() {
     let case = case("verification/dam-break.json");
     // 1 m x 2 m of particles of (0.01 m)^2.
     assert_eq!(case.estimate().fluid, 20_000.0);
@@ -218,7 +218,7 @@ fn estimate_counts_the_water_of_the_dam_break() {
 }
 
 #[test]
-fn schema_tells_about_every_key() {
+fn schema_lists_every_key() {
     let text = schema_text();
     let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(schema.is_object());

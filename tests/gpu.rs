@@ -1,7 +1,7 @@
-//! The step on a graphics card against the step on the processor.
+//! The time step on a graphics card compared with that on the processor.
 //!
-//! Any card will do, and so does a program that stands for one (Debian's mesa-vulkan-drivers). Without either the tests
-//! say so and pass, unless BREAKWATER_NEEDS_CARD is set.
+//! Any card works, and so does a software driver (Debian's mesa-vulkan-drivers). Without either, the tests print
+//! "skipped" and pass; they fail if BREAKWATER_NEEDS_CARD is set.
 
 #![cfg(feature = "gpu")]
 
@@ -16,7 +16,7 @@ use breakwater::sph::device::{Device, DeviceChoice};
 use glam::DVec3;
 use serde_json::{Value, json};
 
-/// The first card, or nothing.
+/// Opens the first card; `None` if there is none.
 fn card() -> Option<Device> {
     match Device::open(DeviceChoice::Gpu(0), None) {
         Ok((device, _)) => Some(device),
@@ -37,7 +37,7 @@ fn case_file(name: &str) -> Arc<Case> {
     Arc::new(Case::load(&path).unwrap_or_else(|errors| panic!("{errors}")))
 }
 
-/// A tank; `column` is the part of it that the water fills at first, if it is to break.
+/// Case of a tank; with `column`, a dam break from a column of this length and height [m].
 fn tank(column: Option<[f64; 2]>) -> Value {
     let mut tank = json!({
         "title": "Tank",
@@ -60,8 +60,8 @@ fn steps(simulation: &mut Simulation, count: u32) {
     }
 }
 
-/// Acceleration and rate of density of each particle by its number, and force and torque on the units, all of the first
-/// half of a step; some steps on the processor before it take the water off its lattice.
+/// Returns acceleration and density rate of each particle by its number, and force and torque on each unit. They are
+/// those of the first half of a time step. `before` time steps on the processor move the water off its lattice.
 fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>, Vec<[DVec3; 2]>) {
     let mut start = Simulation::new(case.clone()).unwrap();
     steps(&mut start, before);
@@ -81,19 +81,19 @@ fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>,
     (by_number, loads.collect())
 }
 
-/// Root of the mean square of the differences over that of the values, of the vectors and of the fourth numbers.
+/// Returns the relative rms differences of the vectors (first three numbers) and of the fourth numbers [-].
 fn relative(values: &[[f64; 4]], others: &[[f64; 4]]) -> [f64; 2] {
-    let square =
-        |parts: &dyn Fn(&[f64; 4], &[f64; 4]) -> f64| values.iter().zip(others).map(|(a, b)| parts(a, b)).sum::<f64>();
-    let vectors = square(&|a, b| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum());
-    let of_vectors = square(&|_, b| (0..3).map(|k| b[k] * b[k]).sum());
-    let fourths = square(&|a, b| (a[3] - b[3]).powi(2));
-    let of_fourths = square(&|_, b| b[3] * b[3]);
-    [(vectors / of_vectors).sqrt(), (fourths / of_fourths).sqrt()]
+    let sum_of =
+        |term: &dyn Fn(&[f64; 4], &[f64; 4]) -> f64| values.iter().zip(others).map(|(a, b)| term(a, b)).sum::<f64>();
+    let vector_error = sum_of(&|a, b| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum());
+    let vector_norm = sum_of(&|_, b| (0..3).map(|k| b[k] * b[k]).sum());
+    let fourth_error = sum_of(&|a, b| (a[3] - b[3]).powi(2));
+    let fourth_norm = sum_of(&|_, b| b[3] * b[3]);
+    [(vector_error / vector_norm).sqrt(), (fourth_error / fourth_norm).sqrt()]
 }
 
 #[test]
-fn rates_of_a_step_are_those_of_the_processor() {
+fn rates_equal_those_of_the_processor() {
     let Some(device) = card() else { return };
     let cases = [
         ("still water", case(&tank(None)), 30),
@@ -105,19 +105,19 @@ fn rates_of_a_step_are_those_of_the_processor() {
         let (cpu, cpu_loads) = first_half(&Device::Cpu, &case, before);
         let [acceleration, density] = relative(&gpu, &cpu);
         println!("{name}, {} particles: acceleration {acceleration:.1e}, density {density:.1e}", cpu.len());
-        // 1e-5: asked for.
+        // Target: 1e-5.
         assert!(acceleration < 1e-5 && density < 1e-5);
         for (gpu, cpu) in gpu_loads.iter().zip(&cpu_loads) {
             let [force, torque] = [0, 1].map(|k| (gpu[k] - cpu[k]).length() / cpu[k].length());
-            println!("  loads of a unit: {force:.1e}, {torque:.1e}");
-            // 1e-5 as for the rates of water; the torque is a difference of forces on opposite sides, ten times that.
+            println!("  loads of a unit: force {force:.1e}, torque {torque:.1e}");
+            // 1e-5 as for the rates of the water; ten times that for the torque, a difference of opposing forces.
             assert!(force < 1e-5 && torque < 1e-4);
         }
     }
 }
 
 #[test]
-fn a_dam_breaks_as_on_the_processor() {
+fn a_dam_break_equals_that_on_the_processor() {
     let Some(device) = card() else { return };
     let case = case(&tank(Some([0.2, 0.25])));
     let end = |device: &Device| {
@@ -132,14 +132,14 @@ fn a_dam_breaks_as_on_the_processor() {
     println!(
         "after {time:.4} s: tip {gpu_tip:.5} and {tip:.5} m, energy {gpu_energy:.5} and {energy:.5} J, kinetic {gpu_kinetic:.5} and {kinetic:.5} J"
     );
-    // 1e-3: asked for of tip and energy; the steps that lead there are as long, too.
+    // Target: 1e-3 for tip and energy; it is applied to the time, too.
     assert!((gpu_time / time - 1.0).abs() < 1e-3);
     assert!((gpu_tip / tip - 1.0).abs() < 1e-3);
     assert!((gpu_energy / energy - 1.0).abs() < 1e-3);
 }
 
 #[test]
-fn bits_repeat_and_the_sort_is_that_of_the_processor() {
+fn bits_repeat_and_particles_are_sorted_into_their_bins() {
     let Some(device) = card() else { return };
     let case = case(&tank(Some([0.2, 0.25])));
     let end = || {
@@ -156,7 +156,7 @@ fn bits_repeat_and_the_sort_is_that_of_the_processor() {
     let grid = first.solver().grid();
     for bin in 0..grid.bins() {
         for i in bins.start[bin]..bins.start[bin + 1] {
-            // Half the last bit of a place at the edge of a bin can count it to the next one.
+            // At the edge of a bin, rounding of the position may select the neighbouring bin.
             let place = first.water.position[i as usize];
             let near = |shift: f64| grid.bin(place + DVec3::splat(shift)) as usize == bin;
             assert!(near(0.0) || near(1e-8) || near(-1e-8), "{place}");
@@ -165,17 +165,17 @@ fn bits_repeat_and_the_sort_is_that_of_the_processor() {
 }
 
 #[test]
-fn a_checkpoint_goes_on_with_the_same_bits_and_on_the_other_device() {
+fn a_checkpoint_resumes_with_the_same_bits_and_on_the_other_device() {
     let Some(device) = card() else { return };
     let folder = tempfile::tempdir().unwrap();
     let case = case(&tank(Some([0.2, 0.25])));
-    let mut unbroken = Simulation::on(&device, case.clone()).unwrap();
-    steps(&mut unbroken, 20);
-    unbroken.begin_step().unwrap();
-    unbroken.fetch().unwrap();
-    Checkpoint::of(&unbroken, &RecorderState::default()).write(folder.path(), Checkpoint::FILE).unwrap();
-    // As a run does when it has written one.
-    unbroken.load().unwrap();
+    let mut uninterrupted = Simulation::on(&device, case.clone()).unwrap();
+    steps(&mut uninterrupted, 20);
+    uninterrupted.begin_step().unwrap();
+    uninterrupted.fetch().unwrap();
+    Checkpoint::of(&uninterrupted, &RecorderState::default()).write(folder.path(), Checkpoint::FILE).unwrap();
+    // A run reloads its state after writing a checkpoint.
+    uninterrupted.load().unwrap();
     let end = |mut simulation: Simulation| {
         steps(&mut simulation, 20);
         simulation.fetch().unwrap();
@@ -187,15 +187,15 @@ fn a_checkpoint_goes_on_with_the_same_bits_and_on_the_other_device() {
         simulation.load().unwrap();
         simulation
     };
-    let (unbroken, on_card, on_cpu) = (end(unbroken), end(resumed(&device)), end(resumed(&Device::Cpu)));
-    assert_eq!(on_card.water, unbroken.water);
-    assert_eq!((on_card.time, on_card.steps), (unbroken.time, unbroken.steps));
+    let (uninterrupted, on_card, on_cpu) = (end(uninterrupted), end(resumed(&device)), end(resumed(&Device::Cpu)));
+    assert_eq!(on_card.water, uninterrupted.water);
+    assert_eq!((on_card.time, on_card.steps), (uninterrupted.time, uninterrupted.steps));
     let energies = [&on_card, &on_cpu].map(|simulation| simulation.energy().total());
-    // 1e-5: as far as the rates agree.
+    // 1e-5: the agreement of the rates.
     assert!((energies[0] / energies[1] - 1.0).abs() < 1e-5, "{energies:?}");
 }
 
-/// The same state on the card and on the processor, some steps on the processor after the start of a case.
+/// Returns the same state on the card and on the processor, `before` time steps after the start of a case.
 fn both(device: &Device, case: &Arc<Case>, before: u32) -> [Simulation; 2] {
     [device, &Device::Cpu].map(|device| {
         let mut start = Simulation::new(case.clone()).unwrap();
@@ -208,13 +208,13 @@ fn both(device: &Device, case: &Arc<Case>, before: u32) -> [Simulation; 2] {
     })
 }
 
-/// Largest distance between the places of the same particles [m].
+/// Returns the largest distance between the positions of the same particle [m].
 fn furthest_apart(a: &Simulation, b: &Simulation) -> f64 {
     let mut places = vec![DVec3::ZERO; a.water.len()];
     a.water.id.iter().zip(&a.water.position).for_each(|(&id, place)| places[id as usize] = *place);
     let apart = |(&id, place): (&u32, &DVec3)| {
         let mut r = places[id as usize] - *place;
-        // Periodic sides may have counted one of them to the other side.
+        // One of the two may have crossed the periodic side.
         r.y -= a.case.domain.width * (r.y / a.case.domain.width).round();
         r.length()
     };
@@ -222,7 +222,7 @@ fn furthest_apart(a: &Simulation, b: &Simulation) -> f64 {
 }
 
 #[test]
-fn walls_an_obstacle_and_two_dimensions_hold_the_water_as_on_the_processor() {
+fn walls_obstacles_and_two_dimensions_equal_those_of_the_processor() {
     let Some(device) = card() else { return };
     let mut walled = tank(Some([0.2, 0.25]));
     walled["domain"]["sides"] = json!("walls");
@@ -235,26 +235,26 @@ fn walls_an_obstacle_and_two_dimensions_hold_the_water_as_on_the_processor() {
         for simulation in [&mut gpu, &mut cpu] {
             steps(simulation, 40);
         }
-        let [of_gpu, of_cpu] =
+        let [gpu_result, cpu_result] =
             [&mut gpu, &mut cpu].map(|simulation| simulation.begin_step().unwrap().powers().unwrap());
         let apart = furthest_apart(&gpu, &cpu);
-        println!("{name}: places {apart:.1e} m apart, powers {of_gpu:?}, {of_cpu:?}");
-        // Rates to 1e-5 of some 100 m/s2 over 13 ms are 1e-7 m; where particles meet a wall, a hundred times that.
+        println!("{name}: positions {apart:.1e} m apart, powers {gpu_result:?}, {cpu_result:?}");
+        // Errors of 1e-5 of some 100 m/s2 over 13 ms make 1e-7 m; at walls, a hundred times that.
         assert!(apart < 1e-5);
-        let all = of_cpu.boundary.abs() + of_cpu.viscosity.abs() + of_cpu.diffusion.abs();
+        let all = cpu_result.boundary.abs() + cpu_result.viscosity.abs() + cpu_result.diffusion.abs();
         for (gpu, cpu) in [
-            (of_gpu.boundary, of_cpu.boundary),
-            (of_gpu.viscosity, of_cpu.viscosity),
-            (of_gpu.diffusion, of_cpu.diffusion),
+            (gpu_result.boundary, cpu_result.boundary),
+            (gpu_result.viscosity, cpu_result.viscosity),
+            (gpu_result.diffusion, cpu_result.diffusion),
         ] {
-            // 1e-3: pressure alone is a small rest of large sums.
+            // 1e-3: the power is a small difference of large sums.
             assert!((gpu - cpu).abs() < 1e-3 * all, "{gpu} {cpu}");
         }
     }
 }
 
 #[test]
-fn units_and_wavemaker_move_as_on_the_processor() {
+fn units_and_wavemaker_move_like_those_on_the_processor() {
     let Some(device) = card() else { return };
     let mut value: Value =
         serde_json::from_str(include_str!("../cases/fudo/quick-look.json")).expect("the quick look is JSON");
@@ -266,34 +266,35 @@ fn units_and_wavemaker_move_as_on_the_processor() {
         simulation.fetch().unwrap();
     }
     let apart = furthest_apart(&gpu, &cpu);
-    let [of_gpu, of_cpu] = [&gpu, &cpu].map(|simulation| simulation.units.as_ref().unwrap().states().to_vec());
-    let units = of_gpu.iter().zip(&of_cpu).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
+    let [gpu_result, cpu_result] = [&gpu, &cpu].map(|simulation| simulation.units.as_ref().unwrap().states().to_vec());
+    let units =
+        gpu_result.iter().zip(&cpu_result).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
     let units = units.fold(0.0, f64::max);
-    println!("places of water {apart:.1e} m apart, velocities of units {units:.1e}");
-    // As above; the units' loads agree to 1e-5.
+    println!("water positions {apart:.1e} m apart, relative difference of unit velocities {units:.1e}");
+    // As above; the loads of the units agree to 1e-5.
     assert!(apart < 1e-6 && units < 1e-4);
 }
 
 #[test]
-fn water_astray_is_named() {
+fn unstable_water_names_the_particle() {
     let Some(device) = card() else { return };
-    let spoilt = |spoil: fn(&mut Simulation)| {
+    let failure_after = |corrupt: fn(&mut Simulation)| {
         let mut simulation = Simulation::on(&device, case(&tank(None))).unwrap();
-        spoil(&mut simulation);
+        corrupt(&mut simulation);
         simulation.load().unwrap();
         let done = simulation.step();
         done.unwrap_err().to_string()
     };
-    let message = spoilt(|simulation| simulation.water.velocity[700].x = f64::NAN);
+    let message = failure_after(|simulation| simulation.water.velocity[700].x = f64::NAN);
     assert!(message.contains("no longer a finite number") && message.contains("water particle"), "{message}");
-    let message = spoilt(|simulation| simulation.water.position[700].z = 3.0);
+    let message = failure_after(|simulation| simulation.water.position[700].z = 3.0);
     assert!(message.contains("has left the domain") && message.contains("z = 3.000 m"), "{message}");
-    let message = spoilt(|simulation| simulation.water.density[700] = 1500.0);
+    let message = failure_after(|simulation| simulation.water.density[700] = 1500.0);
     assert!(message.contains("water particle"), "{message}");
 }
 
 #[test]
-fn all_the_water_can_be_near_a_surface_and_gets_its_velocities_back() {
+fn velocities_of_all_water_near_surfaces_can_be_read_and_written() {
     let Some(device) = card() else { return };
     let case = case_file("fudo/quick-look.json");
     let start = Simulation::new(case).unwrap();
@@ -303,7 +304,7 @@ fn all_the_water_can_be_near_a_surface_and_gets_its_velocities_back() {
     let mut solver = device.solver(*start.solver().parameters(), [grid.low, high], [grid.low, high]).unwrap();
     solver.load(&water, &boundary).unwrap();
     solver.sort(&mut water, &boundary);
-    // More than there is room for at first.
+    // This is more water than the buffer holds at first.
     let everywhere = Surfaces { balls: vec![(high, 100.0)], ..Surfaces::default() };
     let mut near = solver.take_near(&everywhere).unwrap();
     assert!(near.places.iter().copied().eq(0..water.len() as u32));

@@ -1,4 +1,4 @@
-//! The files of a run folder, from a made-up run: two units slide over a mound while a hump of water passes.
+//! The files and reports of an invented run: units slide over a mound while a wave crest passes.
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -16,8 +16,8 @@ use breakwater::{
 const DAMAGE_DISTANCE_M: f64 = 0.077;
 const START_Z_M: f64 = 0.755;
 
-/// A fresh folder below the build's own folder, where it can be looked at afterwards.
-fn fresh(name: &str) -> PathBuf {
+/// Creates an empty folder inside the build folder, where its files stay for inspection.
+fn empty_folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if folder.exists() {
         std::fs::remove_dir_all(&folder).unwrap();
@@ -26,7 +26,7 @@ fn fresh(name: &str) -> PathBuf {
     folder
 }
 
-/// Four round legs from the middle to the corners of a tetrahedron, one of them upwards.
+/// Surface of four conical legs from the centre to the corners of a tetrahedron, one of them upwards.
 fn four_legs() -> UnitSurface {
     let (mut vertices_m, mut triangles) = (Vec::new(), Vec::new());
     let slant = (-1.0_f64 / 3.0, (8.0_f64 / 9.0).sqrt());
@@ -61,21 +61,21 @@ fn four_legs() -> UnitSurface {
     UnitSurface { vertices_m, triangles }
 }
 
-/// Place and turn about y of a unit at a time.
+/// Returns position and orientation (a rotation about y) of a unit at a time [s].
 fn pose(unit: u32, time: f64) -> ([f64; 3], [f64; 4]) {
     let slid = ((time - 2.0) / 2.0).clamp(0.0, 1.0);
     let slid = slid * slid * (3.0 - 2.0 * slid);
-    let way = slid * (0.16 + 0.09 * f64::from(unit * 7 % 5) / 4.0);
-    let fall = (0.5 * (way - 0.16)).max(0.0);
+    let distance = slid * (0.16 + 0.09 * f64::from(unit * 7 % 5) / 4.0);
+    let fall = (0.5 * (distance - 0.16)).max(0.0);
     let y = 0.04 + 0.08 * f64::from(unit - 1);
     let turn = 8.0 * fall;
     // Even units are turned by half a circle about the vertical.
     let (s, c) = ((0.5 * turn).sin(), (0.5 * turn).cos());
     let orientation = if unit % 2 == 1 { [0.0, s, 0.0, c] } else { [-s, 0.0, c, 0.0] };
-    ([39.0 + way, y + 0.1 * fall * f64::from(unit % 3), START_Z_M - fall], orientation)
+    ([39.0 + distance, y + 0.1 * fall * f64::from(unit % 3), START_Z_M - fall], orientation)
 }
 
-fn hump(time: f64, at: f64, height: f64) -> f64 {
+fn crest(time: f64, at: f64, height: f64) -> f64 {
     height / (1.6 * (time - at)).cosh().powi(2)
 }
 
@@ -152,7 +152,7 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
     for i in 0..=800 {
         let t = 0.01 * f64::from(i);
         let ripple = 0.0006 * (9.0 * t).sin();
-        let (eta6, eta7) = (hump(t, 1.6, 0.0575), hump(t, 2.7, 0.061));
+        let (eta6, eta7) = (crest(t, 1.6, 0.0575), crest(t, 2.7, 0.061));
         gauges.append(&[t, eta6 + ripple, eta7 + ripple, 780.0 + 9000.0 * eta7, 3.0 * eta7, 0.0, 0.3 * ripple])?;
         flume.append(&[t, eta6, eta7 + 0.001])?;
         energy.append(&[
@@ -169,12 +169,12 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
         ])?;
         for unit in 1..=units {
             let ([x, y, z], q) = pose(unit, t);
-            let push = hump(t, 2.6, 1.6 + 0.05 * f64::from(unit)) - hump(t, 4.0, 0.5);
-            let touch = if (2.0..4.2).contains(&t) { 3.0 + (70.0 * t + f64::from(unit)).sin() } else { 1.9 };
+            let drag = crest(t, 2.6, 1.6 + 0.05 * f64::from(unit)) - crest(t, 4.0, 0.5);
+            let force = if (2.0..4.2).contains(&t) { 3.0 + (70.0 * t + f64::from(unit)).sin() } else { 1.9 };
             let mut row = vec![t, f64::from(unit), x, y, z, q[0], q[1], q[2], q[3]];
             let after = pose(unit, t + 0.01).0;
             row.extend([(after[0] - x) / 0.01, (after[1] - y) / 0.01, (after[2] - z) / 0.01, 0.0, 0.0, 0.0]);
-            row.extend([push, 0.0, 1.0 + 0.4 * push, 0.0, 0.0, 0.0, -0.3 * touch, 0.0, touch, 0.0, 0.0, 0.0]);
+            row.extend([drag, 0.0, 1.0 + 0.4 * drag, 0.0, 0.0, 0.0, -0.3 * force, 0.0, force, 0.0, 0.0, 0.0]);
             if let Some(motion) = &mut motion {
                 motion.append(&row)?;
             }
@@ -186,16 +186,16 @@ fn write_run(folder: &Path, units: u32) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Bed with mound.
+/// Corners of the bed with the mound [m].
 const CORNERS: [[f64; 2]; 6] =
     [[19.0, 0.0], [38.73, 0.658], [38.84, 0.717], [39.16, 0.717], [39.25, 0.675], [45.0, 0.867]];
 
 fn bed(x: f64) -> f64 {
-    let piece = CORNERS.windows(2).find(|piece| x <= piece[1][0]).unwrap();
-    piece[0][1] + (piece[1][1] - piece[0][1]) * (x - piece[0][0]) / (piece[1][0] - piece[0][0])
+    let segment = CORNERS.windows(2).find(|segment| x <= segment[1][0]).unwrap();
+    segment[0][1] + (segment[1][1] - segment[0][1]) * (x - segment[0][0]) / (segment[1][0] - segment[0][0])
 }
 
-/// A few layers of water particles about the middle of the flume; their number changes as the hump passes.
+/// Writes a few layers of water particles around the middle of the flume; their number changes as the crest passes.
 fn write_water(folder: &Path, width: f64) -> Result<(), OutputError> {
     let fields = [("velocity", FieldKind::Vector), ("pressure", FieldKind::Scalar), ("id", FieldKind::Integer)];
     let mut fluid = PolyDataSeries::create(&folder.join("fluid.vtkhdf"), Cells::Vertices, &fields)?;
@@ -203,7 +203,7 @@ fn write_water(folder: &Path, width: f64) -> Result<(), OutputError> {
         let (mut points, mut velocity) = (Vec::new(), Vec::new());
         for i in 0..600 {
             let x = 37.5 + 0.005 * (f64::from(i) + 0.5);
-            let eta = hump(time - (x - 39.0) / 3.0, 2.6, 0.061);
+            let eta = crest(time - (x - 39.0) / 3.0, 2.6, 0.061);
             for k in 0..200 {
                 let z = bed(x) + 0.005 * (f64::from(k) + 0.5);
                 for layer in -2..2 {
@@ -223,7 +223,7 @@ fn write_water(folder: &Path, width: f64) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Water, and surfaces of the units.
+/// Writes the water and the surfaces of the units.
 fn write_paraview(folder: &Path, width: f64) -> Result<(), OutputError> {
     write_water(folder, width)?;
     let surface = four_legs();
@@ -242,7 +242,7 @@ fn write_paraview(folder: &Path, width: f64) -> Result<(), OutputError> {
 #[test]
 fn the_report_shows_units_gauges_and_assumptions() {
     for units in [2, 15] {
-        let folder = fresh(&format!("run_{units}"));
+        let folder = empty_folder(&format!("run_{units}"));
         write_run(&folder, units).unwrap();
         write_paraview(&folder, 0.08 * f64::from(units)).unwrap();
         let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
@@ -258,17 +258,20 @@ fn the_report_shows_units_gauges_and_assumptions() {
         ] {
             assert!(html.contains(words), "{words}");
         }
-        assert!(!html.contains("NaN") && !html.contains("inf "), "a number is missing");
-        assert!(!html.contains("http://") && !html.contains("https://") && !html.contains("<script"), "self-contained");
+        assert!(!html.contains("NaN") && !html.contains("inf "), "the report contains a number that is not finite");
+        assert!(
+            !html.contains("http://") && !html.contains("https://") && !html.contains("<script"),
+            "the report needs other files"
+        );
         assert_eq!(html.matches("<svg").count(), html.matches("</svg>").count());
-        // A mail takes it.
+        // The report must be small enough for an e-mail.
         assert!(html.len() < 3_000_000, "{} bytes", html.len());
     }
 }
 
 #[test]
 fn the_report_shows_the_wave_at_the_units() {
-    let folder = fresh("run_wave");
+    let folder = empty_folder("run_wave");
     write_run(&folder, 2).unwrap();
     write_paraview(&folder, 0.16).unwrap();
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
@@ -279,23 +282,23 @@ fn the_report_shows_the_wave_at_the_units() {
         "<strong>8 s.</strong> End of the run",
     ];
     let places: Vec<usize> = moments.iter().map(|words| html.find(words).expect(words)).collect();
-    assert!(places.is_sorted(), "the moments stand in the order of time");
-    // The middle of the flume lies between two layers; the one above it is drawn.
+    assert!(places.is_sorted(), "the moments are not in the order of time");
+    // The middle of the flume lies between two layers; the picture shows the upper one.
     assert!(html.contains("less than 3.8 mm from y = 0.0825 m") && html.contains("picture.svg"));
 
     let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
     assert!(picture.starts_with("<svg xmlns=") && picture.contains("Flume time 2.6 s. Near the peak"));
-    assert!(!picture.contains("var(") && !picture.contains("NaN"), "colours and numbers are its own");
+    assert!(!picture.contains("var(") && !picture.contains("NaN"), "colours from the page, or NaN");
     let classes = picture.split("class=\"").skip(1).flat_map(|rest| rest.split('"').next().unwrap().split(' '));
     for class in classes.filter(|class| *class != "unit") {
         let styled = [" {", ","].iter().any(|after| picture.contains(&format!(".{class}{after}")));
-        assert!(styled, "{class} has its style in the picture itself");
+        assert!(styled, "the picture itself does not define the style {class}");
     }
 }
 
 #[test]
 fn the_wave_is_shown_without_units_but_not_without_water() {
-    let folder = fresh("wave_0");
+    let folder = empty_folder("wave_0");
     write_run(&folder, 0).unwrap();
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
     assert!(!html.contains("The wave ") && !folder.join("picture.svg").exists());
@@ -307,29 +310,29 @@ fn the_wave_is_shown_without_units_but_not_without_water() {
 }
 
 #[test]
-fn the_report_does_without_units_and_without_gauges() {
-    let folder = fresh("run_0");
+fn the_report_works_without_units_and_without_gauges() {
+    let folder = empty_folder("run_0");
     write_run(&folder, 0).unwrap();
     std::fs::remove_file(folder.join("flume_gauges.csv")).unwrap();
     let html = std::fs::read_to_string(write_report(&folder).unwrap()).unwrap();
     assert!(html.contains("Water at the gauges") && !html.contains("Damage ratio"));
 
-    let bare = fresh("run_bare");
+    let bare = empty_folder("run_bare");
     Summary { title: "Still water".to_owned(), ..Summary::default() }.write(&bare).unwrap();
     let html = std::fs::read_to_string(write_report(&bare).unwrap()).unwrap();
     assert!(html.contains("Still water") && !html.contains("Water at the gauges"));
 }
 
 #[test]
-fn a_folder_without_a_summary_is_named() {
-    let folder = fresh("run_none");
+fn the_report_of_a_folder_without_a_summary_is_refused() {
+    let folder = empty_folder("run_none");
     let error = write_report(&folder).unwrap_err().to_string();
     assert!(error.contains("summary.json"), "{error}");
 }
 
 #[test]
 fn runs_are_compared_with_the_experiment() {
-    let (full, slice) = (fresh("compare_full"), fresh("compare_slice"));
+    let (full, slice) = (empty_folder("compare_full"), empty_folder("compare_slice"));
     write_run(&full, 15).unwrap();
     write_run(&slice, 2).unwrap();
     let comparison = compare(&[&full, &slice], &Reference::load(Path::new("cases/fudo/reference")).unwrap()).unwrap();

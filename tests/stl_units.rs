@@ -1,4 +1,4 @@
-//! Units from STL files and at given poses: sound ones run, broken ones are refused; nothing panics or hangs.
+//! Units from STL files and at given poses: valid ones run, invalid ones are refused, and nothing panics or hangs.
 
 use std::{path::Path, sync::Arc};
 
@@ -11,8 +11,8 @@ use breakwater::{
 use glam::DVec3;
 use serde_json::{Value, json};
 
-/// A dry case with one unit from `stl`, in the folder of which the case lies.
-fn case_of(stl: Value, poses: Value) -> Value {
+/// Case of a settling test with a unit from the STL file of `stl`; its path is relative to the folder of the case.
+fn settling_case(stl: Value, poses: Value) -> Value {
     json!({
         "title": "unit from STL",
         "dry": { "kind": "settle" },
@@ -26,8 +26,8 @@ fn case_of(stl: Value, poses: Value) -> Value {
     })
 }
 
-/// Validate and run a case: what was refused, or nothing.
-fn outcome(case: &Value, folder: &Path) -> Result<(), String> {
+/// Validates and runs a case; returns the error message if it is refused or fails.
+fn try_run(case: &Value, folder: &Path) -> Result<(), String> {
     let name = folder.join("case.json").display().to_string();
     let case = DryCase::from_str(&case.to_string(), &name).map_err(|errors| errors.to_string())?;
     let mut run = DryRun::new(Arc::new(case)).map_err(|error| error.to_string())?;
@@ -38,10 +38,10 @@ fn outcome(case: &Value, folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Numbers that follow from a seed, evenly distributed in 0..1.
-struct Shares(u64);
+/// Pseudo-random numbers, uniformly distributed in 0..1.
+struct Random(u64);
 
-impl Shares {
+impl Random {
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
@@ -57,12 +57,12 @@ fn write_unit(path: &Path, unit: &ArmourUnit) {
 }
 
 #[test]
-fn a_unit_from_stl_moves_like_that_of_the_catalogue() {
+fn a_unit_from_stl_moves_like_the_same_catalogue_unit() {
     let folder = tempfile::tempdir().unwrap();
     let cuboid = ArmourUnit::cuboid(DVec3::new(0.1, 0.15, 0.2), 0.05).unwrap();
     write_unit(&folder.path().join("block.stl"), &cuboid);
     let pose = json!([{ "centre_m": [0.0, 0.5, 0.3], "quaternion_xyzw": [0.1, 0.2, 0.3, 0.9273618495495704] }]);
-    let from_stl = case_of(json!({ "path": "block.stl" }), pose);
+    let from_stl = settling_case(json!({ "path": "block.stl" }), pose);
     let mut catalogue = from_stl.clone();
     let units = catalogue["units"].as_object_mut().unwrap();
     units.remove("stl");
@@ -79,7 +79,7 @@ fn a_unit_from_stl_moves_like_that_of_the_catalogue() {
     };
     let (a, b) = (end(&from_stl), end(&catalogue));
     println!("{} {}", a.position, b.position);
-    // The file has single precision; an impact carries that on a hundredfold.
+    // 1e-5 m: the file is in single precision, and the impact amplifies its rounding a hundredfold.
     assert!((a.position - b.position).length() < 1e-5);
 }
 
@@ -94,65 +94,66 @@ fn convex_parts_come_from_files_or_from_decomposition() {
     }
     let pose = json!([{ "centre_m": [0.0, 0.5, 0.3] }]);
     let parts: Vec<String> = (0..5).map(|number| format!("part{number}.stl")).collect();
-    outcome(&case_of(json!({ "path": "dolos.stl", "parts": parts }), pose.clone()), folder.path()).unwrap();
-    // Four of five: the missing one is told as a share of the volume.
-    let error = outcome(&case_of(json!({ "path": "dolos.stl", "parts": parts[1..] }), pose.clone()), folder.path());
+    try_run(&settling_case(json!({ "path": "dolos.stl", "parts": parts }), pose.clone()), folder.path()).unwrap();
+    // Four of the five parts: the message gives the missing share of the volume.
+    let error =
+        try_run(&settling_case(json!({ "path": "dolos.stl", "parts": parts[1..] }), pose.clone()), folder.path());
     assert!(error.as_ref().unwrap_err().contains("of its volume"), "{error:?}");
-    let found = outcome(&case_of(json!({ "path": "dolos.stl" }), pose), folder.path());
+    let found = try_run(&settling_case(json!({ "path": "dolos.stl" }), pose), folder.path());
     println!("decomposed: {found:?}");
-    // Parts that fill the unit, or a refusal that tells by how much they do not.
+    // The decomposition fills the unit, or the refusal gives the missing share of its volume.
     assert!(found.is_ok() || found.unwrap_err().contains("of its volume"));
 }
 
 #[test]
-fn a_surface_that_cuts_itself_is_refused_with_the_place() {
+fn a_surface_that_intersects_itself_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let cube = ArmourUnit::cuboid(DVec3::splat(0.2), 0.05).unwrap();
     let (mut vertices, mut triangles) = (cube.solid().vertices().to_vec(), cube.solid().triangles().to_vec());
-    // A second cube that overlaps the first.
+    // The second cube overlaps the first.
     let first = vertices.len() as u32;
     vertices.extend(cube.solid().vertices().iter().map(|v| *v + DVec3::new(0.1, 0.03, 0.02)));
     triangles.extend(cube.solid().triangles().iter().map(|t| t.map(|v| v + first)));
     stl::write(&folder.path().join("two.stl"), &vertices, &triangles).unwrap();
-    let case = case_of(json!({ "path": "two.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
-    let error = outcome(&case, folder.path()).unwrap_err();
+    let case = settling_case(json!({ "path": "two.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
+    let error = try_run(&case, folder.path()).unwrap_err();
     assert!(error.contains("does not intersect itself") && error.contains("units.stl.path"), "{error}");
 }
 
-/// A binary STL file with one to three faults.
-fn damaged(good: &[u8], shares: &mut Shares) -> Vec<u8> {
-    let mut bytes = good.to_vec();
-    for _ in 0..=shares.below(3) {
-        match shares.below(7) {
-            // A byte anywhere.
+/// Returns a binary STL file with one to three faults.
+fn damaged(intact: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = intact.to_vec();
+    for _ in 0..=random.below(3) {
+        match random.below(7) {
+            // Replaces a byte.
             0 => {
-                let at = shares.below(bytes.len());
-                bytes[at] = shares.below(256) as u8;
+                let offset = random.below(bytes.len());
+                bytes[offset] = random.below(256) as u8;
             }
-            1 => bytes.truncate(shares.below(bytes.len()) + 1),
-            // A coordinate that is no place.
+            1 => bytes.truncate(random.below(bytes.len()) + 1),
+            // Replaces a coordinate by an extreme value.
             2 if bytes.len() >= 134 => {
-                let odd = [f32::NAN, f32::INFINITY, 1e30, -1e-30, 0.0, f32::MAX][shares.below(6)];
-                let at = 84 + 50 * shares.below((bytes.len() - 84) / 50) + 12 + 4 * shares.below(9);
-                bytes[at..at + 4].copy_from_slice(&odd.to_le_bytes());
+                let odd = [f32::NAN, f32::INFINITY, 1e30, -1e-30, 0.0, f32::MAX][random.below(6)];
+                let offset = 84 + 50 * random.below((bytes.len() - 84) / 50) + 12 + 4 * random.below(9);
+                bytes[offset..offset + 4].copy_from_slice(&odd.to_le_bytes());
             }
-            // A triangle turned round, doubled or left out.
+            // Reverses or removes a triangle.
             3 if bytes.len() >= 134 => {
-                let at = 84 + 50 * shares.below((bytes.len() - 84) / 50);
-                let corner: Vec<u8> = bytes[at + 12..at + 24].to_vec();
-                bytes.copy_within(at + 24..at + 36, at + 12);
-                bytes[at + 24..at + 36].copy_from_slice(&corner);
+                let offset = 84 + 50 * random.below((bytes.len() - 84) / 50);
+                let corner: Vec<u8> = bytes[offset + 12..offset + 24].to_vec();
+                bytes.copy_within(offset + 24..offset + 36, offset + 12);
+                bytes[offset + 24..offset + 36].copy_from_slice(&corner);
             }
             4 if bytes.len() >= 134 => {
-                let at = 84 + 50 * shares.below((bytes.len() - 84) / 50);
-                bytes.drain(at..at + 50);
+                let offset = 84 + 50 * random.below((bytes.len() - 84) / 50);
+                bytes.drain(offset..offset + 50);
             }
-            // Another number of triangles than there are.
+            // Changes the number of triangles in the header.
             5 if bytes.len() >= 84 => {
-                let count = [0, 1, 11, 13, u32::MAX][shares.below(5)];
+                let count = [0, 1, 11, 13, u32::MAX][random.below(5)];
                 bytes[80..84].copy_from_slice(&u32::to_le_bytes(count));
             }
-            // A text that begins like an ASCII file.
+            // Overwrites the start with that of an ASCII file.
             _ => {
                 let text = b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n";
                 let length = text.len().min(bytes.len());
@@ -164,44 +165,44 @@ fn damaged(good: &[u8], shares: &mut Shares) -> Vec<u8> {
 }
 
 #[test]
-fn two_hundred_broken_files_are_refused_or_run() {
+fn two_hundred_damaged_files_are_refused_or_run() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("unit.stl");
     write_unit(&path, &ArmourUnit::cuboid(DVec3::new(0.1, 0.15, 0.2), 0.05).unwrap());
-    let good = std::fs::read(&path).unwrap();
-    let case = case_of(json!({ "path": "unit.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
-    outcome(&case, folder.path()).unwrap();
-    let mut shares = Shares(5);
+    let intact = std::fs::read(&path).unwrap();
+    let case = settling_case(json!({ "path": "unit.stl" }), json!([{ "centre_m": [0.0, 0.5, 0.3] }]));
+    try_run(&case, folder.path()).unwrap();
+    let mut random = Random(5);
     let mut refused = 0;
     for _ in 0..200 {
-        let bytes = damaged(&good, &mut shares);
+        let bytes = damaged(&intact, &mut random);
         std::fs::write(&path, &bytes).unwrap();
-        if let Err(message) = outcome(&case, folder.path()) {
+        if let Err(message) = try_run(&case, folder.path()) {
             refused += 1;
             assert!(!message.is_empty());
         }
     }
-    println!("{refused} of 200 refused");
+    println!("{refused} of 200 files refused");
     assert!(refused > 100);
 }
 
 #[test]
 fn two_hundred_random_poses_are_refused_or_run() {
     let folder = tempfile::tempdir().unwrap();
-    let mut shares = Shares(11);
+    let mut random = Random(11);
     let (mut refused, mut ran) = (0, 0);
     for attempt in 0..200 {
         let mut pose = || {
-            let place: Vec<f64> =
-                [[-1.2, 1.2], [-0.1, 1.1], [-0.05, 0.6]].map(|[low, high]| low + (high - low) * shares.next()).to_vec();
+            let position: Vec<f64> =
+                [[-1.2, 1.2], [-0.1, 1.1], [-0.05, 0.6]].map(|[low, high]| low + (high - low) * random.next()).to_vec();
             let q =
-                glam::DQuat::from_xyzw(shares.next() - 0.5, shares.next() - 0.5, shares.next() - 0.5, 0.1).normalize();
-            // Some are no rotations.
-            let scale = if shares.below(20) == 0 { 1.5 } else { 1.0 };
-            json!({ "centre_m": place, "quaternion_xyzw": q.to_array().map(|c| scale * c) })
+                glam::DQuat::from_xyzw(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5, 0.1).normalize();
+            // A twentieth of the quaternions is not normalised.
+            let scale = if random.below(20) == 0 { 1.5 } else { 1.0 };
+            json!({ "centre_m": position, "quaternion_xyzw": q.to_array().map(|c| scale * c) })
         };
         let poses: Vec<Value> = (0..1 + attempt % 4).map(|_| pose()).collect();
-        let mut case = case_of(json!(null), json!(poses));
+        let mut case = settling_case(json!(null), json!(poses));
         let units = case["units"].as_object_mut().unwrap();
         units.remove("stl");
         let (shape, height, mass) =
@@ -210,7 +211,7 @@ fn two_hundred_random_poses_are_refused_or_run() {
         units.insert("shape".into(), json!(shape));
         units.insert("height_m".into(), json!(height));
         units.insert("mass_kg".into(), json!(mass));
-        match outcome(&case, folder.path()) {
+        match try_run(&case, folder.path()) {
             Ok(()) => ran += 1,
             Err(message) => {
                 refused += 1;
@@ -218,11 +219,11 @@ fn two_hundred_random_poses_are_refused_or_run() {
             }
         }
     }
-    println!("{refused} refused, {ran} ran");
+    println!("{refused} of 200 cases refused, {ran} ran");
     assert!(ran > 10 && refused > 10);
 }
 
-/// The same case on a triangle surface.
+/// Returns the case with one Tetrapod on a terrain from an STL file.
 fn on_terrain(case: &Value) -> Value {
     let mut case = case.clone();
     case["flume"]["terrain"] = json!({ "path": "terrain.stl" });
@@ -234,11 +235,11 @@ fn on_terrain(case: &Value) -> Value {
 }
 
 #[test]
-fn a_run_on_terrain_keeps_the_surface_beside_its_case() {
+fn a_run_on_terrain_keeps_the_surface_in_its_folder() {
     let folder = tempfile::tempdir().unwrap();
-    // A block of 0.2 m in the middle, on which the unit falls.
+    // The unit falls on a block of 0.2 m in the middle.
     write_unit(&folder.path().join("terrain.stl"), &ArmourUnit::cuboid(DVec3::splat(0.2), 0.05).unwrap());
-    let case = on_terrain(&case_of(json!(null), json!([{ "centre_m": [0.0, 0.0, 0.3] }])));
+    let case = on_terrain(&settling_case(json!(null), json!([{ "centre_m": [0.0, 0.0, 0.3] }])));
     let mut case = case;
     case["domain"]["sides"] = json!("periodic");
     let name = folder.path().join("case.json").display().to_string();
@@ -255,27 +256,27 @@ fn a_run_on_terrain_keeps_the_surface_beside_its_case() {
 }
 
 #[test]
-fn two_hundred_broken_terrains_are_refused_or_run() {
+fn two_hundred_damaged_terrains_are_refused_or_run() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("terrain.stl");
-    let case = on_terrain(&case_of(json!(null), json!([{ "centre_m": [0.0, 0.5, 0.3] }])));
-    let missing = outcome(&case, folder.path()).unwrap_err();
+    let case = on_terrain(&settling_case(json!(null), json!([{ "centre_m": [0.0, 0.5, 0.3] }])));
+    let missing = try_run(&case, folder.path()).unwrap_err();
     assert!(
         missing.contains("flume.terrain.path") && missing.contains("cannot be read") | missing.contains("can be read")
     );
     write_unit(&path, &ArmourUnit::cuboid(DVec3::new(0.5, 0.4, 0.2), 0.05).unwrap());
-    let good = std::fs::read(&path).unwrap();
-    outcome(&case, folder.path()).unwrap();
-    let mut shares = Shares(17);
+    let intact = std::fs::read(&path).unwrap();
+    try_run(&case, folder.path()).unwrap();
+    let mut random = Random(17);
     let mut refused = 0;
     for _ in 0..200 {
-        std::fs::write(&path, damaged(&good, &mut shares)).unwrap();
-        if let Err(message) = outcome(&case, folder.path()) {
+        std::fs::write(&path, damaged(&intact, &mut random)).unwrap();
+        if let Err(message) = try_run(&case, folder.path()) {
             refused += 1;
             assert!(!message.is_empty());
         }
     }
     println!("{refused} of 200 terrains refused");
-    // A surface with a hole can be stood upon; less is refused than of units.
+    // A terrain may have a hole, so fewer of them are refused than of units.
     assert!(refused > 50 && refused < 200);
 }

@@ -1,4 +1,4 @@
-//! Sweeps from the command line: every combination runs, what is finished is kept, what fails is said.
+//! Sweeps from the command line: all combinations run, finished runs are kept, and failed runs are listed.
 
 use std::{
     fs,
@@ -8,7 +8,7 @@ use std::{
 
 use serde_json::{Value, json};
 
-/// A tank of a few hundred particles for a few steps.
+/// Case of a tank with a few hundred particles for a few time steps.
 fn tank() -> Value {
     json!({
         "title": "Tank",
@@ -22,7 +22,7 @@ fn tank() -> Value {
     })
 }
 
-/// A folder with the tank and a sweep of it.
+/// Creates a folder with the tank case and a sweep of it.
 fn sweep_of(vary: &Value) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, value: &Value| {
@@ -44,7 +44,7 @@ fn run(sweep: &Path, out: &Path) -> Output {
 }
 
 #[test]
-fn every_combination_runs_and_what_is_finished_is_kept() {
+fn every_combination_runs_and_finished_runs_are_kept() {
     let vary = json!([
         { "key": "numerics.viscosity_alpha", "values": [0.02, 0.04] },
         { "key": "domain.dp_m", "from": 0.04, "to": 0.05, "count": 2 }
@@ -63,7 +63,7 @@ fn every_combination_runs_and_what_is_finished_is_kept() {
     let case: Value = serde_json::from_str(&case).unwrap();
     assert_eq!(case["title"], "Tanks: viscosity_alpha=0.02 dp_m=0.05");
 
-    // One is lost, one was interrupted: both come back, and the others are not touched.
+    // One run is deleted and one has no summary: both are completed, and the others stay untouched.
     let summary = |name: &str| out.join(name).join("summary.json");
     let changed = |name: &str| fs::metadata(summary(name)).unwrap().modified().unwrap();
     let kept = changed("003_viscosity_alpha=0.04_dp_m=0.04");
@@ -74,17 +74,17 @@ fn every_combination_runs_and_what_is_finished_is_kept() {
     assert!(again.status.success(), "{}", String::from_utf8_lossy(&again.stderr));
     assert_eq!(changed("003_viscosity_alpha=0.04_dp_m=0.04"), kept);
     assert!(summary(interrupted).exists());
-    // All but the time on the wall.
-    let without_wall = |table: &str| {
+    // The wall-clock time in column 11 differs.
+    let without_wall_time = |table: &str| {
         let cells =
             |row: &str| row.split(',').enumerate().filter(|(k, _)| *k != 11).map(|(_, c)| c.to_owned()).collect();
         table.lines().map(cells).collect::<Vec<Vec<String>>>()
     };
-    assert_eq!(without_wall(&fs::read_to_string(out.join("sweep.csv")).unwrap()), without_wall(&table));
+    assert_eq!(without_wall_time(&fs::read_to_string(out.join("sweep.csv")).unwrap()), without_wall_time(&table));
 }
 
 #[test]
-fn one_value_at_a_time_shows_what_hangs_on_each() {
+fn one_at_a_time_varies_each_key_against_the_base_case() {
     let (folder, sweep) = sweep_of(&json!([
         { "key": "numerics.viscosity_alpha", "values": [0.02] },
         { "key": "domain.x_m", "values": [[0.0, 0.4]] }
@@ -107,17 +107,17 @@ fn one_value_at_a_time_shows_what_hangs_on_each() {
     let case = fs::read_to_string(out.join("003_x_m=_0.0_0.4_/case.json")).unwrap();
     let case: Value = serde_json::from_str(&case).unwrap();
     assert_eq!((&case["numerics"]["cfl"], &case["numerics"]["viscosity_alpha"]), (&json!(0.1), &Value::Null));
-    let added = "Changed from the base case of the sweep: numerics.cfl = 0.1 (base case: not set), \
+    let assumption = "Changed from the base case of the sweep: numerics.cfl = 0.1 (base case: not set), \
                  domain.dp_m = 0.04 (base case: 0.05), domain.x_m = [0.0,0.4] (base case: [0.0,0.5]).";
-    assert_eq!(case["assumptions"], json!([added]));
+    assert_eq!(case["assumptions"], json!([assumption]));
 }
 
 #[test]
-fn a_run_that_fails_is_named() {
+fn a_failed_run_is_named() {
     let (folder, sweep) = sweep_of(&json!([{ "key": "numerics.cfl", "values": [0.2, 0.3] }]));
     let out = folder.path().join("out");
     fs::create_dir(&out).unwrap();
-    // A file stands where the second run's folder should be.
+    // A file blocks the path of the second run's folder.
     fs::write(out.join("002_cfl=0.3"), "").unwrap();
     let ended = run(&sweep, &out);
     assert_eq!(ended.status.code(), Some(1));
@@ -128,14 +128,14 @@ fn a_run_that_fails_is_named() {
 }
 
 #[test]
-fn a_key_to_set_that_a_case_does_not_have_is_refused() {
+fn setting_an_unknown_key_is_refused() {
     let (_folder, sweep) = sweep_of(&json!([{ "key": "domain.dp_m", "values": [0.05] }]));
-    let given: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
+    let base: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
     for (key, expected) in [
         ("friction[4].coefficient", "set: friction[4].coefficient: friction has 1 entries"),
         ("numerics.cfll", "unknown key \"cfll\"; did you mean \"cfl\"?"),
     ] {
-        let mut file = given.clone();
+        let mut file = base.clone();
         file["set"] = json!({ key: 0.4 });
         fs::write(&sweep, file.to_string()).unwrap();
         let ended = breakwater(&["check", sweep.to_str().unwrap()]);
@@ -146,7 +146,7 @@ fn a_key_to_set_that_a_case_does_not_have_is_refused() {
 }
 
 #[test]
-fn a_case_to_vary_that_is_no_object_is_refused() {
+fn a_base_case_that_is_not_a_json_object_is_refused() {
     let (folder, sweep) = sweep_of(&json!([{ "key": "domain.dp_m", "values": [0.05] }]));
     let mut file: Value = serde_json::from_str(&fs::read_to_string(&sweep).unwrap()).unwrap();
     file["combine"] = json!("one_at_a_time");
@@ -159,7 +159,7 @@ fn a_case_to_vary_that_is_no_object_is_refused() {
 }
 
 #[test]
-fn bad_sweeps_are_refused_before_anything_runs() {
+fn invalid_sweeps_are_refused_before_any_run_starts() {
     let cases = [
         (json!([]), "vary: must hold at least one key"),
         (json!([{ "key": "domain.dp_m" }]), "vary[0] (domain.dp_m): must have either `values`"),

@@ -1,4 +1,4 @@
-//! The tutorial works as it is written: every command of its `sh` blocks runs, in order, in a copy of the cases.
+//! Every command in the `sh` blocks of the tutorial succeeds, in order, in a copy of the cases.
 
 use std::{
     env, fs,
@@ -6,7 +6,7 @@ use std::{
     process::Command,
 };
 
-/// The commands in the `sh` blocks of a page.
+/// Lists the commands in the `sh` blocks of a page.
 fn commands(page: &str) -> Vec<&str> {
     let blocks = page.split("\n```sh\n").skip(1).map(|rest| rest.split("\n```").next().unwrap_or(rest));
     blocks.flat_map(str::lines).filter(|line| !line.trim().is_empty()).collect()
@@ -22,22 +22,23 @@ fn copy(from: &Path, to: &Path) {
 }
 
 #[test]
-fn every_command_of_the_tutorial_works() {
+fn every_tutorial_command_succeeds() {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR"));
     let page = fs::read_to_string(repository.join("docs/tutorial.md")).unwrap();
     let commands = commands(&page);
-    // A page that names its blocks otherwise would be tested by nothing.
-    assert!(commands.len() >= 10, "only {commands:?}");
+    // If the page marked its blocks differently, the test would find no commands.
+    assert!(commands.len() >= 10, "found only {commands:?}");
     let folder = tempfile::tempdir().unwrap();
     copy(&repository.join("cases"), &folder.path().join("cases"));
     let program = Path::new(env!("CARGO_BIN_EXE_breakwater"));
-    let mut search: Vec<PathBuf> = vec![program.parent().unwrap().to_owned()];
-    search.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
-    let search = env::join_paths(search).unwrap();
+    let mut search_path: Vec<PathBuf> = vec![program.parent().unwrap().to_owned()];
+    search_path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
+    let search_path = env::join_paths(search_path).unwrap();
     for command in commands {
-        let output = Command::new("sh").args(["-c", command]).current_dir(folder.path()).env("PATH", &search).output();
+        let output =
+            Command::new("sh").args(["-c", command]).current_dir(folder.path()).env("PATH", &search_path).output();
         let output = output.unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{command}: {}\n{said}", output.status);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{command}: {}\n{message}", output.status);
     }
 }

@@ -1,4 +1,4 @@
-//! `breakwater bench`: how fast is the solver on this machine.
+//! `breakwater bench`: measures the speed of the solver on this machine.
 
 use std::path::{Path, PathBuf};
 
@@ -15,39 +15,39 @@ use crate::{
     },
 };
 
-/// Time whole steps of a block of water: evaluations and pairs a second, by phase, for 1 to N threads.
+/// Measure the speed of the solver: evaluations and particle pairs per second for a block of water, 1 to N threads.
 ///
-/// One "full evaluation" is continuity, density diffusion, pressure and viscosity of one particle of the water; a step has
-/// two of each, and sorting, listing and the boundary besides. Boundary particles count too, though with mDBC all that is
-/// computed for them is their density; the rate of the water alone stands beside.
+/// A "full evaluation" is continuity, density diffusion, pressure and viscosity of one particle. A time step has two
+/// per particle, and also sorting, neighbour lists and the boundary. Boundary particles are counted as well, although
+/// with mDBC only their density is computed; the rate of the water particles alone is printed next to it.
 #[derive(Args)]
 pub struct BenchArguments {
-    /// Water particles.
+    /// Number of water particles.
     #[arg(long, default_value_t = 170_000, value_parser = clap::value_parser!(u32).range(512..=50_000_000))]
     particles: u32,
-    /// Diameter of the kernel's support in particle distances, 2h/dp; h = 1.2 sqrt(3) dp makes 4.16.
+    /// Support radius of the kernel over the particle spacing, 2h/dp [-]; h = 1.2 sqrt(3) dp gives 4.16.
     #[arg(long, default_value_t = 4.157)]
     support: f64,
-    /// Largest number of threads; as many as cores unless given.
+    /// Largest number of threads; default: the number of cores.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
-    /// Time for each measurement [s].
+    /// Duration of each measurement [s].
     #[arg(long, default_value_t = 5.0)]
     seconds: f64,
-    /// Instructions to compute with; the best that the processor has unless given.
+    /// SIMD instruction set; default: the best one of this processor.
     #[arg(long, value_enum)]
     instructions: Option<Instructions>,
-    /// Measure a graphics card instead: gpu or gpu:N as in `breakwater devices`.
+    /// What to measure: cpu, gpu, or gpu:N as listed by `breakwater devices`.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     device: DeviceChoice,
-    /// Write the measurements to this file too: moving water on all threads, and the list of all.
+    /// Also write the measurements to this JSON file, moving water on all threads first; default: not written.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Instructions {
-    /// Whatever the compiler makes of arrays of eight.
+    /// Arrays of eight numbers, vectorised by the compiler.
     Portable,
     /// Eight lanes of AVX2.
     Avx2,
@@ -68,10 +68,10 @@ impl Instructions {
 impl BenchArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         if !(2.0..=8.0).contains(&self.support) {
-            return Err(Trouble::refused(format!("--support: {} is not between 2 and 8", self.support)));
+            return Err(Trouble::refused(format!("--support {}: must be between 2 and 8", self.support)));
         }
         if !(0.1..=600.0).contains(&self.seconds) {
-            return Err(Trouble::refused(format!("--seconds: {} is not between 0.1 and 600", self.seconds)));
+            return Err(Trouble::refused(format!("--seconds {}: must be between 0.1 and 600", self.seconds)));
         }
         if self.device != DeviceChoice::Cpu {
             return self.measure_card();
@@ -80,7 +80,7 @@ impl BenchArguments {
         let threads = self.threads.map_or(cores, |threads| threads as usize);
         let instructions = self.instructions.map_or_else(InstructionSet::best, Instructions::set);
         if !InstructionSet::available().contains(&instructions) {
-            return Err(Trouble::refused(format!("--instructions: this processor does not have {instructions:?}")));
+            return Err(Trouble::refused(format!("--instructions: this processor does not support {instructions:?}")));
         }
         let machine = Machine::measure(instructions, threads).map_err(Trouble::failed)?;
         println!("{instructions:?}, {} lanes", instructions.lanes());
@@ -127,7 +127,7 @@ impl BenchArguments {
     }
 }
 
-/// The moving water on all threads, which is what a run is like, and every measurement in the list.
+/// Writes the list of measurements, and on the top level the last one: moving water on all threads, as in a run.
 fn write_json(path: Option<&Path>, measurements: &[Measurement], (key, value): (&str, String)) -> Result<(), Trouble> {
     let Some(path) = path else { return Ok(()) };
     let mut text = json!(measurements.last());
@@ -147,14 +147,14 @@ fn print(measured: &Measurement) {
         measured.steps
     );
     println!(
-        "  {:.2} million full evaluations/s ({:.2} of water), {:.0} million pairs/s, {:.0} bytes a particle",
+        "  {:.2} million full evaluations/s ({:.2} of water), {:.0} million pairs/s, {:.0} bytes per particle",
         measured.full_evaluations_per_s / 1e6,
         measured.water_evaluations_per_s / 1e6,
         measured.pairs_per_s / 1e6,
         measured.bytes_per_particle
     );
     if measured.useful_lanes.is_finite() {
-        println!("  {:.0} % of the lanes useful", 100.0 * measured.useful_lanes);
+        println!("  {:.0} % of the SIMD lanes used", 100.0 * measured.useful_lanes);
     }
     println!(
         "  {:.0} % of the arithmetic peak ({:.0} % in the pair loop), at least {:.0} % of the memory bandwidth",
@@ -163,6 +163,6 @@ fn print(measured: &Measurement) {
         100.0 * measured.share_of_bandwidth
     );
     for phase in &measured.phases {
-        println!("  {:<20}{:5.1} %{:9.0} ns a particle", phase.name, 100.0 * phase.share, phase.ns_per_particle);
+        println!("  {:<20}{:5.1} %{:9.0} ns per particle", phase.name, 100.0 * phase.share, phase.ns_per_particle);
     }
 }

@@ -1,4 +1,4 @@
-//! `breakwater check`: is a case sound, and what does it cost.
+//! `breakwater check`: validates cases and estimates the cost of their runs.
 
 use std::path::{Path, PathBuf};
 
@@ -21,18 +21,17 @@ use crate::{
     sweep::plan::{Sweep, in_words},
 };
 
-/// Full evaluations of a particle's rates per second and core that the estimate of the run time counts on; a step
-/// takes two. `breakwater bench` says what a machine reaches: 1.5 million with AVX-512, of which gauges, outputs and
-/// contact take some.
+/// Full evaluations per second and core, assumed for the estimate of the run time; a time step takes two per particle.
+/// `breakwater bench` measures 1.5 million with AVX-512; gauges, outputs and contact take a share of it.
 const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 
-/// The same in two dimensions, where a particle has a sixth of the neighbours.
+/// The same rate in two dimensions, where a particle has a sixth of the neighbours.
 const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 
-/// Validate case files and print particles, memory, size of the files, time step and an estimate of the run time.
+/// Validate input files and print particles, memory, file sizes, time step and an estimate of the run time.
 #[derive(Args)]
 pub struct CheckArguments {
-    /// Case files; also `reference.json` of a folder with measurements.
+    /// Case, sweep and placement files, and `reference.json` of folders with measurements.
     #[arg(required = true)]
     cases: Vec<PathBuf>,
 }
@@ -42,7 +41,7 @@ impl CheckArguments {
         let mut refusals = Vec::new();
         for path in &self.cases {
             if let Some(file) = placement(path) {
-                println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+                println!("{}: placement of {} units, made for: {}", path.display(), file.poses.len(), file.title);
                 continue;
             }
             if path.ends_with(Reference::FILE) {
@@ -115,21 +114,21 @@ fn print(case: &Case) {
             println!("  wave        solitary, H = {} m in {} m of water", wave.height_m, wave.depth_m);
         }
         Wave::SolitaryInflow(wave) => {
-            println!("  wave        solitary, H = {} m, flows into {} m of water", wave.height_m, wave.depth_m);
+            println!("  wave        solitary, H = {} m, inflow, {} m of water", wave.height_m, wave.depth_m);
         }
         Wave::Regular { wave, ramp_periods } => {
             print!(
-                "  wave        regular, H = {} m, T = {} s, {:.3} m long in {} m of water",
+                "  wave        regular, H = {} m, T = {} s, wavelength {:.3} m in {} m of water",
                 wave.height_m,
                 wave.period_s,
                 wave.length_m(),
                 wave.depth_m
             );
             if case.wavemaker.is_ml_piston() {
-                println!("; flows into the flume");
+                println!("; inflow");
             } else {
                 let motion = case.wavemaker.motion(wave, *ramp_periods, case.flume.profile.z(case.domain.x[0]));
-                println!("; stroke {:.4} m at the surface", motion.stroke_m());
+                println!("; stroke {:.4} m at the still water level", motion.stroke_m());
             }
         }
         Wave::Given(wave) => {
@@ -143,14 +142,14 @@ fn print(case: &Case) {
         ),
     }
     if let Some(distance) = case.wavemaker.absorption_gauge() {
-        println!("  wavemaker   takes up the waves that come back to it, by a gauge {distance} m before it");
+        println!("  wavemaker   absorbs returning waves, gauge {distance} m in front of it");
     }
     let across = match case.domain.sides {
         Sides::TwoDimensional => "two-dimensional".to_owned(),
         Sides::Periodic | Sides::Walls => format!("{} m wide", case.domain.width),
     };
     println!(
-        "  domain      x = {} to {} m, {across}, still depth up to {:.3} m",
+        "  domain      x = {} to {} m, {across}, still water depth up to {:.3} m",
         case.domain.x[0], case.domain.x[1], case.domain.depth
     );
     if let Some(units) = &case.units {
@@ -199,17 +198,17 @@ fn print_units(units: &Units) {
     }
 }
 
-/// Overlap at the start, over the height of a unit, above which it is told [-]: a unit at rest has a ten-thousandth, one
-/// wedged in a layer up to half a hundredth.
+/// Overlap at the start, over the height of a unit, above which `check` warns [-]. A unit at rest has 0.0001, a unit
+/// wedged in a layer up to 0.005.
 const TOLD_OVERLAP: f64 = 0.01;
 
-/// Tell how deep units start in each other, the bed or a wall, if they do.
+/// Warns of units that overlap each other, the bed or a wall at the start.
 fn check_overlap(setup: RigidSetup, units: &Units) -> Result<(), RigidError> {
     let overlap = RigidWorld::new(setup)?.deepest_overlap() / units.shape.height();
     if overlap > TOLD_OVERLAP {
         eprintln!(
-            "warning: units start up to {:.2} % of their height deep in each other, the bed or a wall, and will be pushed \
-             apart",
+            "warning: units overlap each other, the bed or a wall by up to {:.2} % of their height at the start; \
+             contact will force them apart",
             100.0 * overlap
         );
     }
@@ -219,39 +218,39 @@ fn check_overlap(setup: RigidSetup, units: &Units) -> Result<(), RigidError> {
 fn print_dry(case: &DryCase) {
     println!("{}: {}", case.name, case.title);
     let test = match case.test {
-        DryTest::Settle => "units settle where they are".to_owned(),
+        DryTest::Settle => "units settle from their start positions".to_owned(),
         DryTest::Drop => "units are dropped".to_owned(),
         DryTest::Tilt { rate, to, .. } => {
             format!("the bed is tilted by {:.3} degrees/s up to {:.1}", rate.to_degrees(), to.to_degrees())
         }
     };
     println!("  dry test    {test}");
-    println!("  place       x = {} to {} m, {} m wide", case.site.x[0], case.site.x[1], case.site.width);
+    println!("  bed         x = {} to {} m, {} m wide", case.site.x[0], case.site.x[1], case.site.width);
     print_units(&case.units);
     case.fracture.iter().for_each(print_handover);
     println!("  duration    at most {} s", case.stop.duration);
 }
 
-/// What is computed again with units that break.
+/// Prints the settings of the breakage analysis.
 fn print_handover(handover: &Handover) {
     let by = match handover.select.by {
         Hardness::PeakForce => "force",
-        Hardness::ApproachVelocity => "velocity of approach",
+        Hardness::ApproachVelocity => "approach velocity",
         Hardness::KineticEnergy => "kinetic energy",
     };
     let which = match handover.select.worst {
         Some(worst) => format!("the {worst} hardest impacts by {by}"),
-        None => format!("all impacts kept, the hardest by {by} first"),
+        None => format!("all recorded impacts, the hardest by {by} first"),
     };
     println!(
-        "  fracture    {which}, {} times as long; {} tetrahedra a unit, edges of {:.3} m",
+        "  breakage    {which}, re-run at length scale {}; {} tetrahedra per unit, edges of {:.3} m",
         handover.scale,
         handover.mesh.tets(),
         handover.mesh.edge() * handover.scale
     );
 }
 
-/// A number of bytes as people say it.
+/// Returns a file size in words; `bytes` is a number of bytes.
 fn size(bytes: f64) -> String {
     match bytes {
         b if b <= 0.0 => "none".to_owned(),

@@ -14,10 +14,10 @@ pub struct CompareArguments {
     #[arg(required = true)]
     dirs: Vec<PathBuf>,
     /// Folder with the measurements: reference.json and its CSV files (`breakwater schema --reference` lists the keys).
-    /// Without it, the folder that the case of the first run names.
+    /// Default: the folder that the case of the first run names.
     #[arg(long, value_name = "DIR")]
     reference: Option<PathBuf>,
-    /// Folder for compare.html and compare.csv; without it, the folder of the first run.
+    /// Folder for compare.html and compare.csv; default: the folder of the first run.
     #[arg(long)]
     out: Option<PathBuf>,
 }

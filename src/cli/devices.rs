@@ -1,4 +1,4 @@
-//! `breakwater devices`, and the choice of a device.
+//! `breakwater devices`, and the option --device.
 
 use clap::Args;
 
@@ -9,40 +9,40 @@ use crate::{
     sph::device::{Device, DeviceChoice},
 };
 
-/// What there is to compute the water on: the processor, graphics cards, and how many particles fit.
+/// List the devices that can compute the water: processor and graphics cards, and how many particles fit.
 #[derive(Args)]
 pub struct DevicesArguments {}
 
-/// Choice of a device.
+/// The option --device.
 #[derive(Args)]
 pub(super) struct DeviceArgument {
-    /// What computes the water: auto (a graphics card if there is one for the case), cpu, gpu or gpu:N as in
+    /// What computes the water: auto (a graphics card if one can compute the case), cpu, gpu, or gpu:N as listed by
     /// `breakwater devices`.
     #[arg(long, default_value = "auto", value_name = "DEVICE")]
     pub(super) device: DeviceChoice,
 }
 
 impl DeviceArgument {
-    /// The device for a case.
+    /// Opens the device for a case.
     pub(super) fn open(&self, case: &Case, quiet: bool) -> Result<Device, Trouble> {
         let (mut device, mut reason) = Device::open(self.device, not_on_cards(case)).map_err(Trouble::refused)?;
         if self.device == DeviceChoice::Auto && !device.holds(case.estimate().particles()) {
-            reason = Some(format!("{} has not enough memory", device.name()));
+            reason = Some(format!("{} has too little memory", device.name()));
             device = Device::Cpu;
         }
         if let (Some(reason), false) = (reason, quiet) {
-            eprintln!("on the CPU: {reason}");
+            eprintln!("computing on the CPU: {reason}");
         }
         Ok(device)
     }
 }
 
 impl DeviceArgument {
-    /// Without water there is nothing for a card.
+    /// Refuses a graphics card for a case without water.
     pub(super) fn refuse_card(&self) -> Result<(), Trouble> {
         match self.device {
             DeviceChoice::Gpu(_) => {
-                Err(Trouble::refused("--device gpu: a case without water is computed on the processor"))
+                Err(Trouble::refused("--device gpu: dry tests run on the processor; leave the option out"))
             }
             DeviceChoice::Auto | DeviceChoice::Cpu => Ok(()),
         }
@@ -64,22 +64,22 @@ fn list_cards() {
 
     let cards = Card::all();
     for (number, card) in cards.iter().enumerate() {
-        let software = if card.is_software { "; a program on the processor, for tests" } else { "" };
+        let software = if card.is_software { "; emulated on the processor, for tests only" } else { "" };
         println!("gpu:{number}  {} ({}){software}", card.name, card.interface);
         let memory =
             card.memory.map_or_else(|| "memory unknown".to_owned(), |bytes| format!("{:.1} GB", bytes as f64 / 1e9));
         println!(
-            "       {memory}, pieces of at most {:.2} GB: room for {:.1} million particles",
+            "       {memory}, buffers of at most {:.2} GB: fits {:.1} million particles",
             card.largest_binding.min(card.largest_buffer) as f64 / 1e9,
             most_particles(card) as f64 / 1e6
         );
     }
     if cards.is_empty() {
-        println!("no graphics card: neither Vulkan, Metal nor DirectX 12 shows one");
+        println!("no graphics card found with Vulkan, Metal or DirectX 12");
     }
 }
 
 #[cfg(not(feature = "gpu"))]
 fn list_cards() {
-    println!("this breakwater was built without the feature `gpu`");
+    println!("no graphics cards: breakwater was built without the feature `gpu`");
 }

@@ -5,13 +5,12 @@ use std::path::Path;
 use super::Trouble;
 use crate::simulation::breakage::run::FOLDER;
 
-/// Name of the case file without folder and ending.
+/// Returns the name of a case file without folder and extension.
 pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Files that a run or the flume model leaves in its folder; --overwrite takes these and the folder of impacts away and
-/// nothing else.
+/// Files that a run or the flume model writes. --overwrite deletes these and the folder of impacts only.
 const RESULT_FILES: [&str; 35] = [
     "bodies.csv",
     "breakage.csv",
@@ -50,14 +49,14 @@ const RESULT_FILES: [&str; 35] = [
     "wave.html",
 ];
 
-/// Make a folder for results: new, or empty, or cleared of an earlier run's files if the user says so.
+/// Prepares an empty folder for results; with `overwrite`, deletes the files of an earlier run in it.
 pub(super) fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), Trouble> {
     let cannot = |error: std::io::Error| Trouble::refused(format!("{}: {error}", dir.display()));
     let occupied = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
     if occupied && !overwrite {
         return Err(Trouble::refused(format!(
-            "{}: the folder holds files already; choose another with --out DIR, or add --overwrite to replace them \
-             (breakwater resume {} goes on with an interrupted run)",
+            "{}: the folder is not empty; choose another with --out DIR, or add --overwrite to replace its results \
+             (to continue an interrupted run: breakwater resume {})",
             dir.display(),
             dir.display()
         )));

@@ -1,4 +1,4 @@
-//! `breakwater init`: a case to start from.
+//! `breakwater init`: a template of a case.
 
 use std::path::PathBuf;
 
@@ -7,10 +7,10 @@ use clap::Args;
 use super::Trouble;
 use crate::output::write_atomically;
 
-/// Write a case file to start from, and the JSON schema beside it.
+/// Write a template of a flume case, and the JSON schema next to it.
 #[derive(Args)]
 pub struct InitArguments {
-    /// The new file.
+    /// The new case file.
     #[arg(default_value = "case.json")]
     file: PathBuf,
 }

@@ -1,4 +1,4 @@
-//! Input files by their kind.
+//! Reads input files and recognises their kind.
 
 use std::{path::Path, sync::Arc};
 
@@ -8,18 +8,18 @@ use crate::{
     sweep::plan::Sweep,
 };
 
-/// A case file of either kind.
+/// A flume case or a dry test.
 pub(super) enum AnyCase {
-    /// A flume with water.
+    /// A flume case: water, and perhaps units.
     Wet(Arc<Case>),
-    /// Units on a bed without water.
+    /// A dry test: units on a bed without water.
     Dry(Arc<DryCase>),
 }
 
-/// Read a case of either kind and show its warnings.
+/// Reads a flume case or a dry test and shows its warnings.
 pub(super) fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
     if placement(path).is_some() {
-        let what = "is a placement and no case; run the case that names it as `units.placement_file`";
+        let what = "is a placement file, not a case; run the case that names it as `units.placement_file`";
         return Err(Trouble::refused(format!("{}: {what}", path.display())));
     }
     if is_fracture(path) {
@@ -27,7 +27,7 @@ pub(super) fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
         return Err(Trouble::refused(format!("{}: {what}", path.display())));
     }
     if is_sweep(path) {
-        let what = "is a sweep; run it with breakwater sweep";
+        let what = "is a sweep file; run it with breakwater sweep";
         return Err(Trouble::refused(format!("{}: {what}", path.display())));
     }
     let is_dry = std::fs::read_to_string(path).is_ok_and(|text| DryCase::is_one(&text));
@@ -39,22 +39,22 @@ pub(super) fn load_any(path: &Path) -> Result<AnyCase, Trouble> {
     Ok(AnyCase::Dry(Arc::new(case)))
 }
 
-/// Whether a file is a sweep.
+/// Returns whether a file is a sweep file.
 pub(super) fn is_sweep(path: &Path) -> bool {
     std::fs::read_to_string(path).is_ok_and(|text| Sweep::is_one(&text))
 }
 
-/// Whether a file is a fracture case.
+/// Returns whether a file is a fracture case.
 pub(super) fn is_fracture(path: &Path) -> bool {
     std::fs::read_to_string(path).is_ok_and(|text| FractureCase::is_one(&text))
 }
 
-/// The poses in a file, if it is a placement file.
+/// Reads the poses from a file, if it is a placement file.
 pub(super) fn placement(path: &Path) -> Option<PlacementFile> {
     serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 
-/// Read a case with water and show its warnings.
+/// Reads a flume case and shows its warnings.
 pub(super) fn load(path: &Path) -> Result<Arc<Case>, Trouble> {
     let case = Case::load(path).map_err(Trouble::refused)?;
     show_warnings(&case.warnings);

@@ -1,4 +1,4 @@
-//! What a run takes of the machine.
+//! Threads, progress output and signals of a run.
 
 use clap::Args;
 
@@ -7,16 +7,16 @@ use crate::output::driver::Control;
 
 #[derive(Args)]
 pub(super) struct MachineArguments {
-    /// Threads; default: one per core. The results do not depend on it.
+    /// Number of threads; default: one per core. The results do not depend on it.
     #[arg(long)]
     pub(super) threads: Option<usize>,
-    /// Show no progress.
+    /// Show no progress; default: progress is shown.
     #[arg(long)]
     pub(super) quiet: bool,
 }
 
 impl MachineArguments {
-    /// Size the thread pool, and let Ctrl-C and SIGTERM stop the run with a checkpoint.
+    /// Sets up the thread pool, and lets Ctrl-C and SIGTERM stop the run with a checkpoint.
     pub(super) fn prepare(&self) -> Result<Control, Trouble> {
         let threads = self.threads.unwrap_or(0);
         if self.threads == Some(0) || threads > 1024 {

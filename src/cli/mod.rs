@@ -1,6 +1,6 @@
-//! The command line: one file a subcommand.
+//! The command line: one file per subcommand.
 //!
-//! Exit codes: 0 done, 1 the run went wrong, 2 the input is refused (nothing was written).
+//! Exit codes: 0 success, 1 the work failed, 2 the input was refused (nothing was written).
 
 mod bench;
 mod check;
@@ -24,8 +24,8 @@ use clap::{Parser, Subcommand};
 
 /// Will this wave move the armour units, and will the units break?
 ///
-/// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` tells what it will cost, `run` sends
-/// the wave over the units, `compare` compares the result with measurements.
+/// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` estimates
+/// the cost of a run, `run` computes the case, and `compare` compares the result with measurements.
 #[derive(Parser)]
 #[command(name = "breakwater", version, after_help = EXAMPLES)]
 struct Arguments {
@@ -35,16 +35,16 @@ struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  breakwater check cases/fudo/quick-look.json      what a case holds and what it costs
-  breakwater run cases/fudo/quick-look.json        run it; look at runs/quick-look/report.html
-  breakwater resume runs/quick-look                go on after an interruption
+  breakwater check cases/fudo/quick-look.json      contents of a case and cost of a run
+  breakwater run cases/fudo/quick-look.json        run it; then open runs/quick-look/report.html
+  breakwater resume runs/quick-look                continue after an interruption
   breakwater compare runs/quick-look               compare with measurements
-  breakwater sweep cases/fudo/friction-sweep.json  the same with nine coefficients of friction, in one table
-  breakwater wave cases/fudo/H4.5-slice.json       the wave alone, in seconds
-  breakwater run cases/contact/tilt-tetrapod.json  units without water: a slope test
+  breakwater sweep cases/fudo/friction-sweep.json  run it with nine friction coefficients, in one table
+  breakwater wave cases/fudo/H4.5-slice.json       compute only the wave, in seconds
+  breakwater run cases/contact/tilt-tetrapod.json  units without water: a tilt test
   breakwater fracture cases/fracture/dolos-drop.json  a Dolos dropped on concrete: where does it crack?
-  breakwater run cases/breakage/tetrapod-drop.json  a dropped model: does the prototype break?
-  breakwater init my-case.json                     a case to start from";
+  breakwater run cases/breakage/tetrapod-drop.json  a dropped model unit: does the prototype break?
+  breakwater init my-case.json                     write a template of a case";
 
 #[derive(Subcommand)]
 enum Command {
@@ -66,11 +66,11 @@ enum Command {
     Sweep(sweep::SweepArguments),
 }
 
-/// Why a command ended without its result.
+/// Why a command failed.
 enum Trouble {
-    /// The input is refused: exit code 2.
+    /// The input was refused: exit code 2.
     Refused(String),
-    /// The work went wrong: exit code 1.
+    /// The work failed: exit code 1.
     Failed(String),
 }
 
@@ -84,7 +84,7 @@ impl Trouble {
     }
 }
 
-/// Run the program on the process arguments.
+/// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Run(arguments) => arguments.execute(),

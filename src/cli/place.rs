@@ -1,4 +1,4 @@
-//! `breakwater place`: units placed in armour layers, settled without water.
+//! `breakwater place`: places the units of armour layers without water.
 
 use std::path::{Path, PathBuf};
 
@@ -11,22 +11,23 @@ use crate::{
     simulation::armour_layer::{PlacementError, place},
 };
 
-/// Deepest overlap over the height of a unit that is called good [-].
+/// Largest acceptable overlap over the height of a unit [-].
 const GOOD_OVERLAP: f64 = 0.01;
 
-/// Place the armour layers of a case: units are lowered one by one, let go and settle without water. Where they come to
-/// rest goes into a file that this case, and others, name as `units.placement_file`.
+/// Place armour layers: lower the units of a case one by one onto the slope, without water, until they are at rest.
+///
+/// Their poses go to a placement file, which this and other cases can name as `units.placement_file`.
 #[derive(Args)]
 pub struct PlaceArguments {
     /// The case file, with `units.armour`.
     case: PathBuf,
-    /// The placement file; without it, beside the case with the ending `.placement.json`.
+    /// The placement file; default: the case file with the extension `.placement.json`.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace an old placement file.
+    /// Replace an existing placement file; default: it is kept and the command refused.
     #[arg(long)]
     overwrite: bool,
-    /// No progress.
+    /// Show no progress; default: progress is shown.
     #[arg(long)]
     quiet: bool,
 }
@@ -46,7 +47,7 @@ impl PlaceArguments {
         }
         let tell = |placed: usize, time: f64| {
             if !quiet && (placed.is_multiple_of(25) || placed == count) {
-                eprintln!("  {placed} of {count} placed after {time:.2} s");
+                eprintln!("  {placed} of {count} units placed, {time:.2} s simulated");
             }
         };
         let placement = place(&job, tell).map_err(|error| match error {
@@ -57,17 +58,17 @@ impl PlaceArguments {
         text.push('\n');
         write_atomically(&out, text.as_bytes()).map_err(Trouble::failed)?;
         println!("{} units settled in {:.2} s of simulated time", placement.units.len(), placement.time);
-        println!("  packing density {:.3}, {} rolled off", placement.packing_density, placement.rolled_off);
+        println!("  packing density {:.3}, {} units rolled off", placement.packing_density, placement.rolled_off);
         println!(
-            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} of what \
-             was let go",
+            "  {} contacts, deepest overlap {:.3} % of the height; fastest unit {:.1e} m/s, kinetic energy {:.1e} of \
+             the potential energy released",
             placement.contacts,
             100.0 * placement.deepest_overlap,
             placement.fastest,
             placement.unrest
         );
         if placement.deepest_overlap > GOOD_OVERLAP {
-            eprintln!("warning: units overlap by more than 1 % of their height: a stiffer material is needed");
+            eprintln!("warning: units overlap by more than 1 % of their height; use a stiffer material");
         }
         println!("{}: add \"placement_file\": {:?} to `units` of the case", out.display(), name_of(&out));
         Ok(())

@@ -1,4 +1,4 @@
-//! `breakwater report`: the report of a run, made anew.
+//! `breakwater report`: writes the report of a run again.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Trouble, input::is_fracture};
 use crate::report::{fracture::write_fracture_report, run::write_report};
 
-/// Make the report of a finished run anew.
+/// Write the report of a finished run again.
 #[derive(Args)]
 pub struct ReportArguments {
     /// Folder of the run.

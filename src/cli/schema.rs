@@ -4,16 +4,16 @@ use clap::Args;
 
 use super::Trouble;
 
-/// Print the JSON schema of case files, for editors that complete and check as you type.
+/// Print the JSON schema of flume cases or other input files, for editors that complete and check as you type.
 #[derive(Args)]
 pub struct SchemaArguments {
-    /// The schema of dry cases: units on a bed without water.
+    /// Print the schema of dry tests (units on a bed without water); default: flume cases.
     #[arg(long)]
     dry: bool,
-    /// The schema of fracture cases: deformable bodies that crack.
+    /// Print the schema of fracture cases (deformable bodies that crack); default: flume cases.
     #[arg(long, conflicts_with = "dry")]
     fracture: bool,
-    /// The schema of sweeps: one case with keys that vary.
+    /// Print the schema of sweep files (one case with varied keys); default: flume cases.
     #[arg(long, conflicts_with_all = ["dry", "fracture"])]
     sweep: bool,
     /// The schema of `reference.json`: measured displacements that runs are compared with.

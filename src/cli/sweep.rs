@@ -1,4 +1,4 @@
-//! `breakwater sweep`: one case with keys that vary.
+//! `breakwater sweep`: many runs of one case with varied keys.
 
 use std::{
     fs,
@@ -33,35 +33,35 @@ use crate::{
     },
 };
 
-/// Times that runs which Slurm leaves unfinished are submitted.
+/// How often unfinished runs are submitted to Slurm.
 const SUBMISSIONS: usize = 2;
 
-/// Run a case over lists or ranges of its keys: every combination a run of its own, all of them in one table and chart.
+/// Run a case for every combination of the listed values, and collect the results in one table and chart.
 ///
-/// What is finished is kept: the same command goes on after an interruption. A run that fails is tried once more.
+/// Finished runs are kept: repeat the command to continue after an interruption. A failed run is tried once more.
 #[derive(Args)]
 pub struct SweepArguments {
-    /// The sweep file: title, case, and `vary`, a list of {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or
+    /// The sweep file: title, case and `vary`, a list of {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or
     /// {"key": ..., "from": 0.1, "to": 0.98, "count": 9}.
     sweep: PathBuf,
-    /// Folder of the results; without it, runs/<name of the sweep>.
+    /// Folder of the results; default: runs/<name of the sweep>.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Runs at the same time on this machine; without it, as many as cores hold.
+    /// Number of runs at the same time on this machine; default: number of cores divided by --threads.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1024))]
     jobs: Option<u32>,
-    /// Threads of each run; several runs of one thread are faster than one of several.
+    /// Threads of each run; several runs with one thread each are faster than one run with several threads.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
     #[command(flatten)]
     device: DeviceArgument,
-    /// Who starts the runs.
+    /// What starts the runs.
     #[arg(long, value_enum, default_value = "local")]
     launcher: Launcher,
-    /// A further option of sbatch, as in --slurm-option=--partition=long; may be repeated.
+    /// Extra option for sbatch, as in --slurm-option=--partition=long; may be repeated; default: none.
     #[arg(long = "slurm-option", value_name = "OPTION")]
     slurm_options: Vec<String>,
-    /// Make one run of the sweep only, by its number; 0 is the common start, if the sweep has one.
+    /// Compute only the run with this number; 0 is the common start, if the sweep has one; default: all runs.
     #[arg(long, value_name = "NUMBER")]
     member: Option<usize>,
 }
@@ -70,7 +70,7 @@ pub struct SweepArguments {
 enum Launcher {
     /// This command, on this machine.
     Local,
-    /// Slurm, as a job array; this command waits for it.
+    /// A Slurm job array; this command waits until it ends.
     Slurm,
 }
 
@@ -83,19 +83,19 @@ impl SweepArguments {
             let (first, last) = (usize::from(sweep.start.is_none()), sweep.members.len());
             let member = sweep.member(number).ok_or_else(|| {
                 Trouble::refused(format!(
-                    "--member {number}: must be between {first} and {last}, the runs of the sweep"
+                    "--member {number}: must be between {first} and {last}, the numbers of the runs"
                 ))
             })?;
             return self.make(&sweep, member, &dir);
         }
-        // Absolute: processes and nodes may stand elsewhere.
+        // Absolute paths: the processes and nodes may have other working directories.
         let absolute = |path: &Path| path.canonicalize().map_err(Trouble::failed);
         let (sweep_file, dir, program) =
             (absolute(&self.sweep)?, absolute(&dir)?, std::env::current_exe().map_err(Trouble::failed)?);
         let device = self.device.device.to_string();
         let work = Work { sweep_file: &sweep_file, dir: &dir, threads: self.threads as usize, device: &device };
-        println!("{}: {} runs, in {}", sweep.title, sweep.members.len(), dir.display());
-        // The others begin where the common start ends.
+        println!("{}: {} runs, results in {}", sweep.title, sweep.members.len(), dir.display());
+        // The other runs begin at the end of the common start.
         if let Some(start) = &sweep.start {
             self.launch(&work, &program, std::slice::from_ref(start))?;
             finished(start, &dir)?;
@@ -113,7 +113,7 @@ impl SweepArguments {
             return Ok(());
         }
         Err(Trouble::failed(format!(
-            "{} of {} runs are not finished: {}; see their .log files in {}, and give the same command again",
+            "{} of {} runs are not finished: {}; see their .log files in {}, then repeat the command",
             missing.len(),
             sweep.members.len(),
             missing.join(", "),
@@ -160,7 +160,7 @@ impl SweepArguments {
         Ok(())
     }
 
-    /// Make one run, or go on with it.
+    /// Computes one run, or continues it.
     fn make(&self, sweep: &Sweep, member: &Member, sweep_dir: &Path) -> Result<(), Trouble> {
         let dir = member.dir(sweep_dir);
         let name = sweep.case.display().to_string();
@@ -193,20 +193,20 @@ impl SweepArguments {
     }
 }
 
-/// Folder of the common start.
+/// Returns the folder of the common start, if that run is finished.
 fn finished(start: &Member, sweep_dir: &Path) -> Result<PathBuf, Trouble> {
     let dir = start.dir(sweep_dir);
     match start.outcome(sweep_dir) {
         Outcome::Finished(_) => Ok(dir),
         _ => Err(Trouble::failed(format!(
-            "{}: the common start is not finished, see {}; nothing can begin there",
+            "{}: the common start is not finished, see {}; the other runs need its last checkpoint",
             dir.display(),
             start.log(sweep_dir).display()
         ))),
     }
 }
 
-/// What came out of a run.
+/// Describes the result of a run.
 fn in_words(summary: &Summary) -> String {
     match (summary.mean_displacement_m, summary.damage_ratio) {
         (Some(mean), Some(ratio)) => format!("mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio),

@@ -1,4 +1,4 @@
-//! `breakwater unit`: a unit of the catalogue, its numbers and files.
+//! `breakwater unit`: properties and geometry files of a unit of the catalogue.
 
 use std::path::PathBuf;
 
@@ -11,24 +11,24 @@ use crate::{
     output::write_atomically,
 };
 
-/// Show a unit of the catalogue: volume, nominal diameter, inertia, K_D; write its surface and Gmsh geometry.
+/// Show volume, nominal diameter, inertia and K_D of an armour unit; write its surface and Gmsh geometry.
 #[derive(Args)]
 pub struct UnitArguments {
-    /// Which unit.
+    /// Shape of the unit.
     shape: CatalogueShape,
-    /// Height H [m]; size C of a Core-Loc.
+    /// Height H [m]; for a Core-Loc, its size C.
     #[arg(long, default_value_t = 1.0)]
     height_m: f64,
-    /// Width of a Dolos' stem over its height.
+    /// Waist ratio of a Dolos: width of the stem over the height [-].
     #[arg(long, default_value_t = 0.34)]
     waist_ratio: f64,
     /// Density of the concrete [kg/m3].
     #[arg(long, default_value_t = 2350.0)]
     density_kg_m3: f64,
-    /// Write the closed surface as binary STL.
+    /// Write the closed surface as binary STL to this file; default: not written.
     #[arg(long)]
     stl: Option<PathBuf>,
-    /// Write the geometry for Gmsh.
+    /// Write the geometry for Gmsh to this file; default: not written.
     #[arg(long)]
     geo: Option<PathBuf>,
 }
@@ -43,7 +43,7 @@ enum CatalogueShape {
     Cube,
 }
 
-/// Rounding of the edges in contact that the catalogue is shown with, over the height [-].
+/// Radius of the rounded edges over the height [-].
 const ROUNDING: f64 = 0.03;
 /// Elements along the height in the Gmsh geometry.
 const ELEMENTS: f64 = 20.0;
@@ -72,14 +72,14 @@ impl UnitArguments {
         println!("  inertia      {:.4e} {:.4e} {:.4e} kg m2", inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
         println!("  convex parts {}, {} triangles", unit.parts().len(), unit.solid().triangles().len());
         if let Some(k_d) = kind.stability_coefficient() {
-            println!("  K_D          {k_d} (Hudson; two layers at random, trunk, breaking waves)");
+            println!("  K_D          {k_d} (Hudson; two layers, random placing, trunk, breaking waves)");
         }
         if let Some(path) = &self.stl {
             stl::write(path, unit.solid().vertices(), unit.solid().triangles()).map_err(Trouble::failed)?;
             println!("  surface      {}", path.display());
         }
         if let Some(path) = &self.geo {
-            // Every unit of the catalogue has its exact shape.
+            // Every unit of the catalogue has an exact geometry.
             let text = gmsh::geometry(&unit, height / ELEMENTS).unwrap_or_default();
             write_atomically(path, text.as_bytes()).map_err(Trouble::failed)?;
             println!("  geometry     {}: gmsh -3 {0}", path.display());

@@ -20,20 +20,21 @@ use crate::{
     },
 };
 
-/// Run the wave along the flume without particles, in seconds: gauges, the ML-piston's motion and a plot.
+/// Compute only the wave in the flume, without particles, in seconds: gauges, wavemaker motion and a plot.
 #[derive(Args)]
 pub struct WaveArguments {
     /// The case file.
     case: PathBuf,
-    /// Folder of the results; without it, runs/<name of the case>-wave.
+    /// Folder of the results; default: runs/<name of the case>-wave.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace what the folder holds.
+    /// Replace the results in the folder; default: a folder with files is refused.
     #[arg(long)]
     overwrite: bool,
-    /// Compare with OpenFOAM (z pointing up): its folder postProcessing with probes of alpha.water on a vertical in a
-    /// folder for each gauge of the case, as tools/openfoam leaves it; or that of the function object interfaceHeight,
-    /// whose locations are the gauges in their order.
+    /// Compare with an OpenFOAM run (z upwards); default: no comparison.
+    ///
+    /// FOLDER is its folder postProcessing with vertical probes of alpha.water, one folder per gauge, as written by
+    /// tools/openfoam; or the folder of the function object interfaceHeight, with the gauges as locations, in order.
     #[arg(long, value_name = "FOLDER")]
     beside: Option<PathBuf>,
 }
@@ -43,25 +44,23 @@ impl WaveArguments {
         let case = load(&self.case)?;
         let refuse = |reason: &str| Err(Trouble::refused(format!("{}: {reason}", self.case.display())));
         if matches!(case.wave, Wave::Given(_)) {
-            return refuse("wave.kind: the wave comes from files of another program, so that no flume model runs");
+            return refuse("wave.kind: the wave is read from files of another program; there is no flume model");
         }
         if case.wave != Wave::None && !case.wavemaker.is_ml_piston() {
             return refuse(
-                "wavemaker.kind: the wave is made in the particles, so that no flume model runs; `breakwater check` shows \
-                 the wave's length and the paddle's stroke",
+                "wavemaker.kind: the paddle makes the wave in the particle domain; there is no flume model. \
+                 `breakwater check` shows the wavelength and the stroke",
             );
         }
         let Some(record) = run_flume(&case).map_err(Trouble::refused)? else {
-            return refuse(
-                "wave: the case has no wave; give it one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}",
-            );
+            return refuse("wave: the case has no wave; add one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}");
         };
         let elevations = || case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
         let names: Vec<&str> = elevations().map(|gauge| gauge.name.as_str()).collect();
         let frame = Frame { up: Up::Z, origin_z_m: 0.0 };
         let beside = match &self.beside {
             Some(_) if names.is_empty() => {
-                return refuse("gauges: --beside needs gauges of the kind \"elevation\" to compare by");
+                return refuse("gauges: --beside needs at least one gauge of kind \"elevation\"");
             }
             Some(folder) => gauges::read(folder, &names, "alpha.water", frame).map_err(Trouble::refused)?,
             None => Vec::new(),
@@ -82,14 +81,14 @@ impl WaveArguments {
             write_wave_page(&case, &record, &piston, &beside, &dir)
         };
         let page = write().map_err(Trouble::failed)?;
-        println!("wavemaker of the particles at x = {} m, from flume time {start:.2} s", case.domain.x[0]);
+        println!("particle domain: wavemaker at x = {} m, start at flume time {start:.2} s", case.domain.x[0]);
         for (number, gauge) in elevations().enumerate() {
             let (height, time) = record.crest(number);
             println!("  {:8} x = {:6.2} m: crest {:.4} m at {time:.2} s", gauge.name, gauge.at[0], height);
             let Some(series) = beside.get(number) else { continue };
             match Comparison::new(&record, number, series, case.flume.still_level) {
                 Some(other) => println!(
-                    "  {:22} beside it {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
+                    "  {:22} OpenFOAM {:.4} m ({:+.1} %) at {:.2} s ({:+.2} s); rms difference {:.1} % of the crest",
                     "",
                     other.crest_m,
                     100.0 * other.height,
@@ -97,10 +96,10 @@ impl WaveArguments {
                     other.delay_s,
                     100.0 * other.rms
                 ),
-                None => println!("  {:22} beside it: no time in common, or no wave", ""),
+                None => println!("  {:22} OpenFOAM: no common time range, or no wave", ""),
             }
         }
-        println!("water kept to {:.1e} of its volume", record.volume_error);
+        println!("relative error of the water volume: {:.1e}", record.volume_error);
         println!("plot: {}", page.display());
         Ok(())
     }

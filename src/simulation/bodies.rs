@@ -1,4 +1,4 @@
-//! From validated units to rigid bodies.
+//! Converts the validated units of a case to rigid bodies.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use crate::{
     rigid::{self, BodyShape, BodyState, ContactModel, Friction, Ground, RigidSetup},
 };
 
-/// What the world of the units is made of.
+/// Returns the set-up of the rigid world: units, bed, walls, materials and contact law.
 pub fn rigid_setup(
     units: &Units,
     site: &Site,

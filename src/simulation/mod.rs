@@ -2,13 +2,13 @@
 //!
 //! | folder | run |
 //! | --- | --- |
-//! | [`flume`] | water, units and their contact: the coupled run |
-//! | [`dry_test`] | units on a bed without water: tilt tests, drops, settling |
-//! | [`armour_layer`] | units lowered one by one onto a slope |
-//! | [`fracture`] | deformable bodies that crack |
-//! | [`breakage`] | the hardest impacts of a run, re-run at prototype scale with breakable units |
+//! | [`flume`] | flume runs: water, units and their contact |
+//! | [`dry_test`] | dry tests: units tilted, dropped or settling without water |
+//! | [`armour_layer`] | armour layers: units lowered one by one onto a slope |
+//! | [`fracture`] | fracture runs: deformable bodies that crack |
+//! | [`breakage`] | breakage analyses: the hardest impacts of a run, re-run at prototype scale with breakable units |
 //!
-//! A run writes data into its folder; pages are written by [`crate::report`].
+//! A run writes data into its folder; [`crate::report`] writes the pages.
 
 pub mod armour_layer;
 pub mod bodies;

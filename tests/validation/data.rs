@@ -1,30 +1,95 @@
-//! Measurements beside the crate, read in place.
+//! Measurements: short tables in the repository, and the full series where `../shared/data` lies next to it.
 
-use std::{fs, path::Path};
+use std::ffi::c_int;
+use std::io::{Write, stdout};
+use std::{fs, path::Path, sync::Mutex};
 
-/// Rows of numbers in a file of `../shared/data`, what stands between them (headings, citations) left out; `None`, said
-/// in the test's output, where the data do not lie beside the crate.
-pub fn rows(name: &str) -> Option<Vec<Vec<f64>>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
-    let Ok(bytes) = fs::read(&path) else {
-        println!("skipped: no data at {}", path.display());
-        return None;
+/// Folder of the full series, relative to the repository.
+const FULL_SERIES: &str = "../shared/data";
+
+/// Returns the rows of numbers of a table in `tests/validation/measured`.
+pub fn table(name: &str) -> Vec<Vec<f64>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/validation/measured").join(name);
+    read(&path).unwrap_or_else(|| panic!("{}: cannot read this table", path.display()))
+}
+
+/// Returns the rows of a table that has `N` columns.
+pub fn table_of<const N: usize>(name: &str) -> Vec<[f64; N]> {
+    let whole = |row: Vec<f64>| row.try_into().unwrap_or_else(|row| panic!("{name}: {row:?} needs {N} numbers"));
+    table(name).into_iter().map(whole).collect()
+}
+
+/// Returns the rows of numbers of a file in `../shared/data`. The error states why there are none.
+pub fn series(name: &str) -> Result<Vec<Vec<f64>>, String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(FULL_SERIES);
+    if !folder.is_dir() {
+        return Err(format!("no {FULL_SERIES} next to the repository"));
+    }
+    read(&folder.join(name)).ok_or_else(|| format!("no {name} in {FULL_SERIES}"))
+}
+
+/// Returns the rows of a file in `../shared/data` that have exactly `N` numbers.
+pub fn series_of<const N: usize>(name: &str) -> Result<Vec<[f64; N]>, String> {
+    let rows: Vec<[f64; N]> = series(name)?.into_iter().filter_map(|row| row.try_into().ok()).collect();
+    assert!(rows.len() > 2, "{name}: only {} rows have {N} numbers", rows.len());
+    Ok(rows)
+}
+
+/// Returns the measurements to compare with, each with its name: always the table, and the full series where it exists.
+/// A missing full series is counted and reported at the end of the test run.
+pub fn table_and_series<T>(table: T, series: Result<T, String>) -> Vec<(&'static str, T)> {
+    let mut measurements = vec![("table", table)];
+    measurements.extend(series_or_left_out(series).map(|series| ("full series", series)));
+    measurements
+}
+
+/// Returns the full series for a test without a table. A missing one is counted and reported at the end of the run.
+pub fn series_or_left_out<T>(series: Result<T, String>) -> Option<T> {
+    series.map_err(leave_out).ok()
+}
+
+/// Reasons why comparisons with full series were left out, one per comparison.
+static LEFT_OUT: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+unsafe extern "C" {
+    /// Calls a function when the program ends; from the C standard library.
+    safe fn atexit(at_end: extern "C" fn()) -> c_int;
+}
+
+fn leave_out(reason: String) {
+    let mut left_out = LEFT_OUT.lock().unwrap();
+    if left_out.is_empty() {
+        assert_eq!(atexit(report_left_out), 0);
+    }
+    left_out.push(reason);
+}
+
+/// Writes the line on left-out comparisons below the result of the test run, when the test harness captures no output.
+extern "C" fn report_left_out() {
+    let Ok(left_out) = LEFT_OUT.lock() else { return };
+    let count = match left_out.len() {
+        1 => "1 comparison".to_owned(),
+        count => format!("{count} comparisons"),
     };
+    let mut reasons = left_out.clone();
+    reasons.sort();
+    reasons.dedup();
+    let line = format!("*** {count} with full series left out: {} ***", reasons.join("; "));
+    // This function must not panic, so a closed output is no error.
+    let _ = writeln!(stdout(), "{line}\n");
+}
+
+/// Returns the rows of numbers of a file, without headings and citations; `None` if it cannot be read.
+fn read(path: &Path) -> Option<Vec<Vec<f64>>> {
+    let bytes = fs::read(path).ok()?;
     // Citations are not all in UTF-8.
     let text = String::from_utf8_lossy(&bytes);
     let rows: Vec<Vec<f64>> = text.lines().filter_map(numbers).collect();
-    assert!(!rows.is_empty(), "{}: no numbers in it", path.display());
+    assert!(!rows.is_empty(), "{}: the file contains no numbers", path.display());
     Some(rows)
 }
 
-/// The same where every row has `N` numbers; rows with another number of them are left out.
-pub fn rows_of<const N: usize>(name: &str) -> Option<Vec<[f64; N]>> {
-    let rows: Vec<[f64; N]> = rows(name)?.into_iter().filter_map(|row| row.try_into().ok()).collect();
-    assert!(rows.len() > 2, "{name}: only {} rows understood", rows.len());
-    Some(rows)
-}
-
-/// Numbers of a line, if there are two or more and nothing else.
+/// Returns the numbers of a line that consists of at least two numbers and nothing else.
 fn numbers(line: &str) -> Option<Vec<f64>> {
     let fields = line.split(|c: char| c.is_whitespace() || c == ',').filter(|field| !field.is_empty());
     let numbers: Vec<f64> = fields.map(str::parse).collect::<Result<_, _>>().ok()?;
@@ -32,9 +97,10 @@ fn numbers(line: &str) -> Option<Vec<f64>> {
 }
 
 #[test]
-fn only_rows_of_numbers_are_taken() {
+fn only_rows_of_numbers_are_read() {
     assert_eq!(numbers("0.5, 1e-3"), Some(vec![0.5, 1e-3]));
     assert_eq!(numbers("  1\t2  3"), Some(vec![1.0, 2.0, 3.0]));
     assert_eq!(numbers("time_s,tip_m"), None);
+    assert_eq!(numbers("# 1, 2"), None);
     assert_eq!(numbers("1996"), None);
 }

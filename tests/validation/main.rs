@@ -1,7 +1,8 @@
-//! The program against published measurements. Run with `--release`.
+//! The program compared with published measurements. Run with `--release`.
 //!
-//! The measurements are read in place, from `../shared/data` beside the crate; where they are missing a test says so
-//! and skips.
+//! Every test compares with a short table of figures in `tests/validation/measured`. Where `../shared/data` lies next to
+//! the repository, the tests also compare with the full series. The last line of a run counts the comparisons with full
+//! series that were left out.
 
 mod dam_break;
 mod dam_break_3d;

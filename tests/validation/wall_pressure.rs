@@ -1,7 +1,7 @@
-//! Pressure on the wall that a dam break strikes: how smooth it is, as a series and as a spectrum.
+//! Noise of the pressure on a wall that a dam break hits, as a series and as a spectrum.
 //!
-//! Water that comes to rest against a wall pushes it slowly, in tenths of a second. What is above [`NOISE_HZ`] is the
-//! ringing of weakly compressible water and the unrest of particles. Density diffusion is there to take it away.
+//! The physical pressure changes over tenths of a second. Parts above [`NOISE_HZ`] are sound in the weakly compressible
+//! water and particle noise. Density diffusion must damp them.
 
 use std::{f64::consts::TAU, sync::Arc};
 
@@ -15,14 +15,14 @@ use serde_json::json;
 const DP: f64 = 0.05;
 /// Interval of the series [s].
 const INTERVAL: f64 = 1e-3;
-/// The time looked at [s], from after the strike (0.8 s) until the water falls back.
+/// Time span of the series [s], from after the impact (0.8 s) until the water falls back.
 const WINDOW: [f64; 2] = [0.9, 1.4];
-/// A tenth of a second rings with 10 Hz; a wave of sound takes 0.2 s through the tank and 20 ms across the water's
-/// depth at the wall, so that its tones lie above 25 Hz.
+/// Lower limit of noise [Hz]. The physical pressure has frequencies up to about 10 Hz. Sound takes 0.2 s through the
+/// tank and 20 ms across the depth at the wall, so its frequencies there are above 25 Hz.
 const NOISE_HZ: f64 = 25.0;
 
-/// Pressure [Pa] 0.1 m above the bed at the end wall of the dam break of Koshizuka & Oka (1996), every millisecond, or
-/// why the run stopped.
+/// Runs the dam break of Koshizuka & Oka (1996) and returns the pressure [Pa] at the end wall, 0.1 m above the bed,
+/// every millisecond.
 fn wall_pressure(diffusion: &str, sound_speed_factor: f64) -> Result<Vec<f64>, Failure> {
     let case = json!({
         "title": "Dam break against a wall",
@@ -49,7 +49,7 @@ fn wall_pressure(diffusion: &str, sound_speed_factor: f64) -> Result<Vec<f64>, F
     Ok(series)
 }
 
-/// Amplitude [Pa] of each multiple of 1 / (length of the series), without its mean and linear trend.
+/// Returns frequency [Hz] and amplitude [Pa] of each harmonic of the series, without its mean and linear trend.
 fn spectrum(series: &[f64]) -> Vec<(f64, f64)> {
     let n = series.len() as f64;
     let at = |i: usize| i as f64 / (n - 1.0) - 0.5;
@@ -67,8 +67,8 @@ fn spectrum(series: &[f64]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Root mean square of what is above [`NOISE_HZ`], as a share of the mean pressure [-], without end if the run stopped;
-/// prints series and spectrum.
+/// Returns the rms pressure above [`NOISE_HZ`] over the mean pressure [-], infinite if the run stopped; prints series
+/// and spectrum.
 fn noise(diffusion: &str, sound_speed_factor: f64) -> f64 {
     let series = match wall_pressure(diffusion, sound_speed_factor) {
         Ok(series) => series,
@@ -83,25 +83,24 @@ fn noise(diffusion: &str, sound_speed_factor: f64) -> f64 {
         let power = spectrum.iter().filter(|(f, _)| (low..high).contains(f)).map(|(_, a)| 0.5 * a * a).sum::<f64>();
         power.sqrt() / mean
     };
-    let kilo: Vec<String> = series.iter().step_by(25).map(|p| format!("{:.2}", 1e-3 * p)).collect();
+    let kilopascals: Vec<String> = series.iter().step_by(25).map(|p| format!("{:.2}", 1e-3 * p)).collect();
     println!("diffusion {diffusion}, c0 = {sound_speed_factor} sqrt(g d): mean {:.2} kPa; every 25 ms", 1e-3 * mean);
-    println!("  [kPa]: {}", kilo.join(" "));
+    println!("  [kPa]: {}", kilopascals.join(" "));
     for [low, high] in [[0.0, NOISE_HZ], [NOISE_HZ, 50.0], [50.0, 100.0], [100.0, 200.0], [200.0, 500.0]] {
         println!("  {low:>3.0} to {high:>3.0} Hz: rms {:.2} % of the mean", 100.0 * band(low, high));
     }
     band(NOISE_HZ, f64::INFINITY)
 }
 
-/// `cargo test --release --test validation -- --ignored --nocapture pressure_on_the_wall`
 #[test]
-#[ignore = "4 minutes on 2 cores"]
-fn pressure_on_the_wall_is_smooth() {
-    let usual = noise("fourtakas", 10.0);
-    let undiffused = wall_pressure("none", 10.0);
+#[ignore = "4 minutes on 2 cores: cargo test --release --test validation -- --ignored --nocapture wall_pressure"]
+fn density_diffusion_smooths_the_wall_pressure() {
+    let default_noise = noise("fourtakas", 10.0);
+    let without_diffusion = wall_pressure("none", 10.0);
     noise("fourtakas", 20.0);
-    // The diffusion has to do what it is there for: without it the run stops at the strike, 0.8 s after the start.
-    let Err(Failure::Density { time, .. }) = undiffused else { panic!("the run without diffusion should stop") };
+    // Without diffusion the run stops at the impact, 0.8 s after the start.
+    let Err(Failure::Density { time, .. }) = without_diffusion else { panic!("the run without diffusion should stop") };
     assert!((0.75..1.0).contains(&time), "{time}");
-    // 23 % is reached, nearly all of it below 50 Hz.
-    assert!(usual < 0.3);
+    // Reached: 23 %, nearly all of it below 50 Hz.
+    assert!(default_noise < 0.3);
 }

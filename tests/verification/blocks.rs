@@ -1,4 +1,4 @@
-//! Blocks of water without weight and walls, and what the solver computes in them.
+//! Blocks of water without gravity and walls, and the rates and gradients that the solver computes in them.
 
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
@@ -20,19 +20,19 @@ use glam::DVec3;
 use super::lattice::{gradient_factor, lattice_sum, points};
 use super::tanks::{RHO0, parameters};
 
-/// h / dp of Mitsui et al. (2023).
+/// h / dp of Mitsui et al. (2023) [-].
 pub const USUAL: f64 = 1.2 * 1.732_050_807_568_877_2;
 
-/// Share of dp by which jittered points move at most along each axis.
+/// Largest shift of jittered points along each axis, as a share of dp [-].
 pub const JITTER: f64 = 0.2;
 
-/// Distance between particles of the blocks [m].
+/// Particle spacing of the blocks [m].
 pub const DP: f64 = 0.01;
 
 /// Particles along each edge of the blocks.
 const EDGE: usize = 20;
 
-/// Scheme without viscosity and diffusion, without weight.
+/// Returns the parameters of a scheme without viscosity, diffusion and gravity.
 pub fn ideal(dp: f64, periodic_width: Option<f64>) -> Parameters {
     let mut parameters = parameters(dp, 0.2, 0.0, periodic_width);
     parameters.viscosity = Viscosity::Artificial { alpha: 0.0 };
@@ -40,7 +40,7 @@ pub fn ideal(dp: f64, periodic_width: Option<f64>) -> Parameters {
     parameters
 }
 
-/// Water of given density and velocity at points, each particle of the volume dp^3.
+/// Creates water of given density and velocity at points; each particle has the volume dp^3.
 pub fn water(points: Vec<DVec3>, dp: f64, density: impl Fn(DVec3) -> f64, velocity: impl Fn(DVec3) -> DVec3) -> Water {
     let density: Vec<f64> = points.iter().map(|&p| density(p)).collect();
     Water {
@@ -52,29 +52,29 @@ pub fn water(points: Vec<DVec3>, dp: f64, density: impl Fn(DVec3) -> f64, veloci
     }
 }
 
-/// A block of EDGE^3 particles about the origin.
+/// Creates a block of EDGE^3 particles around the origin.
 pub fn block(jitter: f64, density: impl Fn(DVec3) -> f64, velocity: impl Fn(DVec3) -> DVec3) -> Water {
     let corner = DVec3::splat(-0.5 * DP * (EDGE - 1) as f64);
     water(points(DP, [EDGE; 3], corner, jitter), DP, density, velocity)
 }
 
-/// Along how many axes the kernel does not reach beyond the block.
+/// Returns the number of axes along which the kernel lies within the block.
 pub fn whole_axes(point: DVec3) -> usize {
     let reach = 2.0 * USUAL * DP + 2.0 * JITTER * DP;
     point.to_array().iter().filter(|place| place.abs() + reach < 0.5 * DP * (EDGE - 1) as f64).count()
 }
 
-/// Whether the kernel lies within the block.
+/// Whether the whole kernel lies within the block.
 pub fn inside(point: DVec3) -> bool {
     whole_axes(point) == 3
 }
 
-/// Rates that the solver finds, and the water in their order.
+/// Returns the rates of the solver, and the water in the same order.
 pub fn rates(parameters: Parameters, water: Water, low: DVec3, high: DVec3) -> (Water, Vec<Rate>) {
     rates_beside(parameters, water, Boundary::new(&[], &[], &[], 0, RHO0), [low, high])
 }
 
-/// The same beside boundary particles.
+/// Returns the rates next to boundary particles, and the water in the same order.
 pub fn rates_beside(
     parameters: Parameters,
     mut water: Water,
@@ -94,7 +94,7 @@ pub fn rates_of_block(water: Water) -> (Water, Vec<Rate>) {
     rates(ideal(DP, None), water, DVec3::splat(-0.15), DVec3::splat(0.15))
 }
 
-/// Gradients that the solver finds for the schemes that need them, of the particles in the given order.
+/// Returns the gradients that some schemes use, and the particle numbers in the order of the gradients.
 pub fn gradients(parameters: Parameters, water: &Water, low: DVec3, high: DVec3) -> (Gradients, Vec<usize>) {
     let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
     let mut bins = Bins::default();
@@ -106,10 +106,10 @@ pub fn gradients(parameters: Parameters, water: &Water, low: DVec3, high: DVec3)
     let mut lists = NeighbourLists::new(InstructionSet::best());
     let sources = Sources { bins: &bins, positions: &positions, first_record: 0 };
     lists.build(&grid, &bins, &sorted, &[sources], parameters.kernel.support());
-    let of = |&i: &usize| {
+    let record_of = |&i: &usize| {
         record(&grid, &parameters, water.position[i], water.velocity[i], water.density[i], water.mass[i], true)
     };
-    let records: Vec<_> = order.iter().map(of).collect();
+    let records: Vec<_> = order.iter().map(record_of).collect();
     let mut gradients = Gradients::default();
     gradients.compute(&PairLoop::new(parameters, grid.size.x), &lists, &records, records.len());
     (gradients, order)
@@ -127,7 +127,7 @@ pub fn rms(values: impl Iterator<Item = f64>) -> f64 {
     (sum / f64::from(count)).sqrt()
 }
 
-/// What a lattice adds to the first moment of the gradient, 1 in theory.
+/// Returns the lattice error of the first moment of the gradient, which is 1 in theory.
 pub fn lattice_error_of_gradient(factor: f64) -> f64 {
     let kernel = Wendland::new(factor);
     lattice_sum(&kernel, |r| -gradient_factor(&kernel, r.length()) * r.x * r.x) - 1.0

@@ -1,4 +1,4 @@
-//! What the scheme may not create or lose: mass, energy, momentum, angular momentum.
+//! Conservation of mass, energy, momentum and angular momentum.
 
 use breakwater::simulation::flume::balance::Balance;
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
@@ -16,11 +16,11 @@ use super::tanks::{BareTank, GRAVITY, RHO0, dam_break, parameters, run_until, si
 use super::two_dimensional::in_two_dimensions;
 
 #[test]
-fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
-    // 5e-5 and 3.4e-4 are reached, in the first 50 ms: the pressure wave of the release runs to and fro through the column,
-    // does work on bed and wall and gets it back. Walls that mirror the water's velocity take part in it: they give 0.3 %
+fn a_dam_break_keeps_its_mass_and_gains_no_energy() {
+    // Reached: 5e-5 and 3.4e-4, in the first 50 ms. The pressure wave of the release travels through the column; it
+    // does work on bed and wall and gets it back. Free-slip walls, which mirror the velocity of the water, return 0.3 %
     // of the energy in that time, and nothing afterwards.
-    for (slip, most) in [("original", 3e-4), ("free_slip", 6e-4)] {
+    for (slip, limit) in [("original", 3e-4), ("free_slip", 6e-4)] {
         let mut case = in_two_dimensions(dam_break(0.025, 0.5));
         case["numerics"] = serde_json::json!({ "wall_slip": slip });
         let mut dam = simulation(&case);
@@ -40,27 +40,27 @@ fn a_breaking_dam_keeps_its_mass_and_gains_no_energy() {
             end.kinetic
         );
         assert!(end.kinetic > 0.1 * start.potential);
-        assert!(rise < most * start.potential);
+        assert!(rise < limit * start.potential);
         assert!(last < start.total());
-        // The sum runs over the same masses, sorted otherwise: rounding.
+        // 1e-12: rounding; the same masses are summed in another order.
         assert!((dam.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
     }
 }
 
-/// A ball of water of a radius [m] that spins, flies and swings; no two particles alike.
+/// Creates a ball of water of a radius [m] with translation, rotation and a wave; no two particles are alike.
 fn drop_of_water(radius: f64, dp: f64, rho: impl Fn(f64) -> f64) -> Water {
     let mut water = Water::default();
     let count = (radius / dp) as i32 + 1;
     for (i, j, k) in
         (-count..count).flat_map(|i| (-count..count).flat_map(move |j| (-count..count).map(move |k| (i, j, k))))
     {
-        let place = dp * (DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5);
-        if place.length() < radius {
-            let swing = 0.1 * DVec3::new((40.0 * place.y).sin(), (50.0 * place.z).sin(), (30.0 * place.x).sin());
-            water.position.push(place);
-            water.velocity.push(DVec3::new(0.3, -0.2, 0.1) + DVec3::new(0.5, 1.0, 2.0).cross(place) + swing);
-            water.density.push(rho(place.x));
-            water.mass.push(RHO0 * dp.powi(3) * (1.0 + 0.1 * (70.0 * place.x).sin()));
+        let p = dp * (DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5);
+        if p.length() < radius {
+            let swing = 0.1 * DVec3::new((40.0 * p.y).sin(), (50.0 * p.z).sin(), (30.0 * p.x).sin());
+            water.position.push(p);
+            water.velocity.push(DVec3::new(0.3, -0.2, 0.1) + DVec3::new(0.5, 1.0, 2.0).cross(p) + swing);
+            water.density.push(rho(p.x));
+            water.mass.push(RHO0 * dp.powi(3) * (1.0 + 0.1 * (70.0 * p.x).sin()));
         }
     }
     water.id = (0..water.len() as u32).collect();
@@ -78,18 +78,18 @@ fn angular_momentum(water: &Water) -> DVec3 {
 /// Radius of the drop [m].
 const RADIUS: f64 = 0.1;
 
-/// What a drop gained that nothing gave it, at the worst moment of a run.
+/// Largest errors of the conserved quantities of a drop during a run.
 struct Drift {
     /// |momentum - that at the start| / sum |m v|.
     momentum: f64,
     /// |angular momentum - that at the start| / sum |m r x v|.
     angular: f64,
-    /// Mean impulse that a particle got in a step over that which it carries [-].
-    push: f64,
+    /// Mean change of a particle's momentum in a time step over its momentum [-].
+    impulse: f64,
 }
 
-/// Let a drop of particles a distance `dp` [m] apart spin, fly and swing without weight for a number of steps. At the
-/// start its density varies by the share `squeezed`; `adjust` changes the scheme.
+/// Advances a drop without gravity, with a particle spacing [m], by a number of time steps. Its initial density varies
+/// by the share `squeezed`; `adjust` changes the scheme.
 fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters)) -> Drift {
     let mut parameters = parameters(dp, 0.2, 0.0, None);
     adjust(&mut parameters);
@@ -97,12 +97,12 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
     let mut boundary = Boundary::new(&[], &[], &[], 0, RHO0);
     let mut solver = Solver::new(parameters, DVec3::splat(-0.3), DVec3::splat(0.3));
     let start = (momentum(&water), angular_momentum(&water));
-    let each = |of: &dyn Fn(usize) -> DVec3, water: &Water| {
+    let weighted_sum = |of: &dyn Fn(usize) -> DVec3, water: &Water| {
         (0..water.len()).map(|i| water.mass[i] * of(i).length()).sum::<f64>()
     };
-    let carried = each(&|i| water.velocity[i], &water);
-    let turning = each(&|i| water.position[i].cross(water.velocity[i]), &water);
-    let mut drift = Drift { momentum: 0.0, angular: 0.0, push: 0.0 };
+    let momentum_scale = weighted_sum(&|i| water.velocity[i], &water);
+    let angular_scale = weighted_sum(&|i| water.position[i].cross(water.velocity[i]), &water);
+    let mut drift = Drift { momentum: 0.0, angular: 0.0, impulse: 0.0 };
     for _ in 0..steps {
         solver.sort(&mut water, &boundary);
         solver.list(&water, &boundary);
@@ -113,72 +113,72 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
         solver.predict(dt, &water, &mut boundary, |_| ());
         solver.rates();
         solver.correct(dt, &mut water, &mut boundary);
-        // The water is not sorted in this half of a step.
-        drift.push += each(&|i| water.velocity[i] - before[i], &water) / carried / f64::from(steps);
-        drift.momentum = drift.momentum.max((momentum(&water) - start.0).length() / carried);
-        drift.angular = drift.angular.max((angular_momentum(&water) - start.1).length() / turning);
+        // The second half of the time step does not sort the water, so indices stay valid.
+        drift.impulse += weighted_sum(&|i| water.velocity[i] - before[i], &water) / momentum_scale / f64::from(steps);
+        drift.momentum = drift.momentum.max((momentum(&water) - start.0).length() / momentum_scale);
+        drift.angular = drift.angular.max((angular_momentum(&water) - start.1).length() / angular_scale);
     }
     println!(
-        "drop of {} particles, {steps} steps: momentum off by {:.1e} of sum |m v|, angular momentum by {:.1e} of \
-         sum |m r x v|; a step changes the momentum of a particle by {:.1e} of itself",
+        "drop of {} particles, {steps} steps: momentum error {:.1e} of sum |m v|, angular momentum error {:.1e} of \
+         sum |m r x v|; mean relative change of a particle's momentum in a time step {:.1e}",
         water.len(),
         drift.momentum,
         drift.angular,
-        drift.push
+        drift.impulse
     );
     drift
 }
 
-/// Forces act at the half step, where the step leaves momentum and angular momentum as they are: only the forces of a
-/// pair could change them. Those of pressure and artificial viscosity are V_a V_b (p_a + p_b + ...) G r_ab in both
-/// directions, and differ by rounding to single precision only: the some 280 parts of a force are rounded one by one
-/// as they are summed, and the places from which arms are taken are rounded as well. Both are as often too large as too
-/// small, so that the share that is left falls with the number of particles: 1,600, 4,200, 12,000 and 34,000 of them
-/// lose 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 of the angular momentum in 1,000 steps.
+/// The time integration conserves momentum and angular momentum, so only asymmetric pair forces could change them.
+/// Those of pressure and artificial viscosity are V_a V_b (p_a + p_b + ...) G r_ab in both directions; they differ by
+/// rounding in single precision. Rounding affects the sum of some 280 pair forces and the positions. The rounding
+/// errors are random, so the relative error falls with the number of particles. With 1,600, 4,200, 12,000 and 34,000 of
+/// them, the angular momentum changes by 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 in 1,000 steps.
 #[test]
 fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     let drift = drift(RADIUS / 20.0, 1000, 0.0, |_| ());
-    // 3.7e-11 and 4.8e-11 were reached.
+    // Reached: 3.7e-11 and 4.8e-11.
     assert!(drift.momentum < 1e-10, "{}", drift.momentum);
     assert!(drift.angular < 1e-10, "{}", drift.angular);
 }
 
+/// Quantities that each term conserves:
 /// | term | momentum | angular momentum |
 /// | --- | --- | --- |
 /// | pressure, artificial viscosity, density diffusion of any kind | kept | kept |
-/// | laminar viscosity: along v_ab, not along r_ab | kept | not |
-/// | sub-particle-scale stress: along tau r_ab | kept | not |
-/// | shifting: moves particles and leaves their velocities | kept | not |
+/// | laminar viscosity: force along v_ab, not along r_ab | kept | not |
+/// | sub-particle-scale stress: force along tau r_ab | kept | not |
+/// | shifting: moves particles without changing their velocities | kept | not |
 #[test]
-fn which_terms_keep_momentum_and_angular_momentum() {
+fn only_pair_forces_along_r_keep_angular_momentum() {
     let dp = RADIUS / 10.0;
-    // The squeezed drop exchanges ten times as much as the other: 1e-10 to 3e-10 were reached.
+    // The forces in the squeezed drop are ten times larger than above. Reached: 1e-10 to 3e-10.
     let rounding = 1e-9;
     let run = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         println!("{name}:");
         drift(dp, 100, 0.002, |parameters| adjust(parameters))
     };
-    let keeps = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
+    let keeps_both = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         let drift = run(name, adjust);
         assert!(drift.momentum < rounding && drift.angular < rounding, "{name}");
     };
-    keeps("as usual", &|_| ());
-    keeps("no diffusion", &|p| p.diffusion = Diffusion::none());
-    keeps("diffusion of Antuono et al.", &|p| {
+    keeps_both("default scheme", &|_| ());
+    keeps_both("no diffusion", &|p| p.diffusion = Diffusion::none());
+    keeps_both("diffusion of Antuono et al.", &|p| {
         p.diffusion = Diffusion::new(DensityDiffusion::Antuono, 0.1, p.kernel.h, &p.tait, 0.0);
     });
-    let loses_turn = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
+    let keeps_momentum = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         let drift = run(name, adjust);
         assert!(drift.momentum < rounding && drift.angular > 1e-7, "{name}");
     };
     let laminar = |nu, turbulence| Viscosity::Laminar { nu, turbulence };
-    loses_turn("laminar, viscous", &|p| p.viscosity = laminar(1e-3, None));
-    loses_turn("laminar, water", &|p| p.viscosity = laminar(1e-6, None));
-    loses_turn("turbulence", &|p| p.viscosity = laminar(0.0, Some(Smagorinsky::new(dp))));
-    loses_turn("shifting", &|p| p.shifting = Some(Shifting { coefficient: 2.0, h: p.kernel.h, dp, dimensions: 3 }));
+    keeps_momentum("laminar, very viscous water", &|p| p.viscosity = laminar(1e-3, None));
+    keeps_momentum("laminar, water", &|p| p.viscosity = laminar(1e-6, None));
+    keeps_momentum("turbulence", &|p| p.viscosity = laminar(0.0, Some(Smagorinsky::new(dp))));
+    keeps_momentum("shifting", &|p| p.shifting = Some(Shifting { coefficient: 2.0, h: p.kernel.h, dp, dimensions: 3 }));
 }
 
-/// Water that sloshes in a tank: what its energy loses is what walls, viscosity and diffusion take.
+/// In a sloshing tank, the change of energy equals the work of walls, viscosity and diffusion.
 #[test]
 fn the_energy_balance_closes() {
     let (side, dp) = (0.4, 0.02);
@@ -208,12 +208,12 @@ fn the_energy_balance_closes() {
         });
     }
     let change = end - start.unwrap();
-    let left = change - (balance.boundary + balance.viscosity + balance.diffusion);
+    let unexplained = change - (balance.boundary + balance.viscosity + balance.diffusion);
     println!(
-        "energy changed by {change:.5} J: walls {:.5}, viscosity {:.5}, diffusion {:.5}, not explained {left:.5}",
+        "energy change {change:.5} J: walls {:.5}, viscosity {:.5}, diffusion {:.5}, unexplained {unexplained:.5}",
         balance.boundary, balance.viscosity, balance.diffusion
     );
     assert!(balance.viscosity < 0.0 && change < 0.0);
-    // 1 %: the step is of second order, and the powers are found at its start.
-    assert!(left.abs() < 0.01 * balance.viscosity.abs());
+    // 1 %: the time step is of second order, and the powers are computed at its start.
+    assert!(unexplained.abs() < 0.01 * balance.viscosity.abs());
 }

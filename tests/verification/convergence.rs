@@ -1,4 +1,4 @@
-//! The operators of the solver on waves: their errors against theory, and the order at which they converge.
+//! Errors of the solver's operators for waves, compared with theory, and their order of convergence.
 
 use std::f64::consts::PI;
 
@@ -13,11 +13,10 @@ use super::blocks::{DP, USUAL, block, gradients, ideal, inside, lattice_error_of
 use super::lattice::{gradient_factor, lattice_sum, points, transform, value};
 use super::tanks::RHO0;
 
-/// Density diffusion takes a wave down at the rate 2 delta h c0 sum V |G| (1 - cos k.r): delta h c0 k^2 for long
-/// waves, and never faster than 7 delta c0 / h, the limit by which case files are refused, for |G| integrates to 7 /
-/// (2 h^2).
+/// Density diffusion damps a wave at the rate 2 delta h c0 sum V |G| (1 - cos k.r), which is delta h c0 k^2 for long
+/// waves. As |G| integrates to 7 / (2 h^2), the rate is at most 7 delta c0 / h; this limits delta in case files.
 #[test]
-fn density_diffusion_of_long_and_short_waves() {
+fn density_diffusion_damps_waves_at_the_rate_of_theory() {
     let mut parameters = ideal(DP, None);
     let (delta, h, c0) = (0.1, parameters.kernel.h, parameters.tait.c0);
     parameters.diffusion = Diffusion::new(DensityDiffusion::MolteniColagrossi, delta, h, &parameters.tait, 0.0);
@@ -37,20 +36,20 @@ fn density_diffusion_of_long_and_short_waves() {
         let theory = USUAL * USUAL * lattice_sum(&kernel, term);
         let long = 0.5 * (USUAL * wave.length()).powi(2);
         println!("diffusion of k dp = {wave:.2}: {found:.4}, theory {theory:.4}, of long waves {long:.4}");
-        // Single precision of differences of 1 kg/m3 among densities near rho0, of which the excess is kept.
+        // 1e-5: the excess over rho0 is stored in single precision, with differences of 1 kg/m3.
         assert!((found / theory - 1.0).abs() < 1e-5, "{wave}");
-        // 1 - (h k)^2 / 15 + (h k)^4 / 371 from the moments of |G|; 1e-3: the error of the lattice, 4e-4.
+        // The moments of |G| give 1 - (h k)^2 / 15 + (h k)^4 / 371. 1e-3: the error of the lattice is 4e-4.
         let series = 1.0 - 2.0 / 15.0 * long;
         assert!(long > 1.0 || (found / long - series).abs() < 0.015 * long * long + 1e-3, "{wave}");
         assert!(found < 3.5, "{wave}");
     }
 }
 
-/// Gradient and divergence of a wave with the wave number |k| on a lattice, over the exact ones: by theory W^(|k|),
-/// the transform of the kernel, 1 - (2/15) (h |k|)^2 + ..., for the second moment of the kernel is 4 h^2 / 5; and the
-/// error of the lattice besides, which renormalised gradients do not have.
+/// Gradient and divergence of a wave with the wave number |k| on a lattice, over the exact ones. In theory the ratio is
+/// W^(|k|), the Fourier transform of the kernel, 1 - (2/15) (h |k|)^2 + ..., as the second moment of the kernel is
+/// 4 h^2 / 5. The lattice error adds to it, except for renormalised gradients.
 #[test]
-fn operators_converge_at_second_order() {
+fn operators_converge_with_second_order() {
     let (length, amplitude) = (1.0, 1000.0);
     let k = 2.0 * PI / length;
     let (wave_number, lattice_error) = (2f64.sqrt() * k, lattice_error_of_gradient(USUAL));
@@ -61,7 +60,7 @@ fn operators_converge_at_second_order() {
         let kernel = Wendland::new(h);
         let smoothed = transform(&kernel, wave_number, |r| value(&kernel, r));
         println!(
-            "{cells} particles a wave: 1 - gradient {:.3e}, divergence {:.3e}, renormalised {:.3e}; theory {:.3e} \
+            "{cells} particles per wave: 1 - gradient {:.3e}, divergence {:.3e}, renormalised {:.3e}; theory {:.3e} \
              {:+.1e}, first term {:.3e}",
             found[0],
             found[1],
@@ -70,8 +69,8 @@ fn operators_converge_at_second_order() {
             -lattice_error,
             2.0 / 15.0 * (h * wave_number).powi(2)
         );
-        // 2e-5: single precision, 6e-8 of pressures of 1000 Pa against slopes of k 1000 Pa over 2h, and the lattice's
-        // error for waves, which differs from that for linear fields by (h k)^2 of itself.
+        // 2e-5: single precision, 6e-8 of 1000 Pa, compared with pressure gradients of k 1000 Pa over 2h. The second
+        // term allows for the lattice error of waves, which differs from that of linear fields by the share (h k)^2.
         let allowed = 2e-5 + 2.0 * (h * wave_number).powi(2) * lattice_error;
         assert!((found[0] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
         assert!((found[1] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
@@ -82,35 +81,35 @@ fn operators_converge_at_second_order() {
     for (number, kind) in ["gradient", "divergence", "renormalised"].iter().enumerate() {
         let order = [0, 1, 2].map(|step| (errors[step][number] / errors[step + 1][number]).log2());
         println!("orders of {kind}: {order:.2?}");
-        // 2; the next term of the series, (h k)^4 / 124, takes 0.08 from that of the coarsest pair, and the error of
-        // the lattice, which has the other sign, adds 0.15 to that of the finest.
+        // In theory 2. The next term of the series, (h k)^4 / 124, lowers the order of the coarsest pair by 0.08. The
+        // lattice error has the opposite sign and raises that of the finest pair by 0.15.
         assert!(order.iter().all(|&order| order > 1.9), "{kind}");
     }
-    // Renormalised gradients have no error of the lattice: the next term takes 0.01.
+    // 0.02: renormalised gradients have no lattice error, and the next term lowers the order by 0.01.
     assert!(((errors[2][2] / errors[3][2]).log2() - 2.0).abs() < 0.02);
 }
 
-/// 1 - found / exact of the pressure gradient, the divergence of the velocity and the renormalised gradient of the
-/// density, for one wave in x and z on a slab, in the sense of least squares.
+/// Returns 1 - found / exact by least squares for the pressure gradient, the divergence of the velocity and the
+/// renormalised density gradient of a wave in x and z on a slab.
 fn wave_on_a_lattice(dp: f64, length: f64, amplitude: f64) -> [f64; 3] {
-    let (k, margin, across) = (2.0 * PI / length, 6, 10);
+    let (k, margin, rows_across) = (2.0 * PI / length, 6, 10);
     let cells = (length / dp).round() as usize;
-    let width = across as f64 * dp;
+    let width = rows_across as f64 * dp;
     let parameters = ideal(dp, Some(width));
     let tait = parameters.tait;
     let wave = |p: DVec3| (k * p.x).sin() * (k * p.z).cos();
     let slope = |p: DVec3| k * DVec3::new((k * p.x).cos() * (k * p.z).cos(), 0.0, -(k * p.x).sin() * (k * p.z).sin());
-    // Velocity along its own gradient: the divergence is -2 k^2 wave / k.
+    // The velocity is the gradient of the wave over k, so its divergence is -2 k^2 wave / k.
     let flow = |p: DVec3| slope(p) / k;
     let corner = DVec3::new(-(margin as f64) * dp, 0.5 * dp, -(margin as f64) * dp);
-    let count = [cells + 2 * margin, across, cells + 2 * margin];
+    let count = [cells + 2 * margin, rows_across, cells + 2 * margin];
     let water = water(points(dp, count, corner, 0.0), dp, |p| tait.density(amplitude * wave(p)), flow);
     let (low, high) = (DVec3::new(-0.5, 0.0, -0.5), DVec3::new(length + 0.5, width, length + 0.5));
     let mut with_gradients = parameters;
     with_gradients.diffusion = Diffusion::new(DensityDiffusion::Antuono, 0.1, parameters.kernel.h, &tait, 0.0);
     let (gradients, order) = gradients(with_gradients, &water, low, high);
     let (sorted, rates) = rates(parameters, water, low, high);
-    let stays = -1e-9..length - 1e-9;
+    let one_wave = -1e-9..length - 1e-9;
     // Sums of found times exact and of exact squared.
     let mut sums = [[0.0_f64; 2]; 3];
     let mut add = |kind: usize, found: DVec3, exact: DVec3| {
@@ -119,7 +118,7 @@ fn wave_on_a_lattice(dp: f64, length: f64, amplitude: f64) -> [f64; 3] {
     };
     for (i, rate) in rates.iter().enumerate() {
         let p = sorted.position[i];
-        if !(stays.contains(&p.x) && stays.contains(&p.z)) {
+        if !(one_wave.contains(&p.x) && one_wave.contains(&p.z)) {
             continue;
         }
         assert_eq!(sorted.id[i] as usize, order[i]);

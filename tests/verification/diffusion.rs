@@ -1,4 +1,4 @@
-//! Which water density diffusion acts on.
+//! The water on which density diffusion acts, and its effect on a linear density field.
 
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
@@ -10,10 +10,10 @@ use glam::DVec3;
 use super::blocks::{DP, JITTER, block, ideal, rates_beside, whole_axes};
 use super::tanks::RHO0;
 
-/// Level of a wall of one layer of particles, a particle distance below the block [m].
+/// Height of a wall of one layer of particles, one particle spacing below the block [m].
 const WALL: f64 = -10.5 * DP;
 
-/// Rates of density of a block whose density varies, above the wall, with the place of each particle.
+/// Returns position and density rate of each particle in a block of varying density above the wall.
 fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Vec<(DVec3, f32)> {
     let density = |p: DVec3| RHO0 + (p / DP).map(f64::sin).element_sum();
     let wall: Vec<BoundaryParticle> = (0..400)
@@ -36,31 +36,31 @@ fn density_rates(boundary: BoundaryCondition, diffusion: DensityDiffusion) -> Ve
     water.position.into_iter().zip(rates.iter().map(|rate| rate.density)).collect()
 }
 
-/// Shares of the particles in and out of the wall's reach on which diffusion acts.
+/// Returns the shares of particles on which diffusion acts, within and beyond the reach of the wall [-].
 fn diffused(boundary: BoundaryCondition) -> [f64; 2] {
-    let with = density_rates(boundary, DensityDiffusion::MolteniColagrossi);
-    let without = density_rates(boundary, DensityDiffusion::None);
+    let with_diffusion = density_rates(boundary, DensityDiffusion::MolteniColagrossi);
+    let without_diffusion = density_rates(boundary, DensityDiffusion::None);
     let support = ideal(DP, None).kernel.support();
-    let share = |here: &dyn Fn(f64) -> bool| {
-        let pairs = || with.iter().zip(&without).filter(|((p, _), _)| here(p.z - WALL));
+    let share_where = |is_included: &dyn Fn(f64) -> bool| {
+        let pairs = || with_diffusion.iter().zip(&without_diffusion).filter(|((p, _), _)| is_included(p.z - WALL));
         pairs().filter(|((_, a), (_, b))| a != b).count() as f64 / pairs().count() as f64
     };
-    // Half a particle distance either side of the wall's reach is left out: there the jitter decides.
-    [share(&|height| height < support - 0.5 * DP), share(&|height| height > support + 0.5 * DP)]
+    // Particles within half a particle spacing of the wall's reach are excluded; there the jitter decides.
+    [share_where(&|height| height < support - 0.5 * DP), share_where(&|height| height > support + 0.5 * DP)]
 }
 
 #[test]
-fn walls_of_the_dynamic_condition_and_the_water_they_reach_are_left_out_of_diffusion() {
+fn water_within_reach_of_dynamic_walls_does_not_diffuse() {
     assert_eq!(diffused(BoundaryCondition::Dynamic), [0.0, 1.0]);
 }
 
 #[test]
-fn all_water_diffuses_beside_walls_of_the_modified_condition() {
+fn all_water_near_modified_dynamic_walls_diffuses() {
     assert_eq!(diffused(BoundaryCondition::ModifiedDynamic), [1.0, 1.0]);
 }
 
-/// Largest rate of density of a jittered block without walls, whose density has a slope and ripples [kg/(m3 s)]. Edges
-/// and corners are left out: neighbourhoods of less than a quarter are not renormalised.
+/// Returns the largest density rate of a jittered block whose density has a slope and ripples [kg/(m3 s)]. Edges and
+/// corners are excluded: gradients are not renormalised if less than a quarter of the neighbourhood is filled.
 fn largest_rate(diffusion: DensityDiffusion, slope: f64, ripple: f64) -> f64 {
     let wave = DVec3::new(0.4, 0.3, 0.5) / DP;
     let density = |p: DVec3| RHO0 + slope * p.dot(DVec3::new(1.0, -2.0, 3.0)) + ripple * p.dot(wave).sin();
@@ -72,21 +72,21 @@ fn largest_rate(diffusion: DensityDiffusion, slope: f64, ripple: f64) -> f64 {
         Boundary::new(&[], &[], &[], 0, RHO0),
         [DVec3::splat(-0.15), DVec3::splat(0.15)],
     );
-    let away = water.position.iter().zip(&rates).filter(|(p, _)| whole_axes(**p) >= 2);
-    away.map(|(_, rate)| f64::from(rate.density.abs())).fold(0.0, f64::max)
+    let not_at_edges = water.position.iter().zip(&rates).filter(|(p, _)| whole_axes(**p) >= 2);
+    not_at_edges.map(|(_, rate)| f64::from(rate.density.abs())).fold(0.0, f64::max)
 }
 
-/// Renormalised gradients explain a linear field everywhere, at the free surface too, where the diffusion of the whole
-/// density carries water from the dense side to the other.
+/// Renormalised gradients are exact for a linear field, at the free surface, too. There, diffusion of the whole density
+/// transports mass from the dense side to the other.
 #[test]
-fn the_diffusion_of_antuono_leaves_a_linear_density_alone() {
+fn diffusion_of_antuono_does_not_change_a_linear_density() {
     let [whole, rest] = [DensityDiffusion::MolteniColagrossi, DensityDiffusion::Antuono]
         .map(|diffusion| largest_rate(diffusion, 20.0, 0.0));
-    println!("slope alone: {whole:.2e} of the whole density, {rest:.2e} after Antuono et al.");
-    // 1.5e-6 was reached: single precision, some 280 neighbours.
+    println!("linear density: rate {whole:.2e} with Molteni & Colagrossi, {rest:.2e} with Antuono et al.");
+    // Reached: 1.5e-6, from single precision with some 280 neighbours.
     assert!(rest < 1e-5 * whole);
     let ripples = largest_rate(DensityDiffusion::Antuono, 0.0, 1.0);
-    println!("ripples: {ripples:.2e}");
-    // Not because it does nothing: of waves of nine particle distances the gradients explain a part.
+    println!("ripples: rate {ripples:.2e} with Antuono et al.");
+    // The diffusion does act on ripples; renormalised gradients explain only part of a wave of nine particle spacings.
     assert!(ripples > 0.1 * largest_rate(DensityDiffusion::MolteniColagrossi, 0.0, 1.0));
 }

@@ -1,4 +1,4 @@
-//! The ends of the layered flume: what flows in is the wave that was ordered, and little comes back.
+//! Ends of the flume model: the incoming wave is the requested one, and the reflection is small.
 
 use std::f64::consts::TAU;
 
@@ -43,31 +43,31 @@ fn level_flume(
 }
 
 #[test]
-fn solitary_wave_comes_in_and_leaves() {
+fn solitary_wave_enters_with_its_height_and_leaves() {
     for (height, tolerance) in [(0.05, 0.005), (0.2, 0.02)] {
         let wave = ThirdOrderSolitary { height_m: height * DEPTH, depth_m: DEPTH, gravity: GRAVITY };
         let record = level_flume(IncomingWave::solitary(wave), 30.0, RightEnd::Radiating, vec![15.0], 35.0);
         let (crest, time) = record.crest(0);
         let expected = (wave.half_length_m() + 15.0) / wave.celerity_m_s();
         let after = ((time + 2.0 * wave.half_length_m() / wave.celerity_m_s()) / record.interval_s) as usize;
-        let left = record.gauge_elevations_m[0][after..].iter().fold(0.0, |most: f64, eta| most.max(eta.abs()));
+        let residual = record.gauge_elevations_m[0][after..].iter().fold(0.0, |most: f64, eta| most.max(eta.abs()));
         println!(
-            "H/d = {height}: crest {:+.2} %, {:+.4} s; {:.2} % of it come back; volume error {:.0e}",
+            "H/d = {height}: crest {:+.2} %, {:+.4} s; reflected {:.2} %; volume error {:.0e}",
             100.0 * (crest / wave.height_m - 1.0),
             time - expected,
-            100.0 * left / wave.height_m,
+            100.0 * residual / wave.height_m,
             record.volume_error
         );
-        // Two layers carry the wave 0.2 % too fast (2e-3 of 7 s); the third-order wave is not quite theirs.
+        // Two layers are 0.2 % too fast (2e-3 of 7 s), and the third-order wave is not an exact solution of the model.
         assert!((crest / wave.height_m - 1.0).abs() < tolerance && (time - expected).abs() < 0.02);
-        // The radiating end is exact to first order in H/d, and so is the inflow through which the rest leaves.
-        assert!(left < 0.02 * wave.height_m);
-        // What came in and went out is counted with the fluxes that changed the depths: rounding.
+        // The radiating end and the inflow absorb waves exactly to first order in H/d only.
+        assert!(residual < 0.02 * wave.height_m);
+        // 1e-12: rounding; the balance uses the same fluxes as the depths.
         assert!(record.volume_error < 1e-12);
     }
 }
 
-/// Height of the envelope along one wave length, largest and smallest [m], over the last four periods.
+/// Returns the smallest and largest wave height along one wave length [m], over the last four periods.
 fn envelope(record: &FlumeRecord, period_s: f64) -> [f64; 2] {
     let steps = (4.0 * period_s / record.interval_s) as usize;
     let height = |series: &Vec<f64>| {
@@ -75,12 +75,12 @@ fn envelope(record: &FlumeRecord, period_s: f64) -> [f64; 2] {
         tail.iter().copied().fold(f64::MIN, f64::max) - tail.iter().copied().fold(f64::MAX, f64::min)
     };
     let heights = record.gauge_elevations_m.iter().map(height);
-    heights.fold([f64::MAX, 0.0], |[least, most], h| [least.min(h), most.max(h)])
+    heights.fold([f64::MAX, 0.0], |[smallest, most], h| [smallest.min(h), most.max(h)])
 }
 
 #[test]
-fn regular_waves_are_taken_by_the_sponge() {
-    // Waves of k d = 1.1, and two lengths of sponge; long waves, and the radiating end.
+fn sponge_and_radiating_end_absorb_regular_waves() {
+    // Waves of k d = 1.1 with a sponge of two wave lengths, and with the radiating end; long waves with the latter.
     for (period_s, sponge_lengths, most) in [(1.5, Some(2.0), 0.01), (1.5, None, 0.1), (4.0, None, 0.02)] {
         let parameters = RegularWave { height_m: 0.02, period_s, depth_m: DEPTH, gravity: GRAVITY };
         let wave = StreamFunctionWave::new(parameters, MeanFlow::NoTransport).unwrap();
@@ -92,22 +92,22 @@ fn regular_waves_are_taken_by_the_sponge() {
         let gauges = (0..40).map(|i| 5.0 + 0.5 * length * f64::from(i) / 40.0).collect();
         let incoming = IncomingWave::Regular { wave, ramp_s: 2.0 * period_s };
         let record = level_flume(incoming, flume_m, right_end, gauges, 40.0);
-        let [least, largest] = envelope(&record, period_s);
-        let reflection = (largest - least) / (largest + least);
+        let [smallest, largest] = envelope(&record, period_s);
+        let reflection = (largest - smallest) / (largest + smallest);
         println!(
             "T = {period_s} s, L = {length:.2} m, {right_end:?}: height {:.4} m, reflection {:.1} %",
-            0.5 * (largest + least),
+            0.5 * (largest + smallest),
             100.0 * reflection
         );
-        // Waves of period T leave a radiating end with (1 - c/c_0) / (1 + c/c_0) of their height: c / c_0 = 0.85
-        // for k d = 1.1, 8 %. The sponge is made for 0.25 %, the rest is how the envelope is measured.
+        // A radiating end reflects the share (1 - c/c_0) / (1 + c/c_0): 8 % for k d = 1.1, where c / c_0 = 0.85. The
+        // sponge is designed for 0.25 %; the rest is the error of the envelope.
         assert!(reflection < most);
-        assert!((0.5 * (largest + least) / parameters.height_m - 1.0).abs() < 0.03);
+        assert!((0.5 * (largest + smallest) / parameters.height_m - 1.0).abs() < 0.03);
     }
 }
 
 #[test]
-fn a_sea_comes_in_with_its_height() {
+fn irregular_waves_enter_with_their_significant_height() {
     let sea = JonswapSea {
         significant_height_m: 0.02,
         peak_period_s: 2.0,
@@ -125,6 +125,6 @@ fn a_sea_comes_in_with_its_height() {
     let mean = tail.iter().sum::<f64>() / tail.len() as f64;
     let variance = tail.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / tail.len() as f64;
     println!("H_s = {:.4} m, mean level {:+.5} m", 4.0 * variance.sqrt(), mean);
-    // One period of the sea, of first order, through a flume that is not linear.
+    // 6 %: the sea is a superposition of linear waves, and the flume is not linear.
     assert!((4.0 * variance.sqrt() / 0.02 - 1.0).abs() < 0.06);
 }

@@ -1,4 +1,4 @@
-//! Order of the layered flume in space and time: the Courant number is kept while cells and steps are halved.
+//! Order of convergence of the flume model in space and time, with cells and time steps halved together.
 
 use breakwater::geometry::profile::Profile;
 use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
@@ -6,7 +6,7 @@ use breakwater::waves::solitary::ThirdOrderSolitary;
 
 const GRAVITY: f64 = 9.81;
 
-/// Surface every 0.1 m, from 1 m to 1 m before the end, after `end_s`.
+/// Returns the surface elevation after `end_s` every 0.1 m, without 1 m at either end.
 fn surface(profile: &Profile, wave: &ThirdOrderSolitary, centre: f64, cell_m: f64, end_s: f64) -> Vec<f64> {
     let points = profile.points();
     let length = points[points.len() - 1][0];
@@ -33,16 +33,16 @@ fn surface(profile: &Profile, wave: &ThirdOrderSolitary, centre: f64, cell_m: f6
     (10..(10.0 * length) as usize - 10).map(|i| flume.surface_m(0.1 * i as f64)).collect()
 }
 
-/// Order from the differences between runs on three grids, each with half the cell of the one before.
+/// Returns the order of convergence from runs on three grids, each with half the cell of the previous one.
 fn order(runs: &[Vec<f64>; 3]) -> f64 {
     let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     (difference(&runs[0], &runs[1]) / difference(&runs[1], &runs[2])).log2()
 }
 
 #[test]
-fn solitary_wave_converges_in_second_order() {
+fn solitary_wave_converges_with_second_order() {
     let level = Profile::new(vec![[0.0, -0.8], [32.0, -0.8]]);
-    // A rise of 0.3 m over 8 m without corners: half a cosine.
+    // The bed rises by 0.3 m over 8 m along half a cosine, without corners.
     let rise = |x: f64| 0.15 * (1.0 - (std::f64::consts::PI * ((x - 13.0) / 8.0).clamp(0.0, 1.0)).cos());
     let slope = Profile::new((0..=640).map(|i| 0.05 * f64::from(i)).map(|x| [x, rise(x) - 0.8]).collect());
     for (name, profile) in [("level", level), ("slope", slope)] {
@@ -50,7 +50,7 @@ fn solitary_wave_converges_in_second_order() {
         let runs = [0.2, 0.1, 0.05].map(|cell_m| surface(&profile, &wave, 12.0, cell_m, 4.0));
         let order = order(&runs);
         println!("{name}: order {order:.2}");
-        // Second order; on the coarsest grid, 20 cells to half the wave, terms of higher order still show.
+        // In theory 2; on the coarsest grid, with 20 cells for half the wave, higher orders still contribute.
         assert!(order > 1.8, "{name}: {order}");
     }
 }

@@ -1,4 +1,4 @@
-//! The layered flume with shores: any bed, any wave.
+//! Shorelines of the flume model on random beds with random waves.
 
 use breakwater::geometry::profile::Profile;
 use breakwater::waves::layered::{Breaking, Friction, LayeredFlume, LayeredParameters, LeftEnd, Pressure, RightEnd};
@@ -6,16 +6,16 @@ use proptest::prelude::*;
 
 const GRAVITY: f64 = 9.81;
 const CELLS: usize = 40;
-/// Levels of the bed [m] about still water at 0; the lowest also sets the step.
+/// Lowest and highest level of the bed [m]; still water is at 0.
 const LEVELS: [f64; 2] = [-1.0, 0.5];
 
-/// A bed of 3 to 8 corners, each piece 1 to 4 m long, so that cells are at least a twentieth of the depth; slopes up to
-/// 1:0.67, wet and dry.
+/// Beds of 3 to 8 corners, wet and dry, with slopes up to 1:0.67. Segments are 1 to 4 m long, so cells are at least a
+/// twentieth of the depth.
 fn beds() -> impl Strategy<Value = Profile> {
-    proptest::collection::vec((1.0..4.0f64, LEVELS[0]..LEVELS[1]), 3..8).prop_map(|pieces| {
+    proptest::collection::vec((1.0..4.0f64, LEVELS[0]..LEVELS[1]), 3..8).prop_map(|segments| {
         let mut x = 0.0;
         let mut points: Vec<[f64; 2]> = Vec::new();
-        for (length, z) in pieces {
+        for (length, z) in segments {
             points.push([x, z]);
             x += length;
         }
@@ -32,7 +32,7 @@ fn flume(profile: Profile, layers: usize, friction: Friction) -> LayeredFlume {
         gravity_m_s2: GRAVITY,
         layers,
         cell_m,
-        // Courant number 0.4 for a depth with the highest hump on it.
+        // Courant number 0.4 for the largest depth, including the highest hump.
         step_s: 0.4 * cell_m / (GRAVITY * 1.5f64).sqrt(),
         left_end: LeftEnd::Wall,
         right_end: RightEnd::Wall,
@@ -46,23 +46,22 @@ fn flume(profile: Profile, layers: usize, friction: Friction) -> LayeredFlume {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A hump of water that runs to one side or falls apart, on any bed: no depth below zero, no number lost, no water
-    /// lost.
+    /// A hump of water on any bed gives no negative depth and no value that is not finite, and keeps its volume.
     #[test]
-    fn water_stays_water_on_any_bed(
+    fn a_hump_stays_finite_and_keeps_its_volume_on_any_bed(
         profile in beds(),
         layers in 1..4usize,
         height in 0.0..0.5f64,
         froude in -1.0..1.0f64,
         n_s_m13 in 0.0..0.03f64,
-        place in 0.0..1.0f64,
+        relative_position in 0.0..1.0f64,
     ) {
         let points = profile.points();
         let length = points[points.len() - 1][0];
-        let (centre, width) = (place * length, 0.2 * length);
+        let (centre, width) = (relative_position * length, 0.2 * length);
         let mut flume = flume(profile, layers, Friction::Manning { n_s_m13 });
         let hump = |x: f64| height * (-((x - centre) / width).powi(2)).exp();
-        // From a long wave to the left, u = - eta sqrt(g / d), to one to the right; nothing moves at the walls.
+        // The velocity ranges from that of a long wave to the left, u = - eta sqrt(g / d), to one to the right.
         let at_rest_at_walls = |x: f64| (std::f64::consts::PI * x / length).sin();
         flume.set_flow(hump, |x, _| froude * GRAVITY.sqrt() * hump(x) * at_rest_at_walls(x));
         let volume = flume.volume_m2();
@@ -71,18 +70,18 @@ proptest! {
             for point in flume.surface_profile() {
                 prop_assert!(point.depth_m >= 0.0, "depth {} at step {step}, x = {}", point.depth_m, point.x_m);
             }
-            prop_assert!(flume.astray_at().is_none(), "astray at step {step}, x = {:?}", flume.astray_at());
+            prop_assert!(flume.astray_at().is_none(), "unstable at time step {step}, x = {:?}", flume.astray_at());
         }
-        // Fluxes are shared by two cells: rounding.
+        // 1e-12: rounding; a flux leaves one cell and enters the next.
         prop_assert!((flume.volume_m2() - volume).abs() <= 1e-12 * volume.max(1e-3), "{} {volume}", flume.volume_m2());
     }
 
-    /// Still water on any bed stays still.
+    /// Still water stays still on any bed.
     #[test]
     fn lake_at_rest_stays_at_rest_on_any_bed(profile in beds(), layers in 1..4usize) {
         let mut flume = flume(profile, layers, Friction::None);
         (0..100).for_each(|_| flume.step());
-        // Levels are sums of bed and depth: rounding of 1e-16 m, not amplified.
+        // 1e-12: levels are sums of bed and depth with a rounding of 1e-16 m, which is not amplified.
         prop_assert!(flume.largest_velocity_m_s() < 1e-12, "{}", flume.largest_velocity_m_s());
         prop_assert!(flume.largest_elevation_m() < 1e-12, "{}", flume.largest_elevation_m());
     }

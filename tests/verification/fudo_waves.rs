@@ -1,5 +1,5 @@
-//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m, over the bare slope and up the
-//! shore, beside the flume model 0.5, 1, 2 and 4 m from the piston.
+//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m over the bare slope up to the shore.
+//! The flume model is the reference 0.5, 1, 2 and 4 m from the piston.
 
 use std::{fs, sync::Arc};
 
@@ -17,8 +17,8 @@ const STILL_LEVEL: f64 = 0.8;
 const PISTON_X: f64 = 33.0;
 const DISTANCES: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
-/// A wave [m] at a particle distance [m]. Particles start when the flume's surface at the piston is a fiftieth of the
-/// wave's height.
+/// Case of a wave height [m] and a particle spacing [m]. The particles start when the surface elevation of the flume
+/// model at the piston is 2 % of the wave height.
 fn case(height: f64, dp: f64, slip: &str) -> Value {
     json!({
         "title": "A wave of the Fudo experiment over the bare slope",
@@ -34,7 +34,7 @@ fn case(height: f64, dp: f64, slip: &str) -> Value {
     })
 }
 
-/// Top of the parabola that fits the upper tenth of a series best: height [m] and time [s].
+/// Returns height [m] and time [s] of the crest: the top of the parabola that fits the upper tenth of a series.
 fn crest(series: &[[f64; 2]]) -> [f64; 2] {
     let (top, time) =
         series.iter().map(|&[t, eta]| (eta, t)).fold((f64::MIN, 0.0), |a, b| if b.0 > a.0 { b } else { a });
@@ -61,11 +61,11 @@ fn crest(series: &[[f64; 2]]) -> [f64; 2] {
     [c - 0.25 * b * b / a, time - 0.5 * b / a]
 }
 
-/// Largest deviations of the four crests: of height [-] and time [s].
+/// Returns the largest deviations of the four crests in height [-] and time [s].
 fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
     let mut tank: Simulation = simulation(&case(height, dp, slip));
     let (mut particles, mut flume) = (vec![Vec::new(); 4], vec![Vec::new(); 4]);
-    // 0.8 s after the flume's crest has passed the last place.
+    // The run ends 0.8 s after the crest of the flume model passes the last gauge.
     let end = |now: &Simulation| {
         let record = now.flume.as_ref().unwrap();
         let last = PISTON_X + DISTANCES[3];
@@ -81,7 +81,7 @@ fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
         let time = now.flume_time();
         for (k, distance) in DISTANCES.iter().enumerate() {
             let x = PISTON_X + distance;
-            // The piston passes the nearest place after the crest: it travels 0.76 m.
+            // The piston passes the nearest gauge after the crest, as its stroke is 0.76 m.
             let level = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.45, 1.1);
             if let (Some(level), Some(record)) = (level, &now.flume) {
                 particles[k].push([time, level - STILL_LEVEL]);
@@ -91,22 +91,23 @@ fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
     });
     let mut largest = [0.0_f64; 2];
     for (k, distance) in DISTANCES.iter().enumerate() {
-        let ([ours, at], [expected, expected_at]) = (crest(&particles[k]), crest(&flume[k]));
+        let ([computed, computed_at], [expected, expected_at]) = (crest(&particles[k]), crest(&flume[k]));
         println!(
-            "H = {height} m, dp = {dp} m, {slip}, {distance} m from the piston: crest {:.2} mm at {at:.3} s, flume {:.2} mm at \
+            "H = {height} m, dp = {dp} m, {slip}, {distance} m from the piston: crest {:.2} mm at {computed_at:.3} s, flume model {:.2} mm at \
              {expected_at:.3} s: {:+.1} %, {:+.3} s",
-            1e3 * ours,
+            1e3 * computed,
             1e3 * expected,
-            100.0 * (ours / expected - 1.0),
-            at - expected_at
+            100.0 * (computed / expected - 1.0),
+            computed_at - expected_at
         );
-        largest = [largest[0].max((ours / expected - 1.0).abs()), largest[1].max((at - expected_at).abs())];
+        largest =
+            [largest[0].max((computed / expected - 1.0).abs()), largest[1].max((computed_at - expected_at).abs())];
     }
     largest
 }
 
 #[test]
-fn a_crest_is_the_top_of_a_parabola() {
+fn crest_finds_the_top_of_a_parabola() {
     let series: Vec<[f64; 2]> =
         (0..400).map(|i| 0.01 * f64::from(i)).map(|t| [t, 0.05 - 0.01 * (t - 2.003).powi(2)]).collect();
     let [height, time] = crest(&series);
@@ -114,7 +115,7 @@ fn a_crest_is_the_top_of_a_parabola() {
 }
 
 #[test]
-fn a_run_does_not_end_before_the_crest_has_come() {
+fn the_rest_criterion_waits_for_the_wave_crest() {
     let mut case = case(0.026, 0.025, "free_slip");
     case["flume"]["mound"] = json!({
         "centre_x_m": 39.0, "crest_width_m": 0.32, "crest_z_m": 0.717, "seaward_run_per_rise": 2.0,
@@ -122,7 +123,7 @@ fn a_run_does_not_end_before_the_crest_has_come() {
     });
     case["flume"]["material"] = json!("stone");
     case["domain"]["x_m"] = json!([37.5, 40.0]);
-    // Too heavy and too rough to move.
+    // The unit is too heavy and its friction too high to move.
     case["units"] = json!({
         "shape": "cuboid", "size_m": [0.1, 0.1, 0.075], "mass_kg": 2.0, "material": "stone",
         "poses": [{ "centre_m": [39.0, 0.0, 0.717 + 0.0375], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0] }]
@@ -137,32 +138,32 @@ fn a_run_does_not_end_before_the_crest_has_come() {
     let options = RunOptions { control: Control::quiet(), device: Device::Cpu, until: None };
     let summary = run(Arc::new(case), folder.path(), &options).unwrap();
     assert!(summary.stopped == Stopped::AtRest && summary.mean_displacement_m.unwrap() < 0.01, "{summary:?}");
-    // The surface over the mound has begun to fall, and no more than 0.5 s ago: the unit was at rest all the time.
+    // The unit is always at rest, so the run stops as the surface over the mound falls, within 0.5 s of the crest.
     let gauge = fs::read_to_string(folder.path().join("gauges.csv")).unwrap();
     let level = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
     let levels: Vec<f64> = gauge.lines().skip(1).map(level).collect();
     let highest = (0..levels.len()).max_by(|&a, &b| levels[a].total_cmp(&levels[b])).unwrap();
-    let since = (levels.len() - 1 - highest) as f64 * 0.01;
-    println!("at rest after {:.2} s, {since:.2} s after the crest of {} m", summary.simulated_s, levels[highest]);
-    assert!(levels[highest] > 0.02 && (0.0..0.5).contains(&since));
+    let delay = (levels.len() - 1 - highest) as f64 * 0.01;
+    println!("at rest after {:.2} s, {delay:.2} s after the crest of {} m", summary.simulated_s, levels[highest]);
+    assert!(levels[highest] > 0.02 && (0.0..0.5).contains(&delay));
 }
 
-/// Coarse, to see what resolution and slip do: `cargo test --release --test verification -- --ignored --nocapture
-/// crests_near_the_piston_coarse`
+/// Compares two coarse resolutions with and without slip.
 #[test]
-#[ignore = "ten minutes on 2 cores"]
-fn crests_near_the_piston_coarse() {
+#[ignore = "10 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture crests_near_the_piston_improve"]
+fn crests_near_the_piston_improve_with_free_slip_and_resolution() {
     let deviations = |dp| ["original", "free_slip"].map(|slip| deviations(0.045, dp, slip)[0]);
-    let [coarse_sticking, coarse_slipping] = deviations(0.02);
-    let [sticking, slipping] = deviations(0.014);
-    assert!(coarse_slipping < coarse_sticking && slipping < sticking && sticking < coarse_sticking);
+    let [coarse_no_slip, coarse_free_slip] = deviations(0.02);
+    let [no_slip, free_slip] = deviations(0.014);
+    assert!(coarse_free_slip < coarse_no_slip && free_slip < no_slip && no_slip < coarse_no_slip);
 }
 
-/// Asked is 3 % of the height and 0.03 s: `cargo test --release --test verification -- --ignored --nocapture
-/// crests_near_the_piston_are`
+/// Target: 3 % of the height, and 0.03 s.
 #[test]
-#[ignore = "half an hour on 2 cores"]
-fn crests_near_the_piston_are_those_of_the_flume() {
+#[ignore = "30 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture crests_near_the_piston_follow"]
+fn crests_near_the_piston_follow_the_flume_model() {
     let deviations = [0.026, 0.045, 0.064].map(|height| deviations(height, 0.007, "free_slip"));
-    assert!(deviations.iter().all(|[of_height, of_time]| *of_height < 0.03 && *of_time < 0.03));
+    assert!(deviations.iter().all(|[height, time]| *height < 0.03 && *time < 0.03));
 }

@@ -1,4 +1,4 @@
-//! The same wave from files of other programs moves the wavemaker alike, and a run keeps what it has read.
+//! The same wave from files of three programs moves the wavemaker identically, and a run keeps the wave that it read.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -25,8 +25,7 @@ fn case(wave: &Value) -> Value {
     })
 }
 
-/// A solitary wave at x = 4 m of the flume model, its velocity averaged over the depth: samples at any height tell the
-/// same.
+/// Returns a solitary wave of the flume model at x = 4 m with the depth-averaged velocity, equal at all heights.
 fn table() -> VelocityTable {
     let text = case(&json!({ "kind": "solitary", "height_m": 0.06 })).to_string();
     let record = run_flume(&Case::from_str(&text, "test").unwrap()).unwrap().unwrap();
@@ -46,7 +45,7 @@ fn create(folder: &Path, name: &str) -> File {
     File::create(path).unwrap()
 }
 
-/// The table as files of three programs, and how a case names them.
+/// Writes the table as files of three programs; returns the `source` of the case for each.
 fn write(table: &VelocityTable, folder: &Path) -> [Value; 3] {
     let levels: Vec<f64> = (1..=9).map(|k| 0.05 * f64::from(k)).collect();
     table.velx([4.0, 0.0], &levels).write(create(folder, "piston_velx.csv")).unwrap();
@@ -65,16 +64,18 @@ fn write(table: &VelocityTable, folder: &Path) -> [Value; 3] {
     ]
 }
 
-/// The case in its folder, at its start.
+/// Creates the simulation of the case in this folder.
 fn simulation(folder: &Path, wave: &Value) -> Simulation {
     fs::write(folder.join("case.json"), case(wave).to_string()).unwrap();
     let case = Case::load(folder.join("case.json")).unwrap_or_else(|errors| panic!("{errors}"));
     Simulation::new(Arc::new(case)).unwrap()
 }
 
-/// Displacements and velocities of the rows every 0.1 s.
+/// Returns displacements [m] and velocities [m/s] of the piston rows every 0.1 s.
 fn motion(simulation: &Simulation) -> Vec<[f64; 2]> {
-    let Some(Wavemaker::MlPiston(piston)) = &simulation.wavemaker else { panic!("a multi-layer piston") };
+    let Some(Wavemaker::MlPiston(piston)) = &simulation.wavemaker else {
+        panic!("the wavemaker is not a multi-layer piston")
+    };
     let rows = |k: i32| {
         let t = simulation.start + 0.1 * f64::from(k);
         (0..piston.row_heights_m().len()).map(move |row| [piston.displacement_m(row, t), piston.velocity_m_s(row, t)])
@@ -83,26 +84,26 @@ fn motion(simulation: &Simulation) -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn files_of_three_programs_move_the_wavemaker_alike() {
+fn files_of_three_programs_move_the_wavemaker_identically() {
     let folder = tempfile::tempdir().unwrap();
     let sources = write(&table(), folder.path());
     let motions =
         sources.map(|source| motion(&simulation(folder.path(), &json!({ "kind": "file", "source": source }))));
-    let furthest = motions[0].iter().map(|row| row[0]).fold(0.0, f64::max);
-    println!("stroke {furthest:.4} m");
-    // Of a wave of 6 cm in 40 cm: the volume of the wave over the depth, a third less at a fixed place.
-    assert!(furthest > 0.2);
+    let stroke = motions[0].iter().map(|row| row[0]).fold(0.0, f64::max);
+    println!("stroke {stroke:.4} m");
+    // The stroke is the volume of the wave over the depth, less a third for velocities at a fixed position.
+    assert!(stroke > 0.2);
     for motion in &motions[1..] {
-        let off = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
-        let largest = motion.iter().zip(&motions[0]).map(off).fold(0.0, f64::max);
+        let difference = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+        let largest = motion.iter().zip(&motions[0]).map(difference).fold(0.0, f64::max);
         println!("largest difference {largest:.1e} m or m/s");
-        // Asked for; files with all digits differ by rounding.
+        // Target: 1e-6; the files hold all digits, so the motions differ by rounding.
         assert!(largest < 1e-6);
     }
 }
 
 #[test]
-fn with_its_celerity_the_wave_pushes_as_far_as_in_the_flume() {
+fn with_its_celerity_a_wave_has_the_stroke_of_the_flume_model() {
     let folder = tempfile::tempdir().unwrap();
     let [source, ..] = write(&table(), folder.path());
     let celerity = (9.81 * (DEPTH + 0.06)).sqrt();
@@ -110,19 +111,19 @@ fn with_its_celerity_the_wave_pushes_as_far_as_in_the_flume() {
     let fixed = stroke(&json!({ "kind": "file", "source": source }));
     let moving = stroke(&json!({ "kind": "file", "source": source, "celerity_m_s": celerity }));
     let flume = stroke(&json!({ "kind": "solitary", "height_m": 0.06 }));
-    println!("stroke at a fixed place {fixed:.4} m, moving {moving:.4} m, in the flume {flume:.4} m");
-    // Rows of the flume model differ over the height, by 6 % from the bed to the surface in this wave.
+    println!("stroke without celerity {fixed:.4} m, with celerity {moving:.4} m, in the flume model {flume:.4} m");
+    // 6 %: in the flume model, the strokes of the rows of this wave differ by 6 % between bed and surface.
     assert!((moving / flume - 1.0).abs() < 0.06 && fixed < 0.95 * moving);
 }
 
 #[test]
-fn a_run_keeps_the_wave_that_it_has_read() {
+fn a_run_keeps_the_wave_that_it_read() {
     let (folder, run) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let [_, swash, _] = write(&table(), folder.path());
     let first = simulation(folder.path(), &json!({ "kind": "file", "source": swash }));
-    // What a run writes at its start.
+    // These are the files that a run writes at its start.
     fs::write(run.path().join("case.json"), &first.case.text).unwrap();
-    let Wave::Given(wave) = &first.case.wave else { panic!("a wave from files") };
+    let Wave::Given(wave) = &first.case.wave else { panic!("the wave does not come from files") };
     fs::write(run.path().join(ROWS_FILE), wave.rows_text()).unwrap();
     drop(folder);
     let kept = Case::load(run.path().join("case.json")).unwrap_or_else(|errors| panic!("{errors}"));

@@ -1,4 +1,4 @@
-//! Waves of the flume model as a case orders them, and the rows of the multi-layer piston that follow them.
+//! Waves of the flume model as a case requests them, and the rows of the multi-layer piston that follow them.
 
 use breakwater::case::{Case, Wave};
 use breakwater::simulation::flume::incoming::{ml_piston, particle_start, run_flume};
@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 
 const DEPTH: f64 = 0.4;
 
-/// A level flume with a sponge at its end, particles from 4 m on.
-fn ordered(wave: &Value, duration: f64) -> (Case, FlumeRecord) {
+/// Runs a wave in a level flume with a sponge at its end; the particle domain starts at 4 m.
+fn run_wave(wave: &Value, duration: f64) -> (Case, FlumeRecord) {
     let case = json!({
         "title": "Waves from the flume model",
         "flume": {
@@ -25,38 +25,38 @@ fn ordered(wave: &Value, duration: f64) -> (Case, FlumeRecord) {
     (case, record)
 }
 
-/// Least and most of a series.
+/// Returns the smallest and the largest value of a series.
 fn extremes(series: impl Iterator<Item = f64>) -> [f64; 2] {
     series.fold([f64::MAX, f64::MIN], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 #[test]
-fn rows_swing_with_the_water_of_regular_waves_and_do_not_drift_away() {
+fn piston_rows_follow_regular_waves_without_drift() {
     const PERIOD: f64 = 1.5;
-    let (case, record) = ordered(&json!({ "kind": "regular", "height_m": 0.03, "period_s": PERIOD }), 45.0);
-    let Wave::Regular { wave, .. } = case.wave else { panic!("regular waves") };
+    let (case, record) = run_wave(&json!({ "kind": "regular", "height_m": 0.03, "period_s": PERIOD }), 45.0);
+    let Wave::Regular { wave, .. } = case.wave else { panic!("the wave is not regular") };
     let piston = ml_piston(&case, &record, particle_start(&case, Some(&record)));
-    let swing = |row: usize| {
+    let displacement_range = |row: usize| {
         let times = (0..=100).map(|i| piston.end_s() - PERIOD * f64::from(i) / 100.0);
         extremes(times.map(|t| piston.displacement_m(row, t)))
     };
-    // Linear theory: the water at z swings by a cosh k(z + d) / sinh kd to either side.
+    // Linear theory: the amplitude of the displacement at z is a cosh k(z + d) / sinh kd.
     let k = wave.number_per_m();
     for (row, &height) in piston.row_heights_m().iter().enumerate().filter(|(_, height)| **height < 0.36) {
-        let [low, high] = swing(row);
+        let [low, high] = displacement_range(row);
         let (theory, mean) = (wave.height_m * (k * height).cosh() / (k * DEPTH).sinh(), 0.5 * (low + high));
-        println!("row at {height:.2} m swings by {:.4} m, theory {theory:.4} m, about {mean:+.4} m", high - low);
-        // 5 %: the wave is not linear (H/d = 0.075), and a little comes back from the sponge.
+        println!("row at {height:.2} m: stroke {:.4} m, theory {theory:.4} m, mean {mean:+.4} m", high - low);
+        // 5 %: the wave is nonlinear (H/d = 0.075), and the sponge reflects a little.
         assert!(((high - low) / theory - 1.0).abs() < 0.05);
-        // 5 mm: the flow back below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would carry the rows by 10 mm in
-        // the six seconds in which they are drawn back and by 70 mm in the run; 0.7 mm is reached.
+        // 5 mm; reached: 0.7 mm. The return flow below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would move the
+        // rows by 70 mm in the run, and by 10 mm within the six seconds in which drift is removed.
         assert!(mean.abs() < 0.005);
     }
     assert!(piston.shoreward_reach_m() > 0.015);
 }
 
 #[test]
-fn a_sea_of_the_case_has_its_height_and_its_seed() {
+fn irregular_waves_have_their_significant_height_and_seed() {
     let sea = |seed: u64| {
         json!({
             "kind": "irregular", "significant_height_m": 0.03, "peak_period_s": 1.6, "repeat_periods": 40, "seed": seed
@@ -68,21 +68,20 @@ fn a_sea_of_the_case_has_its_height_and_its_seed() {
         let mean = tail.iter().sum::<f64>() / tail.len() as f64;
         4.0 * (tail.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / tail.len() as f64).sqrt()
     };
-    let (case, record) = ordered(&sea(1), 70.0);
+    let (case, record) = run_wave(&sea(1), 70.0);
     println!("H_s = {:.4} m at 4 m", significant(&record));
-    // The whole sea passes once. 10 %: the shortest waves, which a cell of 0.05 m does not resolve, hold 4 % of the
-    // height.
+    // The sea repeats once. 10 %: the shortest waves, which a cell of 0.05 m does not resolve, have 4 % of the height.
     assert!((significant(&record) / 0.03 - 1.0).abs() < 0.1);
-    let (other, _) = ordered(&sea(2), 1.0);
+    let (other, _) = run_wave(&sea(2), 1.0);
     assert_ne!(case.hash, other.hash);
 }
 
 #[test]
-fn a_wave_of_third_order_comes_as_high_as_it_is_ordered() {
-    let (_, record) = ordered(&json!({ "kind": "solitary", "height_m": 0.04, "theory": "third_order" }), 8.0);
+fn a_third_order_solitary_wave_has_its_height() {
+    let (_, record) = run_wave(&json!({ "kind": "solitary", "height_m": 0.04, "theory": "third_order" }), 8.0);
     let (crest, time) = record.crest(0);
     println!("crest {crest:.4} m at {time:.2} s");
-    // As through the inflow alone, see `flume_ends`.
+    // The tolerance is that of the inflow in `flume_ends`.
     assert!((crest / 0.04 - 1.0).abs() < 0.005);
     assert!(time > 4.0 / (9.81 * DEPTH * 1.1).sqrt());
 }

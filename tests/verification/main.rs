@@ -1,12 +1,13 @@
-//! The parts of the program, and all of it, against answers known from mechanics. Run with `--release`.
+//! The program and its parts compared with exact answers from mechanics. Run with `--release`.
 
 mod absorption;
 mod blocks;
+mod breakage;
 mod buoyancy;
 mod conservation;
 mod convergence;
 mod diffusion;
-mod dry;
+mod dry_tests;
 mod femdem;
 mod flow_over_mound;
 mod flume_ends;
@@ -14,7 +15,6 @@ mod flume_order;
 mod flume_shore;
 mod fudo_waves;
 mod given_waves;
-mod handover;
 mod incoming_waves;
 mod lattice;
 mod operators;

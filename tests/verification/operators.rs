@@ -1,4 +1,4 @@
-//! The sums of the solver against what they stand for: moments of the kernel, gradients, divergence.
+//! Kernel sums of the solver compared with exact values: moments of the kernel, gradients, divergence.
 
 use breakwater::sph::{kernel::Wendland, rates::Rate, turbulence::Smagorinsky};
 use glam::DVec3;
@@ -11,7 +11,7 @@ use super::lattice::{aliasing, gradient_factor, lattice_sum, mean_over_jitter, v
 use super::tanks::RHO0;
 
 #[test]
-fn moments_of_the_kernel_on_a_lattice() {
+fn kernel_moments_on_a_lattice_have_the_error_of_theory() {
     for factor in [0.8, 1.0, 1.2, 1.5, 2.0].map(|factor| factor * 3f64.sqrt()) {
         let kernel = Wendland::new(factor);
         let (w, g) = (|r: DVec3| value(&kernel, r.length()), |r: DVec3| gradient_factor(&kernel, r.length()));
@@ -24,51 +24,51 @@ fn moments_of_the_kernel_on_a_lattice() {
             "h = {factor:.3} dp: sum V W = 1 {zeroth:+.2e} (theory {expected:+.2e}), first moment of grad W = \
              1 {of_gradient:+.2e} (theory {expected_of_gradient:+.2e})"
         );
-        // 3e-6: constants of the kernel in single precision, 1e-7, and 1e-4 of an error of 1e-2 left out of the series.
+        // 3e-6: the kernel constants are in single precision, 1e-7, and the series omits 1e-4 of an error of 1e-2.
         assert!((zeroth - expected).abs() < 3e-6, "{factor}");
         assert!((of_gradient - expected_of_gradient).abs() < 3e-6, "{factor}");
-        // Odd moments vanish by symmetry: rounding.
+        // 1e-14: rounding; odd moments vanish by symmetry.
         assert!(lattice_sum(&kernel, |r| w(r) * r.x).abs() < 1e-14);
         assert!(lattice_sum(&kernel, |r| g(r) * r.y).abs() < 1e-14);
         assert!(lattice_sum(&kernel, |r| g(r) * r.x * r.z).abs() < 1e-14);
     }
-    // The usual one: a gradient is 4e-4 too large on a lattice.
+    // With the default h / dp, a gradient is 4e-4 too large on a lattice.
     assert!((lattice_error_of_gradient(USUAL) - 3.6e-4).abs() < 1e-5);
 }
 
-/// A jittered lattice. With the variance s^2 = (jitter dp)^2 / 3 along each axis:
-/// - a particle does not move with respect to itself, and no other comes as near: sum V W and the first moment of the
-///   gradient are off by V (f(0) - mean of f over the jitter), f being the summand;
-/// - to first order the spread is V^2 s^2 sum |grad f|^2 over the neighbours, and what the particle's own jitter adds.
+/// Theory for a jittered lattice with the variance s^2 = (jitter dp)^2 / 3 along each axis:
+/// - sum V W and the first moment of the gradient have the error V (f(0) - mean of f over the jitter), where f is the
+///   summand: the distance of a particle to itself does not vary;
+/// - to first order the variance is V^2 s^2 sum |grad f|^2 over the neighbours, plus that of the particle's own jitter.
 #[test]
-fn moments_of_the_kernel_on_a_jittered_lattice() {
+fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
     let kernel = Wendland::new(USUAL);
     let w = |r: f64| value(&kernel, r);
     let trace = |r: f64| -gradient_factor(&kernel, r) * r * r;
-    let own = |f: &dyn Fn(f64) -> f64| f(0.0) - mean_over_jitter(JITTER, |r| f(r.length()));
+    let self_term = |f: &dyn Fn(f64) -> f64| f(0.0) - mean_over_jitter(JITTER, |r| f(r.length()));
     let variance = JITTER * JITTER / 3.0;
     let spread = |f: &dyn Fn(f64) -> f64| (variance * lattice_sum(&kernel, |r| slope(f, r.length()).powi(2))).sqrt();
-    let spread_of_gradient = (variance * (lattice_sum(&kernel, |r| bending(&kernel, r)) + own_bending(&kernel))).sqrt();
+    let spread_of_gradient = (variance * (lattice_sum(&kernel, |r| scatter(&kernel, r)) + own_scatter(&kernel))).sqrt();
 
     let water = block(JITTER, |_| RHO0, |_| DVec3::ZERO);
     let (gradients, order) = gradients_of_block(&water);
-    let near: Vec<usize> = (0..order.len()).filter(|&i| inside(water.position[order[i]])).collect();
+    let inner: Vec<usize> = (0..order.len()).filter(|&i| inside(water.position[order[i]])).collect();
     let zeroth =
         |i: &usize| water.position.iter().map(|p| w((*p - water.position[order[*i]]).length() / DP)).sum::<f64>();
-    let zeroth: Vec<f64> = near.iter().map(|i| zeroth(i) - 1.0).collect();
-    let first: Vec<f64> = near.iter().map(|&i| gradients.order(i).divergence - 3.0).collect();
-    let gradient = near.iter().flat_map(|&i| gradients.order(i).concentration_gradient.to_array()).map(|g| DP * g);
+    let zeroth: Vec<f64> = inner.iter().map(|i| zeroth(i) - 1.0).collect();
+    let first: Vec<f64> = inner.iter().map(|&i| gradients.order(i).divergence - 3.0).collect();
+    let gradient = inner.iter().flat_map(|&i| gradients.order(i).concentration_gradient.to_array()).map(|g| DP * g);
     let measured_gradient = rms(gradient);
-    println!("jitter of {JITTER} dp, {} particles:", near.len());
+    println!("jitter of {JITTER} dp, {} particles:", inner.len());
     let check = |name: &str, values: &[f64], on_a_lattice: f64, f: &dyn Fn(f64) -> f64| {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let deviation = rms(values.iter().map(|value| value - mean));
-        let (expected, expected_deviation) = (on_a_lattice + own(f), spread(f));
+        let (expected, expected_deviation) = (on_a_lattice + self_term(f), spread(f));
         println!("{name} = {mean:.2e} +- {deviation:.2e}, theory {expected:.2e} +- {expected_deviation:.2e}");
-        // A tenth: to first order a particle's jitter drops out of the mean if all its neighbours are in it, and only
-        // the particles near the faces count.
+        // A tenth: to first order a particle's jitter cancels in the mean if all its neighbours are included, so only
+        // particles near the faces contribute.
         assert!((mean - expected).abs() < 0.1 * expected_deviation, "{name}");
-        // 15 %: the second order in the jitter, and the sample.
+        // 15 %: second order in the jitter, and the finite sample.
         assert!((deviation / expected_deviation - 1.0).abs() < 0.15, "{name}");
     };
     check("sum V W - 1", &zeroth, aliasing(&kernel, w), &w);
@@ -77,13 +77,13 @@ fn moments_of_the_kernel_on_a_jittered_lattice() {
     assert!((measured_gradient / spread_of_gradient - 1.0).abs() < 0.15);
 }
 
-/// df/dr of a function of the distance, that is even in it.
+/// Returns df/dr of a radial function that is even in r.
 fn slope(f: &dyn Fn(f64) -> f64, r: f64) -> f64 {
     (f(r + 1e-5) - f((r - 1e-5).abs())) / 2e-5
 }
 
-/// |grad (G x)|^2 of a neighbour [1/m10], spacing 1.
-fn bending(kernel: &Wendland, r: DVec3) -> f64 {
+/// Returns |grad (G x)|^2 of a neighbour [1/m10] for spacing 1.
+fn scatter(kernel: &Wendland, r: DVec3) -> f64 {
     let distance = r.length();
     if distance == 0.0 {
         return 0.0;
@@ -93,8 +93,9 @@ fn bending(kernel: &Wendland, r: DVec3) -> f64 {
     g * g + r.x * r.x * (2.0 * g * slope / distance + slope * slope)
 }
 
-/// The same for the particle itself: the second derivatives of its neighbours' kernels add up to minus its own.
-fn own_bending(kernel: &Wendland) -> f64 {
+/// Returns |grad (G x)|^2 of the particle itself: the second derivatives of its neighbours' kernels sum to minus its
+/// own.
+fn own_scatter(kernel: &Wendland) -> f64 {
     gradient_factor(kernel, 0.0).powi(2)
 }
 
@@ -109,7 +110,7 @@ fn renormalised_gradients_of_linear_fields_are_exact() {
         for (extra, &particle) in gradients.extra().iter().zip(&order) {
             let found = DVec3::from_array(extra.density_gradient.map(f64::from));
             let error = (found - slope).length() / slope.length();
-            // At edges and corners M is not inverted.
+            // At edges and corners, the gradients are not renormalised.
             if whole_axes(water.position[particle]) >= 2 {
                 worst = worst.max(error);
             }
@@ -124,16 +125,16 @@ fn renormalised_gradients_of_linear_fields_are_exact() {
             "renormalised gradient, jitter {jitter} dp: error {worst_inside:.1e} inside, {worst:.1e} at faces; \
              turbulent stress of a shear flow {worst_stress:.1e}"
         );
-        // Places in single precision: 1e-8 m against h = 0.02 m, 5e-7, averaged over some 280 neighbours; sums: 1e-7
-        // of parts that cancel.
+        // Positions in single precision have errors of 1e-8 m for h = 0.02 m, 5e-7, averaged over some 280 neighbours;
+        // sums have 1e-7 of terms that cancel.
         assert!(worst_inside < 2e-6 && worst_stress < 4e-6);
-        // M of a face is about a half along its normal.
+        // Twice that at faces, where half of the neighbourhood is empty along the normal.
         assert!(worst < 4e-6);
     }
 }
 
 #[test]
-fn pressure_gradient_of_a_linear_field() {
+fn pressure_gradient_of_a_linear_field_has_the_lattice_error() {
     let tait = ideal(DP, None).tait;
     let (mean, slope) = (500.0, DVec3::new(1000.0, -2000.0, 3000.0));
     let (water, rates) = rates_of_block(block(0.0, |p| tait.density(mean + slope.dot(p)), |_| DVec3::ZERO));
@@ -143,15 +144,15 @@ fn pressure_gradient_of_a_linear_field() {
         let found = -water.density[i] * DVec3::from_array(rate.acceleration.map(f64::from));
         worst = worst.max((found - (1.0 + error) * slope).length() / slope.length());
     }
-    println!("pressure gradient on a lattice: {worst:.1e} from (1 {error:+.2e}) times the exact one");
-    // 2 p_a sum V grad W cancels but for the rounding of some 280 parts, 6e-8 sqrt(280) = 1e-6 of 2 p / h = 8e4 Pa/m,
-    // which is 22 times the slope.
+    println!("pressure gradient on a lattice: deviation {worst:.1e} from (1 {error:+.2e}) times the exact one");
+    // 2 p_a sum V grad W cancels except for the rounding of some 280 terms, 6e-8 sqrt(280) = 1e-6 of 2 p / h = 8e4
+    // Pa/m, which is 22 times the slope.
     assert!(worst < 2e-5, "{worst}");
 }
 
-/// A constant pressure pushes where particles lie unevenly: dv/dt = -2 p / rho grad C, which falls with no power of dp.
+/// A constant pressure accelerates unevenly spaced particles, dv/dt = -2 p / rho grad C; this does not vanish with dp.
 #[test]
-fn constant_pressure_pushes_jittered_particles_apart() {
+fn constant_pressure_accelerates_jittered_particles() {
     let tait = ideal(DP, None).tait;
     let pressure = 1000.0;
     let water = block(JITTER, |_| tait.density(pressure), |_| DVec3::ZERO);
@@ -164,32 +165,31 @@ fn constant_pressure_pushes_jittered_particles_apart() {
         let found = DVec3::from_array(rate.acceleration.map(f64::from));
         worst = worst.max((found - expected).length() * sorted.density[i] * DP / pressure);
     }
-    println!("push of a constant pressure: {worst:.1e} p / rho dp from theory");
-    // Sums of some 280 parts of up to 0.02 p / dp in single precision.
+    println!("acceleration by a constant pressure: deviation {worst:.1e} p / (rho dp) from theory");
+    // 2e-6: sums of some 280 terms of up to 0.02 p / dp in single precision.
     assert!(worst < 2e-6, "{worst}");
 }
 
 #[test]
-fn density_rate_of_a_linear_velocity() {
+fn density_rate_of_a_linear_velocity_has_the_lattice_error() {
     let error = lattice_error_of_gradient(USUAL);
     // Rows of d v_i / d x_j [1/s].
-    let stretch = [DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, -1.0, 4.0), DVec3::new(2.0, 0.0, 2.0)];
-    let flow =
-        |p: DVec3| DVec3::new(1.0, -2.0, 0.5) + DVec3::new(stretch[0].dot(p), stretch[1].dot(p), stretch[2].dot(p));
+    let grad_v = [DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, -1.0, 4.0), DVec3::new(2.0, 0.0, 2.0)];
+    let flow = |p: DVec3| DVec3::new(1.0, -2.0, 0.5) + DVec3::new(grad_v[0].dot(p), grad_v[1].dot(p), grad_v[2].dot(p));
     let (water, rates) = rates_of_block(block(0.0, |_| RHO0, flow));
     let (divergence, size) = (3.0 - 1.0 + 2.0, 6.3);
     let inner = |(i, _): &(usize, &Rate)| inside(water.position[*i]);
-    let off = |(_, rate): (usize, &Rate)| (f64::from(rate.density) / -RHO0 - (1.0 + error) * divergence).abs() / size;
-    let worst = rates.iter().enumerate().filter(inner).map(off).fold(0.0, f64::max);
-    // A rigid body does not change its volume, wherever its particles lie: v_ab is at right angles to r_ab.
-    let turn = |p: DVec3| DVec3::new(1.0, -2.0, 0.5) + DVec3::new(1.0, -2.0, 3.0).cross(p);
-    let (_, rates) = rates_of_block(block(JITTER, |_| RHO0, turn));
-    let turning = rates.iter().map(|rate| f64::from(rate.density).abs() / RHO0).fold(0.0, f64::max) / 3.7;
+    let deviation =
+        |(_, rate): (usize, &Rate)| (f64::from(rate.density) / -RHO0 - (1.0 + error) * divergence).abs() / size;
+    let worst = rates.iter().enumerate().filter(inner).map(deviation).fold(0.0, f64::max);
+    // In rigid rotation v_ab is perpendicular to r_ab, so the density does not change, even with jitter.
+    let rotation = |p: DVec3| DVec3::new(1.0, -2.0, 0.5) + DVec3::new(1.0, -2.0, 3.0).cross(p);
+    let (_, rates) = rates_of_block(block(JITTER, |_| RHO0, rotation));
+    let rotating = rates.iter().map(|rate| f64::from(rate.density).abs() / RHO0).fold(0.0, f64::max) / 3.7;
     println!(
-        "divergence of a linear velocity: {worst:.1e} from (1 {error:+.2e}) times the exact one; of a \
-         turning body {turning:.1e}"
+        "divergence of a linear velocity: deviation {worst:.1e} from (1 {error:+.2e}) times the exact one; in rigid \
+         rotation {rotating:.1e}"
     );
-    // Velocities of 2 m/s and places of 0.1 m in single precision: 1.2e-7 and 7e-9, against differences of 0.1 m/s and
-    // 0.02 m.
-    assert!(worst < 2e-6 && turning < 2e-6, "{worst} {turning}");
+    // Single precision has errors of 1.2e-7 m/s for 2 m/s and 7e-9 m for 0.1 m; differences are 0.1 m/s and 0.02 m.
+    assert!(worst < 2e-6 && rotating < 2e-6, "{worst} {rotating}");
 }

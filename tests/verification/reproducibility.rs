@@ -1,4 +1,4 @@
-//! The same bits for any number of threads; the same numbers to rounding on any processor.
+//! Results have the same bits for any number of threads, and agree to rounding on any processor.
 
 use breakwater::simulation::flume::Simulation;
 use breakwater::sph::lanes::InstructionSet;
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::tanks::{BareTank, run_steps, simulation};
 
-/// Wave, wavemaker, mound and two free units: everything that takes part in a run.
+/// Case with all parts of a flume case: wave, wavemaker, mound and two free units.
 fn small_flume() -> Value {
     json!({
         "title": "Everything at once",
@@ -30,7 +30,7 @@ fn small_flume() -> Value {
     })
 }
 
-/// The bits of every number of the state.
+/// Returns the bits of all numbers of the state.
 fn bits(simulation: &Simulation) -> Vec<(&'static str, Vec<u64>)> {
     let vectors = |values: &[glam::DVec3]| values.iter().flat_map(|v| v.to_array()).map(f64::to_bits).collect();
     let scalars = |values: &[f64]| values.iter().copied().map(f64::to_bits).collect();
@@ -57,7 +57,7 @@ fn bits(simulation: &Simulation) -> Vec<(&'static str, Vec<u64>)> {
 }
 
 #[test]
-fn the_same_bits_with_one_two_and_three_threads() {
+fn one_two_and_three_threads_give_the_same_bits() {
     let case = small_flume();
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -68,7 +68,7 @@ fn the_same_bits_with_one_two_and_three_threads() {
         })
     };
     let [one, two, three] = [1, 2, 3].map(run);
-    // More than one piece of every loop that is split.
+    // There is enough water to split every parallel loop.
     assert!(one[3].1.len() > 3 * 4096, "{}", one[3].1.len());
     for (a, others) in one.iter().zip(two.iter().zip(&three)) {
         for b in [others.0, others.1] {
@@ -78,8 +78,8 @@ fn the_same_bits_with_one_two_and_three_threads() {
     }
 }
 
-/// A tank with a swell, so that every term is at work, after 20 steps.
-fn swell(instructions: InstructionSet) -> BareTank {
+/// Returns a tank of moving water, in which every term acts, after 20 time steps.
+fn moving_water(instructions: InstructionSet) -> BareTank {
     let mut tank = BareTank::with_instructions(instructions, 0.2, 0.2, 0.01, &[]);
     for (velocity, position) in tank.water.velocity.iter_mut().zip(&tank.water.position) {
         velocity.x = 0.3 * (20.0 * position.z).sin();
@@ -92,23 +92,22 @@ fn swell(instructions: InstructionSet) -> BareTank {
 }
 
 #[test]
-fn every_instruction_set_gives_the_same_to_rounding() {
-    let portable = swell(InstructionSet::Portable);
-    let mut place: Vec<usize> = vec![0; portable.water.len()];
-    portable.water.id.iter().enumerate().for_each(|(at, &id)| place[id as usize] = at);
+fn instruction_sets_agree_to_rounding() {
+    let portable = moving_water(InstructionSet::Portable);
+    let mut index_of: Vec<usize> = vec![0; portable.water.len()];
+    portable.water.id.iter().enumerate().for_each(|(at, &id)| index_of[id as usize] = at);
     let others = InstructionSet::available().into_iter().filter(|&set| set != InstructionSet::Portable);
     for set in others {
-        let other = swell(set);
-        let pairs = || other.water.id.iter().enumerate().map(|(at, &id)| (at, place[id as usize]));
+        let other = moving_water(set);
+        let pairs = || other.water.id.iter().enumerate().map(|(at, &id)| (at, index_of[id as usize]));
         let apart = |(a, b): (usize, usize)| (other.water.velocity[a] - portable.water.velocity[b]).length();
         let velocity = pairs().map(apart).fold(0.0, f64::max);
         let apart = |(a, b): (usize, usize)| (other.water.density[a] - portable.water.density[b]).abs();
         let density = pairs().map(apart).fold(0.0, f64::max);
-        println!("{set:?} and portable after 20 steps: velocity {velocity:.1e} m/s, density {density:.1e} kg/m3 apart");
-        // The paths differ by fused multiplication and addition: the last bit of a sum in single precision, 6e-8, of
-        // velocities of 0.3 m/s and of densities that differ by 9 kg/m3 between bed and surface; ten times that after
-        // 20 steps.
+        println!("{set:?} and portable after 20 time steps: differences {velocity:.1e} m/s, {density:.1e} kg/m3");
+        // The instruction sets differ by fused multiply-add, 6e-8 in single precision. Velocities are 0.3 m/s, and
+        // densities at bed and surface differ by 9 kg/m3. After 20 time steps, errors are ten times larger.
         assert!(velocity < 2e-7 && density < 6e-6, "{set:?}: {velocity} {density}");
-        assert!(velocity > 0.0, "the paths are one and the same");
+        assert!(velocity > 0.0, "the instruction sets give equal bits, so only one was used");
     }
 }

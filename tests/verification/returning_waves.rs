@@ -1,5 +1,4 @@
-//! A multi-layer piston and the wave that a wall sends back to it: without anything, with a relaxation zone, with
-//! absorption.
+//! A multi-layer piston and the wave reflected by a wall: without measures, with a relaxation zone, with absorption.
 
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -8,14 +7,14 @@ use super::tanks::{GRAVITY, run_until, simulation};
 
 const DEPTH: f64 = 0.3;
 const HEIGHT: f64 = 0.09;
-/// Seaward and shoreward end of the particles [m].
+/// Seaward and shoreward end of the particle domain [m].
 const TANK: [f64; 2] = [4.0, 7.5];
-/// End of the zone [m]: a third of the wave's length, from 1 % of the height to 1 %.
+/// End of the relaxation zone [m], which is a third as long as the wave between 1 % of its height.
 const ZONE_END: f64 = 6.0;
-/// Where the wave is looked at [m].
+/// Position of the gauge [m].
 const GAUGE: f64 = 6.4;
 
-/// A solitary wave of the flume model, which knows no wall, enters a tank that ends at one.
+/// Case of a solitary wave in a tank that ends at a wall; the flume model has no such wall.
 fn tank(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> Value {
     let mut case = json!({
         "title": "A solitary wave between a multi-layer piston and a wall",
@@ -33,8 +32,8 @@ fn tank(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> Value {
     case
 }
 
-/// Crest at the gauge in the flume model [m], and by the particles on the first way and when it has come back from the
-/// wall to the piston.
+/// Returns crests at the gauge [m]: of the flume model, and of the particles for the incident wave and after reflection
+/// by wall and piston.
 fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     let mut tank = simulation(&tank(dp, zone, gauge));
     let celerity = (GRAVITY * (DEPTH + HEIGHT)).sqrt();
@@ -43,11 +42,11 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     let passing = record.times_s().iter().copied().max_by(|a, b| elevation(a).total_cmp(&elevation(b))).unwrap();
     let incident = record.elevation(GAUGE, passing);
     // From the gauge to the wall and back, then to the piston and back.
-    let back = passing + 2.0 * (TANK[1] - GAUGE) / celerity;
-    let again = back + 2.0 * (GAUGE - TANK[0]) / celerity;
-    let (until, from) = (0.5 * (passing + back), back + 0.7 * (again - back));
+    let reflected = passing + 2.0 * (TANK[1] - GAUGE) / celerity;
+    let rereflected = reflected + 2.0 * (GAUGE - TANK[0]) / celerity;
+    let (until, from) = (0.5 * (passing + reflected), reflected + 0.7 * (rereflected - reflected));
     let mut crests = [incident, f64::MIN, f64::MIN];
-    let end = again + 0.5 - tank.start;
+    let end = rereflected + 0.5 - tank.start;
     run_until(&mut tank, end, |now| {
         let time = now.flume_time();
         if now.steps.is_multiple_of(10) && (time < until || time > from) {
@@ -57,7 +56,7 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
         }
     });
     println!(
-        "dp = {dp} m, zone {zone:?} 1/s, gauge {gauge:?} m: flume {:.4} m, particles {:.4} m, after coming back {:+.4} m ({:.1} %)",
+        "dp = {dp} m, zone {zone:?} 1/s, gauge {gauge:?} m: flume model {:.4} m, incident {:.4} m, re-reflected {:+.4} m ({:.1} %)",
         crests[0],
         crests[1],
         crests[2],
@@ -67,24 +66,24 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
 }
 
 #[test]
-fn a_multi_layer_piston_takes_up_what_comes_back() {
-    let [flume, first, again] = crests(0.025, None, Some(0.2));
-    // 0.3 % is reached. Without absorption it is more: the first of what the wall sends back is in the reading.
+fn an_absorbing_multi_layer_piston_does_not_reflect_the_wave() {
+    let [flume, first, rereflected] = crests(0.025, None, Some(0.2));
+    // Reached: 0.3 %. Without absorption it is more, as the reading includes the start of the reflection.
     assert!((first / flume - 1.0).abs() < 0.08);
-    // 10 % is asked for after one return; 5.2 % is reached, a fifth of a particle distance.
-    assert!((-first..0.1 * first).contains(&again));
+    // Target: 10 % after one reflection; reached: 5.2 %, a fifth of a particle spacing.
+    assert!((-first..0.1 * first).contains(&rereflected));
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture returning_waves::`
 #[test]
-#[ignore = "3 minutes on 2 cores"]
-fn without_absorption_or_in_a_zone() {
-    let [_, first, again] = crests(0.05, None, None);
-    assert!(again > 0.8 * first);
-    // A zone of a third of a solitary wave's length weakens what returns: 73 and 63 % of the wave, 93 % without it.
+#[ignore = "3 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture a_relaxation_zone_weakens"]
+fn a_relaxation_zone_weakens_the_reflected_wave() {
+    let [_, first, rereflected] = crests(0.05, None, None);
+    assert!(rereflected > 0.8 * first);
+    // The re-reflected wave has 73 and 63 % of the height with a zone of a third of the wave length, 93 % without.
     let [weak, strong] = [3.0, 10.0].map(|coefficient| {
-        let [_, first, again] = crests(0.05, Some(coefficient), None);
-        again / first
+        let [_, first, rereflected] = crests(0.05, Some(coefficient), None);
+        rereflected / first
     });
-    assert!(strong < weak && weak < 0.9 * again / first && strong < 0.65);
+    assert!(strong < weak && weak < 0.9 * rereflected / first && strong < 0.65);
 }

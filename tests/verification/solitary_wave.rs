@@ -1,4 +1,4 @@
-//! A solitary wave along a flat bed keeps its height; what it loses in particles is the scheme's error.
+//! A solitary wave along a flat bed keeps its height; the loss of height is the error of the particle scheme.
 
 use breakwater::simulation::flume::Simulation;
 use serde_json::{Value, json};
@@ -7,30 +7,30 @@ use super::tanks::{run_until, simulation};
 
 /// Still depth d [m].
 const DEPTH: f64 = 0.5;
-/// The first place where the wave is measured [m], four depths from the wavemaker.
+/// First position at which the wave is measured [m], four depths from the wavemaker.
 const FIRST: f64 = 14.0;
-/// Half the base of the hat with which the surface is averaged [m]: it takes (w^2/12) eta''/eta = 0.3 % from a crest of
-/// H/d = 0.1, the same at either place.
+/// Half width w of the hat function that averages the surface [m]. It lowers a crest of H/d = 0.1 by
+/// (w^2/12) eta''/eta = 0.3 % at both positions.
 const HAT: f64 = 0.25;
 
-/// A wave on its way and how it is computed.
+/// A wave and the settings of the particle scheme.
 struct Wave {
     /// H/d [-].
     height: f64,
-    /// Distance over which it is followed, in depths [-].
+    /// Distance between the two measurements, in depths [-].
     travel: f64,
     dp: f64,
     alpha: f64,
     /// c0 over sqrt(g d) [-].
     sound: f64,
     slip: &'static str,
-    /// Across the flume: two-dimensional, or a slice ten particles wide.
+    /// Whether the flume is a slice ten particles wide; otherwise it is two-dimensional.
     slice: bool,
 }
 
 impl Wave {
-    /// Particles from two depths before the first place to eight depths beyond the last, where the water does not feel
-    /// the wave yet, H sech^2(4.2) = 0.001 H; they start when the crest is a depth before the first place.
+    /// Case with particles from two depths before the first position to eight depths beyond the last, where the wave is
+    /// only H sech^2(4.2) = 0.001 H. The particles start when the crest is one depth before the first position.
     fn case(&self) -> Value {
         let last = FIRST + self.travel * DEPTH;
         let (width, sides) = if self.slice { (Some(10.0 * self.dp), "periodic") } else { (None, "two_dimensional") };
@@ -49,15 +49,15 @@ impl Wave {
         })
     }
 
-    /// When the crest passes x [m], about [s].
+    /// Returns the approximate time at which the crest passes x [m] in [s].
     fn passing(&self, x: f64) -> f64 {
         let celerity = (9.81 * DEPTH * (1.0 + self.height)).sqrt();
-        // The piston's crest starts after half the stroke; 3.8 is where the stroke is cut off.
+        // The crest leaves the piston at half of its stroke; 3.8 is where the motion is cut off.
         let half_stroke = 3.8 / ((0.75 * self.height / (1.0 + self.height)).sqrt() / DEPTH * celerity);
         half_stroke + x / celerity
     }
 
-    /// Heights of the crest [m] when it passes the two places.
+    /// Runs and returns the crest heights [m] at the two positions.
     fn run(&self) -> [f64; 2] {
         let mut simulation = simulation(&self.case());
         let start = simulation.flume_time();
@@ -78,7 +78,7 @@ impl Wave {
         })
     }
 
-    /// Share of the height lost over a number of depths, if every depth takes the same share.
+    /// Runs and returns the share of the height lost over a number of depths, assuming the same share per depth.
     fn loss_over(&self, depths: f64) -> f64 {
         let [first, last] = self.run();
         let loss = 1.0 - (last / first).powf(depths / self.travel);
@@ -92,7 +92,7 @@ impl Wave {
     }
 }
 
-/// Mean surface above the still water [m] under a hat at x [m]: the volume of the water there.
+/// Returns the mean surface elevation [m], weighted by a hat function at x [m], from the volume of the water.
 fn elevation(simulation: &Simulation, x: f64) -> f64 {
     let water = &simulation.water;
     let volume: f64 = (0..water.len())
@@ -101,7 +101,7 @@ fn elevation(simulation: &Simulation, x: f64) -> f64 {
     volume / (HAT * simulation.case.domain.width) - DEPTH
 }
 
-/// Place and height of the crest within a depth of x [m]: the top of a parabola through the highest of many places.
+/// Returns position and height of the crest within a depth of x [m]: the top of a parabola through the highest samples.
 fn crest(simulation: &Simulation, x: f64) -> (f64, f64) {
     let places: Vec<f64> = (-20..=20).map(|k| x + 0.05 * DEPTH * f64::from(k)).collect();
     let surface: Vec<f64> = places.iter().map(|&x| elevation(simulation, x)).collect();
@@ -111,52 +111,53 @@ fn crest(simulation: &Simulation, x: f64) -> (f64, f64) {
     (places[top] + offset * 0.05 * DEPTH, middle - 0.25 * (left - right) * offset)
 }
 
-/// Losses over 20 d at H/d = 0.1 with a speed of sound of 10 sqrt(g d) [-].
+/// Returns the loss of height over 20 d at H/d = 0.1 with a speed of sound of 10 sqrt(g d) [-].
 fn loss(dp: f64, alpha: f64, slip: &'static str) -> f64 {
     Wave { height: 0.1, travel: 20.0, dp, alpha, sound: 10.0, slip, slice: false }.loss_over(20.0)
 }
 
-/// In a slice of three dimensions the wave loses what it loses in two: `cargo test --release --test verification --
-/// --ignored --nocapture a_slice_loses`.
 #[test]
-#[ignore = "ten minutes on 2 cores"]
-fn a_slice_loses_what_two_dimensions_lose() {
+#[ignore = "10 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture a_slice_loses_as_much_height"]
+fn a_slice_loses_as_much_height_as_two_dimensions() {
     let [slice, plane] = [true, false].map(|slice| {
         Wave { height: 0.1, travel: 4.0, dp: 0.025, alpha: 0.04, sound: 10.0, slip: "original", slice }.loss_over(4.0)
     });
-    // A hundredth of the height is 0.5 mm, a fiftieth of a particle distance.
+    // 0.01: a hundredth of the height is 0.5 mm, a fiftieth of a particle spacing.
     assert!((slice - plane).abs() < 0.01);
 }
 
-/// The figure against alpha, slip and resolution: `cargo test --release --test verification -- --ignored --nocapture
-/// loss_of_height_against`.
 #[test]
-#[ignore = "half an hour on 2 cores"]
-fn loss_of_height_against_resolution_and_viscosity() {
+#[ignore = "30 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture loss_of_height_falls"]
+fn loss_of_height_falls_with_resolution_slip_and_lower_viscosity() {
     let coarse = loss(0.025, 0.04, "original");
-    let slipping = loss(0.025, 0.04, "free_slip");
-    let thin = loss(0.025, 0.01, "original");
-    let thick = loss(0.025, 0.1, "original");
+    let free_slip = loss(0.025, 0.04, "free_slip");
+    let less_viscous = loss(0.025, 0.01, "original");
+    let more_viscous = loss(0.025, 0.1, "original");
     let fine = loss(0.0125, 0.04, "original");
-    let fine_slipping = loss(0.0125, 0.04, "free_slip");
-    // Viscosity of equation 3 is proportional to alpha h; most of what it takes, it takes at the bed.
-    assert!(thin < coarse && coarse < thick && fine < coarse && slipping < coarse && fine_slipping < fine);
+    let fine_free_slip = loss(0.0125, 0.04, "free_slip");
+    // The viscosity of equation 3 is proportional to alpha h; most of the loss is at the bed.
+    assert!(
+        less_viscous < coarse && coarse < more_viscous && fine < coarse && free_slip < coarse && fine_free_slip < fine
+    );
 }
 
-/// The same with all defaults, free slip and a speed of sound of 15 sqrt(g d), to which the viscosity of equation 3 is
-/// proportional: `cargo test --release --test verification -- --ignored --nocapture keeps_its_height_by_default`.
+/// Uses all defaults: free slip and a speed of sound of 15 sqrt(g d), to which the viscosity of equation 3 is
+/// proportional.
 #[test]
-#[ignore = "40 minutes on one core"]
+#[ignore = "40 minutes on one core: \
+    cargo test --release --test verification -- --ignored --nocapture keeps_its_height_by_default"]
 fn a_solitary_wave_keeps_its_height_by_default() {
     let wave = Wave { height: 0.1, travel: 20.0, dp: 0.01, alpha: 0.04, sound: 15.0, slip: "free_slip", slice: false };
     assert!(wave.loss_over(20.0) < 0.05);
 }
 
-/// Five particles in the height; asked is less than 5 % over 20 d with the defaults: `cargo test --release --test
-/// verification -- --ignored --nocapture keeps_its_height_with_five`.
+/// Target: less than 5 % over 20 d with the defaults.
 #[test]
-#[ignore = "half an hour on 2 cores"]
-fn a_solitary_wave_keeps_its_height_with_five_particles_in_it() {
-    let [slipping, sticking] = ["free_slip", "original"].map(|slip| loss(0.01, 0.04, slip));
-    assert!(slipping < 0.05 && slipping < sticking);
+#[ignore = "30 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture keeps_its_height_with_five"]
+fn a_solitary_wave_keeps_its_height_with_five_particles() {
+    let [free_slip, no_slip] = ["free_slip", "original"].map(|slip| loss(0.01, 0.04, slip));
+    assert!(free_slip < 0.05 && free_slip < no_slip);
 }

@@ -1,4 +1,4 @@
-//! The lowest standing wave of a tank whose bed and walls let the water slide: its period and its decay.
+//! Period and decay of the lowest standing wave in a tank with free slip on bed and walls.
 
 use std::f64::consts::PI;
 
@@ -12,39 +12,39 @@ const DEPTH: f64 = 0.5;
 /// Wave number [1/m].
 const K: f64 = PI / LENGTH;
 
-/// Kinematic viscosity [m2/s], large enough for the friction to be seen beside that of the particles' noise.
+/// Kinematic viscosity [m2/s], large enough to dominate the dissipation by particle noise.
 const NU: f64 = 0.02;
 
-/// How a wave sloshes.
-struct Seen {
+/// Period and decay of a sloshing wave.
+struct Sloshing {
     /// Mean period over the run [s].
     period: f64,
     /// Rate at which the amplitude falls [1/s].
     decay: f64,
 }
 
-/// Angular frequency sigma without viscosity [1/s].
+/// Returns the angular frequency sigma without viscosity [1/s].
 fn frequency() -> f64 {
     (GRAVITY * K * (K * DEPTH).tanh()).sqrt()
 }
 
-/// Decay and period of theory. With n the growth and m^2 = k^2 + n / nu, the linear Navier-Stokes equations over a bed
-/// that lets the water slide give
+/// Returns decay and period by theory. With the growth rate n and m^2 = k^2 + n / nu, the linear Navier-Stokes
+/// equations over a free-slip bed give
 ///
-///   (n + 2 nu k^2)^2 + sigma^2 = 4 nu^2 k^3 m tanh(kd) / tanh(md),
+/// (n + 2 nu k^2)^2 + sigma^2 = 4 nu^2 k^3 m tanh(kd) / tanh(md),
 ///
-/// for infinite depth the equation of Lamb (1932, article 349). The first two terms of n in sqrt(nu k^2 / sigma) stand
-/// here:
-/// -2 nu k^2 + i sigma, the power 2 mu S : S of the flow without vorticity being the same share of its energy at all
-/// depths; and that of the layer with vorticity below the surface. The next changes the decay by less than 1 %.
-fn theory() -> Seen {
-    let of_the_layer = 2f64.sqrt() * NU.powf(1.5) * K.powi(3) * (K * DEPTH).tanh() / frequency().sqrt();
-    Seen { period: 2.0 * PI / (frequency() - of_the_layer), decay: 2.0 * NU * K * K - of_the_layer }
+/// which is the equation of Lamb (1932, article 349) for infinite depth. The function uses the first two terms of n in
+/// sqrt(nu k^2 / sigma): -2 nu k^2 + i sigma, since the power 2 mu S : S of the irrotational flow is the same share of
+/// its energy at all depths, and the term of the vortical layer below the surface. The next term changes the decay by
+/// less than 1 %.
+fn theory() -> Sloshing {
+    let layer_term = 2f64.sqrt() * NU.powf(1.5) * K.powi(3) * (K * DEPTH).tanh() / frequency().sqrt();
+    Sloshing { period: 2.0 * PI / (frequency() - layer_term), decay: 2.0 * NU * K * K - layer_term }
 }
 
-/// Slosh for a number of periods at the particle distance `dp` [m].
-fn slosh(dp: f64, viscosity: Viscosity, periods: f64) -> Seen {
-    // As few particles across as the kernel's reach allows.
+/// Runs the wave for a number of periods with a particle spacing [m].
+fn slosh(dp: f64, viscosity: Viscosity, periods: f64) -> Sloshing {
+    // The least width that the kernel support allows.
     let width = 10.0 * dp;
     let mut scheme = parameters(dp, DEPTH, GRAVITY, Some(width));
     scheme.viscosity = viscosity;
@@ -52,7 +52,7 @@ fn slosh(dp: f64, viscosity: Viscosity, periods: f64) -> Seen {
     let surface = |x: f64| DEPTH + 0.02 * (K * x).cos();
     let mut tank = BareTank::of(InstructionSet::best(), scheme, [LENGTH, width, DEPTH], &surface, &[]);
     let mass: f64 = tank.water.mass.iter().sum();
-    // The centre of mass goes to and fro in proportion to the amplitude.
+    // The displacement of the centre of mass is proportional to the amplitude.
     let centre = |tank: &BareTank| {
         tank.water.position.iter().zip(&tank.water.mass).map(|(p, m)| m * p.x).sum::<f64>() / mass - 0.5 * LENGTH
     };
@@ -75,16 +75,16 @@ fn slosh(dp: f64, viscosity: Viscosity, periods: f64) -> Seen {
     }
     let last = crossings.len() - 1;
     let period = 2.0 * (crossings[last] - crossings[0]) / last as f64;
-    // The first extreme is the start, when the water has not settled yet.
+    // The first extreme is the start, before the water has settled, so it is not used.
     let ([t0, a0], [t1, a1]) = (extremes[1], extremes[extremes.len() - 1]);
-    Seen { period, decay: (a0 / a1).ln() / (t1 - t0) }
+    Sloshing { period, decay: (a0 / a1).ln() / (t1 - t0) }
 }
 
-/// Slosh with `particles` in the depth and print what is seen; the errors of period and decay against theory.
+/// Runs the wave with a number of particles in the depth; returns the errors of period and decay [-].
 fn errors(particles: f64, viscosity: Viscosity) -> [f64; 2] {
-    let seen = slosh(DEPTH / particles, viscosity, 2.3);
+    let measured = slosh(DEPTH / particles, viscosity, 2.3);
     let theory = theory();
-    let (period, decay) = (seen.period / theory.period - 1.0, seen.decay / theory.decay - 1.0);
+    let (period, decay) = (measured.period / theory.period - 1.0, measured.decay / theory.decay - 1.0);
     println!(
         "standing wave, {particles} particles in the depth, {viscosity:?}: period {:+.2} %, decay {:+.1} %",
         100.0 * period,
@@ -94,20 +94,20 @@ fn errors(particles: f64, viscosity: Viscosity) -> [f64; 2] {
 }
 
 #[test]
-fn a_standing_wave_has_the_period_and_the_decay_of_theory() {
+fn a_standing_wave_has_the_period_and_decay_of_theory() {
     let [period, decay] = errors(14.0, Viscosity::MonaghanGingold { nu: NU });
-    // 1 %: a fourteenth of the depth lies between particles.
+    // 1 %: the particle spacing is a fourteenth of the depth.
     assert!(period.abs() < 0.01, "{period}");
-    // 10 %: a particle at the surface lacks half of its neighbours, and with them friction, over a layer of about dp /
-    // 2, where the power 2 mu S : S falls with e^(2kz): k dp = 11 % is missing; the noise of the particles adds some.
+    // 10 %: particles at the surface lack half of their neighbours and their friction, over a layer of about dp / 2. As
+    // the power 2 mu S : S falls with e^(2kz), the share k dp = 11 % is missing; particle noise adds some dissipation.
     assert!(decay.abs() < 0.1, "{decay}");
 }
 
 #[test]
-fn under_lo_and_shao_a_standing_wave_decays_too_slowly() {
+fn a_standing_wave_decays_too_slowly_with_lo_and_shao() {
     let [_, decay] = errors(10.0, Viscosity::Laminar { nu: NU, turbulence: None });
-    // The power mu grad v : grad v is half of 2 mu S : S in a flow without vorticity (Colagrossi et al. 2011), less
-    // what is missing at the surface: a third of theory is seen. 40 to 80 % too little: anything else is another
+    // In irrotational flow the power mu grad v : grad v is half of 2 mu S : S (Colagrossi et al. 2011). With the part
+    // missing at the surface, a third of theory is reached. A decay outside 40 to 80 % too little means another
     // viscosity.
     assert!((-0.8..-0.4).contains(&decay), "{decay}");
 }

@@ -1,4 +1,4 @@
-//! Still water stays still, and its pressure hydrostatic.
+//! Still water stays still, and its pressure stays hydrostatic.
 
 use std::path::Path;
 
@@ -8,15 +8,15 @@ use serde_json::{Value, json};
 
 use super::tanks::{GRAVITY, RHO0, run_until, simulation, still_tank};
 
-/// Kinetic energy of the water [J], largest over the first and over the last third of a run.
+/// Largest kinetic energy of the water in the first and in the last third of a run [J].
 #[derive(Default)]
-struct Calming {
+struct KineticEnergy {
     early: f64,
     late: f64,
 }
 
-impl Calming {
-    fn look(&mut self, simulation: &Simulation, end: f64) {
+impl KineticEnergy {
+    fn record(&mut self, simulation: &Simulation, end: f64) {
         let kinetic = simulation.energy().kinetic;
         if simulation.time < end / 3.0 {
             self.early = self.early.max(kinetic);
@@ -27,7 +27,7 @@ impl Calming {
     }
 }
 
-/// Error of the pressure at the points [m], as a share of that on the bed, mean over the second half of a run.
+/// Mean pressure error at points [m] over the second half of a run, as a share of the pressure on the bed [-].
 struct PressureError {
     points: Vec<DVec3>,
     level: f64,
@@ -41,7 +41,7 @@ impl PressureError {
         Self { sums: vec![0.0; points.len()], points, level, depth, count: 0.0 }
     }
 
-    fn look(&mut self, now: &mut PreparedStep, end: f64) {
+    fn record(&mut self, now: &mut PreparedStep, end: f64) {
         if now.time < 0.5 * end || !now.steps.is_multiple_of(5) {
             return;
         }
@@ -53,7 +53,7 @@ impl PressureError {
         self.count += 1.0;
     }
 
-    /// The largest over the points [-].
+    /// Returns the largest error of all points [-].
     fn largest(&self) -> f64 {
         for (point, sum) in self.points.iter().zip(&self.sums) {
             println!("  pressure at {point:.3} m: {:+.2} % of that on the bed", 100.0 * sum / self.count);
@@ -67,55 +67,55 @@ fn a_flat_tank_stays_hydrostatic() {
     let (length, depth, dp, end) = (0.24, 0.3, 0.02, 2.4);
     let mut tank = simulation(&still_tank(length, 0.2, depth, dp, end));
     let mass: f64 = tank.water.mass.iter().sum();
-    let at = |x: f64, z: f64| DVec3::new(x, 0.1, z);
-    let points = [0.04, 0.12, 0.2].iter().flat_map(|&x| [at(x, 0.0), at(x, 0.1), at(x, 0.2)]).collect();
+    let point = |x: f64, z: f64| DVec3::new(x, 0.1, z);
+    let points = [0.04, 0.12, 0.2].iter().flat_map(|&x| [point(x, 0.0), point(x, 0.1), point(x, 0.2)]).collect();
     let mut pressure = PressureError::new(points, depth, depth);
-    let mut calming = Calming::default();
+    let mut kinetic_energy = KineticEnergy::default();
     run_until(&mut tank, end, |now| {
-        pressure.look(now, end);
-        calming.look(now, end);
+        pressure.record(now, end);
+        kinetic_energy.record(now, end);
     });
     let fastest = tank.water.velocity.iter().map(|v| v.length()).fold(0.0, f64::max);
     let largest = pressure.largest();
     println!(
         "flat tank: pressure within {:.2} % of that on the bed, kinetic energy {:.1e} to {:.1e} J, fastest {fastest:.4} m/s",
         100.0 * largest,
-        calming.early,
-        calming.late
+        kinetic_energy.early,
+        kinetic_energy.late
     );
-    // 1 %: a seventh of what a particle distance of water weighs here. The weight of the compressed water is 0.2 % of
-    // it (g d / 2 c0^2, c0 being 15 sqrt(g d)); the kernel, cut off at the surface, makes most of the rest.
+    // 1 %: a seventh of the hydrostatic pressure of a particle spacing. The compression adds 0.2 % (g d / 2 c0^2 with
+    // c0 = 15 sqrt(g d)); most of the rest is due to the truncated kernel at the surface.
     assert!(largest < 0.01);
-    // It starts in equilibrium but for the kernel's truncation at the surface, and what that stirs up dies away.
-    assert!(calming.late < 0.5 * calming.early);
+    // The start is in equilibrium except for the truncated kernel at the surface; the resulting motion decays.
+    assert!(kinetic_energy.late < 0.5 * kinetic_energy.early);
     assert!((tank.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
 }
 
 #[test]
-fn a_gauge_that_rises_shows_the_pressure_of_its_height() {
+fn a_rising_gauge_reads_the_pressure_at_its_height() {
     let (depth, end) = (0.3, 0.4);
     let mut case = still_tank(0.24, 0.2, depth, 0.02, end);
     case["gauges"] = json!([
         { "kind": "pressure", "name": "rising", "at_m": [0.12, 0.1, 0.05], "way": [[0.1, 0.0, 0.0, 0.0], [0.3, 0.02, 0.0, 0.2]] }
     ]);
     let mut tank = simulation(&case);
-    let mut seen = Vec::new();
+    let mut readings = Vec::new();
     run_until(&mut tank, end, |now| {
         let place = now.place_of(&now.case.gauges[0]);
         let pressure = now.sampler().unwrap().sample(place).unwrap().pressure;
-        seen.push((now.time, place, pressure / (RHO0 * GRAVITY * depth) - (1.0 - place.z / depth)));
+        readings.push((now.time, place, pressure / (RHO0 * GRAVITY * depth) - (1.0 - place.z / depth)));
     });
-    let of = |from: f64, to: f64| seen.iter().filter(move |(t, ..)| (from..to).contains(t));
-    assert!(of(0.0, 0.1).all(|(_, place, _)| (place.z - 0.05).abs() < 1e-12));
-    assert!(of(0.19, 0.21).all(|(t, place, _)| (place.z - (0.05 + (t - 0.1))).abs() < 1e-12));
-    assert!(of(0.31, 0.4).all(|(_, place, _)| (place.z - 0.25).abs() < 1e-12 && (place.x - 0.14).abs() < 1e-12));
-    let largest = seen.iter().map(|(_, _, error)| error.abs()).fold(0.0, f64::max);
+    let between = |from: f64, to: f64| readings.iter().filter(move |(t, ..)| (from..to).contains(t));
+    assert!(between(0.0, 0.1).all(|(_, place, _)| (place.z - 0.05).abs() < 1e-12));
+    assert!(between(0.19, 0.21).all(|(t, place, _)| (place.z - (0.05 + (t - 0.1))).abs() < 1e-12));
+    assert!(between(0.31, 0.4).all(|(_, place, _)| (place.z - 0.25).abs() < 1e-12 && (place.x - 0.14).abs() < 1e-12));
+    let largest = readings.iter().map(|(_, _, error)| error.abs()).fold(0.0, f64::max);
     println!("rising gauge: pressure within {:.2} % of that on the bed", 100.0 * largest);
-    // 3 %: half of what a particle distance weighs here; the water comes to rest in the first tenths of a second.
+    // 3 %: half of the hydrostatic pressure of a particle spacing; the water settles in the first tenths of a second.
     assert!(largest < 0.03);
 }
 
-/// The case `cases/verification/still-water.json` with a domain [m] and a duration [s] of its own.
+/// Creates the case `cases/verification/still-water.json` with another domain [m] and duration [s].
 fn mound_with_two_units(x: [f64; 2], end: f64) -> Simulation {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/verification/still-water.json");
     let mut case: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
@@ -125,23 +125,24 @@ fn mound_with_two_units(x: [f64; 2], end: f64) -> Simulation {
     simulation(&case)
 }
 
-fn nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
+fn assert_nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
     let mut flume = mound_with_two_units(x, end);
     let case = flume.case.clone();
     let (level, deepest) = (case.flume.still_level, case.domain.depth);
     let on_bed = |x: f64| DVec3::new(x, 0.08, case.flume.profile.z(x));
-    // Before and behind the mound, on its flanks, and on its crest away from the units.
+    // Points seaward and shoreward of the mound, on its flanks, and on its crest away from the units.
     let places = [38.5, 38.6, 38.8, 38.88, 39.12, 39.2, 39.45, 39.55];
     let mut pressure = PressureError::new(places.map(on_bed).to_vec(), level, deepest);
-    let mut calming = Calming::default();
+    let mut kinetic_energy = KineticEnergy::default();
     let mass: f64 = flume.water.mass.iter().sum();
     run_until(&mut flume, end, |now| {
-        pressure.look(now, end);
-        calming.look(now, end);
+        pressure.record(now, end);
+        kinetic_energy.record(now, end);
     });
     let units = flume.units.as_ref().unwrap();
-    let moved = units.states().iter().zip(&units.start).map(|(now, start)| (now.position - start.position).length());
-    let furthest = moved.fold(0.0, f64::max);
+    let displacements =
+        units.states().iter().zip(&units.start).map(|(now, start)| (now.position - start.position).length());
+    let furthest = displacements.fold(0.0, f64::max);
     let largest = pressure.largest();
     println!(
         "mound: {} particles, {end} s; units moved {:.4} mm (across the ground {:.4?} mm), pressure within {:.2} %, \
@@ -150,25 +151,25 @@ fn nothing_moves_over_the_mound(x: [f64; 2], end: f64) {
         1e3 * furthest,
         units.displacements().iter().map(|d| 1e3 * d).collect::<Vec<_>>(),
         100.0 * largest,
-        calming.early,
-        calming.late
+        kinetic_energy.early,
+        kinetic_energy.late
     );
-    // 0.1 mm: a thousandth of the distance that counts as damage. A unit's own weight presses it 0.03 mm into the bed.
+    // 0.1 mm: a thousandth of the damage distance. The weight of a unit presses it 0.03 mm into the bed.
     assert!(furthest < 1e-4);
-    // 1 %: a tenth of what a particle distance of water weighs.
+    // 1 %: a tenth of the hydrostatic pressure of a particle spacing.
     assert!(largest < 0.01);
-    assert!(calming.late < 0.5 * calming.early);
+    assert!(kinetic_energy.late < 0.5 * kinetic_energy.early);
     assert!((flume.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn nothing_moves_over_a_mound_for_half_a_second() {
-    nothing_moves_over_the_mound([38.4, 39.65], 0.5);
+    assert_nothing_moves_over_the_mound([38.4, 39.65], 0.5);
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture nothing_moves_over_a_mound_for_three_seconds`
 #[test]
-#[ignore = "a quarter of an hour on 2 cores"]
+#[ignore = "15 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture nothing_moves_over_a_mound_for_three_seconds"]
 fn nothing_moves_over_a_mound_for_three_seconds() {
-    nothing_moves_over_the_mound([38.0, 40.0], 3.0);
+    assert_nothing_moves_over_the_mound([38.0, 40.0], 3.0);
 }

@@ -1,4 +1,4 @@
-//! Tanks of water, small and coarse, and how they are run.
+//! Small, coarse tanks of water for the tests, and functions that run them.
 
 use std::sync::Arc;
 
@@ -27,29 +27,29 @@ pub const RHO0: f64 = 1000.0;
 /// Height of the Tetrapods of the Fudo experiment [m].
 pub const UNIT_HEIGHT: f64 = 0.077;
 
-/// The case of a JSON value at its start.
+/// Creates the simulation of a case given as JSON.
 pub fn simulation(case: &Value) -> Simulation {
     let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
     Simulation::new(Arc::new(case)).unwrap()
 }
 
-/// Step until a time [s]; before each step `look` sees the prepared state, in which gauges can be read.
-pub fn run_until(simulation: &mut Simulation, end: f64, mut look: impl FnMut(&mut PreparedStep)) {
+/// Advances until a time [s]; before each time step `observe` gets the prepared state, in which gauges can be read.
+pub fn run_until(simulation: &mut Simulation, end: f64, mut observe: impl FnMut(&mut PreparedStep)) {
     while simulation.time < end {
         let mut step = simulation.begin_step().unwrap();
-        look(&mut step);
+        observe(&mut step);
         step.finish().unwrap();
     }
 }
 
-/// A number of steps.
+/// Advances by a number of time steps.
 pub fn run_steps(simulation: &mut Simulation, steps: u32) {
     for _ in 0..steps {
         simulation.step().unwrap();
     }
 }
 
-/// A flat tank of still water with end walls and periodic sides.
+/// Case of a flat tank of still water with end walls and periodic sides.
 pub fn still_tank(length: f64, width: f64, depth: f64, dp: f64, duration: f64) -> Value {
     json!({
         "title": "Still water",
@@ -63,7 +63,7 @@ pub fn still_tank(length: f64, width: f64, depth: f64, dp: f64, duration: f64) -
     })
 }
 
-/// The same with a Tetrapod in its middle, held all the time.
+/// Case of a square tank with a Tetrapod in its middle that is held all the time.
 pub fn tank_with_held_unit(length: f64, depth: f64, dp: f64, duration: f64) -> Value {
     let mut case = still_tank(length, length, depth, dp, duration);
     case["units"] = json!({
@@ -74,7 +74,7 @@ pub fn tank_with_held_unit(length: f64, depth: f64, dp: f64, duration: f64) -> V
     case
 }
 
-/// A dam of 1 m x 2 m that breaks in a tank of 4 m (Koshizuka & Oka 1996), 10 particles wide.
+/// Case of a dam break of 1 m x 2 m in a tank of 4 m (Koshizuka & Oka 1996), 10 particles wide.
 pub fn dam_break(dp: f64, duration: f64) -> Value {
     json!({
         "title": "Dam break",
@@ -87,13 +87,13 @@ pub fn dam_break(dp: f64, duration: f64) -> Value {
     })
 }
 
-/// Parameters of the scheme with the constants of Mitsui et al. (2023), for a depth [m] that gives the speed of sound.
+/// Returns the parameters of Mitsui et al. (2023); the depth [m] determines the speed of sound.
 pub fn parameters(dp: f64, depth: f64, gravity: f64, periodic_width: Option<f64>) -> Parameters {
     let (h, c0) = (1.2 * 3f64.sqrt() * dp, 15.0 * (GRAVITY * depth).sqrt());
     Parameters::published(dp, h, c0, gravity, periodic_width)
 }
 
-/// Solver, water and boundary without the coupling round them.
+/// Solver, water and boundary without the coupled simulation.
 pub struct BareTank {
     pub solver: Solver,
     pub water: Water,
@@ -101,12 +101,12 @@ pub struct BareTank {
 }
 
 impl BareTank {
-    /// A square tank of still water with end walls and periodic sides, and `unit` as its one unit at the origin.
+    /// Creates a square tank of still water with end walls, periodic sides and one unit at the origin.
     pub fn new(length: f64, depth: f64, dp: f64, unit: &[BoundaryParticle]) -> Self {
         Self::with_instructions(InstructionSet::best(), length, depth, dp, unit)
     }
 
-    /// The same, computed with given instructions.
+    /// Creates such a tank for an instruction set.
     pub fn with_instructions(
         instructions: InstructionSet,
         length: f64,
@@ -118,7 +118,7 @@ impl BareTank {
         Self::of(instructions, parameters, [length, length, depth], &|_| depth, unit)
     }
 
-    /// A tank of a length, width and mean depth [m] with a scheme and the surface z(x) [m].
+    /// Creates a tank of a length, width and mean depth [m] with the surface z(x) [m].
     pub fn of(
         instructions: InstructionSet,
         parameters: Parameters,
@@ -132,8 +132,8 @@ impl BareTank {
         Self { solver, water, boundary }
     }
 
-    /// A square box of side `side`, `width` wide and periodic across, full of weightless water; `unit` as its one unit
-    /// at the origin, if it has particles; `adjust` changes the scheme.
+    /// Creates a box, square in x and z and periodic in y, full of water without gravity. A `unit` with particles is at
+    /// the origin; `adjust` changes the scheme.
     pub fn closed(
         [side, width]: [f64; 2],
         dp: f64,
@@ -156,7 +156,7 @@ impl BareTank {
             velocity: &|_, _| DVec2::ZERO,
             gravity: 0.0,
         };
-        // Round all four walls, from the middle of the lid.
+        // The outline follows all four walls, from the middle of the top.
         let (middle, s) = (0.5 * side, side);
         let corners = [[middle, s], [0.0, s], [0.0, 0.0], [s, 0.0], [s, s], [middle, s]];
         let outline = Outline::new(corners.map(DVec2::from_array).to_vec());
@@ -169,7 +169,7 @@ impl BareTank {
         }
     }
 
-    /// Put the one unit, its centre of mass at `centre` [m], in the water, which leaves its room.
+    /// Moves the unit to `centre` [m], its centre of mass, and removes the water inside it.
     pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3, rotation: DQuat) {
         let (solid, back) = (unit.solid(), rotation.inverse());
         clear_solid(&mut self.water, LEAST_DEPTH * self.solver.parameters.dp, |point| {
@@ -179,14 +179,14 @@ impl BareTank {
         self.boundary.move_unit(0, &BodyState::at_rest(centre, rotation));
     }
 
-    /// One step; `look` sees the state between its halves. Returns its length [s].
-    pub fn step(&mut self, look: impl FnOnce(&mut Self)) -> f64 {
+    /// Advances by one time step and returns its length [s]; `observe` gets the state between its halves.
+    pub fn step(&mut self, observe: impl FnOnce(&mut Self)) -> f64 {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.list(&self.water, &self.boundary);
         self.solver.boundary_densities(&mut self.boundary);
         self.solver.rates();
         let dt = self.solver.limits().time_step(&self.solver.parameters);
-        look(self);
+        observe(self);
         self.solver.predict(dt, &self.water, &mut self.boundary, |_| ());
         self.solver.rates();
         self.solver.correct(dt, &mut self.water, &mut self.boundary);
@@ -194,8 +194,8 @@ impl BareTank {
     }
 }
 
-/// Volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level), whose divergence is 1 and which
-/// does not cross the cut, through the surface below the level.
+/// Returns the volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level) through the surface
+/// below the level. Its divergence is 1, and it vanishes on the plane of the level.
 pub fn volume_below(solid: &Solid, level: f64) -> f64 {
     let vertices = solid.vertices();
     solid.triangles().iter().map(|corners| flux_below(corners.map(|c| vertices[c as usize]), level)).sum()

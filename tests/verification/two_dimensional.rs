@@ -1,4 +1,4 @@
-//! A layer of particles, computed in two dimensions, is what a slice of the same flume is.
+//! A two-dimensional layer of particles gives the results of a three-dimensional slice of the same flume.
 
 use breakwater::simulation::flume::Simulation;
 use glam::{DVec2, DVec3};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::tanks::{GRAVITY, RHO0, dam_break, run_until, simulation, still_tank};
 
-/// The same case as a layer of particles.
+/// Returns the case in two dimensions.
 pub fn in_two_dimensions(mut case: Value) -> Value {
     let domain = case["domain"].as_object_mut().unwrap();
     domain.remove("width_m");
@@ -14,7 +14,7 @@ pub fn in_two_dimensions(mut case: Value) -> Value {
     case
 }
 
-/// Place of the foremost water [m] and kinetic energy a metre of width [J/m].
+/// Returns the position of the tip [m] and the kinetic energy per metre of width [J/m].
 fn tip_and_energy(simulation: &Simulation) -> [f64; 2] {
     let water = &simulation.water;
     let tip = water.position.iter().map(|p| p.x).fold(f64::MIN, f64::max);
@@ -23,7 +23,7 @@ fn tip_and_energy(simulation: &Simulation) -> [f64; 2] {
 }
 
 #[test]
-fn a_dam_breaks_as_in_a_slice() {
+fn a_dam_break_in_a_layer_equals_that_in_a_slice() {
     let (dp, end) = (0.08, 0.6);
     let [slice, layer] = [dam_break(dp, 1.0), in_two_dimensions(dam_break(dp, 1.0))].map(|case| {
         let mut tank = simulation(&case);
@@ -31,7 +31,7 @@ fn a_dam_breaks_as_in_a_slice() {
         tip_and_energy(&tank)
     });
     println!("tip {:.3} and {:.3} m, energy {:.1} and {:.1} J/m", slice[0], layer[0], slice[1], layer[1]);
-    // The same motion from other places of the particles: half a particle distance, and 2 %.
+    // Half a particle spacing and 2 %: the particles start at other positions.
     assert!((slice[0] - layer[0]).abs() < 0.5 * dp && (slice[1] / layer[1] - 1.0).abs() < 0.02);
 }
 
@@ -43,24 +43,24 @@ fn nothing_moves_across_the_flume() {
 }
 
 #[test]
-fn gauges_measure_a_layer() {
+fn gauges_read_level_and_pressure_of_a_layer() {
     let (depth, dp) = (0.4, 0.02);
     let mut tank = simulation(&in_two_dimensions(still_tank(1.0, 0.2, depth, dp, 1.0)));
     let mut read = Vec::new();
     run_until(&mut tank, 1.0, |now| {
         let sampler = now.sampler().unwrap();
-        // Where across the flume does not matter.
+        // The y coordinate must not matter.
         let level = sampler.surface(DVec2::new(0.5, 3.0), 0.0, 0.6).unwrap();
         let at = DVec3::new(0.5, -1.0, 0.1);
         read = vec![level, sampler.sample(at).unwrap().pressure, sampler.occupied(at)];
     });
-    // 0.1 dp; 2 % of the pressure, which rings a little after one second; 2 % of the sum of W V.
+    // Limits: 0.1 dp for the level; 2 % of the pressure, which oscillates after one second; 2 % of the sum of W V.
     assert!((read[0] - depth).abs() < 0.1 * dp, "{read:?}");
     assert!((read[1] / (RHO0 * GRAVITY * (depth - 0.1)) - 1.0).abs() < 0.02, "{read:?}");
     assert!((read[2] - 1.0).abs() < 0.02, "{read:?}");
 }
 
-/// Where water thins out on a beach one or two layers of particles lie over the bed.
+/// At the shoreline, the water is one or two layers of particles deep.
 #[test]
 fn still_water_stays_still_on_a_beach() {
     let mut tank = simulation(&json!({
@@ -77,6 +77,6 @@ fn still_water_stays_still_on_a_beach() {
         }
     });
     println!("fastest {fastest:.3} m/s");
-    // A quarter of sqrt(g d), five particles deep; walls that pull at the water drive it to 1.6 m/s.
+    // 0.25 m/s: a quarter of sqrt(g d) for five particles in the depth. Attractive walls would cause 1.6 m/s.
     assert!(fastest < 0.25);
 }

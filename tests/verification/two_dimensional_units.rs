@@ -1,4 +1,4 @@
-//! Units in two dimensions: slices of cuboids that lie across the flume.
+//! Units in two dimensions: cuboids with their axis across the flume.
 
 use breakwater::simulation::flume::Simulation;
 use serde_json::{Value, json};
@@ -13,28 +13,28 @@ const BOX: [f64; 2] = [0.3, 0.2];
 const DEPTH: f64 = 0.4;
 const DP: f64 = 0.025;
 
-/// The box afloat in the middle of a tank, `width` wide [m] and turned about y [rad].
+/// Case of a floating box in the middle of a tank, of a width [m] and turned about y [rad].
 fn afloat(length: f64, width: f64, turned: f64, duration: f64) -> Value {
     let mut case = in_two_dimensions(still_tank(length, 1.0, DEPTH, DP, duration));
     let half = 0.5 * turned;
     case["units"] = json!({
         "shape": "cuboid", "size_m": [BOX[0], width, BOX[1]], "mass_kg": 0.5 * RHO0 * BOX[0] * width * BOX[1],
         "material": "mortar",
-        // Where across the flume does not matter.
+        // The y coordinate must not matter.
         "poses": [{ "centre_m": [0.5 * length, 7.0, DEPTH], "quaternion_xyzw": [0.0, half.sin(), 0.0, half.cos()] }]
     });
     case["fluid"] = json!({ "sound_speed_factor": 10.0 });
     case
 }
 
-/// Height of the centre over still water [m] and turn about y [rad].
+/// Returns the height of the centre above still water [m] and the rotation about y [rad].
 fn heave_and_roll(tank: &Simulation) -> [f64; 2] {
     let state = tank.units.as_ref().unwrap().states()[0];
     [state.position.z - DEPTH, 2.0 * state.rotation.y.atan2(state.rotation.w)]
 }
 
 #[test]
-fn a_box_floats_in_a_layer_and_stays_in_it() {
+fn a_box_floats_in_a_layer_and_stays_in_its_plane() {
     let width = 0.25;
     let mut tank = simulation(&afloat(1.2, width, 0.0, 2.0));
     let (mut force, mut count) = (0.0, 0.0);
@@ -47,7 +47,7 @@ fn a_box_floats_in_a_layer_and_stays_in_it() {
     let state = tank.units.as_ref().unwrap().states()[0];
     assert_eq!((state.position.y, state.velocity.y), (0.5 * DP, 0.0));
     let out_of_plane = [state.rotation.x, state.rotation.z, state.angular_velocity.x, state.angular_velocity.z];
-    // The inertia tensor of the surface has products of rounding.
+    // 1e-15: the products of inertia are zero to rounding.
     assert!(out_of_plane.iter().all(|turn| turn.abs() < 1e-15), "{out_of_plane:?}");
     let weight = 0.5 * RHO0 * BOX[0] * width * BOX[1] * GRAVITY;
     let [heave, roll] = heave_and_roll(&tank);
@@ -56,21 +56,21 @@ fn a_box_floats_in_a_layer_and_stays_in_it() {
         100.0 * (force / count / weight - 1.0),
         1e3 * heave
     );
-    // It still swings a little: a mean over one second.
+    // 1 %: the mean over one second includes a small oscillation.
     assert!((force / count / weight - 1.0).abs() < 0.01);
-    // A quarter of a particle distance, 6 % of the draught.
+    // A quarter of a particle spacing is 6 % of the draught.
     assert!(heave.abs() < 0.25 * DP && roll.abs() < 2e-3);
 }
 
-/// A unit's width across the flume is of no account: mass and force grow with it.
+/// The width does not change the motion, as mass and force are proportional to it.
 #[test]
-fn a_wider_box_moves_alike() {
+fn a_wider_box_moves_equally() {
     let [narrow, wide] = [0.2, 0.4].map(|width| {
         let mut tank = simulation(&afloat(1.2, width, 0.1, 0.8));
         run_until(&mut tank, 0.6, |_| ());
         heave_and_roll(&tank)
     });
-    // Rounding.
+    // 1e-9: rounding.
     assert!((narrow[0] - wide[0]).abs() < 1e-9 && (narrow[1] - wide[1]).abs() < 1e-9, "{narrow:?} {wide:?}");
     assert!(narrow[1].abs() < 0.099, "the box does not roll");
 }

@@ -1,6 +1,5 @@
-//! What the water does to a Tetrapod that is held in it, against the number of particles in the height of the unit: the
-//! added mass while a stream starts, beside potential flow, the drag of the stream, and drag and lift of a unit that
-//! stands on the bed.
+//! Hydrodynamic force on a fixed Tetrapod against the number of particles in its height. The tests compare the added
+//! mass with potential flow, and check the drag in a steady stream, and drag and lift on the bed.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -15,35 +14,35 @@ use glam::{DQuat, DVec3};
 
 use super::tanks::{BareTank, RHO0, UNIT_HEIGHT};
 
-/// Speed of the stream [m/s]; its acceleration at the start [m/s2], reached in a while [s].
+/// Speed of the stream [m/s]; its acceleration [m/s2] and the time in which the acceleration is reached [s].
 const SPEED: f64 = 0.5;
 const ACCELERATION: f64 = 2.0;
 const RISE: f64 = 0.02;
 
-/// Speed of sound [m/s]: with alpha = 0.05 the viscosity is, beside the stream, that of the Fudo runs.
+/// Speed of sound [m/s]; with alpha = 0.05 the viscosity, relative to the stream, is that of the Fudo runs.
 const C0: f64 = 10.0;
 
-/// Pressure of the water at rest [Pa], above what the wake lacks: as if under 0.1 m of water.
+/// Pressure of the water at rest [Pa], that under 0.1 m of water; it exceeds the underpressure of the wake.
 const PRESSURE: f64 = 1000.0;
 
-/// Added mass over the mass of the displaced water, by finite elements (tools/potential-flow/tetrapod): 0.583, 0.612 and
-/// 0.618 with elements of 0.06, 0.03 and 0.02 heights at the unit, 0.622 by their squares.
+/// Added mass over the mass of the displaced water, by finite elements (tools/potential-flow/tetrapod): 0.583, 0.612
+/// and 0.618 with elements of 0.06, 0.03 and 0.02 heights at the unit, 0.622 by their squares.
 const BY_POTENTIAL_FLOW: f64 = 0.622;
 
-/// How a unit is held.
+/// Position of the fixed unit.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+enum Position {
     /// In the middle of the box.
     Middle,
-    /// On the bed, with one of its three lower legs with the stream.
+    /// On the bed, with one of its three lower legs pointing downstream.
     OneLegForward,
-    /// On the bed, with two of them.
+    /// On the bed, with two of them pointing downstream.
     TwoLegsForward,
 }
 
-impl Place {
-    /// Side of the box and its length, which is periodic, in heights of the unit: a row of units, one behind the other.
-    fn room(self) -> [f64; 2] {
+impl Position {
+    /// Returns side and periodic length of the box in heights of the unit; it models a row of units in the stream.
+    fn box_size(self) -> [f64; 2] {
         match self {
             Self::Middle => [4.0, 5.0],
             Self::OneLegForward | Self::TwoLegsForward => [3.0, 4.0],
@@ -51,7 +50,7 @@ impl Place {
     }
 }
 
-/// A Tetrapod in a box of water that is pushed along y.
+/// A Tetrapod in a box of water that is accelerated along y.
 struct Stream {
     tank: BareTank,
     centre: DVec3,
@@ -61,35 +60,35 @@ struct Stream {
 }
 
 impl Stream {
-    /// Particles of dp = height / `particles`, artificial viscosity `alpha`.
-    fn new(particles: f64, boundary: BoundaryCondition, alpha: f64, place: Place) -> Self {
+    /// Creates the stream with dp = height / `particles` and the artificial viscosity `alpha`.
+    fn new(particles: f64, boundary: BoundaryCondition, alpha: f64, position: Position) -> Self {
         let unit = ArmourUnit::tetrapod(UNIT_HEIGHT, 0.05).unwrap();
         let dp = UNIT_HEIGHT / particles;
-        let size = place.room().map(|heights| (heights * particles).round() * dp);
+        let size = position.box_size().map(|heights| (heights * particles).round() * dp);
         let mut tank = BareTank::closed(size, dp, C0, &particles_of(&unit, dp), |parameters| {
             parameters.viscosity = Viscosity::Artificial { alpha };
-            // The walls of the box let the water pass; along units it never slides.
+            // Free slip on the walls of the box; units have no slip.
             parameters.slip = WallSlip::FreeSlip;
             parameters.boundary = boundary;
         });
         let density = tank.solver.parameters.tait.density(PRESSURE);
         tank.water.density.fill(density);
         tank.boundary.density.fill(density);
-        // Off the lattice of the water.
+        // The centre lies off the lattice of the water.
         let mut centre = 0.5 * DVec3::new(size[0], size[1], size[0]) + dp * DVec3::new(0.3, 0.0, 0.1);
-        let rotation = match place {
-            Place::Middle => DQuat::IDENTITY,
-            Place::OneLegForward => unit.standing_rotation(-FRAC_PI_2),
-            Place::TwoLegsForward => unit.standing_rotation(FRAC_PI_2),
+        let rotation = match position {
+            Position::Middle => DQuat::IDENTITY,
+            Position::OneLegForward => unit.standing_rotation(-FRAC_PI_2),
+            Position::TwoLegsForward => unit.standing_rotation(FRAC_PI_2),
         };
-        if !matches!(place, Place::Middle) {
+        if !matches!(position, Position::Middle) {
             centre.z = unit.standing_height();
         }
         tank.hold(&unit, centre, rotation);
         Self { tank, centre, volume: unit.solid().volume_properties().volume, time: 0.0 }
     }
 
-    /// Let particles find their places, for a while [s].
+    /// Lets the particles settle for a time [s].
     fn settle(&mut self, duration: f64) {
         while self.time < duration {
             self.time += self.tank.step(|_| ());
@@ -97,9 +96,9 @@ impl Stream {
         }
     }
 
-    /// Mean force on the unit [N] between two times [s]. All water is pushed alike, as by a slope of the whole
-    /// flume, with `push` [m/s2] of the time [s] and the mean velocity [m/s]: pressure comes from the unit alone.
-    fn force(&mut self, [from, to]: [f64; 2], push: impl Fn(f64, f64, f64) -> f64) -> DVec3 {
+    /// Returns the mean force on the unit [N] between two times [s]. All water gets the same acceleration [m/s2], a
+    /// function of time [s], mean velocity [m/s] and time step [s], so only the unit causes pressure gradients.
+    fn force(&mut self, [from, to]: [f64; 2], acceleration: impl Fn(f64, f64, f64) -> f64) -> DVec3 {
         let (mut impulse, mut span) = (DVec3::ZERO, 0.0);
         while self.time < to {
             let (centre, mut force) = (self.centre, DVec3::ZERO);
@@ -109,7 +108,7 @@ impl Stream {
             }
             let velocity = &mut self.tank.water.velocity;
             let mean = velocity.iter().map(|v| v.y).sum::<f64>() / velocity.len() as f64;
-            let change = push(self.time, mean, dt) * dt;
+            let change = acceleration(self.time, mean, dt) * dt;
             velocity.iter_mut().for_each(|v| v.y += change);
             self.time += dt;
         }
@@ -117,93 +116,96 @@ impl Stream {
     }
 }
 
-/// Added mass over the mass of the displaced water, without viscosity: when sound has just crossed the box, and again
-/// when a layer of slow water has grown along the unit. The share does not depend on the acceleration.
+/// Returns the added mass without viscosity over the mass of the displaced water: when sound has just crossed the box,
+/// and when a layer of slow water has grown along the unit. It does not depend on the acceleration.
 fn added_mass(particles: f64, boundary: BoundaryCondition) -> [f64; 2] {
-    let mut stream = Stream::new(particles, boundary, 0.0, Place::Middle);
+    let mut stream = Stream::new(particles, boundary, 0.0, Position::Middle);
     stream.settle(0.2);
     let start = stream.time;
-    let push = |time: f64, _, _| ACCELERATION * (0.5 * PI * ((time - start) / RISE).min(1.0)).sin().powi(2);
-    let whole = RHO0 * stream.volume * ACCELERATION;
-    let shares = [[0.02, 0.03], [0.05, 0.06]].map(|span| stream.force(span.map(|time| start + time), push).y / whole);
+    let acceleration = |time: f64, _, _| ACCELERATION * (0.5 * PI * ((time - start) / RISE).min(1.0)).sin().powi(2);
+    let displaced = RHO0 * stream.volume * ACCELERATION;
+    let shares = [[0.02, 0.03], [0.05, 0.06]]
+        .map(|span| stream.force(span.map(|time| start + time), acceleration).y / displaced);
     println!("{particles} particles in the height, {boundary:?}: added mass {shares:.3?} of the displaced water");
     shares
 }
 
-/// Force in the stream over rho / 2 U^2 V^(2/3), while it goes three heights of the unit.
-fn steady_force(particles: f64, boundary: BoundaryCondition, alpha: f64, place: Place) -> DVec3 {
+/// Returns the force in the steady stream over rho / 2 U^2 V^(2/3), averaged over a distance of three heights.
+fn steady_force(particles: f64, boundary: BoundaryCondition, alpha: f64, position: Position) -> DVec3 {
     force_over_pressure(
-        Stream::new(particles, boundary, alpha, place),
-        &format!("{particles} particles in the height, {place:?}, {boundary:?}, alpha = {alpha}"),
+        Stream::new(particles, boundary, alpha, position),
+        &format!("{particles} particles in the height, {position:?}, {boundary:?}, alpha = {alpha}"),
     )
 }
 
-/// That force in a stream, under a name.
+/// Returns the same for a given stream; the name appears in the output.
 fn force_over_pressure(mut stream: Stream, name: &str) -> DVec3 {
     let start = SPEED / ACCELERATION;
-    let push = |time: f64, mean: f64, dt: f64| if time < start { ACCELERATION } else { (SPEED - mean) / dt };
-    let force = stream.force([start + 0.1, start + 0.6], push);
+    let acceleration = |time: f64, mean: f64, dt: f64| if time < start { ACCELERATION } else { (SPEED - mean) / dt };
+    let force = stream.force([start + 0.1, start + 0.6], acceleration);
     let force = force / (0.5 * RHO0 * SPEED * SPEED * stream.volume.powf(2.0 / 3.0));
     println!("{name}: drag {:.3}, lift {:.3}", force.y, force.z);
     force
 }
 
 #[test]
-fn a_stream_that_starts_pushes_at_a_tetrapod_as_potential_flow_does() {
+fn added_mass_of_a_tetrapod_is_that_of_potential_flow() {
     let [first, later] = added_mass(8.0, ModifiedDynamic).map(|share| share / BY_POTENTIAL_FLOW);
-    // 1.2 is seen, with 11 particles as well: particles that slide past those of the unit are slowed down. What the
-    // first moment would be without that layer, by the square root of the time, is about 1.
+    // Reached: 1.2, with 11 particles as well, because the particles of the unit slow down the adjacent water.
+    // Extrapolating with the square root of time to a vanishing layer gives about 1.
     assert!((1.0..1.25).contains(&first) && later > first, "{first} {later}");
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::added_mass`
 #[test]
-#[ignore = "8 minutes on 2 cores"]
-fn added_mass_against_resolution() {
-    let of = |boundary| [5.0, 8.0, 11.0].map(|particles| added_mass(particles, boundary)[0] / BY_POTENTIAL_FLOW);
-    let [coarse, middle, fine] = of(ModifiedDynamic);
-    // The legs of a unit of five particles are less than two thick.
+#[ignore = "8 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture added_mass_converges_with_resolution"]
+fn added_mass_converges_with_resolution() {
+    let results_for =
+        |boundary| [5.0, 8.0, 11.0].map(|particles| added_mass(particles, boundary)[0] / BY_POTENTIAL_FLOW);
+    let [coarse, middle, fine] = results_for(ModifiedDynamic);
+    // With five particles in the height, the legs are less than two particles thick.
     assert!(coarse < 1.0 && (middle - fine).abs() < 0.1, "{coarse} {middle} {fine}");
-    of(Dynamic);
+    results_for(Dynamic);
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::drag`
 #[test]
-#[ignore = "15 minutes on 2 cores"]
-fn drag_falls_with_resolution_and_viscosity() {
-    let of =
-        |boundary, alpha| [5.0, 7.0, 10.0].map(|particles| steady_force(particles, boundary, alpha, Place::Middle).y);
-    let [coarse, _, fine] = of(ModifiedDynamic, 0.05);
-    let [thin, ..] = of(ModifiedDynamic, 0.01);
-    let [sticky, ..] = of(Dynamic, 0.05);
-    assert!(fine < coarse && thin < coarse && coarse < sticky);
+#[ignore = "15 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture drag_falls_with_resolution"]
+fn drag_falls_with_resolution_and_lower_viscosity() {
+    let results_for = |boundary, alpha| {
+        [5.0, 7.0, 10.0].map(|particles| steady_force(particles, boundary, alpha, Position::Middle).y)
+    };
+    let [coarse, _, fine] = results_for(ModifiedDynamic, 0.05);
+    let [less_viscous, ..] = results_for(ModifiedDynamic, 0.01);
+    let [dynamic_walls, ..] = results_for(Dynamic, 0.05);
+    assert!(fine < coarse && less_viscous < coarse && coarse < dynamic_walls);
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::on_the_bed`
 #[test]
-#[ignore = "16 minutes on one core"]
+#[ignore = "16 minutes on one core: \
+    cargo test --release --test verification -- --ignored --nocapture on_the_bed_drag_falls"]
 fn on_the_bed_drag_falls_and_lift_grows_with_resolution() {
-    // 14, 9 and 7 mm for a unit of 77 mm.
-    for place in [Place::OneLegForward, Place::TwoLegsForward] {
-        let of = |particles| steady_force(particles, ModifiedDynamic, 0.05, place);
-        let [coarse, _, fine] = [5.5, 8.5, 11.0].map(of);
+    // Particle spacings of 14, 9 and 7 mm for a unit of 77 mm.
+    for position in [Position::OneLegForward, Position::TwoLegsForward] {
+        let results_for = |particles| steady_force(particles, ModifiedDynamic, 0.05, position);
+        let [coarse, _, fine] = [5.5, 8.5, 11.0].map(results_for);
         assert!(fine.y < coarse.y && fine.z > coarse.z, "{coarse} {fine}");
     }
 }
 
-/// What a unit gets whose surface lets the water slide, beside one that holds it, with a quarter of the viscosity of the Fudo runs:
-/// `cargo test --release --test verification -- --ignored --nocapture unit_in_stream::where_it_slides`
+/// Compares units with and without free slip on their surface at a quarter of the viscosity of the Fudo runs.
 #[test]
-#[ignore = "7 minutes on one core"]
-fn where_it_slides_water_drags_less() {
-    for place in [Place::OneLegForward, Place::TwoLegsForward] {
-        let [holds, slides] = [false, true].map(|slides| {
-            let mut stream = Stream::new(8.5, ModifiedDynamic, 0.0125, place);
-            if slides {
+#[ignore = "7 minutes on one core: \
+    cargo test --release --test verification -- --ignored --nocapture free_slip_on_the_unit_lowers_the_drag"]
+fn free_slip_on_the_unit_lowers_the_drag() {
+    for position in [Position::OneLegForward, Position::TwoLegsForward] {
+        let [no_slip, free_slip] = [false, true].map(|free_slip| {
+            let mut stream = Stream::new(8.5, ModifiedDynamic, 0.0125, position);
+            if free_slip {
                 stream.tank.boundary.slides.fill(true);
             }
-            force_over_pressure(stream, &format!("8.5 particles in the height, {place:?}, slides: {slides}"))
+            force_over_pressure(stream, &format!("8.5 particles in the height, {position:?}, free slip: {free_slip}"))
         });
-        assert!(slides.y < holds.y, "{holds} {slides}");
+        assert!(free_slip.y < no_slip.y, "{no_slip} {free_slip}");
     }
 }

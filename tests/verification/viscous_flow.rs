@@ -1,5 +1,4 @@
-//! Both forms of laminar viscosity, with walls that hold the water and walls that let it slide, against exact
-//! solutions.
+//! Both forms of laminar viscosity with no-slip and free-slip walls, compared with exact solutions.
 
 use std::f64::consts::PI;
 
@@ -17,7 +16,7 @@ use super::tanks::BareTank;
 /// Side of the box [m].
 const SIDE: f64 = 1.0;
 
-/// Particles across the box, which is periodic: as few as the kernel's reach allows.
+/// Particles across the periodic box, the least number that the kernel support allows.
 const ACROSS: f64 = 10.0;
 
 fn lo_shao(nu: f64) -> Viscosity {
@@ -38,7 +37,7 @@ fn viscous(viscosity: Viscosity, slip: WallSlip) -> impl FnOnce(&mut Parameters)
 }
 
 #[test]
-fn the_stress_of_monaghan_and_gingold_resists_both_ways_and_spares_rotation() {
+fn monaghan_gingold_stress_resists_compression_and_expansion_and_ignores_rotation() {
     let (nu, h, r2, rho_a, rho_b) = (0.01_f32, 0.02_f32, 1e-4_f64, 1000.0, 1010.0);
     // K = 10 in three dimensions.
     let stress = |v_dot_r: f64| monaghan_gingold_stress(10.0 * nu, approach_rate(h, v_dot_r, r2), rho_a, rho_b);
@@ -48,30 +47,32 @@ fn the_stress_of_monaghan_and_gingold_resists_both_ways_and_spares_rotation() {
     assert_eq!(stress(0.0), 0.0);
 }
 
-/// Velocity in a square duct of side 1 under a body force, in units of force / nu: the series of Boussinesq (1868).
+/// Returns the velocity in a square duct of side 1 under a body force, over force / nu: the series of Boussinesq
+/// (1868).
 fn duct(x: f64, z: f64) -> f64 {
     let term = |n: u32| {
         let k = f64::from(2 * n + 1) * PI;
         4.0 / k.powi(3) * (1.0 - ((k * (z - 0.5)).cosh() / (0.5 * k).cosh())) * (k * x).sin()
     };
-    // cosh / cosh is even and at most 1: the terms fall with k^-3.
+    // cosh / cosh is at most 1, so the terms fall with k^-3 and 40 are enough.
     (0..40).map(term).sum()
 }
 
 #[test]
-fn series_of_the_duct() {
-    // White, Viscous Fluid Flow: 0.0737 of side^2 force / nu in the middle; nothing on the walls.
+fn duct_series_equals_published_values() {
+    // White, Viscous Fluid Flow: 0.0737 side^2 force / nu in the middle; zero on the walls.
     assert!((duct(0.5, 0.5) - 0.07367).abs() < 2e-5);
     assert!(duct(0.5, 0.0).abs() < 1e-12 && duct(0.0, 0.3).abs() < 1e-12);
 }
 
-/// Largest error of the flow in a duct with a number of particles a side, as a share of the velocity in the middle.
+/// Returns the largest velocity error in a duct with a number of particles per side, over the velocity in the middle
+/// [-].
 fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
     let (dp, nu, fastest) = (SIDE / particles, 0.1, 1.0);
     let force = fastest * nu / duct(0.5, 0.5);
     let mut tank = BareTank::closed([SIDE, ACROSS * dp], dp, 10.0 * fastest, &[], viscous(form(nu), WallSlip::NoSlip));
     let mut time = 0.0;
-    // The slowest mode dies with 2 pi^2 nu / side^2: e^-8 is left.
+    // The slowest mode decays with 2 pi^2 nu / side^2, here to e^-8.
     while time < 4.0 {
         let dt = tank.step(|_| ());
         tank.water.velocity.iter_mut().for_each(|v| v.y += force * dt);
@@ -84,7 +85,7 @@ fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
     let rms = (square / tank.water.len() as f64).sqrt();
     let form = form(nu);
     println!(
-        "duct, {particles} a side, {form:?}: largest error {:.2} %, rms {:.2} % of the largest",
+        "duct, {particles} particles per side, {form:?}: largest error {:.2} %, rms {:.2} % of the velocity in the middle",
         100.0 * largest,
         100.0 * rms
     );
@@ -92,36 +93,36 @@ fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
 }
 
 #[test]
-fn force_driven_flow_in_a_duct_sticks_to_the_walls() {
-    // 2 %: a twentieth of the box lies between particles.
+fn duct_flow_with_lo_and_shao_equals_the_exact_solution() {
+    // 2 %: the particle spacing is a twentieth of the side.
     assert!(error_in_the_duct(20.0, lo_shao) < 0.02);
 }
 
 #[test]
-fn force_driven_flow_in_a_duct_with_the_viscosity_of_monaghan_and_gingold() {
-    // 3.5 %: 2.8 % is seen, 2.4 % with 28 particles a side. The walls make the water too stiff by about 2.7 and 1.9 %.
-    // To this the sum over the particles adds 0.1 and 0.5 % here, more with more particles (1.1 % at this h / dp and
-    // no dp); that of Lo & Shao takes 1.4 % away with 20 a side, so that there the errors partly cancel.
+fn duct_flow_with_monaghan_and_gingold_equals_the_exact_solution() {
+    // Reached: 2.8 % with 20 particles per side and 2.4 % with 28. The walls make the flow too slow by about 2.7 and
+    // 1.9 %. The sum over the particles adds 0.1 and 0.5 %, and 1.1 % in the limit of small dp at this h / dp. The sum
+    // of Lo & Shao has -1.4 % with 20 particles per side, so there the errors partly cancel.
     assert!(error_in_the_duct(20.0, monaghan_gingold) < 0.035);
 }
 
-/// How the particles of a Taylor-Green vortex stand at its start.
+/// Initial arrangement of the particles of a Taylor-Green vortex.
 #[derive(Clone, Copy)]
 enum Start {
     Lattice,
-    /// In the even disorder to which a flow brings them: moved off the lattice at random, then left to settle.
+    /// Uniform disorder as in a flow: random shifts off the lattice, then settled.
     Settled,
 }
 
-/// A Taylor-Green vortex of the speed 1 m/s that fills the box.
+/// A Taylor-Green vortex that fills the box with a largest velocity of 1 m/s.
 struct Vortex {
     tank: BareTank,
-    /// Rate at which its energy falls, 4 nu (pi / side)^2 [1/s].
+    /// Exact decay rate of its energy, 4 nu (pi / side)^2 [1/s].
     rate: f64,
 }
 
 impl Vortex {
-    /// With Reynolds number 100 and a number of particles a side.
+    /// Creates the vortex with Reynolds number 100 and a number of particles per side.
     fn new(particles: f64, form: fn(f64) -> Viscosity, start: Start) -> Self {
         let (dp, nu, speed, wave) = (SIDE / particles, 0.01, 1.0, PI / SIDE);
         let mut tank =
@@ -134,7 +135,7 @@ impl Vortex {
         for ((velocity, density), p) in water.velocity.iter_mut().zip(&mut water.density).zip(&water.position) {
             let (x, z) = (wave * p.x, wave * p.z);
             *velocity = speed * DVec3::new(x.sin() * z.cos(), 0.0, -x.cos() * z.sin());
-            // Pressure of the vortex, and enough besides to keep it positive.
+            // Pressure of the vortex plus a constant that keeps it positive.
             let shape = (2.0 * x).cos() + (2.0 * z).cos() + 4.0;
             *density = tait.density(0.25 * tait.rho0 * speed * speed * shape);
         }
@@ -147,7 +148,7 @@ impl Vortex {
         water.velocity.iter().zip(&water.mass).map(|(v, m)| 0.5 * m * v.length_squared()).sum()
     }
 
-    /// Power that viscosity takes at the start over that of theory, -1.
+    /// Returns the power of viscosity at the start over that of theory, minus 1 [-].
     fn excess_of_power(mut self) -> f64 {
         let exact = self.rate * self.energy();
         let mut powers = Powers::default();
@@ -155,7 +156,7 @@ impl Vortex {
         -powers.viscosity / exact - 1.0
     }
 
-    /// Rate at which the energy falls over 2 s, to e^-0.8, over that of theory, -1.
+    /// Returns the decay rate over 2 s, to e^-0.8, over that of theory, minus 1 [-].
     fn excess_of_decay(mut self) -> f64 {
         let (start, mut time) = (self.energy(), 0.0);
         while time < 2.0 {
@@ -165,8 +166,8 @@ impl Vortex {
     }
 }
 
-/// Move the particles by up to `most` [m] along each axis, the same way each time (the generator is Knuth's MMIX), and
-/// let them settle under a pressure [Pa], without which nothing would drive them apart.
+/// Shifts the particles by up to `most` [m] along each axis with reproducible random numbers (Knuth's MMIX). Then lets
+/// them settle under a pressure [Pa], which drives them apart.
 fn settle(tank: &mut BareTank, most: f64, pressure: f64) {
     let mut state = 1_u64;
     let mut number = || {
@@ -181,55 +182,55 @@ fn settle(tank: &mut BareTank, most: f64, pressure: f64) {
         *density = compressed;
     }
     let mut time = 0.0;
-    // 0.3 s: sound has crossed the box three times, and viscosity has brought the particles to a fiftieth of the speed
-    // that the vortex will have.
+    // 0.3 s: sound crosses the box three times, and viscosity reduces the velocities to a fiftieth of that of the
+    // vortex.
     while time < 0.3 {
         time += tank.step(|_| ());
     }
 }
 
 #[test]
-fn the_power_of_viscosity_in_a_taylor_green_vortex() {
+fn power_of_viscosity_in_a_taylor_green_vortex_is_that_of_theory() {
     for (form, name) in [(lo_shao as fn(f64) -> _, "Lo & Shao"), (monaghan_gingold, "Monaghan & Gingold")] {
         let excess = Vortex::new(40.0, form, Start::Lattice).excess_of_power();
         println!("Taylor-Green, {name}: power of viscosity at the start {:+.2} %", 100.0 * excess);
-        // 2 %: without walls the sum over a lattice misses nu laplace v by -0.3 % (Lo & Shao) and +0.9 % (Monaghan &
-        // Gingold); one part falls with (kh)^2, the other, +0.2 and +1.1 %, depends on h / dp alone. The walls, whose
-        // velocities are interpolated over the kernel, add 0.7 %, three times as much with half as many particles.
+        // 2 %: without walls the lattice sum of nu laplace v has errors of -0.3 % (Lo & Shao) and +0.9 % (Monaghan &
+        // Gingold). One part falls with (kh)^2; the other, +0.2 and +1.1 %, depends on h / dp only. The walls, whose
+        // velocities are interpolated over the kernel, add 0.7 %, and three times that with half as many particles.
         assert!(excess.abs() < 0.02, "{name}: {excess}");
     }
 }
 
 #[test]
-fn a_taylor_green_vortex_decays_at_its_rate() {
+fn a_taylor_green_vortex_decays_at_the_rate_of_theory() {
     for (form, name) in [(lo_shao as fn(f64) -> _, "Lo & Shao"), (monaghan_gingold, "Monaghan & Gingold")] {
         let excess = Vortex::new(20.0, form, Start::Settled).excess_of_decay();
-        println!("Taylor-Green, {name}, 20 particles a side: decay {:+.1} %", 100.0 * excess);
-        // 8 %. The sum for the viscosity and the walls make 1.4 % (test above, settled particles). The strain of the
-        // vortex pushes particles together, they give way sideways, and viscosity takes the energy of this noise: 4 %.
-        // Pressure, with which the water answers the noise, takes 1 %. All this falls with dp: over the first second
-        // 5.7 and 4.2 % are seen with 20 and 30 particles a side, the power 0.8.
-        // Started on the lattice the vortex decays 23 and 21 % too fast with 20 and with 40 particles a side: its
-        // strain deforms the lattice until it collapses, all at once, between 0.3 and 0.6 s; for a moment viscosity
-        // then takes twice what it should. Density diffusion after Antuono et al. (2010) or a correction of the
-        // velocity for the shift (Lind et al. 2012) change that by 2 % at most; a threefold shift with the largest
-        // speed in place of the local one halves it.
+        println!("Taylor-Green, {name}, 20 particles per side: decay rate {:+.1} %", 100.0 * excess);
+        // 8 %. The viscosity sum and the walls cause 1.4 % (test above, settled particles). The strain of the vortex
+        // pushes particles together and sideways; viscosity dissipates this noise, 4 %, and the pressure response to
+        // the noise takes 1 %. All of it falls with dp to the power 0.8: over the first second 5.7 and 4.2 % with 20
+        // and 30 particles per side. From a lattice the vortex decays 23 and 21 % too fast with 20 and 40 particles per
+        // side. Its strain deforms the lattice until it collapses at once, between 0.3 and 0.6 s, while viscosity
+        // dissipates twice its share. Density diffusion of Antuono et al. (2010) or a velocity correction for the
+        // shifting (Lind et al. 2012) change that by 2 % at most. Three times the shifting, with the largest speed
+        // instead of the local one, halves it.
         assert!(excess.abs() < 0.08, "{name}: {excess}");
     }
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture taylor_green_vortex_on_finer`
 #[test]
-#[ignore = "10 minutes"]
-fn a_taylor_green_vortex_on_finer_particles() {
+#[ignore = "10 minutes: \
+    cargo test --release --test verification -- --ignored --nocapture decay_error_of_a_taylor_green_vortex"]
+fn decay_error_of_a_taylor_green_vortex_falls_with_resolution() {
     for (start, name) in [(Start::Settled, "settled"), (Start::Lattice, "on a lattice")] {
         let excess = [20.0, 30.0, 40.0].map(|particles| {
             let excess = Vortex::new(particles, lo_shao, start).excess_of_decay();
-            println!("Taylor-Green, {name}, {particles} particles a side: decay {:+.1} %", 100.0 * excess);
+            println!("Taylor-Green, {name}, {particles} particles per side: decay rate {:+.1} %", 100.0 * excess);
             excess
         });
         if let Start::Settled = start {
-            // First order is a half with half of dp; between that and the same lies what single runs scatter by.
+            // First order would give a factor of 0.5 for half the particle spacing; 0.75 allows for scatter of single
+            // runs.
             assert!(excess[2] < 0.75 * excess[0], "{excess:?}");
         }
     }

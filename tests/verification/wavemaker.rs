@@ -1,4 +1,4 @@
-//! From the flume model to the particles: the wavemaker's rows and the water at a hot start.
+//! Coupling of the flume model with the particles: the rows of the wavemaker, and the water at a start within a wave.
 
 use breakwater::simulation::flume::{incoming::ml_piston, step::PreparedStep};
 use glam::DVec2;
@@ -8,7 +8,7 @@ use super::tanks::{run_until, simulation};
 
 const STILL_LEVEL: f64 = 0.4;
 
-/// A flat flume of 0.4 m of water with a wave of 8 cm, particles from 6 to 8 m, from a flume time [s] on.
+/// Case of a flat flume with 0.4 m of water and a wave of 8 cm; particles from 6 to 8 m start at a flume time [s].
 fn flume(start_s: f64, dp: f64) -> Value {
     json!({
         "title": "A solitary wave in a flat flume",
@@ -21,7 +21,7 @@ fn flume(start_s: f64, dp: f64) -> Value {
     })
 }
 
-/// Flume time at which the crest passes x = 7 m, about [s].
+/// Approximate flume time at which the crest passes x = 7 m [s].
 const PASSING: f64 = 5.2;
 
 #[test]
@@ -37,12 +37,12 @@ fn rows_of_the_wavemaker_follow_the_multi_layer_piston() {
         let row = piston.row_heights_m().iter().position(|z| (z - anchor.z).abs() < 1e-9).unwrap();
         let time = simulation.flume_time();
         let moved = simulation.boundary.position[particle] - *anchor;
-        // 1e-12 m: rounding of a place some metres from the origin.
+        // 1e-12 m: rounding of a position some metres from the origin.
         assert!((moved.x - piston.displacement_m(row, time)).abs() < 1e-12 && moved.y == 0.0 && moved.z == 0.0);
         assert_eq!(simulation.boundary.velocity[particle].x, piston.velocity_m_s(row, time));
         furthest = furthest.max(moved.x);
     }
-    println!("wavemaker: furthest row has moved {:.1} mm", 1e3 * furthest);
+    println!("wavemaker: largest displacement of a row {:.1} mm", 1e3 * furthest);
     assert!(furthest > 0.01);
 }
 
@@ -51,7 +51,7 @@ fn elevation(now: &mut PreparedStep, x: f64) -> f64 {
 }
 
 #[test]
-fn water_starts_as_the_flume_model_says() {
+fn water_starts_with_elevation_and_velocity_of_the_flume_model() {
     let dp = 0.032;
     let mut simulation = simulation(&flume(PASSING, dp));
     let mut now = simulation.begin_step().unwrap();
@@ -74,8 +74,8 @@ fn water_starts_as_the_flume_model_says() {
     now.finish().unwrap();
 }
 
-/// The 4.5 cm wave of the Fudo experiment over the bare slope, which ends at a wall 1.4 m from the wavemaker both for
-/// the flume model and for the particles, from a flume time [s] until after its crest.
+/// Case of the 4.5 cm wave of the Fudo experiment over the bare slope. The flume model and the particles end at a wall
+/// 1.4 m from the wavemaker. The run lasts from a flume time [s] until after the crest.
 fn bare_slope(start_s: f64, dp: f64, sound_speed_factor: f64) -> Value {
     json!({
         "title": "The 4.5 cm wave against a wall",
@@ -89,12 +89,12 @@ fn bare_slope(start_s: f64, dp: f64, sound_speed_factor: f64) -> Value {
     })
 }
 
-/// The crest half a metre from the wavemaker, by particles and by the flume model.
-fn crest_comes_as_in_the_flume(start_s: f64, dp: f64, sound_speed_factor: f64) {
+/// Compares the crest of the particles with that of the flume model 0.5 m from the wavemaker.
+fn assert_crest_follows_the_flume_model(start_s: f64, dp: f64, sound_speed_factor: f64) {
     let (height, x, level) = (0.045, 37.0, 0.8);
     let mut simulation = simulation(&bare_slope(start_s, dp, sound_speed_factor));
     let end = simulation.case.stop.duration;
-    let (mut particles, mut flume, mut apart) = ([0.0; 2], [0.0; 2], 0.0_f64);
+    let (mut particles, mut flume, mut largest_difference) = ([0.0; 2], [0.0; 2], 0.0_f64);
     run_until(&mut simulation, end, |now| {
         if !now.steps.is_multiple_of(20) {
             return;
@@ -102,33 +102,33 @@ fn crest_comes_as_in_the_flume(start_s: f64, dp: f64, sound_speed_factor: f64) {
         let time = now.flume_time();
         let surface = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.6, 1.1).unwrap() - level;
         let expected = now.flume.as_ref().unwrap().elevation(x, time);
-        apart = apart.max((surface - expected).abs());
+        largest_difference = largest_difference.max((surface - expected).abs());
         let keep_higher = |crest: &mut [f64; 2], eta| *crest = if eta > crest[0] { [eta, time] } else { *crest };
         keep_higher(&mut particles, surface);
         keep_higher(&mut flume, expected);
     });
     println!(
-        "dp = {dp} m: crest {:.4} m at {:.3} s, flume {:.4} m at {:.3} s; at most {:.1} mm apart",
+        "dp = {dp} m: crest {:.4} m at {:.3} s, flume model {:.4} m at {:.3} s; largest difference {:.1} mm",
         particles[0],
         particles[1],
         flume[0],
         flume[1],
-        1e3 * apart
+        1e3 * largest_difference
     );
-    // The crest has come through: it is not the last that was seen.
+    // The crest passes before the end of the run.
     assert!(flume[1] < 20.4 && flume[0] > 2.0 * height);
     assert!((particles[0] - flume[0]).abs() < 0.05 * height);
     assert!((particles[1] - flume[1]).abs() < 0.05);
 }
 
 #[test]
-fn the_crest_comes_as_in_the_flume_coarse() {
-    crest_comes_as_in_the_flume(19.6, 0.014, 10.0);
+fn crest_near_the_wavemaker_follows_the_flume_model_coarse() {
+    assert_crest_follows_the_flume_model(19.6, 0.014, 10.0);
 }
 
-/// `cargo test --release --test verification -- --ignored --nocapture the_crest_comes_as_in_the_flume`
 #[test]
-#[ignore = "half an hour on 2 cores"]
-fn the_crest_comes_as_in_the_flume() {
-    crest_comes_as_in_the_flume(18.2, 0.007, 15.0);
+#[ignore = "30 minutes on 2 cores: \
+    cargo test --release --test verification -- --ignored --nocapture crest_near_the_wavemaker_follows"]
+fn crest_near_the_wavemaker_follows_the_flume_model_fine() {
+    assert_crest_follows_the_flume_model(18.2, 0.007, 15.0);
 }

@@ -1,4 +1,4 @@
-//! The wave chain against analytic waves and an independent layered calculation of the Fudo flume. Run with
+//! The flume model compared with analytic waves and with an independent layered calculation of the Fudo flume. Run with
 //! `--release`: half a minute.
 
 use breakwater::geometry::profile::Profile;
@@ -12,7 +12,7 @@ const GRAVITY: f64 = 9.81;
 const STILL_LEVEL_M: f64 = 0.8;
 const GAUGES_X_M: [f64; 8] = [9.5, 19.0, 25.0, 29.0, 33.0, 36.0, 38.0, 39.0];
 
-/// Height of the wave [m], crests at the gauges [m], largest velocity at x = 33 m [m/s], stroke of the water there [m].
+/// Wave height [m], crests at the gauges [m], and largest velocity [m/s] and stroke of the water [m] at x = 33 m.
 struct Expected {
     height_m: f64,
     crests_m: [f64; 8],
@@ -78,58 +78,58 @@ fn stroke(record: &FlumeRecord, x: f64) -> f64 {
     largest_displacement(&piston, 3)
 }
 
-/// The stroke of a row [m]: the wave that comes back from the shore takes the water back.
+/// Returns the largest displacement of a row [m]; the wave reflected by the shore reverses it later.
 fn largest_displacement(piston: &MlPiston, row: usize) -> f64 {
     (0..1500).map(|i| piston.displacement_m(row, 0.02 * f64::from(i))).fold(0.0, f64::max)
 }
 
 #[test]
-fn crests_velocity_and_stroke_along_the_fudo_flume() {
+fn fudo_waves_have_the_crests_velocities_and_strokes_of_another_model() {
     for expected in &EXPECTED {
-        let begun = std::time::Instant::now();
+        let clock = std::time::Instant::now();
         let record = fudo(fudo_bed(), expected.height_m, 0.05, 2);
         println!(
             "H = {} m: {:.2} s, volume error {:.1e}",
             expected.height_m,
-            begun.elapsed().as_secs_f64(),
+            clock.elapsed().as_secs_f64(),
             record.volume_error
         );
-        // Fluxes are shared by two cells and none crosses a wall: rounding over 5,000 steps.
+        // 1e-10: rounding over 5,000 time steps; a flux leaves one cell and enters the next, and none crosses a wall.
         assert!(record.volume_error < 1e-10);
         for (gauge, crest_m) in expected.crests_m.iter().enumerate() {
             let (crest, time) = record.crest(gauge);
             let error = crest / crest_m - 1.0;
             println!("  x = {:5.1} m: crest {:.5} m at {time:.3} s, {:+.2} %", GAUGES_X_M[gauge], crest, 100.0 * error);
-            // The table comes from another layered calculation, rounded to 0.1 mm.
+            // 2 %: the expected values come from another layered calculation and are rounded to 0.1 mm.
             assert!(error.abs() < 0.02, "x = {}: {error}", GAUGES_X_M[gauge]);
         }
         let (velocity, stroke) = (largest_velocity(&record, 33.0), stroke(&record, 33.0));
         println!("  u at 33 m {velocity:.4} m/s, stroke {stroke:.4} m");
-        // As above; the stroke is given with two digits.
+        // 3 and 4 %: as above, and the stroke has only two digits.
         assert!((velocity / expected.velocity_m_s - 1.0).abs() < 0.03);
         assert!((stroke / expected.stroke_m - 1.0).abs() < 0.04);
     }
 }
 
 #[test]
-fn half_the_cell_and_more_layers_change_the_crests_little() {
+fn finer_cells_and_more_layers_change_the_crests_little() {
     let height_m = EXPECTED[2].height_m;
     let coarse = fudo(fudo_bed(), height_m, 0.05, 2);
     for (cell_m, layers) in [(0.025, 2), (0.05, 3)] {
-        let begun = std::time::Instant::now();
+        let clock = std::time::Instant::now();
         let other = fudo(fudo_bed(), height_m, cell_m, layers);
-        println!("cell {cell_m} m, K = {layers}: {:.2} s", begun.elapsed().as_secs_f64());
+        println!("cell {cell_m} m, K = {layers}: {:.2} s", clock.elapsed().as_secs_f64());
         for (gauge, x) in GAUGES_X_M.iter().enumerate() {
             let change = coarse.crest(gauge).0 / other.crest(gauge).0 - 1.0;
             println!("  x = {x:5.1} m: {:+.2} %", 100.0 * change);
-            // The wave of 6.4 cm is close to breaking at 39 m, where its crest is sharpest.
+            // 2 %: the 6.4 cm wave is close to breaking at 39 m, where its crest is sharpest.
             assert!(change.abs() < 0.02);
         }
     }
 }
 
 #[test]
-fn waves_pass_the_mound_alike_on_both_grids() {
+fn waves_over_the_mound_agree_on_two_grids() {
     let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
     for expected in [&EXPECTED[0], &EXPECTED[2]] {
         let [coarse, fine] = [0.05, 0.025].map(|cell_m| fudo(bed.clone(), expected.height_m, cell_m, 2));
@@ -137,34 +137,34 @@ fn waves_pass_the_mound_alike_on_both_grids() {
         let crests = [coarse.crest(7).0, fine.crest(7).0];
         let speeds = [largest_velocity(&coarse, 39.0), largest_velocity(&fine, 39.0)];
         println!("H = {} m: crests over the mound {crests:.4?} m, u {speeds:.3?} m/s", expected.height_m);
-        // The mound's flanks are two cells long on the coarse grid.
+        // 5 %: the flanks of the mound are two cells long on the coarse grid.
         assert!((crests[0] / crests[1] - 1.0).abs() < 0.05 && (speeds[0] / speeds[1] - 1.0).abs() < 0.05);
-        // It reflects a little and shoals a little: the crest stays near that without it.
+        // The mound reflects and shoals the wave a little, so the crest stays near that without a mound.
         assert!((crests[1] / expected.crests_m[7] - 1.0).abs() < 0.2);
     }
 }
 
 #[test]
-fn piston_near_the_mound_runs_in_production_form() {
+fn piston_near_the_mound_has_similar_strokes_over_the_depth() {
     let bed = fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
     let record = fudo(bed, 0.045, 0.05, 2);
-    let begun = std::time::Instant::now();
+    let clock = std::time::Instant::now();
     let x0 = 36.5;
     let heights: Vec<f64> = (0..80).map(|k| record.profile.z(x0) + 0.005 * (f64::from(k) + 0.5)).collect();
     let start = start_time(&record, x0, 0.03);
     let piston = MlPiston::from_record(&record, x0, &heights, [start, 28.0], 0.02, None);
-    println!("80 rows from t = {start:.2} s: {:.2} s", begun.elapsed().as_secs_f64());
+    println!("80 rows from t = {start:.2} s: {:.2} s", clock.elapsed().as_secs_f64());
     let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();
-    println!("strokes at the bed, in the water, above it {strokes:.4?} m");
-    // The wave is long: rows differ by what u varies over the depth, a few per cent.
+    println!("strokes at the bed, in the water, above the water {strokes:.4?} m");
+    // 10 %: the velocity of a long wave varies by a few per cent over the depth, and so do the strokes.
     assert!(strokes.iter().all(|stroke| (stroke / strokes[1] - 1.0).abs() < 0.1));
-    let euler: f64 = (0..1400)
+    let fixed_point_stroke: f64 = (0..1400)
         .map(|i| 0.02 * f64::from(i))
         .filter(|&t| t >= start)
         .map(|t| record.velocity(x0, 0.7, t).0.max(0.0) * 0.02)
         .sum();
-    // Following the water gives a longer stroke than the velocity at a fixed place.
-    assert!(strokes[1] > 1.05 * euler, "{} {euler}", strokes[1]);
+    // Following the water gives a longer stroke than the velocity at a fixed position.
+    assert!(strokes[1] > 1.05 * fixed_point_stroke, "{} {fixed_point_stroke}", strokes[1]);
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn lake_at_rest_stays_at_rest_over_mound_island_and_shore() {
             breaking: Breaking::default(),
         });
         (0..1000).for_each(|_| flume.step());
-        // Levels are sums of bed and depth: rounding of 1e-16 m, not amplified.
+        // 1e-12: levels are sums of bed and depth with a rounding of 1e-16 m, which is not amplified.
         assert!(flume.largest_elevation_m() < 1e-12, "{}", flume.largest_elevation_m());
         assert!(flume.largest_velocity_m_s() < 1e-12, "{}", flume.largest_velocity_m_s());
     }
@@ -227,15 +227,15 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
         let phase = (place - start) / (celerity * flume.time_s()) - 1.0;
         println!("K = {layers}: amplitude {:+.3} %, phase {:+.3} %", 100.0 * amplitude, 100.0 * phase);
         assert!((flume.volume_m2() / volume - 1.0).abs() < 1e-12);
-        // K = 2: the target. K = 1 and 3: what was reached, rounded up, so that a change for the worse shows.
+        // K = 2: the target. K = 1 and 3: the reached values, rounded up, so that a regression shows.
         let (most_amplitude, most_phase) = [(0.025, 0.01), (0.005, 0.002), (0.0025, 0.001)][layers - 1];
         assert!(amplitude.abs() < most_amplitude && phase.abs() < most_phase);
     }
 }
 
-/// Synolakis (1987): a wave of H/d = 0.0185 on a beach of 1:19.85 runs up to R/d = 0.074..0.078 without breaking.
+/// Synolakis (1987): a non-breaking wave of H/d = 0.0185 on a beach of 1:19.85 has a run-up of R/d = 0.074 to 0.078.
 #[test]
-fn run_up_on_a_plane_beach() {
+fn run_up_on_a_plane_beach_is_that_of_synolakis() {
     let shore_x = 20.0 + 0.8 * 19.85;
     let profile = Profile::new(vec![[0.0, 0.0], [20.0, 0.0], [20.0 + 1.2 * 19.85, 1.2]]);
     let theory = PistonTheory::Rayleigh;
@@ -263,13 +263,12 @@ fn run_up_on_a_plane_beach() {
     };
     let run_up = record.times_s().iter().map(wet).fold(0.0, f64::max) - STILL_LEVEL_M;
     println!("R/d = {:.4}", run_up / 0.8);
-    // The laboratory's spread and a cell's rise of 2.5 mm (0.003 d) on either side: without friction the model is
-    // above it.
+    // The scatter of the laboratory, plus 2.5 mm (0.003 d) on either side, the rise of the beach in a cell.
     assert!((0.071..0.081).contains(&(run_up / 0.8)));
 }
 
 #[test]
-fn odd_but_valid_flumes_finish() {
+fn extreme_flumes_stay_stable() {
     let mound = || fudo_bed().with_mound([38.84, 39.16], 0.717, [2.0, 2.0]).unwrap();
     let beach = Profile::new(vec![[0.0, 0.0], [15.0, 0.0], [27.0, 1.2]]);
     let reef = Profile::new(vec![[0.0, 0.0], [12.0, 0.0], [13.0, 0.75], [16.0, 0.75], [16.1, 0.1], [25.0, 0.1]]);
@@ -281,14 +280,14 @@ fn odd_but_valid_flumes_finish() {
         ("breaking, coarse cells", beach, 0.3, 0.25, 1),
         ("reef", reef, 0.15, 0.05, 2),
         ("island", island, 0.15, 0.05, 2),
-        ("slope from the piston on", slope_at_once, 0.1, 0.1, 2),
+        ("slope from the piston", slope_at_once, 0.1, 0.1, 2),
         ("mound, eight layers", mound(), 0.064, 0.1, 8),
         ("mound, high wave", mound(), 0.2, 0.05, 2),
         ("mound, one layer", mound(), 0.064, 0.05, 1),
     ];
     for (name, profile, height_m, cell_m, layers) in setups {
         let theory = PistonTheory::Boussinesq;
-        let begun = std::time::Instant::now();
+        let clock = std::time::Instant::now();
         let result = run(&FlumeSetup {
             profile,
             still_level_m: STILL_LEVEL_M,
@@ -308,11 +307,11 @@ fn odd_but_valid_flumes_finish() {
         });
         let record = result.unwrap_or_else(|error| panic!("{name}: {error}"));
         let state = record.state_at(25.0);
-        println!("{name}: {:.2} s, volume error {:.1e}", begun.elapsed().as_secs_f64(), record.volume_error);
+        println!("{name}: {:.2} s, volume error {:.1e}", clock.elapsed().as_secs_f64(), record.volume_error);
         assert!(record.volume_error < 1e-10);
         let wet = state.columns.iter().filter(|c| c.surface_m > c.bed_m + 1e-3);
         let highest = wet.map(|c| c.surface_m).fold(0.0, f64::max);
-        // No law behind it: 3.5 wave heights is only a guard against a run-up that blows up.
+        // 3.5 wave heights only detect an unstable run-up; no law gives this limit.
         println!("  highest water at the end {:+.2} H", (highest - STILL_LEVEL_M) / height_m);
         assert!(highest < STILL_LEVEL_M + 3.5 * height_m, "{name}: {highest}");
     }

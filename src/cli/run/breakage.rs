@@ -23,9 +23,10 @@ use crate::{
     },
 };
 
-/// Do the units break? Re-runs the hardest impacts of a finished run at prototype scale, with units that deform and crack,
-/// as the case's `fracture` says. `run` does so at its end; this command continues after an interruption, or starts again
-/// with another `fracture` in the run's case.json.
+/// Re-run the hardest impacts of a finished run at prototype scale, with units that can break.
+///
+/// Settings: `fracture` in the case. `run` does this at its end; use this command to continue after an interruption, or
+/// to repeat it after a change of `fracture` in the case.json of the run.
 #[derive(Args)]
 pub struct BreakageArguments {
     /// Folder of the run.
@@ -44,7 +45,7 @@ impl BreakageArguments {
             AnyCase::Dry(case) => case.fracture.is_some(),
         };
         if !asks {
-            let what = "has no `fracture`: write there what the units are made of, and run the case again";
+            let what = "has no `fracture`; add it with the material of the units to the case, and rerun the case";
             return Err(Trouble::refused(format!("{}: {what}", file.display())));
         }
         match &case {
@@ -60,7 +61,7 @@ impl BreakageArguments {
     }
 }
 
-/// Analyse breakage after a flume run, if its case asks for it; then write summary and report again with the results.
+/// Analyses breakage after a flume run, if its case asks for it; then writes summary and report again with the results.
 pub(in crate::cli) fn after_flume_run(
     case: &Case,
     summary: &Summary,
@@ -71,14 +72,14 @@ pub(in crate::cli) fn after_flume_run(
     let moved = |unit: &UnitSummary| Moved { displacement: unit.displacement_m, damaged: unit.damaged };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     let ended = analyse(&model, settings, &moved, dir, control);
-    // Also after a failure: the impacts that were computed are reported.
+    // Also after a failure: the report then shows the impacts that were computed.
     let breakage = Breakage::read_if_present(dir).map_err(Trouble::failed)?;
     let summary = Summary { breakage: breakage.as_ref().map(BreakageSummary::from), ..summary.clone() };
     summary.write(dir).and_then(|()| write_report(dir)).map_err(Trouble::failed)?;
     ended
 }
 
-/// Analyse breakage after a dry test, if its case asks for it.
+/// Analyses breakage after a dry test, if its case asks for it.
 pub(super) fn after_dry_test(
     case: &DryCase,
     summary: &DrySummary,
@@ -94,7 +95,7 @@ pub(super) fn after_dry_test(
 
 fn analyse(model: &Model, settings: &Handover, moved: &[Moved], dir: &Path, control: &Control) -> Result<(), Trouble> {
     if !control.quiet {
-        eprintln!("impacts at prototype scale, lengths times {}:", settings.scale);
+        eprintln!("impacts re-run at prototype scale, length scale {}:", settings.scale);
     }
     let breakage = hand_over(model, settings, moved, dir, control).map_err(Trouble::failed)?;
     for impact in breakage.impacts.iter().filter(|impact| impact.failure.is_none()) {
@@ -109,13 +110,13 @@ fn analyse(model: &Model, settings: &Handover, moved: &[Moved], dir: &Path, cont
     if failures.is_empty() { Ok(()) } else { Err(Trouble::failed(failures.join("\n"))) }
 }
 
-/// Units whose row is printed.
+/// Largest number of units that are printed.
 const MOST_LINES: usize = 20;
 
 fn tell(breakage: &Breakage, dir: &Path) {
     println!("units of the prototype:");
     for unit in breakage.units.iter().take(MOST_LINES) {
-        print!("  unit {:2}: hit with {:.3} MN", unit.unit, unit.peak_force_n * 1e-6);
+        print!("  unit {:2}: largest impact force {:.3} MN", unit.unit, unit.peak_force_n * 1e-6);
         if let Some(stress) = unit.nominal_stress_pa {
             print!(", nominal stress {:.2} MPa", stress * 1e-6);
         }
@@ -124,14 +125,14 @@ fn tell(breakage: &Breakage, dir: &Path) {
                 let state = state_in_words(broken, area);
                 println!(", sigma_1 {:.2} MPa, {area:.3} m2 of cracks, {state}", sigma_1 * 1e-6);
             }
-            _ => println!(", not handed over"),
+            _ => println!(", no impact re-run"),
         }
     }
     if breakage.units.len() > MOST_LINES {
         println!("  ... {} units in all, see {}", breakage.units.len(), Breakage::TABLE);
     }
     println!(
-        "  {:.0} % moved further than the damage distance, {:.0} % broke",
+        "  {:.0} % of the units moved further than the damage distance, {:.0} % broke",
         100.0 * breakage.damaged_ratio,
         100.0 * breakage.broken_ratio
     );

@@ -15,17 +15,17 @@ use crate::{
     },
 };
 
-/// Units whose motion is printed: a pile is not read unit by unit.
+/// Largest number of units whose motion is printed.
 const MOST_LINES: usize = 20;
 
-/// Run a test from its start; then analyse breakage, if the case asks for it.
+/// Runs a test from its start; then the breakage analysis, if the case has one.
 pub(super) fn run_case(case: &Arc<DryCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
     introduce(case, dir, control.quiet);
     let summary = finish(run(case.clone(), dir, control), dir)?;
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
-/// Continue a test from its last checkpoint.
+/// Continues a test from its last checkpoint.
 pub(super) fn resume_case(case: &Arc<DryCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
     introduce(case, dir, control.quiet);
     let summary = finish(resume(case.clone(), dir, control), dir)?;
@@ -49,7 +49,7 @@ fn introduce(case: &DryCase, dir: &Path, quiet: bool) {
     eprintln!("  results in {}", dir.display());
 }
 
-/// Print how a test ended.
+/// Prints how a test ended.
 fn finish(ended: Result<DrySummary, RunError>, dir: &Path) -> Result<DrySummary, Trouble> {
     let summary = ended.map_err(trouble)?;
     println!(

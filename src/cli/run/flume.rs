@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// Run a case from its start, or from the checkpoint of another run; then analyse breakage, if the case asks for it.
+/// Runs a case from its start or from the checkpoint of another run; then the breakage analysis, if the case has one.
 pub(super) fn run_case(
     case: &Arc<Case>,
     start: Option<Start>,
@@ -29,7 +29,7 @@ pub(super) fn run_case(
     breakage::after_flume_run(case, &summary, dir, &options.control)
 }
 
-/// Continue a run from its last checkpoint.
+/// Continues a run from its last checkpoint.
 pub(super) fn resume_case(case: &Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(), Trouble> {
     introduce(case, dir, options);
     let summary = finish(resume(case.clone(), dir, options), dir)?;
@@ -57,7 +57,7 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
     eprintln!("  results in {}", dir.display());
 }
 
-/// Write the report of a run and print how it ended.
+/// Writes the report of a run and prints how it ended.
 pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
     let summary = ended.map_err(trouble)?;
     let report = write_report(dir).map_err(Trouble::failed)?;

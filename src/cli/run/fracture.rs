@@ -1,4 +1,4 @@
-//! `breakwater fracture`: deformable units that crack.
+//! `breakwater fracture`: fracture runs on the terminal.
 
 use std::path::{Path, PathBuf};
 
@@ -26,16 +26,17 @@ use crate::{
     },
 };
 
-/// Will the units break? Runs a fracture case: tetrahedral bodies that deform, touch and crack. Energy book, surfaces with
-/// stresses, cracks and a summary come into one folder.
+/// Run a fracture case: deformable bodies of tetrahedra that collide and crack.
+///
+/// Energy balance, surfaces with stresses, cracks, summary and report are written to one folder.
 #[derive(Args)]
 pub struct FractureArguments {
     /// The fracture case.
     case: PathBuf,
-    /// Folder of the results; without it, runs/<name of the case>.
+    /// Folder of the results; default: runs/<name of the case>.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace what the folder holds.
+    /// Replace the results in the folder; default: a folder with files is refused.
     #[arg(long)]
     overwrite: bool,
     #[command(flatten)]
@@ -54,7 +55,7 @@ impl FractureArguments {
     }
 }
 
-/// Go on with an interrupted run.
+/// Continues an interrupted run.
 pub(super) fn resume_run(dir: &Path, machine: &MachineArguments) -> Result<(), Trouble> {
     let path = dir.join("case.json");
     let case = load(&path)?;
@@ -65,7 +66,7 @@ pub(super) fn resume_run(dir: &Path, machine: &MachineArguments) -> Result<(), T
     finish(resume(&case, world, dir, &control), dir)
 }
 
-/// The world of a case read from a file.
+/// Builds the world of a case read from a file.
 fn at_start(case: &FractureCase, path: &Path) -> Result<World, Trouble> {
     world(case).map_err(|error| Trouble::refused(format!("{}: {error}", path.display())))
 }
@@ -77,7 +78,7 @@ fn introduce(case: &FractureCase, dir: &Path, control: &Control) {
     }
 }
 
-/// Say how a run ended.
+/// Writes the report of a run and prints how it ended.
 fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), Trouble> {
     let summary = ended.map_err(trouble)?;
     let report = write_fracture_report(dir).map_err(Trouble::failed)?;
@@ -92,14 +93,14 @@ fn load(path: &Path) -> Result<FractureCase, Trouble> {
     Ok(case)
 }
 
-/// Tell what a fracture case holds and what it costs.
+/// Prints the contents of a fracture case and the cost of a run.
 pub(in crate::cli) fn check(path: &Path) -> Result<(), Trouble> {
     let case = load(path)?;
     let world = at_start(&case, path)?;
     println!("{}: {}", path.display(), case.title);
     for quality in &case.mesh.quality {
         println!(
-            "  {:10}  {} tetrahedra, {:.4} m3, edges {:.1} to {:.1} mm, least angle {:.1} degrees",
+            "  {:10}  {} tetrahedra, {:.4} m3, edges {:.1} to {:.1} mm, smallest angle {:.1} degrees",
             quality.body,
             quality.tets,
             quality.volume,
@@ -109,7 +110,7 @@ pub(in crate::cli) fn check(path: &Path) -> Result<(), Trouble> {
         );
     }
     println!(
-        "  joints      {} faces that can crack, {} cracked from the start",
+        "  joints      {} faces that can crack, {} cracked at the start",
         world.joints.count(),
         case.setup.cracks.len()
     );
@@ -120,14 +121,14 @@ pub(in crate::cli) fn check(path: &Path) -> Result<(), Trouble> {
         case.duration
     );
     if case.tets_interval.is_some() {
-        println!("  tets.vtkhdf {:.0} MB, more where cracks part nodes", tets_bytes(&case) * 1e-6);
+        println!("  tets.vtkhdf {:.0} MB, more as cracks split nodes", tets_bytes(&case) * 1e-6);
     }
     Ok(())
 }
 
 fn tell(summary: &FractureSummary, dir: &Path) {
     println!(
-        "{:.3} ms simulated in {} steps and {}, {:.2e} tetrahedra a second",
+        "{:.3} ms simulated in {} steps and {}, {:.2e} tetrahedra per second",
         summary.simulated_s * 1e3,
         summary.steps,
         readable(summary.execution.wall_s),
@@ -145,7 +146,7 @@ fn tell(summary: &FractureSummary, dir: &Path) {
         );
     }
     println!(
-        "  {:.1} cm2 cracked, {} pieces, energy book closed to {:.2} % of the kinetic energy",
+        "  {:.1} cm2 cracked, {} pieces, energy balance closes to {:.2} % of the kinetic energy",
         summary.crack_area_m2 * 1e4,
         summary.fragments.len(),
         100.0 * summary.energy_residual_ratio

@@ -1,4 +1,4 @@
-//! `breakwater run` and `breakwater resume`; a file for what the terminal shows of each kind of run.
+//! `breakwater run` and `breakwater resume`, and one file per kind of run for its terminal output.
 
 pub(super) mod breakage;
 mod dry_test;
@@ -29,7 +29,7 @@ use crate::{
     sph::device::DeviceChoice,
 };
 
-/// Run a case: wave, water, units, contact. Tables, ParaView files, summary and report are written to one folder.
+/// Run a flume case or dry test; write tables, ParaView files, summary and report to one folder.
 #[derive(Args)]
 pub struct RunArguments {
     /// The case file.
@@ -37,11 +37,11 @@ pub struct RunArguments {
     /// Folder of the results; default: runs/<name of the case>.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace the results that the folder holds.
+    /// Replace the results in the folder; default: a folder with files is refused.
     #[arg(long)]
     overwrite: bool,
-    /// Begin at the last checkpoint of the run in this folder, so that the wave up to there is not computed again. The
-    /// cases may differ only in friction and the rest criterion, and the units must not have moved yet.
+    /// Begin at the last checkpoint of the run in this folder; default: begin at the start of the case. The two cases
+    /// may differ only in friction and the rest criterion, and the units must not have moved yet.
     #[arg(long, value_name = "DIR")]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -50,14 +50,14 @@ pub struct RunArguments {
     device: DeviceArgument,
 }
 
-/// Continue an interrupted run from its last checkpoint. Its results have the same bits as those of an unbroken run.
+/// Continue an interrupted run from its last checkpoint; the results are bitwise those of an uninterrupted run.
 #[derive(Args)]
 pub struct ResumeArguments {
     /// Folder of the run.
     dir: PathBuf,
     #[command(flatten)]
     machine: MachineArguments,
-    /// What computes the water, as for `run`; default: what has computed it so far.
+    /// What computes the water, as for `run`; default: the device that has computed it so far.
     #[arg(long, value_name = "DEVICE")]
     device: Option<DeviceChoice>,
 }
@@ -128,7 +128,7 @@ fn require_checkpoint(path: &Path) -> Result<(), Trouble> {
         return Ok(());
     }
     Err(Trouble::refused(format!(
-        "{}: there is no checkpoint; the run ended before its first one, start it again with breakwater run",
+        "{}: there is no checkpoint to resume from; start again with breakwater run or breakwater fracture",
         path.display()
     )))
 }
@@ -137,7 +137,7 @@ fn is_same_folder(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-/// A case that cannot be set up is refused input; everything else is work that went wrong.
+/// A case that cannot be set up is refused input; every other error is a failure of the work.
 fn trouble(error: RunError) -> Trouble {
     match error {
         RunError::Setup(_) => Trouble::refused(error),

@@ -1,4 +1,4 @@
-//! Impacts of a finished run written as fracture cases, and computed.
+//! The breakage analysis: writes the hardest impacts of a finished run as fracture cases, and runs these.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,10 +18,10 @@ use crate::simulation::breakage::results::{Breakage, Moved, Outcome};
 use crate::simulation::fracture::run::{run, world};
 use crate::simulation::fracture::summary::FractureSummary;
 
-/// Folder of cases and results in a run's folder.
+/// Subfolder of a run folder for the fracture cases and their results.
 pub const FOLDER: &str = "impacts";
 
-/// Why impacts could not be handed over.
+/// Why a breakage analysis ended without a result.
 #[derive(Debug, Error)]
 pub enum HandoverError {
     /// A file cannot be written or read.
@@ -33,24 +33,24 @@ pub enum HandoverError {
         /// Folder of the run.
         dir: PathBuf,
     },
-    /// No threads.
-    #[error("no threads for the fracture computations: {0}")]
+    /// The threads cannot be started.
+    #[error("cannot start threads for the fracture runs: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// One fracture computation.
+/// One impact to re-run.
 struct Job<'a> {
     blow: Blow<'a>,
     way: HandoverWay,
     name: String,
 }
 
-/// Hand the impacts in a run's folder over: cases and results come into `impacts/` there, `breakage.json` and
-/// `breakage.csv` beside them. What has been computed already from the same case is kept. `moved` is how far each unit was
-/// displaced.
+/// Re-runs impacts of the run in `dir` at prototype scale. Cases and results go to its subfolder `impacts`, the summary
+/// to `breakage.json` and `breakage.csv`. Existing results of the same case are kept. `moved` are the displacements of
+/// the units.
 ///
 /// # Errors
-/// If a file cannot be read or written; a computation that goes astray is told in the result.
+/// If a file cannot be read or written. The result lists fracture runs that failed.
 pub fn hand_over(
     model: &Model,
     handover: &Handover,
@@ -61,11 +61,11 @@ pub fn hand_over(
     let file = dir.join(Impacts::FILE);
     let impacts = Impacts::read(&file)?;
     if moved.len() != model.count {
-        let what = format!("tells of {} units and the case of {}; make the run again", moved.len(), model.count);
+        let what = format!("lists {} units, but the case has {}; rerun the case", moved.len(), model.count);
         return Err(OutputError::content(&dir.join("summary.json"), what).into());
     }
     if !impacts.impacts.iter().all(|impact| model.can_have(impact)) {
-        let what = "has impacts that units of this case cannot have; make the run again";
+        let what = "has impacts that do not fit the units of this case; rerun the case";
         return Err(OutputError::content(&file, what).into());
     }
     let folder = dir.join(FOLDER);
@@ -89,7 +89,7 @@ fn jobs<'a>(model: &'a Model, handover: &'a Handover, impacts: &'a Impacts) -> V
         HandoverWay::LoadHistory => &[HandoverWay::LoadHistory],
     };
     let chosen = select(impacts, &handover.select);
-    let of = |(rank, index): (usize, usize)| {
+    let jobs_of_impact = |(rank, index): (usize, usize)| {
         let blow = Blow::new(model, handover, &impacts.impacts[index]);
         let unit = blow.impact.event.body + 1;
         ways.iter().map(move |way| {
@@ -97,7 +97,7 @@ fn jobs<'a>(model: &'a Model, handover: &'a Handover, impacts: &'a Impacts) -> V
             Job { blow, way: *way, name: format!("impact-{:02}-unit-{unit:02}{by_loads}", rank + 1) }
         })
     };
-    chosen.into_iter().enumerate().flat_map(of).collect()
+    chosen.into_iter().enumerate().flat_map(jobs_of_impact).collect()
 }
 
 impl Job<'_> {
@@ -127,24 +127,24 @@ impl Job<'_> {
         )
     }
 
-    /// Computes the case in the folder, or reads what was computed before.
+    /// Runs the fracture case, or reads the results of an earlier run of the same case.
     fn outcome(&self, folder: &Path, threads: usize, control: &Control) -> Result<Outcome, HandoverError> {
         let file = folder.join(format!("{}.json", self.name));
         let out = folder.join(&self.name);
-        let told = |ended: Result<FractureSummary, String>| {
+        let outcome_of = |ended: Result<FractureSummary, String>| {
             let (mover, _) = self.blow.movers();
             Outcome::of(&self.name, self.way, &self.blow, self.blow.balance(&mover), ended)
         };
         let case = match FractureCase::load(&file) {
             Ok(case) => case,
-            Err(errors) => return Ok(told(Err(errors.to_string()))),
+            Err(errors) => return Ok(outcome_of(Err(errors.to_string()))),
         };
         if let Ok(summary) = FractureSummary::read(&out)
             && summary.case_hash == case.hash
         {
-            return Ok(told(Ok(summary)));
+            return Ok(outcome_of(Ok(summary)));
         }
-        fresh(&out)?;
+        make_empty_folder(&out)?;
         let silent = Control { quiet: true, ..control.clone() };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
         let ended = pool.install(|| {
@@ -154,19 +154,19 @@ impl Job<'_> {
         if control.stop.load(Ordering::Relaxed) {
             return Err(HandoverError::Interrupted { dir: folder.parent().unwrap_or(folder).to_owned() });
         }
-        Ok(told(ended))
+        Ok(outcome_of(ended))
     }
 }
 
-/// An empty folder.
-fn fresh(dir: &Path) -> Result<(), OutputError> {
+/// Makes an empty folder.
+fn make_empty_folder(dir: &Path) -> Result<(), OutputError> {
     if dir.exists() {
         fs::remove_dir_all(dir).map_err(OutputError::io(dir))?;
     }
     fs::create_dir_all(dir).map_err(OutputError::io(dir))
 }
 
-/// All jobs, so many at once, each on so many threads; results in the order of the jobs.
+/// Computes all jobs, `at_once` at a time with `threads` threads each; returns the results in the order of the jobs.
 fn compute(
     jobs: &[Job],
     folder: &Path,
@@ -175,13 +175,13 @@ fn compute(
     control: &Control,
 ) -> Result<Vec<Outcome>, HandoverError> {
     let next = AtomicUsize::new(0);
-    let found: Vec<Mutex<Option<Result<Outcome, HandoverError>>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
+    let results: Vec<Mutex<Option<Result<Outcome, HandoverError>>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
     std::thread::scope(|scope| {
         for _ in 0..at_once {
             scope.spawn(|| {
                 while let Some((job, slot)) = {
                     let index = next.fetch_add(1, Ordering::Relaxed);
-                    jobs.get(index).zip(found.get(index))
+                    jobs.get(index).zip(results.get(index))
                 } {
                     let outcome = job.outcome(folder, threads, control);
                     if let (false, Ok(outcome)) = (control.quiet, &outcome) {
@@ -194,6 +194,6 @@ fn compute(
             });
         }
     });
-    let done = found.into_iter().filter_map(|slot| slot.into_inner().ok().flatten());
-    done.collect()
+    let outcomes = results.into_iter().filter_map(|slot| slot.into_inner().ok().flatten());
+    outcomes.collect()
 }

@@ -1,11 +1,11 @@
-//! Units on a bed without water: settling, drops, slope tests.
+//! Dry tests: units on a bed without water (settling test, drop test, tilt test).
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | this one | the test: what moves, what is measured |
+//! | this one | state, time step and measurements |
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
 //! | [`recorder`] | tables and surfaces |
-//! | [`summary`] | the run in a few numbers |
+//! | [`summary`] | `summary.json` |
 
 pub mod recorder;
 pub mod run;
@@ -22,95 +22,95 @@ use crate::{
     simulation::bodies::rigid_setup,
 };
 
-/// Time between two looks at the units [s]; the steps of the contact are far shorter.
-const LOOK: f64 = 1e-3;
+/// Time between two measurements of the units [s]; the substeps of the contact are far shorter.
+const MEASUREMENT_INTERVAL: f64 = 1e-3;
 
-/// For this long the units stand on the level before it is tilted [s].
-const STANDING: f64 = 0.5;
+/// Time for which the bed stays level before it is tilted [s].
+const LEVEL_TIME: f64 = 0.5;
 
-/// A dry case in motion.
+/// State of a dry test.
 pub struct DryRun {
     /// The case.
     pub case: Arc<DryCase>,
     /// The units.
     pub world: RigidWorld,
-    /// Where they stood at the start.
+    /// Poses of the units at the start.
     pub start: Vec<BodyState>,
-    /// What is measured.
+    /// Measurements so far.
     pub measured: Measured,
 }
 
-/// What is measured in a dry run besides its series; part of every checkpoint.
+/// Measurements besides the series; part of every checkpoint.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measured {
     /// Slope at which each unit began to slide [rad].
     pub slides_at: Vec<Option<f64>>,
-    /// Kinetic, potential and elastic energy at the start and at the last look [J].
+    /// Kinetic, potential and elastic energy at the start [J].
     pub energy_start: f64,
-    /// The same at the last look [J].
+    /// The same energy at the last measurement [J].
     pub energy: f64,
-    /// Largest rise of that energy between two looks, while gravity stays as it is [J].
+    /// Largest rise of this energy between two measurements under constant gravity [J].
     pub largest_rise: f64,
-    /// Since when all units have been at rest [s].
+    /// Time since which all units have been at rest [s].
     pub at_rest_since: Option<f64>,
-    /// Contacts that have ended, with the ground and between units.
+    /// Number of contacts that have ended, with the ground and between units.
     pub contacts: [u64; 2],
     /// Largest force of a contact [N].
     pub peak_force: f64,
 }
 
 impl DryRun {
-    /// The units of a case at its start.
+    /// Places the units of a case at their start.
     ///
     /// # Errors
-    /// If they start too deep in each other or the ground.
+    /// If they overlap each other or the ground too much.
     pub fn new(case: Arc<DryCase>) -> Result<Self, RigidError> {
         let setup = Self::setup(&case);
         let start = setup.bodies.clone();
         let world = RigidWorld::new(setup)?;
         let mut measured = Measured { slides_at: vec![None; start.len()], ..Measured::default() };
-        measured.energy_start = mechanical(&world);
+        measured.energy_start = mechanical_energy(&world);
         measured.energy = measured.energy_start;
         Ok(Self { case, world, start, measured })
     }
 
-    /// What the world of a case is made of.
+    /// Returns the set-up of the rigid world of a case.
     pub fn setup(case: &DryCase) -> RigidSetup {
         rigid_setup(&case.units, &case.site, &case.materials, case.contact.law, case.gravity)
     }
 
-    /// Time since the start [s].
+    /// Returns the time since the start [s].
     pub fn time(&self) -> f64 {
         self.world.time()
     }
 
-    /// Slope of the bed now [rad].
+    /// Returns the present slope of the bed [rad].
     pub fn slope(&self) -> f64 {
         match self.case.test {
-            DryTest::Tilt { rate, to, .. } => (rate * (self.time() - STANDING)).clamp(0.0, to),
+            DryTest::Tilt { rate, to, .. } => (rate * (self.time() - LEVEL_TIME)).clamp(0.0, to),
             DryTest::Settle | DryTest::Drop => 0.0,
         }
     }
 
-    /// Go on to the next look, or to `until` [s] if that comes before it.
+    /// Advances to the next measurement, or to the time `until` [s] if that is earlier.
     ///
     /// # Errors
-    /// If the units have gone too deep into each other or the ground.
+    /// If the units overlap each other or the ground too much.
     pub fn advance(&mut self, until: f64) -> Result<(), RigidError> {
         let loads = vec![Load::default(); self.start.len()];
-        let dt = LOOK.min(until - self.time()).max(0.0);
+        let dt = MEASUREMENT_INTERVAL.min(until - self.time()).max(0.0);
         if let DryTest::Tilt { .. } = self.case.test {
             let slope = self.slope();
-            // Seen from the bed, gravity turns towards the shore.
+            // In the axes of the bed, gravity turns towards the shore.
             self.world.set_gravity(self.case.gravity * DVec3::new(slope.sin(), 0.0, -slope.cos()));
         }
         self.world.advance(dt, &loads)?;
-        self.look();
+        self.measure();
         Ok(())
     }
 
-    fn look(&mut self) {
-        let energy = mechanical(&self.world);
+    fn measure(&mut self) {
+        let energy = mechanical_energy(&self.world);
         if !matches!(self.case.test, DryTest::Tilt { .. }) {
             self.measured.largest_rise = self.measured.largest_rise.max(energy - self.measured.energy);
         }
@@ -119,9 +119,9 @@ impl DryRun {
         if let DryTest::Tilt { slide_speed, .. } = self.case.test
             && slope > 0.0
         {
-            for (at, state) in self.measured.slides_at.iter_mut().zip(self.world.states()) {
-                if at.is_none() && state.velocity.length() > slide_speed {
-                    *at = Some(slope);
+            for (slides_at, state) in self.measured.slides_at.iter_mut().zip(self.world.states()) {
+                if slides_at.is_none() && state.velocity.length() > slide_speed {
+                    *slides_at = Some(slope);
                 }
             }
         }
@@ -132,7 +132,7 @@ impl DryRun {
         }
     }
 
-    /// Speed of the fastest unit [m/s], that of its tips if it turns: they are about half its height away.
+    /// Returns the speed of the fastest unit [m/s], with rotation taken at its tips, half its height from the centre.
     pub fn fastest(&self) -> f64 {
         let tips = 0.5 * self.case.units.shape.height();
         let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
@@ -140,8 +140,8 @@ impl DryRun {
     }
 }
 
-/// Kinetic, potential and elastic energy [J].
-fn mechanical(world: &RigidWorld) -> f64 {
+/// Returns kinetic, potential and elastic energy [J].
+fn mechanical_energy(world: &RigidWorld) -> f64 {
     let energy = world.energy();
     energy.kinetic + energy.potential + energy.elastic
 }

@@ -1,4 +1,4 @@
-//! Tables and surfaces of a dry run, and its checkpoints.
+//! Tables, surfaces and checkpoints of a dry test.
 
 use std::path::{Path, PathBuf};
 
@@ -14,17 +14,17 @@ use crate::{
     simulation::flume::snapshots::{Frame, UNIT_FIELDS},
 };
 
-/// Where each output stands.
+/// Progress of each output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Counts {
     series: u64,
     surfaces: u64,
     checkpoints: u64,
-    /// Bytes of the tables.
+    /// Lengths of the tables [bytes].
     bytes: [u64; 3],
 }
 
-/// State of a run to go on from.
+/// State from which a run can resume.
 #[derive(Debug, Serialize, Deserialize)]
 struct Checkpoint {
     version: u32,
@@ -34,7 +34,7 @@ struct Checkpoint {
     counts: Counts,
 }
 
-/// Layout of the checkpoint; raised when it changes.
+/// Version of the checkpoint layout; raised when the layout changes.
 const VERSION: u32 = 3;
 
 const UNITS_FILE: &str = "units.csv";
@@ -42,7 +42,7 @@ const CONTACTS_FILE: &str = "contacts.csv";
 const ENERGY_FILE: &str = "energy.csv";
 const SURFACES_FILE: &str = "units.vtkhdf";
 
-/// Open output files of a dry run.
+/// Open output files of a dry test.
 pub struct DryRecorder {
     dir: PathBuf,
     counts: Counts,
@@ -53,13 +53,13 @@ pub struct DryRecorder {
 }
 
 impl DryRecorder {
-    /// Name of the checkpoint in a run folder.
+    /// File name of the checkpoint in the run folder.
     pub const CHECKPOINT: &str = "checkpoint.json";
 
-    /// Name of the state at which a run failed.
+    /// File name of the state at which a run failed.
     pub const FAILED: &str = "failed.json";
 
-    /// New files in the run folder, and those that do not change.
+    /// Creates the files in the run folder, and writes those that do not change.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -90,20 +90,23 @@ impl DryRecorder {
         Ok(recorder)
     }
 
-    /// Put a run of the same case into the state of its checkpoint, and cut its files to where they stood.
+    /// Restores a run from its checkpoint, and truncates its files to their lengths at that time.
     ///
     /// # Errors
-    /// If there is no checkpoint, it is damaged, or one of another case; if a file is missing or shorter than it was.
+    /// If the checkpoint is missing, damaged or of another case; if a file is missing or shorter than it was then.
     pub fn reopen(run: &mut DryRun, dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::CHECKPOINT);
         let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
         let state: Checkpoint = serde_json::from_slice(&bytes).map_err(OutputError::json(&path))?;
         if state.version != VERSION {
-            let what = format!("was written by another version of breakwater (layout {})", state.version);
+            let what = format!(
+                "was written by another version of breakwater (layout {} instead of {VERSION}); rerun the case",
+                state.version
+            );
             return Err(OutputError::content(&path, what));
         }
         if state.case_hash != run.case.hash {
-            return Err(OutputError::content(&path, "belongs to another case than case.json beside it".to_owned()));
+            return Err(OutputError::content(&path, "belongs to another case than case.json next to it".to_owned()));
         }
         run.world.restore(&state.world).map_err(|error| OutputError::content(&path, error.to_string()))?;
         run.measured = state.measured;
@@ -123,12 +126,12 @@ impl DryRecorder {
         })
     }
 
-    /// Folder of the run.
+    /// Returns the folder of the run.
     pub fn dir(&self) -> &Path {
         &self.dir
     }
 
-    /// Write what is due now.
+    /// Writes the outputs that are due now.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -150,7 +153,7 @@ impl DryRecorder {
         Ok(())
     }
 
-    /// Write everything once more at the end.
+    /// Writes all outputs at the end of the run.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -165,7 +168,7 @@ impl DryRecorder {
         Impacts { places: Vec::new(), impacts }.write(&self.dir.join(Impacts::FILE))
     }
 
-    /// Keep the state of the run in `file` of its folder.
+    /// Writes the state of the run to `file` in its folder.
     ///
     /// # Errors
     /// If the file cannot be written.

@@ -14,17 +14,17 @@ use crate::{
     },
 };
 
-/// Run a dry test into an existing, empty folder.
+/// Runs a dry test into an existing, empty folder.
 ///
 /// # Errors
-/// If the units start too deep in something or go too deep later, a file cannot be written, or the user stops the run.
+/// If the units overlap too much at the start or later, a file cannot be written, or the user stops the run.
 pub fn run(case: Arc<DryCase>, dir: &Path, control: &Control) -> Result<DrySummary, RunError> {
     let run = DryRun::new(case).map_err(RunError::setup)?;
     let recorder = DryRecorder::create(&run, dir)?;
     drive(RecordedRun { run, recorder }, dir, control)
 }
 
-/// Continue a dry test from its last checkpoint.
+/// Continues a dry test from its last checkpoint.
 ///
 /// # Errors
 /// As [`run`], and if the checkpoint does not belong to the case.
@@ -74,7 +74,7 @@ impl Run for RecordedRun {
     }
 }
 
-/// Why the run is over, if it is.
+/// Returns why the run is over, if it is.
 fn stop_rule(run: &DryRun) -> Option<Stopped> {
     let (stop, time) = (&run.case.stop, run.time());
     // The sum of the steps may fall short of the duration by rounding.

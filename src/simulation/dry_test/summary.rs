@@ -1,4 +1,4 @@
-//! A dry run in a few numbers.
+//! The summary of a dry test.
 
 use std::path::Path;
 
@@ -7,24 +7,24 @@ use serde::{Deserialize, Serialize};
 use super::DryRun;
 use crate::output::{Execution, OutputError, Stopped, write_atomically};
 
-/// `summary.json` of a dry run.
+/// Content of `summary.json` of a dry test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DrySummary {
     /// Title of the case.
     pub title: String,
-    /// Version that made the run.
+    /// Version of breakwater that computed the run.
     pub breakwater_version: String,
-    /// Fingerprint of the case.
+    /// Hash of the case.
     pub case_hash: String,
     /// Simulated time [s].
     pub simulated_s: f64,
-    /// Why it ended.
+    /// Why the run ended.
     pub stopped: Stopped,
-    /// Substeps of the contact.
+    /// Number of substeps.
     pub substeps: u64,
-    /// Contacts that exist at the end.
+    /// Number of contacts at the end.
     pub contacts_now: usize,
-    /// Contacts with bed and walls, and between units, since the start.
+    /// Number of contacts since the start: with bed and walls, between units.
     pub contacts: [u64; 2],
     /// Largest force of a contact [N].
     pub peak_force_n: f64,
@@ -34,23 +34,23 @@ pub struct DrySummary {
     pub kinetic_j: f64,
     /// Kinetic, potential and elastic energy at the start [J].
     pub energy_start_j: f64,
-    /// The same at the end [J].
+    /// The same energy at the end [J].
     pub energy_end_j: f64,
-    /// Largest rise of it within a millisecond [J]; none in a slope test, in which the bed does work.
+    /// Largest rise of this energy within a millisecond [J]; none in a tilt test, where the bed does work.
     pub largest_rise_j: Option<f64>,
-    /// Since when the units have been at rest [s], if they are.
+    /// Time since which the units have been at rest [s], if they are.
     pub at_rest_since_s: Option<f64>,
     /// The units.
     pub units: Vec<DryUnit>,
-    /// What had to be assumed.
+    /// Assumptions of the case.
     pub assumptions: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// Time and machine.
+    /// Wall time and machine.
     pub execution: Execution,
 }
 
-/// A unit of a dry run.
+/// Result for one unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DryUnit {
     /// Number from 1.
@@ -59,23 +59,23 @@ pub struct DryUnit {
     pub start_m: [f64; 3],
     /// Centre at the end [m].
     pub end_m: [f64; 3],
-    /// Distance between the two [m].
+    /// Displacement [m].
     pub moved_m: f64,
-    /// Turned by [degrees].
+    /// Rotation [degrees].
     pub turned_deg: f64,
-    /// Slope at which it began to slide [degrees], in a slope test.
+    /// Slope at which the unit began to slide in a tilt test [degrees].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slides_at_deg: Option<f64>,
-    /// Tangent of that angle, the coefficient of friction [-].
+    /// Tangent of this slope, the friction coefficient [-].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
 }
 
 impl DrySummary {
-    /// Name of the file in a run folder.
+    /// File name in the run folder.
     pub const FILE: &str = "summary.json";
 
-    /// Summary of a run that has ended after `wall_s` seconds of computing.
+    /// Summarises a run that has ended after the wall time `wall_s` [s].
     pub fn of(run: &DryRun, stopped: Stopped, wall_s: f64) -> Self {
         let (measured, energy) = (&run.measured, run.world.energy());
         let unit = |number: usize| {
@@ -115,17 +115,17 @@ impl DrySummary {
         }
     }
 
-    /// Read `summary.json` of a run folder.
+    /// Reads `summary.json` from a run folder.
     ///
     /// # Errors
-    /// If the file is missing or is not that of a dry run.
+    /// If the file is missing or does not belong to a dry test.
     pub fn read(dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::FILE);
         let text = std::fs::read_to_string(&path).map_err(OutputError::io(&path))?;
         serde_json::from_str(&text).map_err(OutputError::json(&path))
     }
 
-    /// Write `summary.json` into the run folder.
+    /// Writes `summary.json` into the run folder.
     ///
     /// # Errors
     /// If the file cannot be written.

@@ -1,4 +1,4 @@
-//! Active absorption of the waves that come back to a piston, rigid or in rows.
+//! Active absorption of returning waves by a piston, rigid or in rows.
 
 use glam::DVec2;
 
@@ -9,7 +9,7 @@ use crate::{
 };
 
 impl Simulation {
-    /// Read the surface before the piston, and let it take up what comes back over the step of length `dt` [s].
+    /// Reads the free surface in front of the piston, and absorbs returning waves over a time step of length `dt` [s].
     pub(super) fn absorb(&mut self, dt: f64) {
         let Some(wavemaker) = &self.wavemaker else { return };
         let Some(absorption) = wavemaker.absorption() else { return };
@@ -17,7 +17,7 @@ impl Simulation {
         absorption.advance(&mut self.absorbed, excess, dt);
     }
 
-    /// Elevation beyond that of the wave that is made [m], at a distance from the piston [m]; nothing where it is dry.
+    /// Returns the elevation minus that of the generated wave [m] at a distance from the piston [m]; 0 where it is dry.
     fn excess(&self, wavemaker: &Wavemaker, distance: f64, t: f64) -> f64 {
         let (domain, flume) = (&self.case.domain, &self.case.flume);
         let x = wavemaker.surface_m(t) + self.absorbed.displacement_m + distance;
@@ -33,14 +33,14 @@ impl Simulation {
     }
 }
 
-/// Displacement [m] and velocity [m/s] of the wavemaker's rows at t [s], `before_end` [s] before the end of the step
-/// that absorption has moved over.
+/// Returns displacement [m] and velocity [m/s] of the wavemaker's rows at t [s], which is `before_end` [s] before the
+/// end of the time step; the state of absorption is that of its end.
 pub(super) fn rows(wavemaker: &Wavemaker, absorbed: &AbsorptionState, t: f64, before_end: f64) -> Vec<[f64; 2]> {
     let offset = absorbed.displacement_m - before_end * absorbed.velocity_m_s;
     wavemaker.rows_at(t).into_iter().map(|[x, v]| [x + offset, v + absorbed.velocity_m_s]).collect()
 }
 
-/// Put the wavemaker where its [`rows`] are.
+/// Moves the particles of the wavemaker to the positions of its [`rows`].
 pub(super) fn move_wavemaker(
     boundary: &mut Boundary,
     wavemaker: Option<&Wavemaker>,

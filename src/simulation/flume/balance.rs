@@ -1,8 +1,8 @@
-//! Who gave energy to the water so far, and who took it.
+//! Energy balance of the water: energy received from boundaries, viscosity, diffusion and zones.
 //!
-//! Powers are evaluated at the rows of the series and integrated by the trapezoidal rule. What change of the water's
-//! energy they leave is that of the time integration, of this rule, and of velocities that were taken away at
-//! impermeable surfaces.
+//! Powers are evaluated at the rows of the series and integrated by the trapezoidal rule. The remaining change of the
+//! water's energy comes from the time integration, from this rule, and from impermeable surfaces, which remove
+//! velocity.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,14 +17,14 @@ pub struct Balance {
     pub viscosity: f64,
     /// From density diffusion.
     pub diffusion: f64,
-    /// From damping and relaxation zone, booked in every step.
+    /// From damping and relaxation zones, added in every time step.
     pub zones: f64,
     /// Time [s] and powers [W] of the last row.
     last: Option<(f64, [f64; 3])>,
 }
 
 impl Balance {
-    /// Add what was received since the last row, from the powers at a time [s].
+    /// Adds the energy received since the last row, from the powers at a time [s].
     pub fn add(&mut self, time: f64, powers: Powers) {
         let now = [powers.boundary, powers.viscosity, powers.diffusion];
         if let Some((before, last)) = self.last {

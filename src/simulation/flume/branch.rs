@@ -1,4 +1,4 @@
-//! Runs that begin where another one stands: one flume, one wave, and units that have not moved yet.
+//! Runs that begin at the checkpoint of another run with the same flume and wave, before any unit has moved.
 
 use std::{path::Path, sync::Arc};
 
@@ -21,10 +21,10 @@ use crate::{
     },
 };
 
-/// Units that have moved less than this share of their height stand still: rolling and sliding begin after it.
+/// Units that moved less than this share of their height [-] count as still; rolling and sliding move them further.
 pub const STILL: f64 = 0.01;
 
-/// A case where another run of the same wave stands.
+/// A case in the state of another run with the same wave.
 pub struct Start<'a> {
     simulation: Simulation,
     outputs: RecorderState,
@@ -32,13 +32,14 @@ pub struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// Put a case into the state of the checkpoint in another run's folder, whose case is the same but for
+    /// Puts a case into the state of the checkpoint in the folder of another run. The cases may differ only in
     /// [`Case::MAY_DIFFER`]. Nothing is written.
     ///
     /// # Errors
-    /// If the other run has no checkpoint, is one of another case, or its units have moved.
+    /// If the other run has no checkpoint, its case differs too much, or its units have moved.
     pub fn at(case: Arc<Case>, from: &'a Path, options: &RunOptions) -> Result<Self, RunError> {
-        let refused = |why: String| RunError::setup(format!("{}: the run cannot begin there: {why}", from.display()));
+        let refused =
+            |reason: String| RunError::setup(format!("{}: the run cannot begin there: {reason}", from.display()));
         if !from.join(Checkpoint::FILE).exists() {
             return Err(refused(format!("there is no {}", Checkpoint::FILE)));
         }
@@ -53,16 +54,18 @@ impl<'a> Start<'a> {
         let moved = simulation.units.iter().flat_map(Units::displacements).fold(0.0, f64::max);
         if height.is_some_and(|height| moved > STILL * height) {
             let moved = 1e3 * moved;
-            return Err(refused(format!("a unit has moved {moved:.1} mm by {time:.3} s; begin while all stand still")));
+            return Err(refused(format!(
+                "a unit has moved {moved:.1} mm by {time:.3} s; begin while all units are still"
+            )));
         }
         simulation.statistics.rest = Rest::default();
         let warning =
-            format!("until {time:.3} s computed with the friction of another run, while the units stood still");
+            format!("computed with the friction of another run until {time:.3} s, while the units were still");
         simulation.statistics.warnings.push(warning);
         Ok(Self { simulation, outputs, from })
     }
 
-    /// Run it from there into an existing, empty folder. What the other run has written until then is taken over.
+    /// Runs the case from there into an existing, empty folder. The outputs of the other run until then are copied.
     ///
     /// # Errors
     /// As [`super::run::run`].
@@ -74,18 +77,18 @@ impl<'a> Start<'a> {
     }
 }
 
-/// In what two case files differ that may not, in words.
+/// Describes the differences of two case files that are not allowed.
 pub fn difference(one: &str, other: &str) -> String {
-    let keys = apart(one, other);
-    let may = Case::MAY_DIFFER.join(", ");
+    let keys = differing_keys(one, other);
+    let allowed = Case::MAY_DIFFER.join(", ");
     if keys.is_empty() {
-        return "a file that both cases name has changed".to_owned();
+        return "a file named in both cases has changed".to_owned();
     }
-    format!("the cases differ in {}; only {may} may differ", keys.join(", "))
+    format!("the cases differ in {}; only {allowed} may differ", keys.join(", "))
 }
 
-/// Keys at the top of two case files in which they differ, but for [`Case::MAY_DIFFER`].
-fn apart(one: &str, other: &str) -> Vec<String> {
+/// Returns the top-level keys in which two case files differ, except [`Case::MAY_DIFFER`].
+fn differing_keys(one: &str, other: &str) -> Vec<String> {
     let parsed = |text: &str| {
         let mut keys: Map<String, Value> =
             serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or_default();
@@ -98,8 +101,8 @@ fn apart(one: &str, other: &str) -> Vec<String> {
     let mut keys: Vec<&String> = one.keys().chain(other.keys()).collect();
     keys.sort_unstable();
     keys.dedup();
-    let may = |key: &str| key == "$schema" || Case::MAY_DIFFER.contains(&key);
-    keys.retain(|key| !may(key) && one.get(*key) != other.get(*key));
+    let may_differ = |key: &str| key == "$schema" || Case::MAY_DIFFER.contains(&key);
+    keys.retain(|key| !may_differ(key) && one.get(*key) != other.get(*key));
     keys.into_iter().cloned().collect()
 }
 
@@ -108,13 +111,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cases_that_differ_in_what_units_at_rest_do_not_feel_are_not_apart() {
+    fn only_keys_that_do_not_matter_to_still_units_may_differ() {
         let case = r#"{ "title": "a", "friction": [0.3], "stop": { "duration_s": 1 }, "wave": { "height_m": 0.1 } }"#;
         let other = r#"{ "title": "b", "friction": [0.5], "stop": { "duration_s": 1, "at_rest": {} },
             "wave": { "height_m": 0.1 } }"#;
-        assert!(apart(case, other).is_empty());
+        assert!(differing_keys(case, other).is_empty());
         let another = r#"{ "stop": { "duration_s": 2 }, "wave": { "height_m": 0.2 }, "gauges": [] }"#;
-        assert_eq!(apart(case, another), ["gauges", "stop", "wave"]);
-        assert!(difference(case, another).contains("only title, assumptions, friction, stop.at_rest may differ"));
+        assert_eq!(differing_keys(case, another), ["gauges", "stop", "wave"]);
+        assert!(
+            difference(case, another).contains("only title, assumptions, reference, friction, stop.at_rest may differ")
+        );
     }
 }

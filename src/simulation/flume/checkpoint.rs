@@ -1,7 +1,7 @@
-//! State of a run to and from HDF5, to the last bit.
+//! Checkpoints: the bitwise state of a run in an HDF5 file.
 //!
-//! Arrays are datasets; bodies with their contacts, statistics and the state of the outputs are JSON texts, in which
-//! every number is the shortest text that reads back to the same bits.
+//! Arrays are datasets. Bodies with their contacts, statistics and the state of the outputs are JSON texts; every
+//! number is the shortest text that reads back to the same bits.
 
 use std::path::Path;
 
@@ -23,10 +23,10 @@ use crate::{
     waves::absorption::AbsorptionState,
 };
 
-/// Layout of the file; raised when it changes.
+/// Version of the file layout; raised when the layout changes.
 const VERSION: u32 = 13;
 
-/// Everything but the arrays.
+/// All state except the arrays.
 #[derive(Serialize, Deserialize)]
 struct Scalars {
     version: u32,
@@ -43,7 +43,7 @@ struct Scalars {
     absorbed: AbsorptionState,
 }
 
-/// A copy of the state of a run, to be written while the run goes on.
+/// A copy of the state of a run, which can be written while the run continues.
 pub struct Checkpoint {
     scalars: Scalars,
     water: Water,
@@ -52,13 +52,13 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Name of the checkpoint in a run folder.
+    /// File name of the checkpoint in the run folder.
     pub const FILE: &str = "checkpoint.h5";
 
-    /// Name of the state at which a run failed.
+    /// File name of the state at which a run failed.
     pub const FAILED_FILE: &str = "failed.h5";
 
-    /// The state of now, with that of the outputs.
+    /// Copies the present state, with that of the outputs.
     pub fn of(simulation: &Simulation, recorder: &RecorderState) -> Self {
         let units = simulation.units.as_ref();
         let scalars = Scalars {
@@ -84,7 +84,7 @@ impl Checkpoint {
         }
     }
 
-    /// Write the state to `file` in the run folder: to a temporary name first, synced, then renamed.
+    /// Writes the state to `file` in the run folder: to a temporary name first, synced, then renamed.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -104,30 +104,30 @@ impl Checkpoint {
     }
 }
 
-/// Name of the device that computed the run of a folder, if it has a checkpoint that can be read.
+/// Returns the name of the device that computed the run in a folder, if its checkpoint can be read.
 pub fn device_of(dir: &Path) -> Option<String> {
     let path = dir.join(Checkpoint::FILE);
     let (text, ()) = read_state(&path, |_| Ok(())).ok()?;
     parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
 }
 
-/// Put a simulation of the same case into the state of the checkpoint; returns the state of the outputs.
+/// Puts a simulation of the same case into the state of the checkpoint; returns the state of the outputs.
 ///
 /// # Errors
-/// If there is no checkpoint, it is damaged, or it is one of another case.
+/// If the checkpoint is missing, damaged or of another case.
 pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
     let hash = simulation.case.hash.clone();
     read_of(simulation, dir, &hash)
 }
 
-/// The same from a checkpoint of a case with the given fingerprint, which has the same particles and units.
+/// Like [`read`], for the checkpoint of a case with the hash `case_hash`, the same particles and the same units.
 ///
 /// # Errors
 /// As [`read`].
 pub fn read_of(simulation: &mut Simulation, dir: &Path, case_hash: &str) -> Result<RecorderState, OutputError> {
     let checkpoint = Checkpoint::read(dir)?;
     if checkpoint.scalars.case_hash != case_hash {
-        let what = "belongs to another case than case.json beside it".to_owned();
+        let what = "belongs to another case than case.json next to it".to_owned();
         return Err(OutputError::content(&dir.join(Checkpoint::FILE), what));
     }
     checkpoint.restore(simulation, dir)
@@ -139,7 +139,10 @@ impl Checkpoint {
         let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
         let scalars: Scalars = parse(&text, &path)?;
         if scalars.version != VERSION {
-            let what = format!("was written by another version of breakwater (layout {})", scalars.version);
+            let what = format!(
+                "was written by another version of breakwater (layout {} instead of {VERSION}); rerun the case",
+                scalars.version
+            );
             return Err(OutputError::content(&path, what));
         }
         Ok(Self { scalars, water, boundary_density, water_at_impacts })
@@ -159,7 +162,7 @@ impl Checkpoint {
         let now = simulation.solver.name();
         if scalars.device != now {
             simulation.statistics.warnings.push(format!(
-                "went on at {:.3} s on another device, {now} instead of {}: as exact, but not with the same bits",
+                "resumed at {:.3} s on another device, {now} instead of {}: as accurate, but not bitwise the same",
                 simulation.flume_time(),
                 scalars.device
             ));
@@ -172,8 +175,8 @@ impl Checkpoint {
                 load.torque = DVec3::from_array(torque);
             }
             units.mean_loads = scalars.mean_loads;
-            let places = simulation.boundary.places_in_unit().count();
-            if water_at_impacts.0.values().any(|water| water.pressure.len() != places) {
+            let points = simulation.boundary.places_in_unit().count();
+            if water_at_impacts.0.values().any(|water| water.pressure.len() != points) {
                 return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
             }
             units.water_at_impacts = water_at_impacts;
@@ -188,11 +191,11 @@ fn parse<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, OutputError>
 }
 
 fn write_impacts(group: &Group, water: &WaterAtImpacts) -> Hdf5Result<()> {
-    let of = |load: fn(&FluidAtPeak) -> DVec3| water.0.values().map(load).collect::<Vec<_>>();
+    let vectors = |load: fn(&FluidAtPeak) -> DVec3| water.0.values().map(load).collect::<Vec<_>>();
     let pressures: Vec<f32> = water.0.values().flat_map(|water| &water.pressure).copied().collect();
     write_column(group, "contact", &water.0.keys().copied().collect::<Vec<u64>>())?;
-    write_vectors(group, "force_n", &of(|water| water.load.force))?;
-    write_vectors(group, "torque_n_m", &of(|water| water.load.torque))?;
+    write_vectors(group, "force_n", &vectors(|water| water.load.force))?;
+    write_vectors(group, "torque_n_m", &vectors(|water| water.load.torque))?;
     write_column(group, "pressure_pa", &pressures)
 }
 
@@ -200,15 +203,15 @@ fn read_impacts(group: &Group) -> Hdf5Result<WaterAtImpacts> {
     let contacts: Vec<u64> = group.dataset("contact")?.read_raw()?;
     let (forces, torques) = (read_vectors(group, "force_n")?, read_vectors(group, "torque_n_m")?);
     let pressures: Vec<f32> = group.dataset("pressure_pa")?.read_raw()?;
-    let places = pressures.len() / contacts.len().max(1);
+    let points = pressures.len() / contacts.len().max(1);
     let loads = forces.into_iter().zip(torques).map(|(force, torque)| Load { force, torque });
-    // Without particles at the units there is no pressure either.
-    let pressures = pressures.chunks(places.max(1)).map(<[f32]>::to_vec).chain(std::iter::repeat(Vec::new()));
+    // Without particles on the units there are no pressures.
+    let pressures = pressures.chunks(points.max(1)).map(<[f32]>::to_vec).chain(std::iter::repeat(Vec::new()));
     let water = loads.zip(pressures).map(|(load, pressure)| FluidAtPeak { load, pressure });
     Ok(WaterAtImpacts(contacts.into_iter().zip(water).collect()))
 }
 
-/// Water, densities of the boundary, water at the impacts.
+/// Reads the water, the densities of the boundary, and the water at the impacts.
 fn read_arrays(file: &File) -> Hdf5Result<(Water, Vec<f64>, WaterAtImpacts)> {
     let group = file.group("water")?;
     let water = Water {

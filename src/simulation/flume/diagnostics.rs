@@ -1,4 +1,4 @@
-//! Whether a run is sound: what `diagnostics.csv` shows, and what the user is warned of.
+//! Rows of `diagnostics.csv`, and warnings about doubtful water.
 
 use glam::DVec3;
 
@@ -9,15 +9,15 @@ use super::{
 };
 use crate::sph::backend::Watched;
 
-/// Mach number above which the water is no longer nearly incompressible: the density changes with its square, and one
-/// per cent is what weakly compressible SPH allows itself (Monaghan 1994).
+/// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is its
+/// square; weakly compressible SPH allows 1 % (Monaghan 1994).
 pub const LARGEST_MACH: f64 = 0.1;
 
 impl Simulation {
-    /// Look at the water at the end of a step: stop at the impossible, keep the extremes, warn of the doubtful.
+    /// Checks the water at the end of a time step: fails if it is unstable, records its extremes, warns of fast water.
     ///
     /// # Errors
-    /// If a particle has left the domain, or its density is far off.
+    /// If a particle has left the domain, or its density is impossible.
     pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
         if let Some(watched) = self.solver.watch()? {
             return self.judge(&watched);
@@ -37,7 +37,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// The same for water that a device has looked over; its particles are only brought here to be named.
+    /// The same for water that a device has checked; particles are fetched only if a message names them.
     fn judge(&mut self, watched: &Watched) -> Result<(), Failure> {
         let mach = watched.fastest / self.case.fluid.sound_speed;
         let rho0 = self.case.fluid.rho0;
@@ -53,7 +53,7 @@ impl Simulation {
             if let Some(failure) = failure::find_wrong_density(self, &extremes) {
                 return Err(failure);
             }
-            // The card has looked before velocities into surfaces were taken away.
+            // The card checks before the velocities into surfaces are removed.
             if fast && extremes.fastest.0 > LARGEST_MACH * self.case.fluid.sound_speed {
                 self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
             }
@@ -62,7 +62,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// A row of `diagnostics.csv`; `dt` is the length of the step that comes [s], `divergence` is that of
+    /// Returns a row of `diagnostics.csv`; `dt` is the length of the next time step [s], `divergence` is that of
     /// [`crate::sph::power::Powers`] [1/s]. Mach number and densities are the extremes since the last row.
     pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
@@ -78,23 +78,23 @@ impl Simulation {
         [self.flume_time(), volume, volume - start.0, mach, lowest, highest, divergence, steps, dt, lost]
     }
 
-    /// Volume of the water, the sum of m / rho [m3].
+    /// Returns the volume of the water, the sum of m / rho [m3].
     fn water_volume(&self) -> f64 {
-        // One after the other, so that the last bit does not depend on the number of threads.
+        // A serial sum, so that the last bit does not depend on the number of threads.
         self.water.mass.iter().zip(&self.water.density).map(|(mass, density)| mass / density).sum()
     }
 }
 
 fn mach_warning(simulation: &Simulation, fastest: &Particle) -> String {
     let (case, DVec3 { x, y, z }) = (&simulation.case, fastest.place);
-    // As written in the case: three decimals take away the rounding.
+    // As written in the case: three decimals remove the rounding error.
     let factor = case.fluid.sound_speed / (case.fluid.gravity * case.domain.depth).sqrt();
     let factor = (1e3 * factor).round() / 1e3;
     format!(
-        "at {:.3} s water moved at {:.2} m/s near x = {x:.3}, y = {y:.3}, z = {z:.3} m (particle {}), faster than a tenth of \
-         the speed of sound that the run gives to water, {:.1} m/s: water that fast is squeezed by one per cent and more, \
-         and pressures and forces where it strikes are doubtful. If it is more than spray, raise fluid.sound_speed_factor \
-         (now {}); the run takes longer in proportion",
+        "at {:.3} s water moves at {:.2} m/s near x = {x:.3}, y = {y:.3}, z = {z:.3} m (particle {}), faster than a \
+         tenth of the speed of sound of the run, {:.1} m/s: its density changes by more than 1 %, and pressures and \
+         forces of its impact are doubtful. If it is more than spray, raise fluid.sound_speed_factor (now {}); the run \
+         time rises in proportion",
         simulation.flume_time(),
         fastest.speed,
         fastest.id,
@@ -108,7 +108,7 @@ mod tests {
     use super::{super::failure::tests::tank, *};
 
     #[test]
-    fn fast_water_is_warned_of_once_with_place_and_time() {
+    fn fast_water_causes_one_warning_with_position_and_time() {
         let mut simulation = tank();
         let sound = simulation.case.fluid.sound_speed;
         simulation.watch_water().unwrap();
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_shows_the_extremes_since_the_row_before() {
+    fn a_row_holds_the_extremes_since_the_previous_row() {
         let mut simulation = tank();
         let sound = simulation.case.fluid.sound_speed;
         let [_, volume, change, mach, lowest, highest, divergence, steps, dt, lost] =

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 
-/// Energy of water and units [J]; heights count from z = 0.
+/// Energy of water and units [J]; potential energy is zero at z = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyOf {
     /// Kinetic energy of the water.
@@ -18,14 +18,14 @@ pub struct EnergyOf {
 }
 
 impl EnergyOf {
-    /// All of it [J].
+    /// Returns the sum [J].
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential + self.internal + self.units_kinetic + self.units_potential
     }
 }
 
 impl Simulation {
-    /// Energy of water and units.
+    /// Returns the energy of water and units.
     pub fn energy(&self) -> EnergyOf {
         let (water, parameters) = (&self.water, self.solver().parameters());
         let mut energy =
@@ -36,7 +36,7 @@ impl Simulation {
             energy.internal += water.mass[i] * parameters.tait.internal_energy(water.density[i]);
         }
         if let (Some(units), Some(of_case)) = (&self.units, &self.case.units) {
-            // In two dimensions the water is as thick as a slice of a unit.
+            // In two dimensions the water is one slice of a unit thick.
             let mass = of_case.mass / of_case.slices;
             let inertia = units.shape.inertia(mass);
             for state in units.states() {

@@ -1,10 +1,10 @@
-//! The fastest, the lightest and the densest water.
+//! Extremes of speed and density of the water.
 
 use rayon::prelude::*;
 
 use crate::sph::particles::water::Water;
 
-/// Extremes of the water at one moment; each names its particle by its index.
+/// Extremes of the water at one time; each with the index of its particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extremes {
     /// Largest speed [m/s].
@@ -16,8 +16,8 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Extremes of the finite values; none without water. Of equal particles the first is named, so that the result
-    /// does not depend on the number of threads.
+    /// Returns the extremes of the finite values; `None` without water. Of equal particles the first counts, so that
+    /// the result does not depend on the number of threads.
     pub fn of(water: &Water) -> Option<Self> {
         let of_particle = |i: usize| Self {
             fastest: (water.velocity[i].length(), i),
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn extremes_name_the_first_particle_that_has_them() {
+    fn extremes_name_the_first_of_equal_particles() {
         let density = [1000.0, 998.0, f64::NAN, 1003.0, 998.0, 1003.0].repeat(5000);
         let water = Water {
             velocity: (0..density.len()).map(|i| DVec3::X * if i == 20_000 { -2.0 } else { 1.0 }).collect(),

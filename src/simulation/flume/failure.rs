@@ -1,4 +1,4 @@
-//! What can go wrong in a step, and finding out where.
+//! Failures of a time step: their causes and positions, and what to do.
 
 use std::fmt;
 
@@ -11,30 +11,30 @@ use crate::{
     sph::{backend::DeviceError, particles::water::Water},
 };
 
-/// Change of density at which the water is no longer water [-]: particles outside 700 to 1300 kg/m3 are what
-/// DualSPHysics drops from a run by default. A coarse dam break that struck a unit at Mach 0.17 stayed within 5 %.
+/// Relative change of density above which a run fails [-]. DualSPHysics drops particles outside 700 to 1300 kg/m3 by
+/// default. A coarse dam break that hit a unit at Mach 0.17 stayed within 5 %.
 pub(super) const LARGEST_COMPRESSION: f64 = 0.3;
 
-/// What is usually behind water that has become unstable.
-const UNSTABLE_ADVICE: &str = "likely causes: a time step too long (lower numerics.cfl), a speed of sound too low for the \
-     flow (raise fluid.sound_speed_factor), or particles too coarse for the geometry there (lower domain.dp_m); \
-     diagnostics.csv shows whether speeds and densities went astray before";
+/// Usual causes of unstable water.
+const UNSTABLE_ADVICE: &str = "likely causes: the time step is too long (lower numerics.cfl), the speed of sound is \
+     too low for the flow (raise fluid.sound_speed_factor), or the particles are too coarse for the geometry there \
+     (lower domain.dp_m); diagnostics.csv shows whether speeds and densities were already unusual before";
 
-/// A water particle as messages name it; what is not known is not a number.
+/// A water particle in a message; unknown values are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Particle {
-    /// Number that it keeps throughout the run.
+    /// Number of the particle, the same throughout the run.
     pub id: u32,
-    /// Where it is [m].
+    /// Position [m].
     pub place: DVec3,
-    /// Its speed [m/s].
+    /// Speed [m/s].
     pub speed: f64,
-    /// Its density [kg/m3].
+    /// Density [kg/m3].
     pub density: f64,
 }
 
 impl Particle {
-    /// The particle at an index of the arrays.
+    /// Returns the particle at an index of the arrays.
     pub(super) fn of(water: &Water, index: usize) -> Self {
         Self {
             id: water.id[index],
@@ -56,27 +56,27 @@ impl fmt::Display for Particle {
     }
 }
 
-/// Why a run cannot go on. Times [s] count from the start of the particles; lengths [m], speeds [m/s].
+/// Why a run failed. Times [s] count from the start of the particles; lengths [m], speeds [m/s].
 #[derive(Debug, Error)]
 pub enum Failure {
     /// A number is no longer finite.
     #[error("the water has become unstable after {time:.4} s (step {step}): {what}: {particle}; {UNSTABLE_ADVICE}")]
     Unstable { time: f64, step: u64, what: &'static str, particle: Particle },
-    /// The water is compressed or torn as no water is.
+    /// The density of the water is impossible.
     #[error(
-        "the water has become unstable after {time:.4} s (step {step}): {particle}, {change:+.0} % off the {rho0} kg/m3 of \
-         water at rest; {UNSTABLE_ADVICE}"
+        "the water has become unstable after {time:.4} s (step {step}): {particle}, {change:+.0} % from the {rho0} \
+         kg/m3 of water at rest; {UNSTABLE_ADVICE}"
     )]
     Density { time: f64, step: u64, particle: Particle, change: f64, rho0: f64 },
     /// A particle has left the domain.
     #[error("after {time:.4} s (step {step}) {particle} has left the domain: {advice}")]
     Escaped { time: f64, step: u64, particle: Particle, advice: &'static str },
-    /// A unit has gone deeper into something than its contact law knows.
+    /// A unit overlaps something more than its contact law allows.
     #[error(
-        "after {time:.4} s (step {step}) unit {unit} at x = {:.3}, y = {:.3}, z = {:.3} m, with {speed:.2} m/s, has gone \
-         {:.3} mm deep into {partner}, more than the {:.3} mm that its rounding allows: it strikes too hard for a contact so \
-         soft; raise young_modulus_pa of its material or contact.rounding_share, and see in diagnostics.csv whether the \
-         water that carries it is sound", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
+        "after {time:.4} s (step {step}) unit {unit} at x = {:.3}, y = {:.3}, z = {:.3} m, with {speed:.2} m/s, \
+         overlaps {partner} by {:.3} mm; its rounding allows {:.3} mm. The contact is too soft for this impact: raise \
+         young_modulus_pa of the material or contact.rounding_share, and check in diagnostics.csv whether the water \
+         around the unit is stable", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
     )]
     TooDeep {
         time: f64,
@@ -89,23 +89,23 @@ pub enum Failure {
         depth: f64,
         allowed: f64,
     },
-    /// A unit's motion is no longer a number.
+    /// The motion of a unit is not a finite number.
     #[error(
         "after {time:.4} s (step {step}) the motion of unit {unit}, last at x = {:.3}, y = {:.3}, z = {:.3} m with \
-         {speed:.2} m/s, is no longer a finite number; the water round it has probably become unstable; {UNSTABLE_ADVICE}",
+         {speed:.2} m/s, is no longer a finite number; the water around it is probably unstable; {UNSTABLE_ADVICE}",
         place.x, place.y, place.z
     )]
     UnitNotFinite { time: f64, step: u64, unit: usize, place: DVec3, speed: f64 },
-    /// The device that computes the water is of no use any more.
+    /// The device that computes the water has failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// The units cannot go on for another reason.
+    /// The units have failed for another reason.
     #[error("after {time:.4} s (step {step}): {source}")]
     Units { time: f64, step: u64, source: RigidError },
 }
 
-/// Name the particle whose state is not finite, if possible one whose place is still known, or, where only a rate is
-/// not, the fastest.
+/// Returns the failure for a particle whose state is not finite, if possible one with a finite position. If all states
+/// are finite, and only a rate is not, it names the fastest particle.
 pub(super) fn not_finite(simulation: &Simulation) -> Failure {
     let water = &simulation.water;
     let first = |bad: &dyn Fn(usize) -> bool| (0..water.len()).find(|&i| bad(i));
@@ -113,9 +113,9 @@ pub(super) fn not_finite(simulation: &Simulation) -> Failure {
         first(&|i| !is_finite(water, i) && water.position[i].is_finite()).or_else(|| first(&|i| !is_finite(water, i)));
     let speed = |i: usize| water.velocity[i].length_squared();
     let (what, index) = match bad {
-        Some(i) => ("place, velocity or density is no longer a finite number", Some(i)),
+        Some(i) => ("position, velocity or density is no longer a finite number", Some(i)),
         None => (
-            "an acceleration or a rate of density is no longer a finite number; the fastest is",
+            "an acceleration or a density rate is no longer a finite number; the fastest particle is",
             (0..water.len()).max_by(|&a, &b| speed(a).total_cmp(&speed(b))),
         ),
     };
@@ -128,7 +128,7 @@ fn is_finite(water: &Water, i: usize) -> bool {
     water.position[i].is_finite() && water.velocity[i].is_finite() && water.density[i].is_finite()
 }
 
-/// The first particle outside the domain or without a finite state, if any.
+/// Returns the failure for the first particle outside the domain or without a finite state, if any.
 pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
     use rayon::prelude::*;
     let [low, high] = simulation.bounds;
@@ -140,16 +140,16 @@ pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
         return Some(not_finite(simulation));
     }
     let advice = if water.position[i].z > high.z {
-        "splash higher than the walls: raise domain.top_z_m"
+        "the splash is higher than the walls: raise domain.top_z_m"
     } else {
-        "it has gone through a wall or the bed: lower domain.dp_m, raise numerics.boundary_layers, or check that walls \
+        "it went through a wall or the bed: lower domain.dp_m, raise numerics.boundary_layers, or check that the walls \
          reach above the water"
     };
     let (time, step) = (simulation.time, simulation.steps);
     Some(Failure::Escaped { time, step, particle: Particle::of(water, i), advice })
 }
 
-/// The lightest or densest particle, if its density is impossible.
+/// Returns the failure for the lightest or densest particle, if its density is impossible.
 pub(super) fn find_wrong_density(simulation: &Simulation, extremes: &Extremes) -> Option<Failure> {
     let rho0 = simulation.case.fluid.rho0;
     let change = |density: f64| density / rho0 - 1.0;
@@ -164,7 +164,7 @@ pub(super) fn find_wrong_density(simulation: &Simulation, extremes: &Extremes) -
     })
 }
 
-/// What an error of the bodies means for the run; the clock of the bodies starts when they are let go.
+/// Turns an error of the rigid bodies into a failure of the run. The clock of the bodies starts at their release.
 pub(super) fn of_units(simulation: &Simulation, error: RigidError) -> Failure {
     let (time, step) = (simulation.time, simulation.steps);
     let last = |body: usize| {
@@ -215,7 +215,7 @@ pub(super) mod tests {
         simulation(&tank_case())
     }
 
-    /// The same with a Tetrapod that is free from the start.
+    /// The same tank with a Tetrapod that is free from the start.
     fn tank_with_unit() -> Simulation {
         let mut case = tank_case();
         case["units"] = json!({
@@ -225,7 +225,7 @@ pub(super) mod tests {
         simulation(&case)
     }
 
-    /// Steps until the run cannot go on; what it says.
+    /// Makes time steps until the run fails; returns the message.
     fn failure(simulation: &mut Simulation) -> String {
         for _ in 0..3 {
             let done = simulation.step();
@@ -233,7 +233,7 @@ pub(super) mod tests {
                 return failure.to_string();
             }
         }
-        panic!("the run goes on");
+        panic!("the run does not fail");
     }
 
     fn assert_names(message: &str, parts: &[&str]) {
@@ -241,12 +241,12 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_state_that_is_no_number_stops_the_run() {
+    fn a_state_that_is_not_finite_stops_the_run() {
         let mut simulation = tank();
         simulation.step().unwrap();
         let (id, place) = (simulation.water.id[400], simulation.water.position[400]);
         let named = format!("water particle {id} at x = {:.3}, y = {:.3}, z = {:.3} m", place.x, place.y, place.z);
-        // At the end of a step, in the speed of one particle, while the place of another is lost already.
+        // The velocity of one particle and the position of another: the message names the one with a known position.
         simulation.water.velocity[400].x = f64::NAN;
         simulation.water.position[100].y = f64::NAN;
         let message = simulation.watch_water().unwrap_err().to_string();
@@ -254,7 +254,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_rate_that_is_no_number_stops_the_run() {
+    fn a_rate_that_is_not_finite_stops_the_run() {
         let mut simulation = tank();
         simulation.water.density[400] = f64::INFINITY;
         let id = simulation.water.id[400];
@@ -283,30 +283,30 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_density_far_off_stops_the_run() {
+    fn an_impossible_density_stops_the_run() {
         for (density, change) in [(1500.0, "+50 %"), (600.0, "-40 %")] {
             let mut simulation = tank();
             let id = simulation.water.id[30];
             simulation.water.density[30] = density;
             let message = simulation.watch_water().unwrap_err().to_string();
             let particle = format!("water particle {id} at x = ");
-            let has = format!("0.00 m/s and {density:.1} kg/m3, {change} off the 1000 kg/m3");
+            let has = format!("0.00 m/s and {density:.1} kg/m3, {change} from the 1000 kg/m3");
             assert_names(&message, &["after 0.0000 s (step 0)", &particle, &has, "raise fluid.sound_speed_factor"]);
         }
     }
 
     #[test]
-    fn a_unit_too_deep_in_the_bed_stops_the_run() {
+    fn a_unit_that_overlaps_the_bed_too_much_stops_the_run() {
         let mut simulation = tank_with_unit();
-        // Thrown at the bed a hundred times faster than it could fall.
+        // Accelerated into the bed by 1e5 times gravity.
         let units = simulation.units.as_mut().unwrap();
         units.world.set_gravity(DVec3::NEG_Z * 1e6);
         let message = failure(&mut simulation);
-        assert_names(&message, &["unit 1 at x = 0.250", "mm deep into the ground", "raise young_modulus_pa"]);
+        assert_names(&message, &["unit 1 at x = 0.250", "overlaps the ground by ", "raise young_modulus_pa"]);
     }
 
     #[test]
-    fn a_load_that_is_no_number_stops_the_run() {
+    fn a_load_that_is_not_finite_stops_the_run() {
         let mut simulation = tank_with_unit();
         simulation.units.as_mut().unwrap().world.set_gravity(DVec3::NAN);
         let message = failure(&mut simulation);

@@ -1,11 +1,10 @@
-//! Water does not flow through solids.
+//! Impermeable surfaces: water does not flow through solids.
 //!
-//! mDBC gives a boundary the pressure of the water in front of it; it has no barrier of its own, and a water particle
-//! that was thrown against an edge or into the wedge under a unit can sink through. Therefore the kinematic condition
-//! of an impermeable surface is imposed on the few particles nearer to a surface than [`NEAREST`]: the part of their
-//! velocity that would take them further towards it, relative to the surface, is taken away. In calm water particles
-//! stay half a particle distance away and none is concerned. What a unit takes from the water in this way is given to
-//! it as an impulse.
+//! mDBC gives a boundary the pressure of the water in front of it, but no barrier. A water particle that hits an edge
+//! or enters the wedge under a unit can pass through. Therefore the kinematic condition of an impermeable surface is
+//! imposed on the few particles nearer to a surface than [`NEAREST`]: the part of their relative velocity towards the
+//! surface is removed. In calm water no particle is affected: the particles stay half a particle spacing away. A unit
+//! receives the momentum that is removed from the water as an impulse.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -23,13 +22,13 @@ use crate::{
     waves::wavemaker::Wavemaker,
 };
 
-/// Distance from a surface, in particle distances, at which the approach of a particle ends: half of that of calm
+/// Distance from a surface, in particle spacings, at which the approach of a particle ends: half the distance in calm
 /// water.
 pub const NEAREST: f64 = 0.25;
 
 impl Simulation {
-    /// Take away the velocities into bed, walls, wavemaker and units at the end of a step of length `dt` [s]; the
-    /// units' share is added to their loads.
+    /// Removes velocities into bed, walls, wavemaker and units at the end of a time step of length `dt` [s]; adds the
+    /// impulses on the units to their loads.
     ///
     /// # Errors
     /// If the device is lost.
@@ -44,7 +43,7 @@ impl Simulation {
         let Self { case, outline, wavemaker, units, solver, water, .. } = self;
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
-        // What a device has taken out is near to something already; all the water is looked through by its bins.
+        // Particles from a device are already near a surface; otherwise the bins find those near the units.
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
             keep_out_of_walls(water, outline, nearest);
             if case.domain.sides == Sides::Walls {
@@ -74,7 +73,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// What water does not go through, the wavemaker's rows being displaced as given.
+    /// Returns the impermeable surfaces, with the wavemaker's rows displaced by `rows`.
     fn surfaces(&self, rows: &[[f64; 2]]) -> Surfaces {
         let (case, dp) = (&self.case, self.case.domain.dp);
         let nearest = NEAREST * dp;
@@ -101,7 +100,7 @@ impl Simulation {
     }
 }
 
-/// The velocity without its part against the unit `normal`.
+/// Returns the velocity without its part against the unit vector `normal`.
 fn without_approach(velocity: DVec3, normal: DVec3) -> DVec3 {
     velocity - velocity.dot(normal).min(0.0) * normal
 }
@@ -117,7 +116,7 @@ fn keep_out_of_walls(water: &mut Water, outline: &Outline, nearest: f64) {
 
 fn keep_out_of_obstacle(water: &mut Water, obstacle: &AxisBox, nearest: f64) {
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        // Cheap for the many that are far away.
+        // A cheap test for the many particles far away.
         if (*position - obstacle.nearest(*position)).length_squared() >= nearest * nearest {
             return;
         }
@@ -156,7 +155,7 @@ fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64;
     });
 }
 
-/// Returns the impulse on each unit [N s] and its moment about the centre of mass [N m s].
+/// Removes velocities into units; returns the impulse on each [N s] and its moment about the centre of mass [N m s].
 fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option<&Bins>, nearest: f64) -> Vec<Load> {
     let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
     let keep_out = |state: &BodyState| {
@@ -186,23 +185,23 @@ fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option
     units.states().iter().map(keep_out).collect()
 }
 
-/// Radius of the sphere about the centre of mass that holds the part [m].
+/// Returns the radius of the sphere around the centre of mass that contains the part [m].
 fn reach_of(part: &ConvexPart) -> f64 {
     let (centre, radius) = part.bounding_sphere();
     centre.length() + radius
 }
 
-/// Outward normal of the unit where a point at `arm` [m] from its centre is nearer to its surface than `nearest` [m].
+/// Returns the outward normal of a unit, if the point `arm` [m] from its centre is within `nearest` [m] of its surface.
 fn normal_within(parts: &[ConvexPart], state: &BodyState, arm: DVec3, nearest: f64) -> Option<DVec3> {
     let local = state.rotation.inverse() * arm;
     let distances = parts.iter().map(|part| (part, part.distance(local)));
     let (part, distance) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    // From the part's core outwards; in the core itself, away from the centre of mass.
+    // Away from the part's core; inside the core, away from the centre of mass.
     let outwards = (local - part.nearest(local)).try_normalize().or(local.try_normalize())?;
     (distance < nearest).then(|| state.rotation * outwards)
 }
 
-/// Water particles in the bins round a place; they have hardly moved since they were sorted.
+/// Returns the water particles in the bins around `centre`; they have hardly moved since they were sorted.
 fn candidates<'a>(grid: &Grid, bins: &'a Bins, centre: DVec3, reach: f64) -> impl Iterator<Item = usize> + use<'a> {
     let [nx, ny, _] = grid.count;
     let margin = reach + 0.5 * grid.size.x;
@@ -218,7 +217,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_the_approach_is_taken_away() {
+    fn only_the_velocity_towards_the_surface_is_removed() {
         let normal = DVec3::Z;
         assert_eq!(without_approach(DVec3::new(1.0, 2.0, -3.0), normal), DVec3::new(1.0, 2.0, 0.0));
         assert_eq!(without_approach(DVec3::new(1.0, 2.0, 3.0), normal), DVec3::new(1.0, 2.0, 3.0));

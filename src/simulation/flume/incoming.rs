@@ -1,4 +1,4 @@
-//! From the case's wave to a run of the flume model and to what makes the wave in the particles.
+//! The wave of a case: its run of the flume model and its wavemaker in the particle domain.
 
 use crate::{
     case::{self, Case, Quantity, Start, Wave},
@@ -17,23 +17,23 @@ use crate::{
     },
 };
 
-/// Longest time between records of the flume model and knots of the piston [s]: a solitary wave takes seconds to pass.
+/// Longest interval of the records of the flume model and of the piston motion [s]; a solitary wave lasts seconds.
 const LONGEST_INTERVAL: f64 = 0.02;
-/// Records in a period of other waves, at least.
+/// Least number of records per wave period.
 const RECORDS_PER_PERIOD: f64 = 60.0;
 
-/// The flume's flow is recorded this far beyond both ends of the particles [m]: the piston's particles wander.
+/// Distance beyond both ends of the particle domain over which the flow is recorded [m], because the piston moves.
 const FLUME_MARGIN: f64 = 1.5;
 
-/// Longest flume time that is looked through for the arrival of the wave, as a multiple of the time that its energy
-/// takes from where it is made to the particles.
+/// Longest flume time in which the wave must arrive at the particles, over the time that its energy takes from the
+/// seaward end [-].
 const ARRIVAL_ALLOWANCE: f64 = 2.5;
 
-/// Periods over which the rows of a piston in periodic waves are drawn back to where they stood, against the drift of
-/// the water: long enough to leave the oscillation alone, to 1 / (2 pi 4)^2 / 2 = 0.08 % of its height and 2.3 degrees.
+/// Time, in wave periods, over which the rows of a piston return to their start positions against the drift of the
+/// water. It changes the oscillation by only 1 / (2 pi 4)^2 / 2 = 0.08 % of its height and 2.3 degrees.
 const DRIFT_PERIODS: f64 = 4.0;
 
-/// Run the flume model of the case, if its wave comes from there, for as long as the particles will run.
+/// Runs the flume model, if the wave of the case comes from it, until the end of the particle run.
 ///
 /// # Errors
 /// If the flume model fails.
@@ -68,7 +68,7 @@ pub fn run_flume(case: &Case) -> Result<Option<FlumeRecord>, FlumeError> {
     Ok(Some(record))
 }
 
-/// What makes the wave at the seaward end of the flume.
+/// Returns the source of the wave at the seaward end of the flume.
 fn source(wave: &Wave) -> Result<Option<WaveSource>, WaveError> {
     let inflow = match *wave {
         Wave::None | Wave::Given(_) => return Ok(None),
@@ -85,14 +85,14 @@ fn source(wave: &Wave) -> Result<Option<WaveSource>, WaveError> {
     Ok(Some(WaveSource::Inflow(inflow)))
 }
 
-/// Time between records of the flume model [s].
+/// Returns the interval of the records of the flume model [s].
 fn interval(wave: &Wave) -> f64 {
     wave.period().map_or(LONGEST_INTERVAL, |period| LONGEST_INTERVAL.min(period / RECORDS_PER_PERIOD))
 }
 
-/// Time by which the wave has come from the seaward end of the flume to x [m], and has grown [s].
+/// Returns the time by which the wave has certainly arrived at x [m] with its full height [s].
 fn latest_arrival(case: &Case, x: f64) -> f64 {
-    let (way, gravity) = (x - case.flume.ends()[0], case.fluid.gravity);
+    let (distance, gravity) = (x - case.flume.ends()[0], case.fluid.gravity);
     let mean_depth = 0.5 * (case.flume.offshore_depth() + case.flume.still_depth(x));
     let long = (gravity * mean_depth).sqrt();
     let (speed, growth) = match case.wave {
@@ -108,10 +108,10 @@ fn latest_arrival(case: &Case, x: f64) -> f64 {
         Wave::SolitaryInflow(wave) => (long, 2.0 * wave.half_length_m() / wave.celerity_m_s()),
         Wave::None | Wave::Given(_) => (long, 0.0),
     };
-    ARRIVAL_ALLOWANCE * way / speed + growth
+    ARRIVAL_ALLOWANCE * distance / speed + growth
 }
 
-/// Flume time, or time of the files that the wave comes from, at which the particles start [s].
+/// Returns the time at which the particles start [s]: flume time, or time of the files with the wave.
 pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
     let (place, level) = (case.domain.x[0], case.flume.still_level);
     match (case.domain.start, record, &case.wave) {
@@ -122,17 +122,17 @@ pub fn particle_start(case: &Case, record: Option<&FlumeRecord>) -> f64 {
     }
 }
 
-/// Time of the particles [s] at which a solitary wave stands highest at x [m], by the flume model; 0 for other waves.
+/// Returns the particle time of the crest of a solitary wave at x [m], by the flume model [s]; 0 for other waves.
 pub(super) fn crest_time(case: &Case, record: Option<&FlumeRecord>, start: f64, x: f64) -> f64 {
     let (Some(record), Wave::Solitary(_) | Wave::SolitaryInflow(_)) = (record, &case.wave) else { return 0.0 };
     let end = start + case.stop.duration;
     let times = record.times_s().iter().filter(|time| (start..=end).contains(*time));
     let levels = times.map(|&time| (time - start, record.elevation(x, time)));
-    // The first of equal ones: where it stays dry, none is waited for.
+    // Of equal levels the first: where x stays dry, the run does not wait.
     levels.reduce(|highest, next| if next.1 > highest.1 { next } else { highest }).map_or(0.0, |(time, _)| time)
 }
 
-/// The multi-layer piston of the case's wave.
+/// Returns the multi-layer piston for the wave of the case.
 pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     let interval = interval(&case.wave);
     let end = (start + case.stop.duration).max(start + interval);
@@ -141,7 +141,7 @@ pub fn ml_piston(case: &Case, record: &FlumeRecord, start: f64) -> MlPiston {
     MlPiston::from_record(record, case.domain.x[0], &rows, [start, end], interval, drawn_back)
 }
 
-/// What makes the case's wave in the particles, if it has one.
+/// Returns the wavemaker of the particle domain, if the case has a wave.
 pub(super) fn wavemaker(case: &Case, flume: Option<&FlumeRecord>, start: f64) -> Option<Wavemaker> {
     if let Some(record) = flume {
         let piston = ml_piston(case, record, start);

@@ -1,8 +1,7 @@
-//! Loads on the units as means over the interval of the series.
+//! Mean loads on the units over the interval of the series.
 //!
-//! A single step holds the impulses of water that strikes a surface, and a contact may begin and end between two rows:
-//! a sample of one step in forty shows neither as it was. A mean times its interval is the momentum that was
-//! exchanged.
+//! Impacts of water on a surface last one time step, and a contact may begin and end between two rows. Single samples
+//! would show neither correctly. A mean load times its interval is the momentum exchanged.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -12,19 +11,19 @@ use crate::rigid::Load;
 /// Impulses on each unit since the last [`take`](Self::take); part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeanLoads {
-    /// Of each unit, force [N s] and torque [N m s] of the water, then of contact.
+    /// Impulse [N s] and angular impulse [N m s] of the water on each unit, then those of contact.
     impulses: Vec<[[f64; 3]; 4]>,
-    /// Time over which they were gathered [s].
+    /// Time of the sums [s].
     over: f64,
 }
 
 impl MeanLoads {
-    /// Nothing yet on `units` units.
+    /// Returns zero sums for `units` units.
     pub fn new(units: usize) -> Self {
         Self { impulses: vec![[[0.0; 3]; 4]; units], over: 0.0 }
     }
 
-    /// Add the loads of a step of length `dt` [s].
+    /// Adds the loads of a time step of length `dt` [s].
     pub fn add(&mut self, dt: f64, fluid: &[Load], contact: &[Load]) {
         for (sums, (fluid, contact)) in self.impulses.iter_mut().zip(fluid.iter().zip(contact)) {
             let parts = [fluid.force, fluid.torque, contact.force, contact.torque];
@@ -35,7 +34,7 @@ impl MeanLoads {
         self.over += dt;
     }
 
-    /// Mean loads of water and contact on each unit since the last call; `None` if no step was made since.
+    /// Returns the mean loads of water and contact on each unit since the last call; `None` without a time step since.
     pub fn take(&mut self) -> Option<Vec<[Load; 2]>> {
         let gathered = std::mem::replace(self, Self::new(self.impulses.len()));
         let mean = |sums: &[[f64; 3]; 4]| {
@@ -51,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mean_times_its_time_is_the_impulse() {
+    fn a_mean_load_times_its_interval_is_the_impulse() {
         let load = |force: f64| [Load { force: DVec3::X * force, torque: DVec3::Z * force }];
         let mut means = MeanLoads::new(1);
         means.add(0.25, &load(8.0), &load(1.0));

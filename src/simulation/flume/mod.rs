@@ -1,27 +1,27 @@
-//! The coupled loop: water, wavemaker, units, contact.
+//! Flume runs: water, wavemaker, units and contact, coupled.
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | [`setup`], [`scheme`] | make a simulation of a case |
-//! | [`incoming`] | make its wave, in the flume model or by a paddle |
+//! | [`setup`], [`scheme`] | simulation and SPH scheme of a case |
+//! | [`incoming`] | wave of a case, from the flume model or a paddle |
 //! | [`step`] | one time step, in the order of the algorithm |
-//! | `impermeable` | keeping water out of solids |
-//! | `zones` | water that goes over to a velocity of its own at the ends of the domain |
-//! | `absorb` | a piston that takes up the waves that come back |
-//! | [`failure`] | what can go wrong in a step, and finding out where |
-//! | [`energy`], [`balance`] | energy of water and units, and where it goes |
-//! | [`extremes`] | the fastest, the lightest and the densest water |
-//! | `diagnostics` | whether the run is sound |
-//! | [`mean_loads`] | loads on the units as the series show them |
-//! | [`water_at_impacts`] | the water at the units when their impacts are hardest |
-//! | [`statistics`] | what is kept of a run besides its series |
-//! | [`rest`] | whether the units have come to rest |
-//! | [`recorder`] | writes the series and snapshots |
-//! | [`snapshots`] | moments of water and units for ParaView |
-//! | [`checkpoint`] | state to and from HDF5 |
+//! | `impermeable` | impermeable surfaces of the solids |
+//! | `zones` | damping and relaxation zones at the ends of the domain |
+//! | `absorb` | active absorption of returning waves by a piston |
+//! | [`failure`] | failures of a time step: cause, position, advice |
+//! | [`energy`], [`balance`] | energy and energy balance of water and units |
+//! | [`extremes`] | extremes of speed and density of the water |
+//! | `diagnostics` | rows of `diagnostics.csv` and warnings |
+//! | [`mean_loads`] | mean loads on the units over the interval of the series |
+//! | [`water_at_impacts`] | water loads on the units at the peaks of their hardest impacts |
+//! | [`statistics`] | extremes and counts of a run |
+//! | [`rest`] | rest criterion |
+//! | [`recorder`] | series, snapshots and checkpoints |
+//! | [`snapshots`] | snapshots of water and units for ParaView |
+//! | [`checkpoint`] | state of a run in an HDF5 file |
 //! | [`run`] | the loop with outputs, checkpoints and stop rules |
-//! | [`branch`] | runs that begin where another one stands |
-//! | [`summary`] | the run in a few numbers |
+//! | [`branch`] | runs that begin at the checkpoint of another run |
+//! | [`summary`] | `summary.json` |
 
 mod absorb;
 pub mod balance;
@@ -67,11 +67,11 @@ use mean_loads::MeanLoads;
 use statistics::Statistics;
 use water_at_impacts::WaterAtImpacts;
 
-/// A case in motion.
+/// State of a flume run.
 pub struct Simulation {
     /// The case.
     pub case: Arc<Case>,
-    /// The flume model's run, if the wave comes from it.
+    /// Record of the flume model, if the wave comes from it.
     pub flume: Option<FlumeRecord>,
     /// The water.
     pub water: Water,
@@ -81,18 +81,18 @@ pub struct Simulation {
     pub units: Option<Units>,
     /// Time since the particles started [s].
     pub time: f64,
-    /// Steps made.
+    /// Number of time steps made.
     pub steps: u64,
     /// Flume time at which the particles started [s].
     pub start: f64,
-    /// Time since the particles started at which the crest of a solitary wave stands over all units, by the flume
-    /// model [s]; 0 for other waves.
+    /// Time since the particles started at which the crest of a solitary wave has reached all units in the flume model
+    /// [s]; 0 for other waves.
     pub crest: f64,
-    /// What is kept of the run.
+    /// Extremes and counts of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,
     pub wavemaker: Option<Wavemaker>,
-    /// Where absorption has carried it.
+    /// Displacement of the wavemaker by absorption.
     pub absorbed: AbsorptionState,
     /// Bed, mound and end walls.
     outline: Outline,
@@ -102,22 +102,22 @@ pub struct Simulation {
 
 /// The armour units.
 pub struct Units {
-    /// Their shape.
+    /// Shape of the units.
     pub shape: Arc<ArmourUnit>,
-    /// Their bodies.
+    /// Rigid bodies of the units.
     pub world: RigidWorld,
-    /// Where they stood at the start.
+    /// Poses of the units at the start.
     pub start: Vec<BodyState>,
-    /// Force and torque of the water on each, at the last half step.
+    /// Force and torque of the water on each unit at the last half step.
     pub fluid_loads: Vec<Load>,
-    /// What the next row of the series will show of the loads.
+    /// Mean loads for the next row of the series.
     pub mean_loads: MeanLoads,
-    /// The water when their impacts were hardest.
+    /// Water loads at the peaks of the hardest impacts.
     pub water_at_impacts: WaterAtImpacts,
 }
 
 impl Simulation {
-    /// Put wavemaker and units where they are now.
+    /// Moves the particles of wavemaker and units to their present positions.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
         move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), &self.absorbed, flume_time, 0.0);
@@ -126,18 +126,18 @@ impl Simulation {
         }
     }
 
-    /// Time of the flume model [s].
+    /// Returns the time of the flume model [s].
     pub fn flume_time(&self) -> f64 {
         self.start + self.time
     }
 
-    /// Place of the foremost row of the wavemaker [m], if there is one.
+    /// Returns the position of the foremost row of the wavemaker [m], if there is one.
     pub fn wavemaker_front(&self) -> Option<f64> {
         let front = |wavemaker: &Wavemaker| wavemaker.front_m(self.flume_time()) + self.absorbed.displacement_m;
         self.wavemaker.as_ref().map(front)
     }
 
-    /// Where a gauge is now [m].
+    /// Returns the present position of a gauge [m].
     pub fn place_of(&self, gauge: &Gauge) -> DVec3 {
         let at = DVec3::from_array(gauge.at);
         match (&gauge.motion, &self.units) {
@@ -149,12 +149,12 @@ impl Simulation {
         }
     }
 
-    /// What computes the water.
+    /// Returns the solver of the water.
     pub fn solver(&self) -> &dyn Backend {
         &*self.solver
     }
 
-    /// Rates of the water found last, in the order of its arrays once they are fetched.
+    /// Returns the last rates of the water, in the order of its arrays after [`Self::fetch`].
     ///
     /// # Errors
     /// If the device is lost.
@@ -162,7 +162,7 @@ impl Simulation {
         self.solver.water_rates()
     }
 
-    /// Bring water and boundary up to date in the host's arrays; between two steps and between their halves.
+    /// Updates water and boundary in the host's arrays; allowed between time steps and between their halves.
     ///
     /// # Errors
     /// If the device is lost.
@@ -170,27 +170,27 @@ impl Simulation {
         self.solver.fetch(&mut self.water, &mut self.boundary)
     }
 
-    /// Whether the water lies with a device and not in the host's arrays.
+    /// Returns whether a device, and not the host, holds the water.
     pub fn is_on_card(&self) -> bool {
         self.solver.keeps_water()
     }
 
-    /// Give water and boundary of the host's arrays to the device.
+    /// Copies water and boundary from the host's arrays to the device.
     ///
     /// # Errors
-    /// If it has not enough memory.
+    /// If the device has too little memory.
     pub fn load(&mut self) -> Result<(), DeviceError> {
         self.solver.load(&self.water, &self.boundary)
     }
 }
 
 impl Units {
-    /// Places and motions.
+    /// Returns the poses and velocities of the units.
     pub fn states(&self) -> &[BodyState] {
         self.world.states()
     }
 
-    /// Horizontal distance of each unit from where it stood [m].
+    /// Returns the horizontal distance of each unit from its start position [m].
     pub fn displacements(&self) -> Vec<f64> {
         let moved = |(now, start): (&BodyState, &BodyState)| (now.position - start.position).truncate().length();
         self.states().iter().zip(&self.start).map(moved).collect()

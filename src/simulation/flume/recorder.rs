@@ -1,10 +1,9 @@
-//! Series and snapshots of a run: gauges, units, contacts, energy, diagnostics as tables; water and units for ParaView.
+//! Outputs of a run: tables of gauges, units, contacts, energy and diagnostics; snapshots for ParaView; checkpoints.
 //!
-//! Rows of the tables are short and written at once. Snapshots and checkpoints are long: a thread of their own writes
-//! them, in the order in which they were given (see [`Writer`]), so that a checkpoint never counts a snapshot that is
-//! not in its file yet.
+//! Rows of the tables are short and written immediately. Snapshots and checkpoints are long: a separate thread writes
+//! them in order (see [`Writer`]), so that a checkpoint never counts a snapshot that is not in its file yet.
 //!
-//! Every time is that of the flume: 0 when the paddle starts.
+//! All times are flume times: 0 when the paddle starts.
 
 use std::{
     fs,
@@ -48,7 +47,7 @@ const ENERGY_FILE: &str = "energy.csv";
 const DIAGNOSTICS_FILE: &str = "diagnostics.csv";
 
 impl Recorder {
-    /// New files in the run folder, and those that do not change: case, bed profile, shape of the unit, flume gauges.
+    /// Creates the files in the run folder, and writes those that do not change: case, bed, unit shape, flume gauges.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -91,10 +90,10 @@ impl Recorder {
         Ok(recorder)
     }
 
-    /// The files of an interrupted run, cut to where they stood at its checkpoint.
+    /// Opens the files of an interrupted run, truncated to their lengths at the checkpoint.
     ///
     /// # Errors
-    /// If a file is missing or shorter than it was.
+    /// If a file is missing or shorter than at the checkpoint.
     pub fn reopen(simulation: &Simulation, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
         let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
         Ok(Self {
@@ -109,8 +108,8 @@ impl Recorder {
         })
     }
 
-    /// The files of a run that begins where that of another folder stands: its own, with the tables and snapshots of the
-    /// other up to there.
+    /// Creates the files of a run that begins at the checkpoint of the run in `from`, with copies of its tables and
+    /// snapshots until then.
     ///
     /// # Errors
     /// If a file cannot be read or written.
@@ -126,15 +125,15 @@ impl Recorder {
         Self::reopen(simulation, dir, state)
     }
 
-    /// Where the outputs stand.
+    /// Returns the progress of the outputs.
     pub fn state(&self) -> &RecorderState {
         &self.state
     }
 
-    /// Write what is due at the present time.
+    /// Writes the outputs that are due now.
     ///
     /// # Errors
-    /// If a file cannot be written, a snapshot or checkpoint given before could not, or the device is lost.
+    /// If a file, or an earlier snapshot or checkpoint, cannot be written, or the device is lost.
     pub fn record_due(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         self.writer.check()?;
         let (time, case) = (now.time, now.case.clone());
@@ -154,22 +153,22 @@ impl Recorder {
             self.state.water += 1;
         }
         self.note_lengths();
-        // The first one is due at the first interval: the start can be made anew from the case.
+        // The first checkpoint is due after the first interval: the case itself holds the start.
         if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
-            // Its number is part of it.
+            // The checkpoint contains its own number.
             self.state.checkpoints += 1;
             self.record_checkpoint(now)?;
         }
         Ok(())
     }
 
-    /// Write everything once more at the end of the run, and wait until all of it is in the files.
+    /// Writes all outputs at the end of the run, and waits until they are in the files.
     ///
     /// # Errors
     /// If a file cannot be written.
     pub fn record_end(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
         now.fetch()?;
-        // Before a last row and the end of lasting contacts: a longer run may continue from here.
+        // Before the last row and before the end of open contacts: a longer run may resume from this checkpoint.
         self.record_checkpoint(now)?;
         self.record_series(now)?;
         if now.case.output.units_interval.is_some() {
@@ -190,7 +189,7 @@ impl Recorder {
         self.writer.drain()
     }
 
-    /// Write a checkpoint of a run that the user stops, and wait until it is in its file.
+    /// Writes a checkpoint of a run that the user stops, and waits until it is in its file.
     ///
     /// # Errors
     /// If a file cannot be written, or the device is lost.
@@ -200,7 +199,7 @@ impl Recorder {
         self.drain()
     }
 
-    /// Wait until all snapshots and checkpoints given so far are in their files.
+    /// Waits until all snapshots and checkpoints are in their files.
     ///
     /// # Errors
     /// If one of them cannot be written.
@@ -208,7 +207,7 @@ impl Recorder {
         self.writer.drain()
     }
 
-    /// Whether something is due at a time [s] that shows the water.
+    /// Returns whether an output that needs the water is due at a time [s].
     fn is_anything_due(&self, case: &Case, time: f64) -> bool {
         let (state, output) = (&self.state, &case.output);
         is_due(state.series, Some(output.series_interval), time)
@@ -233,7 +232,7 @@ impl Recorder {
         let means = units.mean_loads.take();
         let free = simulation.time > simulation.case.numerics.hold_units;
         for (number, state) in units.states().iter().enumerate() {
-            // No step has been made before the first row.
+            // Before the first row there is no time step to average over.
             let now = || [units.fluid_loads[number], units.world.contact_loads()[number]];
             let loads = means.as_ref().map_or_else(now, |means| means[number]);
             if free {
@@ -273,7 +272,7 @@ impl Recorder {
     }
 }
 
-/// Gauges that the particles can read.
+/// Returns the gauges in the particle domain.
 fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
     case.gauges.iter().filter(|gauge| gauge.in_domain)
 }
@@ -287,7 +286,7 @@ fn gauge_columns(case: &Case) -> Vec<String> {
     ["time_s".to_owned()].into_iter().chain(names).collect()
 }
 
-/// Dry gauges leave their fields empty, and so do those that the wavemaker has come near to or passed.
+/// Returns a row of gauges; NaN for dry gauges and for gauges near or behind the wavemaker.
 fn gauge_row(simulation: &Simulation) -> Vec<f64> {
     let (case, sampler) = (&simulation.case, simulation.sampler());
     let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
@@ -326,12 +325,12 @@ fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
     ]
 }
 
-/// From the clock of the contacts, which starts when the units are let go, to that of the flume [s].
+/// Returns the flume time minus the time of the contacts, which starts at the release of the units [s].
 fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
     simulation.flume_time() - units.world.time()
 }
 
-/// The hardest impacts so far; `offset` leads from their clock to that of the file [s].
+/// Returns the hardest impacts so far; `offset` converts their times to flume time [s].
 fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
     let water = &units.water_at_impacts.0;
     let contacts = units.world.impacts();

@@ -1,18 +1,18 @@
-//! Where the outputs of a run stand.
+//! Progress of the outputs of a run.
 
 use serde::{Deserialize, Serialize};
 
-/// Where each output stands: how often it was written, and how long its file is. Part of every checkpoint.
+/// Progress of each output: how often it was written, and how long its file is. Part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecorderState {
-    /// Rows of the series.
+    /// Number of rows of the series.
     pub(super) series: u64,
-    /// Steps of the moving surfaces.
+    /// Number of snapshots of the surfaces.
     pub(super) surfaces: u64,
-    /// Steps of the water.
+    /// Number of snapshots of the water.
     pub(super) water: u64,
-    /// Checkpoints.
+    /// Number of checkpoints.
     pub checkpoints: u64,
-    /// Bytes of the tables.
+    /// Lengths of the tables [bytes].
     pub(super) bytes: [u64; 5],
 }

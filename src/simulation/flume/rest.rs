@@ -1,25 +1,25 @@
-//! Whether the units have come to rest.
+//! The rest criterion of the units.
 //!
-//! What counts is how far a unit gets and not how fast it is at a moment: after the wave, particles of thin water still
-//! push units to and fro with some millimetres a second, by hundredths of a millimetre.
+//! It depends on displacements, not on velocities. After the wave, low-viscosity water still shakes units with a few
+//! millimetres per second, by hundredths of a millimetre.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::rigid::BodyState;
 
-/// Since when the units have stayed where they are; part of every checkpoint.
+/// Reference poses of the units and their time; part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rest {
-    /// Time from which on they are watched [s].
+    /// Time of the reference poses [s].
     since: f64,
-    /// Centre [m] and rotation of each unit at that time; empty before the first look.
+    /// Centre [m] and rotation of each unit at that time; empty before the first check.
     places: Vec<([f64; 3], [f64; 4])>,
 }
 
 impl Rest {
-    /// Look at the units at a time [s]. Returns how long none of them has got further than `reach` [m] from where it was
-    /// when one last had, neither its centre nor its tips, `tips` [m] from it.
+    /// Checks the units at a time [s]; returns how long all have stayed within `reach` [m] of their reference poses.
+    /// The tips count too, `tips` [m] from the centre. If a unit gets further, all reference poses are reset.
     pub fn look(&mut self, time: f64, states: &[BodyState], tips: f64, reach: f64) -> f64 {
         let stays = |((centre, rotation), state): (&([f64; 3], [f64; 4]), &BodyState)| {
             let turned = DQuat::from_array(*rotation).angle_between(state.rotation);
@@ -37,7 +37,7 @@ impl Rest {
 mod tests {
     use super::*;
 
-    /// How long units whose motion is given have stayed within 1 mm after a second of looks.
+    /// Returns how long units with the given motion have stayed within 1 mm, after checks for one second.
     fn stayed(motion: impl Fn(f64) -> (DVec3, DQuat)) -> f64 {
         let mut rest = Rest::default();
         let look = |i: u32| {
@@ -50,20 +50,20 @@ mod tests {
     }
 
     #[test]
-    fn units_that_tremble_are_at_rest_and_those_that_creep_are_not() {
+    fn trembling_units_are_at_rest_and_creeping_units_are_not() {
         let still = stayed(|_| (DVec3::ZERO, DQuat::IDENTITY));
-        // 7 mm/s, a tenth of a millimetre to and fro.
+        // 7 mm/s, with an amplitude of 0.1 mm.
         let trembles =
             stayed(|t| (1e-4 * (70.0 * t).sin() * DVec3::X, DQuat::from_rotation_y(1e-3 * (50.0 * t).cos())));
         assert_eq!([still, trembles], [1.0; 2]);
-        // At 3 mm/s a millimetre lasts for a third of a second.
+        // At 3 mm/s a millimetre takes a third of a second.
         assert!(stayed(|t| (3e-3 * t * DVec3::Y, DQuat::IDENTITY)) < 0.34);
-        // Tips 4 cm from the centre: a tenth of a radian a second is 4 mm/s.
+        // Tips 4 cm from the centre: 0.1 rad/s is 4 mm/s.
         assert!(stayed(|t| (DVec3::ZERO, DQuat::from_rotation_z(0.1 * t))) < 0.26);
     }
 
     #[test]
-    fn a_rest_survives_being_written_and_read() {
+    fn the_rest_criterion_survives_a_round_trip() {
         let mut rest = Rest::default();
         let states = [BodyState::at_rest(DVec3::new(0.1, 0.2, 1.0 / 3.0), DQuat::from_rotation_x(0.7))];
         rest.look(0.1, &states, 0.04, 1e-3);

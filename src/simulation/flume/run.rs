@@ -23,28 +23,28 @@ use crate::{
     sph::device::Device,
 };
 
-/// How a run is made.
+/// Options of a run.
 #[derive(Debug, Clone, Default)]
 pub struct RunOptions {
-    /// Progress, and how the user stops the run.
+    /// Progress output, and how the user stops the run.
     pub control: Control,
-    /// What computes the water.
+    /// Device that computes the water.
     pub device: Device,
-    /// End at this simulated time [s] although the case continues: other runs will begin there.
+    /// Simulated time at which the run ends before its case does [s]: other runs begin there.
     pub until: Option<f64>,
 }
 
-/// Run a case into an existing, empty folder.
+/// Runs a case into an existing, empty folder.
 ///
 /// # Errors
-/// If the case cannot be set up, a file cannot be written, the state becomes impossible, or the user stops the run.
+/// If the case cannot be set up, a file cannot be written, the run becomes unstable, or the user stops it.
 pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
     let simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
     let recorder = Recorder::create(&simulation, dir)?;
     drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
 }
 
-/// Continue a run from its last checkpoint.
+/// Continues a run from its last checkpoint.
 ///
 /// # Errors
 /// As [`run`], and if the checkpoint does not belong to the case.
@@ -63,14 +63,14 @@ pub(super) struct FlumeRun {
     dir: PathBuf,
     /// Simulated time at which the run ends [s].
     end: f64,
-    /// Wall clock of earlier sessions [s].
+    /// Wall time of earlier sessions [s].
     wall_before: f64,
     /// Length of the last time step [s].
     dt: f64,
 }
 
 impl FlumeRun {
-    /// A run that ends with its case, or `until` [s] if that comes first.
+    /// Returns a run that ends at the end of its case, or at `until` [s] if that is earlier.
     pub(super) fn new(mut simulation: Simulation, recorder: Recorder, dir: &Path, until: Option<f64>) -> Self {
         let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
         simulation.statistics.energy_start = Some(energy_start);
@@ -138,7 +138,7 @@ impl Run for FlumeRun {
     }
 }
 
-/// Why a run that lasts until `end` [s] at most is over, if it is.
+/// Returns why the run is over, if it is; it ends at `end` [s] at the latest.
 fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     if simulation.time >= end {
         return Some(Stopped::Duration);
@@ -147,10 +147,10 @@ fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     // The tips of a unit are about half its height away from its centre.
     let tips = 0.5 * units.shape.height();
     let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
-    // Units that have just begun to move have not gone far yet.
+    // Both speed and displacement count: units that begin to move have no displacement yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
-    // Units that the wave has not reached are at rest, too.
+    // Before the wave reaches the units, they are at rest as well.
     let reached = simulation.time >= rule.not_before.max(simulation.crest);
     (reached && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

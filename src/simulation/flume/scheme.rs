@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-/// Parameters of the SPH scheme.
+/// Returns the parameters of the SPH scheme.
 pub fn parameters(case: &Case) -> Parameters {
     let (fluid, numerics, dp) = (&case.fluid, &case.numerics, case.domain.dp);
     let periodic = case.domain.sides == case::Sides::Periodic;
@@ -60,7 +60,7 @@ pub fn parameters(case: &Case) -> Parameters {
     }
 }
 
-/// What of the case graphics cards do not compute, if there is such a thing.
+/// Returns a feature of the case that graphics cards cannot compute, if any.
 pub fn not_on_cards(case: &Case) -> Option<&'static str> {
     if case.domain.damping_zone.is_some() || case.domain.relaxation_zone.is_some() {
         return Some("damping and relaxation zones (domain.damping_zone, domain.relaxation_zone)");
@@ -71,7 +71,7 @@ pub fn not_on_cards(case: &Case) -> Option<&'static str> {
     device::not_on_cards(&parameters(case))
 }
 
-/// Equation of state of the water.
+/// Returns the equation of state of the water.
 pub fn tait(case: &Case) -> Tait {
     Tait { rho0: case.fluid.rho0, c0: case.fluid.sound_speed, gamma: case.fluid.gamma }
 }

@@ -1,4 +1,4 @@
-//! From a validated case to particles, bodies and wavemaker at the start.
+//! Sets up particles, bodies and wavemaker of a validated case.
 
 use std::sync::Arc;
 
@@ -33,8 +33,8 @@ use crate::{
     waves::{absorption::AbsorptionState, flume::FlumeError, record::FlumeRecord, wavemaker::Wavemaker},
 };
 
-/// Between a unit and its own image no water goes through a gap narrower than this, in particle distances: that in which
-/// water particles at rest would touch both.
+/// Narrowest gap between a unit and its periodic image that lets water through, in particle spacings. In a narrower
+/// gap, water particles at rest would touch both.
 const NARROWEST_GAP: f64 = 0.5;
 
 /// Why a case cannot be set up.
@@ -43,33 +43,33 @@ pub enum SetupError {
     /// The flume model failed.
     #[error(transparent)]
     Flume(#[from] FlumeError),
-    /// The water carries the wavemaker onto the mound or an obstacle.
+    /// The wavemaker would reach the mound or an obstacle.
     #[error(
-        "domain.x_m[0] = {place}: the wavemaker follows the water and would travel {travel:.2} m, to x = {:.2} m, over the \
-         toe of the mound or an obstacle at x = {toe:.2} m; place it at most at {:.1} m", place + travel, toe - 1.2 * travel
+        "domain.x_m[0] = {place}: the wavemaker moves with the water by {travel:.2} m, to x = {:.2} m, and would reach \
+         the mound or an obstacle at x = {toe:.2} m; use at most {:.1} m", place + travel, toe - 1.2 * travel
     )]
     WavemakerReachesMound {
-        /// Where it starts [m].
+        /// Start position of the wavemaker [m].
         place: f64,
-        /// How far it would travel [m].
+        /// Travel of the wavemaker [m].
         travel: f64,
-        /// Toe of the mound, or seaward face of an obstacle [m].
+        /// Position of the toe of the mound or of the seaward face of an obstacle [m].
         toe: f64,
     },
     /// The files with the wave end too early.
     #[error(
-        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, and the particles start at {start:.3} s; \
-         shorten the run to {:.3} s, start earlier with `domain.start_s`, or let the other program run on", end - start
+        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, the particles start at \
+         {start:.3} s; use a duration of {:.3} s, an earlier `domain.start_s`, or longer files", end - start
     )]
     WaveEnds {
-        /// Time of the run [s].
+        /// Duration of the run [s].
         duration: f64,
-        /// When the particles start [s].
+        /// Start of the particles [s].
         start: f64,
-        /// When the files end [s].
+        /// End of the files [s].
         end: f64,
     },
-    /// The units cannot stand where the case puts them.
+    /// The units overlap each other or the bed too much.
     #[error(transparent)]
     Rigid(#[from] RigidError),
     /// The device cannot compute the case.
@@ -78,18 +78,18 @@ pub enum SetupError {
 }
 
 impl Simulation {
-    /// The case at its start, on the processor.
+    /// Sets up a case at its start, on the processor.
     ///
     /// # Errors
-    /// If the flume model fails or the units cannot stand where they should.
+    /// If the flume model fails, or the units overlap each other or the bed too much.
     pub fn new(case: Arc<Case>) -> Result<Self, SetupError> {
         Self::on(&Device::Cpu, case)
     }
 
-    /// The case at its start, its water computed by a device.
+    /// Sets up a case at its start, on a device.
     ///
     /// # Errors
-    /// As [`Self::new`], and if the device does not know the scheme of the case or has not enough memory.
+    /// As [`Self::new`], and if the device does not support the scheme of the case or has too little memory.
     pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?;
         let start = particle_start(&case, flume.as_ref());
@@ -146,7 +146,7 @@ impl Simulation {
     }
 }
 
-/// Refuse a run that goes on after the files with its wave, if its particles start at a time [s] of theirs.
+/// Refuses a run that lasts longer than the files with its wave; its particles start at `start` [s] of the files.
 ///
 /// # Errors
 /// If the files end before the run.
@@ -156,7 +156,7 @@ pub fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
     if start + duration <= end { Ok(()) } else { Err(SetupError::WaveEnds { duration, start, end }) }
 }
 
-/// Refuse a wavemaker that would go over the seaward toe of the mound or an obstacle before the run ends.
+/// Refuses a wavemaker that would reach the mound or an obstacle before the run ends.
 fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
     let place = case.domain.x[0];
     let toe_of = |mound: &case::Mound| {
@@ -173,7 +173,7 @@ fn across(case: &Case) -> Across {
     Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
-/// Box round everything that can hold water or boundary particles [m]; a wavemaker goes seaward by its reach [m].
+/// Returns the box around all water and boundary particles [m]; the wavemaker moves seaward by its reach [m].
 fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
     let margin = (case.numerics.boundary_layers as f64 + 2.0) * case.domain.dp;
     let beyond = if case.domain.sides == case::Sides::Walls { margin } else { 0.0 };
@@ -184,7 +184,7 @@ fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
     ]
 }
 
-/// Corner points of the bed between two x, the ends included.
+/// Returns the corner points of the bed between two x, with both ends.
 fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DVec2> {
     let inner = profile.points().iter().filter(move |p| p[0] > from && p[0] < to);
     let points: Vec<DVec2> = inner.map(|&p| DVec2::from_array(p)).collect();
@@ -192,8 +192,8 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Bed, mound and end walls; where a wavemaker stands, the bed goes on under its layers as far as they reach [m]
-/// instead of the seaward wall.
+/// Returns the outline of bed, mound and end walls. A wavemaker replaces the seaward wall; the bed then continues under
+/// its layers over their reach [m].
 fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
@@ -207,7 +207,7 @@ fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     Outline::new(points)
 }
 
-/// Particles of bed, mound, end walls, side walls and obstacles; side walls begin where the wavemaker's reach [m] does.
+/// Returns the particles of bed, mound, walls and obstacles; side walls extend seaward by the wavemaker's reach [m].
 fn fixed_particles(
     case: &Case,
     outline: &Outline,
@@ -227,13 +227,13 @@ fn fixed_particles(
     let thickness = f64::from(layers) * domain.dp;
     for obstacle in &domain.obstacles {
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
-        // On a slope the lower corner of the box is under the ground, which has particles of its own.
+        // On a slope the lower corner of the box is below the bed, which has particles of its own.
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
     }
     particles
 }
 
-/// The layers of the wavemaker with their rows.
+/// Returns the particles of the wavemaker with their rows.
 fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> Vec<(u32, BoundaryParticle)> {
     let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
     let mut particles = Vec::new();
@@ -270,7 +270,7 @@ fn basin<'a>(
     Basin { x, across: *across, dp: case.domain.dp, bed, surface, velocity, gravity: case.fluid.gravity }
 }
 
-/// The water: a block, still water, or the flow of the flume model at the start.
+/// Returns the water: a block, still water, or the flow of the flume model at the start.
 fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -> Water {
     let bed = |x: f64| case.flume.profile.z(x);
     let surface = |x: f64| match (case.domain.water, flume) {
@@ -282,7 +282,7 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
     basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
 }
 
-/// Bodies of the units.
+/// Returns the units at their start.
 fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     let shape = units.shape.unit().clone();
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
@@ -292,8 +292,8 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
 }
 
-/// Particles of one unit of the case in its own axes: in two dimensions those of its slice in the layer; and where a
-/// cuboid fills the width of a periodic flume, none of them looks across, at its own image.
+/// Returns the particles of a unit in its own axes. In two dimensions they are those of its slice. If a cuboid fills
+/// the width of a periodic flume, no particle refers to the side faces, which touch the periodic image.
 fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let case::Domain { dp, width, sides, .. } = case.domain;
     let mut particles = match (shape.as_box(), sides) {
@@ -307,7 +307,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     particles
 }
 
-/// Particles of one unit in its own axes.
+/// Returns the particles of a unit in its own axes.
 pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
     if let Some(bounds) = shape.as_box() {
         return box_particles(&bounds, dp, f64::INFINITY);
@@ -317,7 +317,7 @@ pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
     unit_particles(|point| solid.project(point), low, high, solid.volume_properties().volume, dp)
 }
 
-/// Take out the water where the units stand, periodic images included.
+/// Removes the water inside the units and their periodic images.
 fn clear_units(water: &mut Water, units: &Units, case: &Case) {
     let (solid, least) = (units.shape.solid(), LEAST_DEPTH * case.domain.dp);
     let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
@@ -342,7 +342,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn water_slides_along_units_only_where_a_case_says_so() {
+    fn units_have_free_slip_only_if_the_case_says_so() {
         let given = include_str!("../../../cases/fudo/H4.5-slice.json");
         for slides in [false, true] {
             let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);

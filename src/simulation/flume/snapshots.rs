@@ -1,6 +1,6 @@
-//! Moments of a run for ParaView: the water and the surfaces of the units as they are written.
+//! Snapshots of the water and of the surfaces of the units for ParaView.
 //!
-//! A [`Frame`] is a copy in single precision, so that a writer can take its time over it while the run goes on.
+//! A [`Frame`] is a copy in single precision, which is written while the run continues.
 
 use std::path::Path;
 
@@ -15,22 +15,22 @@ use crate::{
     sph::particles::water::Water,
 };
 
-/// Files of the snapshots.
+/// File name of the snapshots of the water.
 pub const WATER_FILE: &str = "fluid.vtkhdf";
-/// See [`WATER_FILE`].
+/// File name of the snapshots of the unit surfaces.
 pub const SURFACES_FILE: &str = "units.vtkhdf";
 
-/// Fields of the units' surfaces.
+/// Fields of the unit surfaces.
 pub const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
 
-/// The open files of the snapshots; `None` for what the case does not ask for.
+/// Open files of the snapshots; `None` for those that the case does not ask for.
 pub struct SnapshotFiles {
     water: Option<PolyDataSeries>,
     surfaces: Option<PolyDataSeries>,
 }
 
 impl SnapshotFiles {
-    /// New files in the run folder.
+    /// Creates the files in the run folder.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -44,10 +44,10 @@ impl SnapshotFiles {
         })
     }
 
-    /// The files of an interrupted run, cut to their first `water` and `surfaces` steps.
+    /// Opens the files of an interrupted run, truncated to their first `water` and `surfaces` snapshots.
     ///
     /// # Errors
-    /// If a file is missing or shorter than it was.
+    /// If a file is missing or shorter than at the checkpoint.
     pub fn reopen(simulation: &Simulation, dir: &Path, water: u64, surfaces: u64) -> Result<Self, OutputError> {
         let fields = water_fields(&simulation.case.output);
         let open = |file: &str, cells: Cells, fields: &[(&str, FieldKind)], steps: u64| {
@@ -61,7 +61,7 @@ impl SnapshotFiles {
         })
     }
 
-    /// Append a moment of the water, if its file is there.
+    /// Appends a snapshot of the water, if its file is open.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -69,7 +69,7 @@ impl SnapshotFiles {
         self.water.as_mut().map_or(Ok(()), |series| frame.append_to(series))
     }
 
-    /// Append a moment of the units' surfaces, if their file is there.
+    /// Appends a snapshot of the unit surfaces, if their file is open.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -91,14 +91,14 @@ fn water_fields(output: &Output) -> Vec<(&'static str, FieldKind)> {
     output.fluid_fields.iter().map(|&field| (field.name(), kind(field))).collect()
 }
 
-/// One moment of a file.
+/// One snapshot.
 pub struct Frame {
     /// Flume time [s].
     time: f64,
     /// Points [m].
     points: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// The file's fields in their order, one value a point.
+    /// The fields of the file in order, one value per point.
     fields: Vec<Column>,
 }
 
@@ -120,7 +120,7 @@ impl Column {
 }
 
 impl Frame {
-    /// The water of now: the fields and the box of the case's output.
+    /// Copies the present water: the fields and the box of the case's output.
     pub fn of_water(simulation: &Simulation) -> Self {
         let (water, output) = (&simulation.water, &simulation.case.output);
         let tait = simulation.solver().parameters().tait;
@@ -139,7 +139,7 @@ impl Frame {
         }
     }
 
-    /// The surfaces of the units, all of one shape, with the velocity of each point and the number of its unit.
+    /// Copies the surfaces of the units, with the velocity of each point and the number of its unit.
     pub fn of_surfaces(solid: &Solid, states: &[BodyState], time: f64) -> Self {
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
         let (mut velocity, mut number) = (Vec::new(), Vec::new());
@@ -156,7 +156,7 @@ impl Frame {
         Self { time, points, triangles, fields: vec![Column::Vector(velocity), Column::Integer(number)] }
     }
 
-    /// Append it to the file with its fields.
+    /// Appends the snapshot to a file with the same fields.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -166,18 +166,18 @@ impl Frame {
     }
 }
 
-/// Indices of the particles inside a box [m], or of all.
+/// Returns the indices of the particles inside a box [m], or of all.
 fn particles_in(water: &Water, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
     let all = 0..water.len() as u32;
     let Some([low, high]) = corners.map(|corners| corners.map(glam::DVec3::from_array)) else { return all.collect() };
     let inside = |&i: &u32| {
-        let place = water.position[i as usize];
-        place.cmpge(low).all() && place.cmple(high).all()
+        let position = water.position[i as usize];
+        position.cmpge(low).all() && position.cmple(high).all()
     };
     all.into_par_iter().with_min_len(4096).filter(inside).collect()
 }
 
-/// A value for each of the chosen particles, in their order.
+/// Returns a value for each of the chosen particles, in order.
 fn pick<T: Send>(chosen: &[u32], value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     chosen.par_iter().with_min_len(4096).map(|&i| value(i as usize)).collect()
 }
@@ -192,7 +192,7 @@ mod tests {
     use crate::case::Case;
 
     #[test]
-    fn a_snapshot_holds_the_fields_and_the_box_of_the_case() {
+    fn a_snapshot_has_the_fields_and_the_box_of_the_case() {
         let case = json!({
             "title": "Still water",
             "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.3 },
@@ -208,9 +208,9 @@ mod tests {
         assert!(frame.points.iter().all(|p| (0.4..=0.6).contains(&p[0]) && p[2] <= 0.1));
         let [Column::Integer(id), Column::Scalar(pressure)] = &frame.fields[..] else { panic!("id and pressure") };
         assert_eq!((id.len(), pressure.len()), (frame.points.len(), frame.points.len()));
-        let place = |id: i32| simulation.water.id.iter().position(|&other| other as i32 == id).unwrap();
+        let index_of = |id: i32| simulation.water.id.iter().position(|&other| other as i32 == id).unwrap();
         for (point, &id) in frame.points.iter().zip(id) {
-            assert_eq!(*point, simulation.water.position[place(id)].as_vec3().to_array());
+            assert_eq!(*point, simulation.water.position[index_of(id)].as_vec3().to_array());
         }
         // Still water: rho g (0.3 m - z); 1 % for the compressed density.
         let expected = |point: &[f32; 3]| 9810.0 * (0.3 - point[2]);

@@ -1,4 +1,4 @@
-//! What is kept of a run besides its series.
+//! Extremes and counts of a run, besides its series.
 
 use super::{balance::Balance, rest::Rest};
 use glam::DVec3;
@@ -9,46 +9,45 @@ use crate::rigid::Load;
 /// Extremes and counts of a run so far; part of every checkpoint.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
-    /// Steps counted.
+    /// Number of time steps.
     pub steps: u64,
-    /// Shortest step [s].
+    /// Shortest time step [s].
     pub shortest_step: f64,
-    /// Longest step [s].
+    /// Longest time step [s].
     pub longest_step: f64,
-    /// Sum of the water's force on each unit over the second half of the time that the units are held [N], and the
-    /// number of steps in it.
+    /// Sum of the water forces on each unit over the second half of the time in which the units are held [N], and the
+    /// number of time steps in it.
     still_force: (Vec<[f64; 3]>, u64),
-    /// Largest force of the water on each unit beyond that of the still water, as a mean over an interval of the series
-    /// [N].
+    /// Largest mean water force on each unit over an interval of the series, minus the force of still water [N].
     pub peak_fluid_force: Vec<f64>,
-    /// Largest force of bed and neighbours on each unit, as such a mean [N].
+    /// Largest mean contact force of bed and neighbours on each unit over such an interval [N].
     pub peak_contact_force: Vec<f64>,
-    /// Contacts of each unit with the bed and with other units.
+    /// Number of contacts of each unit: with the bed, with other units.
     pub contacts: Vec<[u64; 2]>,
-    /// Hardest contact [N].
+    /// Largest contact force [N].
     pub peak_contact: f64,
-    /// Fastest approach at the start of a contact [m/s].
+    /// Largest approach velocity at the start of a contact [m/s].
     pub fastest_contact: f64,
-    /// Whether the units have come to rest.
+    /// State of the rest criterion.
     pub rest: Rest,
     /// Energy of water and units at the start [J].
     pub energy_start: Option<f64>,
-    /// Energy that the water received.
+    /// Energy received by the water.
     pub balance: Balance,
     /// Volume [m3] and number of particles of the water at the first row of the diagnostics.
     pub water_start: Option<(f64, u64)>,
-    /// Largest speed of the water over its speed of sound c0 [-].
+    /// Largest Mach number: speed of the water over its speed of sound c0 [-].
     pub largest_mach: f64,
     /// Largest Mach number [-], lowest and highest density [kg/m3] since the last row of the diagnostics.
     water_since_row: Option<[f64; 3]>,
-    /// What the user has been warned of.
+    /// Warnings so far.
     pub warnings: Vec<String>,
-    /// Wall clock of all sessions of the run [s].
+    /// Wall time of all sessions of the run [s].
     pub wall_s: f64,
 }
 
 impl Statistics {
-    /// Statistics of a run with `units` units.
+    /// Returns the statistics of a run with `units` units, before its first time step.
     pub fn new(units: usize) -> Self {
         Self {
             still_force: (vec![[0.0; 3]; units], 0),
@@ -59,40 +58,40 @@ impl Statistics {
         }
     }
 
-    /// Count a step of length `dt` [s].
+    /// Counts a time step of length `dt` [s].
     pub fn count_step(&mut self, dt: f64) {
         self.shortest_step = if self.steps == 0 { dt } else { self.shortest_step.min(dt) };
         self.longest_step = self.longest_step.max(dt);
         self.steps += 1;
     }
 
-    /// Count the extremes of the water at the end of a step: Mach number [-], densities [kg/m3].
+    /// Adds the extremes of the water at the end of a time step: Mach number [-], densities [kg/m3].
     pub fn count_water(&mut self, mach: f64, lowest_density: f64, highest_density: f64) {
         self.largest_mach = self.largest_mach.max(mach);
         let [m, low, high] = self.water_since_row.unwrap_or([mach, lowest_density, highest_density]);
         self.water_since_row = Some([m.max(mach), low.min(lowest_density), high.max(highest_density)]);
     }
 
-    /// Largest Mach number [-], lowest and highest density [kg/m3] since the last call; `None` if no step was made
-    /// since.
+    /// Returns the largest Mach number [-], lowest and highest density [kg/m3] since the last call; `None` without a
+    /// time step since.
     pub fn take_water_since_row(&mut self) -> Option<[f64; 3]> {
         self.water_since_row.take()
     }
 
-    /// Count the loads of a step while the units are held.
+    /// Adds the loads of a time step while the units are held.
     pub fn count_still_loads(&mut self, fluid: &[Load]) {
         let (sums, count) = &mut self.still_force;
         sums.iter_mut().zip(fluid).for_each(|(sum, load)| *sum = (DVec3::from(*sum) + load.force).to_array());
         *count += 1;
     }
 
-    /// Mean force of the still water on a unit [N]; zero if the units were never held.
+    /// Returns the mean force of the still water on a unit [N]; zero if the units were never held.
     pub fn still_force(&self, unit: usize) -> DVec3 {
         let (sums, count) = &self.still_force;
         DVec3::from(sums[unit]) / (*count).max(1) as f64
     }
 
-    /// Count the mean loads of water and contact on a unit over an interval of the series.
+    /// Adds the mean loads of water and contact on a unit over an interval of the series.
     pub fn count_mean_loads(&mut self, unit: usize, [fluid, contact]: [Load; 2]) {
         let beyond_still = (fluid.force - self.still_force(unit)).length();
         self.peak_fluid_force[unit] = self.peak_fluid_force[unit].max(beyond_still);

@@ -1,7 +1,7 @@
 //! One time step of the coupled run, in the order of the algorithm.
 //!
-//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations (10) to (13)) evaluates the water twice: at the
-//! present state, between whose evaluation and the step itself everything is measured and written, and at the half step.
+//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations (10) to (13)) evaluates the rates of the water
+//! twice: at the present state and at the half step. Outputs are written after the first evaluation.
 
 use std::ops::{Deref, DerefMut};
 
@@ -13,7 +13,7 @@ use crate::{
     sph::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
-/// A simulation whose present state is evaluated: the water can be measured, and the time step can be made.
+/// A simulation with the rates of its present state: ready for measurements and for the time step.
 pub struct PreparedStep<'a> {
     simulation: &'a mut Simulation,
     dt: f64,
@@ -36,10 +36,10 @@ impl DerefMut for PreparedStep<'_> {
 }
 
 impl Simulation {
-    /// Evaluates the present state: neighbours, boundary densities, rates and the length of the time step.
+    /// Evaluates the present state: neighbours, boundary densities, rates and length of the time step.
     ///
     /// # Errors
-    /// If the state has become impossible.
+    /// If a rate is not finite.
     pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.list(&self.water, &self.boundary);
@@ -52,7 +52,7 @@ impl Simulation {
             return Err(failure::not_finite(self));
         }
         if self.steps == 0 {
-            // There is no half step yet that the first row of the series could show the loads of.
+            // The first row of the series needs loads, and there is no half step yet.
             self.sum_unit_loads(0.0)?;
         }
         Ok(PreparedStep { simulation: self, dt, is_fetched: false })
@@ -69,7 +69,7 @@ impl Simulation {
         Ok(dt)
     }
 
-    /// The water to the half step, with wavemaker and units where they are then.
+    /// Advances water, wavemaker and units to the half step.
     fn predict(&mut self, dt: f64) {
         let (wavemaker, absorbed, units) = (&self.wavemaker, &self.absorbed, &self.units);
         let half_time = self.flume_time() + 0.5 * dt;
@@ -81,7 +81,7 @@ impl Simulation {
         });
     }
 
-    /// Forces and torques of the water on the units at the half step.
+    /// Sums the forces and torques of the water on the units at the half step.
     fn sum_unit_loads(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         let centres: Vec<DVec3> = units.states().iter().map(|s| drifted(s, 0.5 * dt).position).collect();
@@ -93,7 +93,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// The units' bodies over a step under the loads of the water; at first they are held.
+    /// Advances the units by a time step under the loads of the water; until their release they are held.
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
@@ -113,7 +113,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// The water, to be measured while the state is prepared and the host's arrays hold it.
+    /// Returns the sampler of the water; needs the evaluated state in the host's arrays.
     pub(super) fn sampler(&self) -> Sampler<'_> {
         let parameters = self.solver.parameters();
         Sampler {
@@ -127,12 +127,12 @@ impl Simulation {
 }
 
 impl PreparedStep<'_> {
-    /// Length of the time step that comes [s].
+    /// Returns the length of the next time step [s].
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// Brings water and boundary up to date in the host's arrays, if they are not.
+    /// Updates water and boundary in the host's arrays, if necessary.
     ///
     /// # Errors
     /// If the device is lost.
@@ -144,7 +144,7 @@ impl PreparedStep<'_> {
         Ok(())
     }
 
-    /// The water at any point: pressure, velocity, free surface.
+    /// Returns the sampler of pressure, velocity and free surface at any point.
     ///
     /// # Errors
     /// If the device is lost.
@@ -153,7 +153,7 @@ impl PreparedStep<'_> {
         Ok(self.simulation.sampler())
     }
 
-    /// The powers that change the energy of the water now: boundaries, viscosity, diffusion [W].
+    /// Returns the present powers on the water: boundaries, viscosity, diffusion [W].
     ///
     /// # Errors
     /// If the device is lost.
@@ -163,12 +163,11 @@ impl PreparedStep<'_> {
         simulation.solver.powers(&simulation.water)
     }
 
-    /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces, motion
-    /// of the units.
+    /// Makes the time step: predictor, rates at the half step, corrector, loads on the units, impermeable surfaces,
+    /// motion of the units.
     ///
     /// # Errors
-    /// If a particle has left the domain, its density is far off, or units have gone too deep into each other or the
-    /// bed.
+    /// If a particle has left the domain, its density is impossible, or units overlap each other or the bed too much.
     pub fn finish(self) -> Result<(), Failure> {
         let (simulation, dt) = (self.simulation, self.dt);
         simulation.absorb(dt);
@@ -188,7 +187,7 @@ impl PreparedStep<'_> {
     }
 }
 
-/// A body after a time [s] at its present velocities.
+/// Returns a body after a time [s] at its present velocities.
 fn drifted(state: &BodyState, dt: f64) -> BodyState {
     let turn = glam::DQuat::from_scaled_axis(state.angular_velocity * dt);
     BodyState {

@@ -1,4 +1,4 @@
-//! A run in a few numbers.
+//! The summary of a flume run.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::{
     waves::solitary::PistonTheory,
 };
 
-/// Summary of a run whose series lie in `dir`.
+/// Summarises a run with the series in `dir`.
 ///
 /// # Errors
 /// If the gauge tables cannot be read.
@@ -84,7 +84,7 @@ fn wave(case: &Case) -> Option<WaveSummary> {
         (Wave::Regular { .. }, Wavemaker::Piston { .. }) => ("regular", "madsen"),
         (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
         (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),
-        // Its height is not known.
+        // The height of a wave from files is not known.
         (Wave::Given(_), _) => return None,
     };
     let (kind, theory) = (kind.to_owned(), theory.to_owned());
@@ -94,7 +94,7 @@ fn wave(case: &Case) -> Option<WaveSummary> {
 fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
     let Some(units) = &simulation.units else { return Vec::new() };
     let statistics = &simulation.statistics;
-    let one = |(k, (now, start)): (usize, (&crate::rigid::BodyState, &crate::rigid::BodyState))| {
+    let summary_of = |(k, (now, start)): (usize, (&crate::rigid::BodyState, &crate::rigid::BodyState))| {
         let turned = (now.rotation * start.rotation.inverse()).normalize();
         let angle = 2.0 * turned.xyz().length().atan2(turned.w.abs());
         let (from, to) = (start.position.to_array(), now.position.to_array());
@@ -106,10 +106,10 @@ fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
             ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), damage_distance)
         }
     };
-    units.states().iter().zip(&units.start).enumerate().map(one).collect()
+    units.states().iter().zip(&units.start).enumerate().map(summary_of).collect()
 }
 
-/// Crests at the elevation gauges, from the series as written.
+/// Returns the crests at the elevation gauges, from the tables.
 fn gauges(simulation: &Simulation, dir: &Path) -> Result<Vec<GaugeSummary>, OutputError> {
     let particles = Table::read_if_present(&dir.join("gauges.csv"))?;
     let flume = Table::read_if_present(&dir.join("flume_gauges.csv"))?;

@@ -1,4 +1,4 @@
-//! The water at the units in the steps in which the forces of their impacts had their peaks.
+//! Water loads on the units at the peaks of their impacts.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,13 +8,13 @@ use crate::{
     sph::{equation_of_state::Tait, particles::boundary::Boundary},
 };
 
-/// The water at the peak so far of each contact that is among the hardest of a unit, by the number of the contact.
+/// Water loads at the peaks of the hardest contacts of each unit, by the number of the contact.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
 
 impl WaterAtImpacts {
-    /// Note the water of a step under the given loads, which began at `since` [s] on the clock of the contacts; let go of
-    /// that of contacts which are no longer among the hardest.
+    /// Records the loads of a time step, which began at `since` [s] in the time of the contacts; drops contacts that
+    /// are no longer among the hardest.
     pub fn note(&mut self, world: &RigidWorld, since: f64, loads: &[Load], boundary: &Boundary, tait: &Tait) {
         let mut noted = false;
         for event in world.impacts_with_peak_after(since) {
@@ -31,7 +31,7 @@ impl WaterAtImpacts {
     }
 }
 
-/// Where the pressures are known.
+/// Returns the points of the unit at which pressures are recorded.
 pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePlace> {
     let place = |(particle, to_surface)| PressurePlace { particle, to_surface };
     boundary.places_in_unit().map(place).collect()

@@ -1,14 +1,12 @@
-//! Zones at the ends of the domain in which the water is led to a velocity of its own.
+//! Damping and relaxation zones at the ends of the domain, in which the water approaches a target velocity v'.
 //!
-//! dv/dt = -f(x) (v - v'), solved exactly over a step, after the forces have been: v <- v' + (v - v') exp(-f dt). No
-//! rate is too large for it, and what the water receives is known to rounding.
+//! dv/dt = -f(x) (v - v'), solved exactly over a time step, after the forces: v <- v' + (v - v') exp(-f dt). This is
+//! stable for any rate f, and the energy received by the water is known to rounding.
 //!
-//! - Damping zone, v' = 0: waves do not come back from the shoreward end (after the passive absorption of Altomare et
-//!   al. 2017,
+//! - Damping zone, v' = 0: absorbs waves at the shoreward end (after the passive absorption of Altomare et al. 2017,
 //!   section 2.4; Molteni et al. 2013 call such zones sponge layers).
-//! - Relaxation zone, v' that of the flume model: the wave comes in from the seaward end, and what the structure sends
-//!   back
-//!   returns from there weaker (Altomare et al. 2018).
+//! - Relaxation zone, v' of the flume model: the wave enters at the seaward end, and waves reflected by the structure
+//!   are reflected there again with less height (Altomare et al. 2018).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,11 +14,11 @@ use rayon::prelude::*;
 use super::Simulation;
 use crate::sph::particles::water::Water;
 
-/// Particles of one partial sum: sums over pieces of fixed length are the same for any number of threads.
-const PIECE: usize = 4096;
+/// Particles in a chunk: sums over chunks of fixed length do not depend on the number of threads.
+const CHUNK: usize = 4096;
 
 impl Simulation {
-    /// Lead the water in the zones to their velocities over a step of length `dt` [s] and book what it receives.
+    /// Relaxes the water in the zones over a time step of length `dt` [s], and adds the energy received to the balance.
     pub(super) fn relax_in_zones(&mut self, dt: f64) {
         let end = self.flume_time() + dt;
         if let Some(zone) = &self.case.domain.damping_zone {
@@ -36,11 +34,11 @@ impl Simulation {
     }
 }
 
-/// Lead velocities to a target, a function of the place [m], at a rate [1/s], a function of x [m]; returns the energy
-/// that the water receives [J].
+/// Relaxes velocities to `target`, a function of position [m], at `rate` [1/s], a function of x [m]; returns the energy
+/// received by the water [J].
 fn relax(water: &mut Water, rate: impl Fn(f64) -> f64 + Sync, target: impl Fn(DVec3) -> DVec3 + Sync, dt: f64) -> f64 {
-    let pieces = (water.position.par_chunks(PIECE), water.velocity.par_chunks_mut(PIECE), water.mass.par_chunks(PIECE));
-    let received: Vec<f64> = pieces
+    let chunks = (water.position.par_chunks(CHUNK), water.velocity.par_chunks_mut(CHUNK), water.mass.par_chunks(CHUNK));
+    let received: Vec<f64> = chunks
         .into_par_iter()
         .map(|(position, velocity, mass)| {
             let mut received = 0.0;
@@ -65,7 +63,7 @@ mod tests {
     use crate::case::DampingZone;
 
     #[test]
-    fn water_in_a_zone_goes_over_to_its_velocity_and_its_energy_is_booked() {
+    fn water_in_a_zone_approaches_the_target_velocity_and_its_energy_is_counted() {
         let zone = DampingZone { x: [1.0, 3.0], coefficient: 8.0 };
         let mut water = Water::default();
         for x in [0.5, 2.0, 4.0] {

@@ -10,7 +10,7 @@ use crate::{
     femdem::{watch::StepError, world::World},
 };
 
-/// Speed over wave speed [-] that no impact of units reaches: it means strains of a tenth.
+/// Speed over wave speed [-] that no impact of units reaches: the strains would be 10 %.
 const FAST: f64 = 0.1;
 
 /// Usual causes of an unstable run.
@@ -25,27 +25,27 @@ pub struct Part {
     tag: u64,
     body: String,
     /// Position at the start [m].
-    place: DVec3,
+    position: DVec3,
 }
 
 impl Part {
     fn tet(case: &FractureCase, tet: usize) -> Self {
         let mesh = &case.mesh.mesh;
-        let (tag, body, place) = (mesh.tet_tags[tet], mesh.body_of(tet).name.clone(), mesh.centroid(tet));
-        Self { kind: "tetrahedron", tag, body, place }
+        let (tag, body, position) = (mesh.tet_tags[tet], mesh.body_of(tet).name.clone(), mesh.centroid(tet));
+        Self { kind: "tetrahedron", tag, body, position }
     }
 
     fn node(case: &FractureCase, world: &World, node: usize) -> Self {
         let copy = world.nodes.ties.of(node)[0] as usize;
         let mesh = &case.mesh.mesh;
         let tag = mesh.node_tags[mesh.tets[copy / 4][copy % 4] as usize];
-        Self { kind: "node", tag, body: mesh.body_of(copy / 4).name.clone(), place: world.place_at_start(node) }
+        Self { kind: "node", tag, body: mesh.body_of(copy / 4).name.clone(), position: world.place_at_start(node) }
     }
 }
 
 impl fmt::Display for Part {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { kind, tag, body, place: DVec3 { x, y, z } } = self;
+        let Self { kind, tag, body, position: DVec3 { x, y, z } } = self;
         write!(out, "{kind} {tag} of body {body:?}, in the mesh at ({x:.4}, {y:.4}, {z:.4}) m,")
     }
 }
@@ -74,8 +74,8 @@ pub enum Failure {
     /// A node is far from the mesh.
     #[error(
         "after {:.5} ms (step {step}) {node} is {distance:.3} m from the middle of the mesh, more than the limit of \
-         {limit:.3} m from 50 diagonals and the motion of the case: a piece flies off freely (end the run earlier with \
-         stop.duration_s), a body that should stop it is missing, or a contact threw it out (lower \
+         {limit:.3} m from 50 mesh diagonals and the motion of the case: a piece flies off freely (end the run earlier \
+         with stop.duration_s), a body that should stop it is missing, or a contact threw it out (lower \
          fracture.step_share)", time * 1e3
     )]
     Escaped { time: f64, step: u64, node: Part, distance: f64, limit: f64 },

@@ -28,13 +28,13 @@ use crate::{
     "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable step of this mesh; leave it out"
 )]
 pub struct UnstableStep {
-    /// As given [s].
+    /// Time step of the case [s].
     pub given: f64,
-    /// The longest stable one [s].
+    /// Longest stable time step [s].
     pub longest: f64,
 }
 
-/// The world of a case at its start.
+/// Builds the world of a case at its start.
 ///
 /// # Errors
 /// If the time step of the case is not stable.
@@ -50,19 +50,19 @@ pub fn world(case: &FractureCase) -> Result<World, UnstableStep> {
     Ok(world)
 }
 
-/// Steps between two checks of positions and contacts: a check costs as much as a tenth of a step.
+/// Time steps between two checks of positions and contacts; a check costs a tenth of a time step.
 const STEPS_BETWEEN_CHECKS: u64 = 100;
 
-/// Run a fracture case, whose world is at its start, into an existing, empty folder.
+/// Runs a fracture case into an existing, empty folder; `world` is that of its start.
 ///
 /// # Errors
-/// If a file cannot be written, the state becomes impossible, or the user stops the run.
+/// If a file cannot be written, the run becomes unstable, or the user stops it.
 pub fn run(case: &FractureCase, world: World, dir: &Path, control: &Control) -> Result<FractureSummary, RunError> {
     let recorder = FractureRecorder::create(case, dir)?;
     drive(FractureRun::new(case, world, recorder, RunState::default(), dir), dir, control)
 }
 
-/// Continue a fracture run from its last checkpoint; `world` is that of its case at the start.
+/// Continues a fracture run from its last checkpoint; `world` is that of the start of its case.
 ///
 /// # Errors
 /// As [`run`], and if the checkpoint is damaged or does not belong to the case.
@@ -84,7 +84,7 @@ struct FractureRun<'a> {
     recorder: FractureRecorder,
     state: RunState,
     dir: &'a Path,
-    /// Wall clock of earlier sessions [s].
+    /// Wall time of earlier sessions [s].
     wall_before: f64,
 }
 
@@ -98,17 +98,17 @@ impl<'a> FractureRun<'a> {
         StepFailure::failure(Box::new(Failure::of(self.case, &self.world, self.state.watched.steps, error)))
     }
 
-    /// Makes a step that also adds up the energies, and writes them.
+    /// Makes a time step with energies, and writes their rows.
     fn step_with_row(&mut self) -> Result<Ledger, StepFailure> {
         let time = self.world.time;
-        let (book, bodies) = self.world.step_with_books().map_err(|error| self.failure(error))?;
-        let residual = self.state.note(&book);
-        self.recorder.record_energy(&self.world, time, &book, residual)?;
+        let (energies, bodies) = self.world.step_with_books().map_err(|error| self.failure(error))?;
+        let residual = self.state.note(&energies);
+        self.recorder.record_energy(&self.world, time, &energies, residual)?;
         let stresses = largest_stresses(&self.world);
         carry_on(&mut self.state.watched.peaks, &self.world, &stresses, time);
         self.recorder.record_bodies(time, &bodies, &stresses)?;
         (self.state.rows, self.state.bytes) = (self.state.rows + 1, self.recorder.bytes());
-        Ok(book)
+        Ok(energies)
     }
 
     fn record_surfaces(&mut self) -> Result<(), OutputError> {
@@ -145,16 +145,16 @@ impl<'a> FractureRun<'a> {
         Ok(())
     }
 
-    /// Writes the last outputs; the energies of the end take one more step.
+    /// Writes the last outputs; the final energies take one more time step.
     fn finish(&mut self) -> Result<FractureSummary, StepFailure> {
         if self.case.surfaces_interval.is_some() {
             self.record_surfaces()?;
         }
         self.recorder.detail.record_tets_if_due(&self.world, true)?;
-        let book = self.step_with_row()?;
+        let energies = self.step_with_row()?;
         let fragments = pieces(&self.world).fragments;
         write_fragments(&fragments, self.dir)?;
-        let summary = FractureSummary::of(self.case, &self.world, &book, &self.state.watched, &fragments);
+        let summary = FractureSummary::of(self.case, &self.world, &energies, &self.state.watched, &fragments);
         summary.write(self.dir)?;
         Ok(summary)
     }

@@ -1,15 +1,16 @@
-//! One tetrahedron against another: energy, for any penalty.
+//! A tetrahedron bounces off another: conservation of energy for any penalty.
 
 use super::*;
 use breakwater::femdem::mesh::{Body as MeshBody, Mesh};
 use breakwater::femdem::setup::Constraint;
 
-/// A tetrahedron over a larger one, which is held or free.
+/// Runs the impact of a tetrahedron on a larger one, which is held or free. Returns the relative energy residual, the
+/// number of time steps in contact, and the relative energy lost by friction.
 fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     let size = 0.1;
     let mesh = Mesh {
         nodes: [
-            // A corner first, over the middle of the face below.
+            // The first corner is above the middle of the face below.
             [0.03, 0.02, 0.0],
             [0.1, 0.03, 0.08],
             [0.0, 0.1, 0.09],
@@ -40,24 +41,24 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     if held {
         setup.constraints = vec![Constraint::constant(mesh.mesh.tets[1].to_vec(), [Some(0.0); 3])];
     }
-    // The energy of a swing is kept to (omega dt)^2 / 8.
+    // The time integration conserves the energy of an oscillation to (omega dt)^2 / 8.
     let mut world = World::new(setup, 1e-2);
     let first = world.step_with_ledger().unwrap();
-    let (mut touched, mut parted) = (0, 0.0);
-    let speed = size / CONCRETE.bar_celerity();
-    while parted == 0.0 || world.time < parted + speed {
-        assert!(world.time < 300.0 * speed, "it does not part");
+    let (mut touched, mut separated) = (0, 0.0);
+    let wave_time = size / CONCRETE.bar_celerity();
+    while separated == 0.0 || world.time < separated + wave_time {
+        assert!(world.time < 300.0 * wave_time, "the tetrahedra do not separate");
         world.step().unwrap();
         if world.contacts.touching > 0 {
-            (touched, parted) = (touched + 1, 0.0);
-        } else if touched > 0 && parted == 0.0 {
-            parted = world.time;
+            (touched, separated) = (touched + 1, 0.0);
+        } else if touched > 0 && separated == 0.0 {
+            separated = world.time;
         }
     }
     let last = world.step_with_ledger().unwrap();
     let residual = (last.total() - first.total()) / first.kinetic;
     println!(
-        "p = {penalty} E, base {}: dt {:.2e} s, {touched} steps of contact, residual {residual:.1e}, strain left {:.1e}",
+        "p = {penalty} E, base {}: dt {:.2e} s, {touched} time steps in contact, residual {residual:.1e}, remaining strain energy {:.1e}",
         if held { "held" } else { "free" },
         world.dt,
         last.strain / first.kinetic
@@ -70,7 +71,7 @@ fn a_tetrahedron_bounces_without_loss_for_any_penalty() {
     for penalty in [0.1, 1.0, 10.0] {
         for held in [false, true] {
             let (residual, touched, _) = bounce(penalty, held, 0.0);
-            // 1e-6: asked for; a hundredth of the longest stable step.
+            // Target: 1e-6. The time step is a hundredth of the longest stable one.
             assert!(residual.abs() < 1e-6 && touched > 100, "p = {penalty} E: {residual:.1e}");
         }
     }

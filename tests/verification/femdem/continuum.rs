@@ -1,11 +1,11 @@
-//! The continuum against elasticity.
+//! Continuum elements compared with elasticity theory.
 
 use super::*;
 use glam::DMat3;
 use std::f64::consts::PI;
 
 #[test]
-fn a_linear_field_leaves_the_inside_in_balance() {
+fn a_linear_displacement_field_has_no_force_inside() {
     let mesh = mesh(DVec3::new(1.0, 0.7, 0.5), [4, 3, 3]);
     let mut world = World::new(setup(&mesh, None), 0.9);
     let strain = DMat3::from_cols_array(&[2e-3, 1e-3, -4e-4, 7e-4, -1e-3, 3e-4, 5e-4, -2e-4, 1.5e-3]);
@@ -20,14 +20,14 @@ fn a_linear_field_leaves_the_inside_in_balance() {
     let largest = (0..origin.len()).map(force).fold(0.0, f64::max);
     let mut count = 0;
     for n in (0..world.nodes.count()).filter(|n| inside(world.place_at_start(*n))) {
-        // 1e-10: asked for; against the forces at the outside.
+        // Target: 1e-10 of the forces at the surface.
         assert!(force(n) < 1e-10 * largest, "{:.1e}", force(n) / largest);
         count += 1;
     }
     assert!(count > 20);
 }
 
-/// Frequency of the first free swing of a bar along itself [Hz].
+/// Returns the first longitudinal frequency of a free bar [Hz].
 fn bar_frequency(cohesion: Option<Cohesion>) -> f64 {
     let length = 0.5;
     let mesh = mesh(DVec3::new(length, 0.05, 0.05), [30, 3, 3]);
@@ -49,11 +49,11 @@ fn bar_frequency(cohesion: Option<Cohesion>) -> f64 {
 }
 
 #[test]
-fn a_bar_swings_with_the_celerity_of_thin_bars() {
+fn a_bar_has_the_frequency_of_thin_bar_theory() {
     let expected = CONCRETE.bar_celerity() / (2.0 * 0.5);
     let found = bar_frequency(None);
     println!("{found:.1} Hz, {expected:.1} expected ({:+.2} %)", 100.0 * (found / expected - 1.0));
-    // 1 %: asked for. The inertia of the sides takes (nu pi r / L)^2 / 2 = 0.003 %.
+    // Target: 1 %. Lateral inertia lowers the frequency by (nu pi r / L)^2 / 2 = 0.003 %.
     assert!((found / expected - 1.0).abs() < 0.01);
 }
 
@@ -65,22 +65,22 @@ fn joints_make_a_bar_softer_by_their_compliance() {
         let softer = (found / plain).powi(2);
         let expected = 1.0 / (1.0 + 2.7 / penalty);
         println!("p0 = {penalty} E: E_eff / E = {softer:.4}, {expected:.4} by the rule for unstructured meshes");
-        // The rule is for other meshes: 2.7 is their area of joints in a volume times h / 3.
+        // The rule is for other meshes, where the joint area per volume times h / 3 is 2.7.
         assert!((softer / expected - 1.0).abs() < tolerance);
     }
     let tied = bar_frequency(cohesion(2.0, true));
-    // The same mesh with another step, which shifts frequencies by (omega dt)^2 / 24.
+    // 1e-4: the time step differs, which shifts frequencies by (omega dt)^2 / 24.
     assert!((tied / plain - 1.0).abs() < 1e-4);
 }
 
-/// Frequency of a cantilever of 1 x 0.1 x 0.1 m [Hz] with `cells` over its height.
+/// Returns the first frequency of a cantilever of 1 x 0.1 x 0.1 m [Hz] with `cells` over its height.
 fn cantilever(cells: usize) -> f64 {
     let mesh = mesh(DVec3::new(1.0, 0.1, 0.1), [10 * cells, cells, cells]);
     let mut setup = setup(&mesh, None);
     let clamped = (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize].x == 0.0).collect();
     setup.constraints = vec![breakwater::femdem::setup::Constraint::constant(clamped, [Some(0.0); 3])];
     let mut world = World::new(setup, 0.9);
-    // First mode of Euler and Bernoulli.
+    // The initial velocity has the shape of the first Euler-Bernoulli mode.
     let (k, r) = (1.875_104_07, 0.734_095_5);
     for n in 0..world.nodes.count() {
         let x = k * world.place_at_start(n).x;
@@ -99,10 +99,10 @@ fn cantilever(cells: usize) -> f64 {
 }
 
 #[test]
-fn a_cantilever_swings_with_its_first_frequency() {
+fn a_cantilever_has_the_first_frequency_of_beam_theory() {
     let [coarse, fine] = [2, 4].map(cantilever);
     println!("first frequency {coarse:.2} Hz, {fine:.2} Hz with elements half as long; 53.85 Hz expected");
-    // Constant strains are too stiff in bending, by the square of the size: 3 %, asked for, on the finer one.
+    // Target: 3 % on the finer mesh. Elements of constant strain are too stiff in bending, with second order.
     assert!((fine / 53.85 - 1.0).abs() < 0.03 && (coarse - 53.85).abs() > (fine - 53.85).abs());
 }
 

@@ -1,4 +1,4 @@
-//! The drop test of a Dolos on its coarse mesh: where and when it cracks first, energy, the same bits.
+//! Drop test of a Dolos on its coarse mesh: position and time of the first crack, energy balance, reproducibility.
 
 use breakwater::case::FractureCase;
 use breakwater::femdem::world::World;
@@ -15,27 +15,28 @@ fn a_dropped_dolos_cracks_first_at_the_upper_corner_of_stem_and_fluke() {
     let first = world.step_with_ledger().unwrap();
     let mut residual = 0.0f64;
     while world.time < 1e-3 {
-        let book = world.step_with_ledger().unwrap();
-        residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
+        let energies = world.step_with_ledger().unwrap();
+        residual = residual.max((energies.total() - first.total()).abs() / first.kinetic);
     }
     let crack = world.failures[0];
     println!(
-        "first at {:.3} ms, {}; {} faces by 1 ms, residual {residual:.1e} of the kinetic energy",
+        "first crack at {:.3} ms, {} m; {} failed faces at 1 ms, residual {residual:.1e} of the kinetic energy",
         crack.time * 1e3,
         crack.place,
         world.failures.len()
     );
-    // The paper: 0.45 to 0.5 ms after the impact, which comes 0.044 ms after the start here; a mesh three times as coarse.
+    // Published: 0.45 to 0.5 ms after the impact, which is 0.044 ms after the start here. The mesh is three times
+    // coarser.
     assert!((4e-4..6.5e-4).contains(&crack.time));
-    // The stem lies along x about z = 0, its fluke stands from x = 0.2 m on.
+    // The stem lies along x around z = 0; its vertical fluke begins at x = 0.2 m.
     assert!((0.1..0.3).contains(&crack.place.x) && crack.place.z > 0.1, "{}", crack.place);
-    // 1 %: asked for.
+    // Target: 1 %.
     assert!(residual < 0.01);
 }
 
 #[test]
 fn a_fracture_has_the_same_bits_for_any_number_of_threads() {
-    let with = |threads: usize| {
+    let run_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut world = drop_test();
@@ -45,7 +46,7 @@ fn a_fracture_has_the_same_bits_for_any_number_of_threads() {
             (world.nodes.place.clone(), world.failures.clone(), world.step_with_ledger().unwrap())
         })
     };
-    let (one, two) = (with(1), with(2));
+    let (one, two) = (run_with(1), run_with(2));
     assert!(!one.1.is_empty());
     assert_eq!(one, two);
 }

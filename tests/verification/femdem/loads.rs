@@ -1,4 +1,4 @@
-//! Loads: stress, pressure, forces about a place; their work.
+//! Loads: traction, pressure, force and moment about a point; their work.
 
 use super::*;
 use breakwater::femdem::history::History;
@@ -17,7 +17,7 @@ fn ramp(until: f64) -> History<1> {
     History::new([(0.0, [0.0]), (until, [1.0])]).unwrap()
 }
 
-/// Sum of forces, and of their moments about a point.
+/// Returns the sums of forces [N] and of their moments about a point [N m].
 fn resultant(world: &World, forces: &[CornerForce], about: DVec3) -> [DVec3; 2] {
     let mut sum = [DVec3::ZERO; 2];
     for CornerForce { tet, corner, force } in forces {
@@ -28,17 +28,17 @@ fn resultant(world: &World, forces: &[CornerForce], about: DVec3) -> [DVec3; 2] 
 }
 
 #[test]
-fn a_bar_under_traction_stretches_by_hooke_and_the_book_closes() {
+fn a_bar_under_traction_stretches_by_hooke_and_its_energy_balance_closes() {
     let (length, stress) = (0.5, 1e6);
     let mesh = mesh(DVec3::new(length, 0.05, 0.05), [10, 1, 1]);
-    let at = |axis: usize| -> Vec<u32> {
+    let nodes_at = |axis: usize| -> Vec<u32> {
         (0..mesh.mesh.nodes.len() as u32).filter(|n| mesh.mesh.nodes[*n as usize][axis] == 0.0).collect()
     };
     let end: Vec<usize> = (0..mesh.mesh.nodes.len()).filter(|n| mesh.mesh.nodes[*n].x == length).collect();
     let mut setup = setup(&mesh, None);
     setup.bodies[0].elastic.viscosity = 1e5;
-    setup.constraints = vec![Constraint::constant(at(0), [Some(0.0), None, None])];
-    // Over ten times the way of a wave to and fro.
+    setup.constraints = vec![Constraint::constant(nodes_at(0), [Some(0.0), None, None])];
+    // The load rises over ten periods of a wave along the bar and back.
     let time = 20.0 * length / CONCRETE.bar_celerity();
     setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
     let mut world = World::new(setup, 0.5);
@@ -47,19 +47,19 @@ fn a_bar_under_traction_stretches_by_hooke_and_the_book_closes() {
         world.step().unwrap();
     }
     let last = world.step_with_ledger().unwrap();
-    let stretched = end.iter().map(|n| world.nodes.place[*n].x - length).sum::<f64>() / end.len() as f64
+    let stretch = end.iter().map(|n| world.nodes.place[*n].x - length).sum::<f64>() / end.len() as f64
         * CONCRETE.young_modulus
         / (stress * length);
-    // Half of force times way is stored, from a slow load.
+    // A slow load stores half of force times displacement.
     let expected = 0.5 * stress * stress / CONCRETE.young_modulus * length * 0.0025;
     println!(
-        "stretched by {stretched:.6} of Hooke's; work without losses {:.6} of what is stored, residual {:.1e}",
+        "stretch {stretch:.6} of Hooke's law; work without losses {:.6} of the stored energy, residual {:.1e}",
         (last.work - last.viscous) / expected,
         (last.total() - first.total()) / last.work
     );
-    // What swings on: the ramp is slow, not infinitely.
-    assert!((stretched - 1.0).abs() < 2e-3 && ((last.work - last.viscous) / expected - 1.0).abs() < 2e-3);
-    // Second order of half the longest step, of the swinging part; 1 % of the work was asked for.
+    // 2e-3: the finite ramp leaves a small oscillation.
+    assert!((stretch - 1.0).abs() < 2e-3 && ((last.work - last.viscous) / expected - 1.0).abs() < 2e-3);
+    // 1e-6: second order of half the longest time step, for the oscillating part. Target: 1 %.
     assert!((last.total() - first.total()).abs() < 1e-6 * last.work);
 }
 
@@ -96,10 +96,10 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
         strain * bulk / pressure,
         (last.total() - first.total()) / last.work
     );
-    // Finite strain: p / K = 7e-4 itself.
+    // 2e-3: finite strain, as p / K is 7e-4.
     assert!((strain * bulk / pressure - 1.0).abs() < 2e-3);
     assert!((last.total() - first.total()).abs() < 1e-4 * last.work);
-    // A pressure on a closed surface has no resultant, however it turns and deforms.
+    // 1e-12: rounding; a pressure on a closed surface has no resultant in any deformation.
     let mut forces = Vec::new();
     world.setup().loads[0].forces(&world.places(), world.time, &mut forces);
     let [force, moment] = resultant(&world, &forces, DVec3::ZERO);
@@ -107,24 +107,24 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
     assert!(force.length() < 1e-12 * scale && moment.length() < 1e-12 * scale);
 }
 
-/// A block of concrete with a load about a place.
-fn pushed(place: DVec3, radius: f64, axes: Axes, rows: History<6>) -> World {
+/// Creates a block of concrete with a load about a point.
+fn loaded_block(place: DVec3, radius: f64, axes: Axes, rows: History<6>) -> World {
     let mesh = mesh(DVec3::new(0.3, 0.2, 0.1), [6, 4, 2]);
-    let near = faces_near(&mesh, 0, place, radius);
+    let patch_faces = faces_near(&mesh, 0, place, radius);
     let mut setup = setup(&mesh, None);
-    setup.loads = vec![Load::Patch(Patch::new(&mesh, &near.faces, place, axes, rows))];
+    setup.loads = vec![Load::Patch(Patch::new(&mesh, &patch_faces.faces, place, axes, rows))];
     World::new(setup, 0.5)
 }
 
 #[test]
-fn a_load_about_a_place_has_the_force_and_the_moment_that_were_asked_for() {
-    let asked = [3e3, -2e3, 5e3, 40.0, -10.0, 25.0];
-    let turn = DQuat::from_euler(EulerRot::XYZ, 0.7, -1.4, 2.1);
+fn a_load_about_a_point_has_the_given_force_and_moment() {
+    let given = [3e3, -2e3, 5e3, 40.0, -10.0, 25.0];
+    let rotation = DQuat::from_euler(EulerRot::XYZ, 0.7, -1.4, 2.1);
     let strain = DMat3::from_cols_array(&[2e-3, 1e-3, -4e-4, 7e-4, -1e-3, 3e-4, 5e-4, -2e-4, 1.5e-3]);
     let places = [
         (DVec3::new(0.121, 0.083, 0.1), 0.0),
         (DVec3::new(0.121, 0.083, 0.1), 0.06),
-        // Off the surface, as a recorded contact may be, at an edge, and in the body.
+        // Points off the surface, as recorded contacts may be; at an edge; inside the body.
         (DVec3::new(0.301, 0.1, 0.05), 0.03),
         (DVec3::new(0.0, 0.0, 0.05), 0.05),
         (DVec3::new(0.15, 0.1, 0.05), 1.0),
@@ -132,29 +132,29 @@ fn a_load_about_a_place_has_the_force_and_the_moment_that_were_asked_for() {
     for (place, radius) in places {
         for axes in [Axes::Space, Axes::Body] {
             for moment in [0.0, 1.0] {
-                let [x, y, z, p, q, r] = asked;
+                let [x, y, z, p, q, r] = given;
                 let rows = History::constant([x, y, z, moment * p, moment * q, moment * r]);
-                let mut world = pushed(place, radius, axes, rows);
-                let map = |x: DVec3| turn * (x + strain * x) + DVec3::new(1.0, -2.0, 0.5);
+                let mut world = loaded_block(place, radius, axes, rows);
+                let map = |x: DVec3| rotation * (x + strain * x) + DVec3::new(1.0, -2.0, 0.5);
                 displace(&mut world, |x| map(x) - x);
                 let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
-                // The place goes with the body. Rounding of some hundred terms.
+                // The point moves with the body. 1e-13: rounding of some hundred terms.
                 assert!((patch.place(&world.places()) - map(place)).length() < 1e-13);
                 let mut forces = Vec::new();
                 world.setup().loads[0].forces(&world.places(), 0.0, &mut forces);
                 let [force, about] = resultant(&world, &forces, map(place));
-                let wanted = [0, 3].map(|k| DVec3::from_slice(&asked[k..k + 3]) * if k == 3 { moment } else { 1.0 });
-                let wanted = match axes {
-                    Axes::Space => wanted,
-                    // Of the polar decomposition: the strain turns it a little more.
+                let expected = [0, 3].map(|k| DVec3::from_slice(&given[k..k + 3]) * if k == 3 { moment } else { 1.0 });
+                let expected = match axes {
+                    Axes::Space => expected,
+                    // The polar decomposition gives a rotation that the strain changes slightly.
                     Axes::Body => patch.asked_for(&world.places(), 0.0),
                 };
-                // Rounding.
-                assert!((force - wanted[0]).length() < 1e-12 * wanted[0].length(), "{place} {radius}");
-                assert!((about - wanted[1]).length() < 1e-12 * wanted[0].length(), "{place} {radius}");
+                // 1e-12: rounding.
+                assert!((force - expected[0]).length() < 1e-12 * expected[0].length(), "{place} {radius}");
+                assert!((about - expected[1]).length() < 1e-12 * expected[0].length(), "{place} {radius}");
                 if axes == Axes::Body {
                     let [along, _] = patch.asked_for(&world.places(), 0.0);
-                    assert!((along - turn * DVec3::new(x, y, z)).length() < 2e-3 * along.length());
+                    assert!((along - rotation * DVec3::new(x, y, z)).length() < 2e-3 * along.length());
                 }
             }
         }
@@ -162,17 +162,17 @@ fn a_load_about_a_place_has_the_force_and_the_moment_that_were_asked_for() {
 }
 
 #[test]
-fn a_body_under_a_recorded_load_gets_its_momentum_and_its_work() {
+fn a_recorded_load_gives_its_momentum_and_its_work() {
     let place = DVec3::new(0.25, 0.15, 0.1);
     let rows = [(0.0, 0.0), (2e-4, 1.0), (3e-4, -0.5), (6e-4, 0.0)];
     let direction = [2e4, 1e4, -4e4, 0.0, 300.0, 0.0];
     let history = || History::new(rows.map(|(t, factor)| (t, direction.map(|f| f * factor)))).unwrap();
     for rigid in [false, true] {
         let mesh = mesh(DVec3::new(0.3, 0.2, 0.1), [6, 4, 2]);
-        let near = faces_near(&mesh, 0, place, 0.04);
+        let patch_faces = faces_near(&mesh, 0, place, 0.04);
         let mut setup = setup(&mesh, None);
         setup.bodies[0].rigid = rigid;
-        setup.loads = vec![Load::Patch(Patch::new(&mesh, &near.faces, place, Axes::Space, history()))];
+        setup.loads = vec![Load::Patch(Patch::new(&mesh, &patch_faces.faces, place, Axes::Space, history()))];
         let mut world = World::new(setup, 0.5);
         if rigid {
             world.dt = 1e-6;
@@ -190,27 +190,27 @@ fn a_body_under_a_recorded_load_gets_its_momentum_and_its_work() {
             }
             sum
         };
-        let (mut impulse, mut turned) = (history().at(0.0), DVec3::ZERO);
+        let (mut impulse, mut expected_angular) = (history().at(0.0), DVec3::ZERO);
         impulse = impulse.map(|f| f * world.dt);
         while world.time < 7e-4 {
             let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
             let [force, moment] = patch.asked_for(&world.places(), world.time);
-            turned += (patch.place(&world.places()).cross(force) + moment) * world.dt;
+            expected_angular += (patch.place(&world.places()).cross(force) + moment) * world.dt;
             impulse.iter_mut().zip(history().at(world.time)).for_each(|(sum, f)| *sum += f * world.dt);
             world.step().unwrap();
         }
         let last = world.step_with_ledger().unwrap();
         let [linear, angular] = momentum(&world);
         println!(
-            "rigid {rigid}: momentum {linear}, angular {angular} ({turned}); work {:.6} J, residual {:.1e}",
+            "rigid {rigid}: momentum {linear}, angular {angular} ({expected_angular} expected); work {:.6} J, residual {:.1e}",
             last.work,
             (last.total() - first.total()) / last.work
         );
-        // Rounding.
+        // 1e-10: rounding.
         let expected = DVec3::from_slice(&impulse[..3]);
         assert!((linear - expected).length() < 1e-10 * expected.length());
-        assert!((angular - turned).length() < 1e-10 * turned.length());
-        // Second order of the step, of what swings.
+        assert!((angular - expected_angular).length() < 1e-10 * expected_angular.length());
+        // 1e-3: second order of the time step, for the oscillating part.
         assert!((last.total() - first.total()).abs() < 1e-3 * last.work);
     }
 }

@@ -1,11 +1,11 @@
-//! Deformable bodies and joints against elasticity and fracture mechanics.
+//! Deformable bodies and joints compared with elasticity and fracture mechanics.
 
 mod bounce;
 mod contact;
 mod continuum;
 mod core_locs;
 mod dolos;
-mod energy_book;
+mod energy_balance;
 mod joints;
 mod loads;
 mod rigid;
@@ -45,12 +45,12 @@ fn setup(mesh: &PreparedMesh, cohesion: Option<Cohesion>) -> Setup {
     Setup::of_mesh(mesh, vec![body])
 }
 
-/// Moves every node, of which the world is undeformed and at rest.
+/// Displaces all nodes of an undeformed world at rest.
 fn displace(world: &mut World, by: impl Fn(DVec3) -> DVec3) {
     world.nodes.place.iter_mut().for_each(|x| *x += by(*x));
 }
 
-/// Times at which a signal crosses zero, interpolated.
+/// Returns the interpolated times at which a signal crosses zero.
 fn crossings(signal: &[(f64, f64)]) -> Vec<f64> {
     let cross = |w: &[(f64, f64)]| {
         let [(t, a), (u, b)] = [w[0], w[1]];

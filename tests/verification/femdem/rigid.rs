@@ -1,4 +1,4 @@
-//! Bodies that are not deformed: free motion, holds, contact.
+//! Rigid bodies in a fracture run: free motion, constraints, contact.
 
 use super::contact::{both, two};
 use super::*;
@@ -17,32 +17,32 @@ fn rigid_block(lengths: DVec3, cells: [usize; 3]) -> (PreparedMesh, Setup) {
 fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     let (_, mut setup) = rigid_block(DVec3::new(0.3, 0.2, 0.1), [2, 2, 1]);
     setup.bodies[0].velocity = DVec3::new(1.0, -2.0, 0.5);
-    // About the middle axis, nearly.
+    // The rotation is nearly about the intermediate axis.
     setup.bodies[0].angular_velocity = DVec3::new(0.3, 20.0, 0.5);
     setup.gravity = DVec3::NEG_Z * 9.8;
     let mut world = World::new(setup, 1.0);
     world.dt = 1e-4;
-    let (first, books) = world.step_with_books().unwrap();
+    let (first, body_energies) = world.step_with_books().unwrap();
     let start = world.rigid_bodies[0].motion;
-    // Mass, and moments of a cuboid.
+    // Mass and moments of inertia of a cuboid.
     let mass = 2340.0 * 0.006;
     let moment = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
     let l = DVec3::new(0.3 * moment(0.2, 0.1), 20.0 * moment(0.3, 0.1), 0.5 * moment(0.3, 0.2));
     assert!((start.angular_momentum - l).length() < 1e-12 * l.length());
-    assert!((books[0].kinetic / first.kinetic - 1.0).abs() < 1e-14);
+    assert!((body_energies[0].kinetic / first.kinetic - 1.0).abs() < 1e-14);
     let (mut residual, mut longest) = (0.0f64, 0.0f64);
     let edge = world.place_at_start(0).distance(world.place_at_start(1));
     for _ in 0..20_000 {
-        let book = world.step_with_ledger().unwrap();
-        residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
+        let energies = world.step_with_ledger().unwrap();
+        residual = residual.max((energies.total() - first.total()).abs() / first.kinetic);
         longest = longest.max((world.nodes.place[0].distance(world.nodes.place[1]) / edge - 1.0).abs());
     }
     let now = world.rigid_bodies[0].motion;
-    println!("residual {residual:.1e}, edges change by {longest:.1e}");
-    // No torque: the same bits but for the sum of the forces, which is zero.
+    println!("residual {residual:.1e}, relative change of edge lengths {longest:.1e}");
+    // Without torque, the angular momentum changes only by rounding in the sum of forces.
     assert!((now.angular_momentum - start.angular_momentum).length() < 1e-12 * l.length());
     assert!(now.centre.distance(start.centre) > 10.0 && longest < 1e-12);
-    // Second order of the step: (omega dt)^2 = 4e-6.
+    // 1e-5: second order of the time step, (omega dt)^2 = 4e-6.
     assert!(residual < 1e-5);
 }
 
@@ -50,12 +50,12 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
 fn a_rigid_pendulum_swings_about_its_held_edge() {
     let (length, side) = (0.3, 0.04);
     let (mesh, mut setup) = rigid_block(DVec3::new(side, side, length), [1, 1, 4]);
-    // The edge along y at x = 0 on top.
+    // The body is held at its upper edge along y at x = 0.
     let edge: Vec<u32> = (0..mesh.mesh.nodes.len() as u32)
         .filter(|n| mesh.mesh.nodes[*n as usize].z == length && mesh.mesh.nodes[*n as usize].x == 0.0)
         .collect();
     setup.constraints = vec![Constraint::constant(edge, [Some(0.0); 3])];
-    // At rest where the centre is below the edge, then pushed.
+    // The body starts below the edge with an angular velocity.
     let tilt = (side / length).atan();
     setup.gravity = DVec3::new(-tilt.sin(), 0.0, -tilt.cos()).normalize() * 9.8;
     let (dx, dz) = (0.5 * side, 0.5 * length);
@@ -69,8 +69,8 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     let centre = world.rigid_bodies[0].motion.centre;
     let (mut signal, mut residual) = (Vec::new(), 0.0f64);
     while world.time < 2.5 {
-        let book = world.step_with_ledger().unwrap();
-        residual = residual.max((book.total() - first.total()).abs() / first.kinetic);
+        let energies = world.step_with_ledger().unwrap();
+        residual = residual.max((energies.total() - first.total()).abs() / first.kinetic);
         signal.push((world.time, (world.rigid_bodies[0].motion.centre - centre).dot(DVec3::X)));
     }
     let times = crossings(&signal);
@@ -78,10 +78,10 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     // T = 2 pi sqrt(I / (m g d)) with I about the edge; the amplitude of 0.02 adds 1/16 of its square.
     let inertia = (side * side + length * length) / 12.0 + down.length_squared();
     let expected = TAU * (inertia / (9.8 * down.length())).sqrt();
-    println!("{period:.5} s ({expected:.5}), residual {residual:.1e}");
-    // 0.1 %: half of it is the resolution of the crossings about a centre half a step off.
+    println!("period {period:.5} s ({expected:.5} expected), residual {residual:.1e}");
+    // 0.1 %: half of it is the resolution of the zero crossings, as the centre is half a time step off.
     assert!((period / expected - 1.0).abs() < 1e-3);
-    // The hold does no work but for the way that the step cuts short.
+    // 1e-3: the constraint does no work except for the error of the time step.
     assert!(residual < 1e-3);
 }
 
@@ -116,7 +116,7 @@ fn a_rigid_block_bounces_off_a_deformable_one() {
     }
     let (last, end) = (world.step_with_ledger().unwrap(), momentum(&world));
     println!(
-        "touched for {touched} steps, residual {:.1e}, velocity {}, friction {:.1e} J, momentum by {:.1e}, {:.1e}",
+        "{touched} time steps in contact, residual {:.1e}, velocity {}, friction {:.1e} J, change of momenta {:.1e}, {:.1e}",
         (last.total() - first.total()) / first.kinetic,
         world.rigid_bodies[0].motion.velocity,
         last.friction,
@@ -124,14 +124,14 @@ fn a_rigid_block_bounces_off_a_deformable_one() {
         (end[1] - start[1]).length()
     );
     assert!(touched > 10 && world.rigid_bodies[0].motion.velocity.z > -0.5 && last.friction > 0.0);
-    // Rounding.
+    // 1e-12: rounding.
     assert!((end[0] - start[0]).length() < 1e-12 && (end[1] - start[1]).length() < 1e-12);
-    // Second order of a fifth of the longest step.
+    // 1e-2: second order of a fifth of the longest time step.
     assert!((last.total() - first.total()).abs() < 1e-2 * first.kinetic);
 }
 
 #[test]
-fn a_rigid_platen_with_a_given_velocity_presses_a_block_and_its_work_is_booked() {
+fn a_moving_rigid_platen_compresses_a_block_and_its_work_is_balanced() {
     let mesh = two([
         (DVec3::new(0.12, 0.12, 0.03), [2, 2, 1], DVec3::new(-0.01, -0.01, 0.1)),
         (DVec3::new(0.1, 0.1, 0.1), [3, 3, 3], DVec3::ZERO),
@@ -139,7 +139,7 @@ fn a_rigid_platen_with_a_given_velocity_presses_a_block_and_its_work_is_booked()
     let mut setup = both(&mesh, [CONCRETE; 2], 0.0);
     setup.bodies[0].rigid = true;
     setup.bodies[1].elastic.viscosity = 1e5;
-    let at = |body: usize, z: f64| -> Vec<u32> {
+    let nodes_at = |body: usize, z: f64| -> Vec<u32> {
         let tets = &mesh.mesh.tets[mesh.mesh.bodies[body].tets.clone()];
         let mut nodes: Vec<u32> = tets.iter().flatten().copied().collect();
         nodes.sort_unstable();
@@ -147,34 +147,34 @@ fn a_rigid_platen_with_a_given_velocity_presses_a_block_and_its_work_is_booked()
         nodes.retain(|n| (mesh.mesh.nodes[*n as usize].z - z).abs() < 1e-9);
         nodes
     };
-    // To 0.02 m/s within 0.4 ms, then back to rest.
+    // The velocity rises to 0.02 m/s within 0.4 ms and returns to zero.
     let velocity = History::new([(0.0, [0.0]), (4e-4, [-0.02]), (8e-4, [0.0])]).unwrap();
-    let top = at(0, 0.13);
+    let top = nodes_at(0, 0.13);
     setup.constraints = vec![
         Constraint { nodes: top, velocity: [Some(0.0.into()), Some(0.0.into()), Some(velocity)] },
-        Constraint::constant(at(1, 0.0), [None, None, Some(0.0)]),
+        Constraint::constant(nodes_at(1, 0.0), [None, None, Some(0.0)]),
     ];
     let mut world = World::new(setup, 0.5);
     let first = world.step_with_ledger().unwrap();
     let start = world.rigid_bodies[0].motion;
     let mut residual = 0.0f64;
     while world.time < 1e-3 {
-        let book = world.step_with_ledger().unwrap();
-        residual = residual.max((book.total() - first.total()).abs());
+        let energies = world.step_with_ledger().unwrap();
+        residual = residual.max((energies.total() - first.total()).abs());
     }
     let last = world.step_with_ledger().unwrap();
     let motion = world.rigid_bodies[0].motion;
-    let way = start.centre.z - motion.centre.z;
-    // Between two smooth platens: E A / L, the contact is a spring in series at one end.
-    let least = 0.5 * CONCRETE.young_modulus * 0.1 * way * way;
+    let displacement = start.centre.z - motion.centre.z;
+    // The stiffness between smooth platens is E A / L; the contact is a spring in series at one end.
+    let without_contact = 0.5 * CONCRETE.young_modulus * 0.1 * displacement * displacement;
     println!(
-        "way {:.3} um, work {:.4} J of {least:.4} J without contact, residual {:.1e}",
-        way * 1e6,
+        "displacement {:.3} um, work {:.4} J of {without_contact:.4} J without contact compliance, residual {:.1e}",
+        displacement * 1e6,
         last.work,
         residual / last.work
     );
-    // Rounding: velocities at the middle of steps add up to the way of the history, 8 um.
-    assert!((way / 8e-6 - 1.0).abs() < 1e-3 && motion.orientation.angle_between(start.orientation) < 1e-9);
-    assert!(last.work > 0.5 * least && last.work < least * 1.01);
+    // Velocities at the middle of time steps sum to the displacement of the history, 8 um.
+    assert!((displacement / 8e-6 - 1.0).abs() < 1e-3 && motion.orientation.angle_between(start.orientation) < 1e-9);
+    assert!(last.work > 0.5 * without_contact && last.work < without_contact * 1.01);
     assert!(residual < 1e-3 * last.work);
 }

@@ -1,8 +1,8 @@
-//! The step against the largest eigenvalue.
+//! The stable time step compared with the largest eigenvalue.
 
 use super::*;
 
-/// Square of the largest angular frequency of a world at rest [1/s2], by power iteration on the forces themselves.
+/// Returns the square of the largest angular frequency of a world at rest [1/s2] by power iteration on the forces.
 fn largest_frequency_squared(setup: &Setup) -> f64 {
     let mut world = World::new(setup.clone(), 1e-6);
     let start = world.nodes.place.clone();
@@ -25,18 +25,18 @@ fn largest_frequency_squared(setup: &Setup) -> f64 {
 }
 
 #[test]
-fn the_step_is_below_that_of_the_largest_eigenvalue_and_not_far() {
+fn stable_time_step_is_close_below_the_limit_of_the_largest_eigenvalue() {
     let mesh = mesh(DVec3::new(0.3, 0.2, 0.2), [3, 2, 2]);
     for (name, cohesion) in
         [("plain", None), ("p0 = 10 E", cohesion(10.0, false)), ("p0 = 50 E", cohesion(50.0, false))]
     {
         let mut setup = setup(&mesh, cohesion);
-        // Nothing touches.
+        // Without contact.
         setup.bodies[0].contact_penalty = 0.0;
         let exact = 2.0 / largest_frequency_squared(&setup).sqrt();
         let used = World::new(setup, 1.0).dt;
-        println!("{name}: {used:.3e} s, {exact:.3e} s by the eigenvalue: {:.2}", used / exact);
-        // A bound: never above; how far below it was found.
+        println!("{name}: time step {used:.3e} s, limit by the eigenvalue {exact:.3e} s, ratio {:.2}", used / exact);
+        // The time step never exceeds the limit; 0.6 is the reached ratio, rounded down.
         assert!(used <= exact * 1.001 && used > 0.6 * exact);
     }
 }

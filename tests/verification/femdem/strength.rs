@@ -1,4 +1,4 @@
-//! Strength of whole bodies, loaded slowly: compression, bending, splitting.
+//! Strength of slowly loaded bodies: compression, bending, splitting.
 
 use super::*;
 use breakwater::femdem::history::History;
@@ -6,12 +6,12 @@ use breakwater::femdem::mesh;
 use breakwater::femdem::setup::Constraint;
 use std::path::Path;
 
-/// Force against the way of what is moved downwards.
+/// Load curve of a downward displacement.
 struct Curve {
-    /// Way [m], force [N] as the mean since the row before, and what `watched` gave.
+    /// Displacement [m], mean force since the previous row [N], and the watched value.
     rows: Vec<[f64; 3]>,
     world: World,
-    /// Largest residual of the energy book until the largest force, over the work [-].
+    /// Largest residual of the energy balance until the largest force, over the work [-].
     residual: f64,
     /// Kinetic over strain energy at the largest force [-].
     swing: f64,
@@ -22,7 +22,8 @@ impl Curve {
         self.rows.iter().map(|row| row[1]).fold(0.0, f64::max)
     }
 
-    /// Slope of the force over what was watched between two shares of the largest force [N/m], least squares.
+    /// Returns the least-squares slope of the force over the watched value between two shares of the largest force
+    /// [N/m].
     fn slope(&self, from: f64, to: f64) -> f64 {
         let peak = self.peak();
         let top = self.rows.iter().position(|row| row[1] == peak).unwrap();
@@ -34,35 +35,36 @@ impl Curve {
     }
 }
 
-/// A velocity [m/s] downwards that is reached after a time [s].
+/// Returns a downward velocity history that reaches a speed [m/s] after a time [s].
 fn downwards(speed: f64, after: f64) -> History<1> {
     History::new([(0.0, [0.0]), (after, [-speed])]).unwrap()
 }
 
-/// Moves on until the force has fallen to 0.6 of its peak; only what moves by the history does work.
-fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watched: impl Fn(&World) -> f64) -> Curve {
+/// Advances until the force has fallen to 0.6 of its peak. The force is the work over the displacement, so only the
+/// constraint with this velocity may do work.
+fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl Fn(&World) -> f64) -> Curve {
     let mut world = World::new(setup, share);
     let mut rows: Vec<[f64; 3]> = Vec::new();
-    let (mut way, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
+    let (mut displacement, mut before, mut peak) = (0.0, [0.0; 2], 0.0f64);
     let (mut residual, mut largest, mut swing) = (0.0f64, 0.0f64, 0.0);
     let first = world.step_with_ledger().unwrap().total();
-    // While the velocity still rises, waves let the force fall again and again.
+    // While the velocity still rises, waves lower the force repeatedly.
     let rises = |world: &World| velocity.at(world.time)[0] > velocity.at(f64::MAX)[0];
     while rises(&world) || rows.last().is_none_or(|row| row[1] > 0.6 * peak || row[1] < 1e-3 * peak) {
         let until = world.time + row;
         while world.time < until {
-            way -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
+            displacement -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
             world.step().unwrap();
         }
-        way -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
-        let book = world.step_with_ledger().unwrap();
-        let force = (book.work - before[1]) / (way - before[0]);
-        before = [way, book.work];
-        rows.push([way, force, watched(&world)]);
-        residual = residual.max((book.total() - first).abs());
+        displacement -= velocity.at(world.time - 0.5 * world.dt)[0] * world.dt;
+        let energies = world.step_with_ledger().unwrap();
+        let force = (energies.work - before[1]) / (displacement - before[0]);
+        before = [displacement, energies.work];
+        rows.push([displacement, force, watch(&world)]);
+        residual = residual.max((energies.total() - first).abs());
         if force > peak {
-            (peak, swing) = (force, book.kinetic / book.strain);
-            largest = residual / book.work;
+            (peak, swing) = (force, energies.kinetic / energies.strain);
+            largest = residual / energies.work;
         }
     }
     Curve { rows, world, residual: largest, swing }
@@ -79,11 +81,11 @@ fn material(strength: Strength, penalty: f64, tied: bool, mesh: &PreparedMesh) -
     setup
 }
 
-/// Largest stress of a prism of 50 x 50 x 100 mm between smooth platens [Pa].
-fn crushed(file: &Path, penalty: f64, tied: bool) -> f64 {
+/// Returns the largest stress of a prism of 50 x 50 x 100 mm between smooth platens [Pa].
+fn crush_prism(file: &Path, penalty: f64, tied: bool) -> f64 {
     let mesh = mesh::read(file, 1.0).unwrap();
     let mut setup = material(STRENGTH, penalty, tied, &mesh);
-    // A wave runs through the prism sixty times before it breaks.
+    // The load is slow: a wave passes through the prism sixty times before it breaks.
     let velocity = downwards(0.15, 5e-4);
     setup.constraints = vec![
         Constraint::constant(nodes_where(&mesh, |x| x.z < 1e-9), [None, None, Some(0.0)]),
@@ -92,7 +94,7 @@ fn crushed(file: &Path, penalty: f64, tied: bool) -> f64 {
     let curve = load(setup, 0.8, &velocity, 2e-5, |world| world.time);
     let slid = curve.world.failures.iter().filter(|failure| failure.by_sliding).count();
     println!(
-        "{}, tied {tied}: {:.2} MPa, {} of {} failed faces slid, kinetic over strain energy {:.1e}, residual {:.1e}",
+        "{}, tied {tied}: strength {:.2} MPa, {} of {} faces failed by sliding, kinetic over strain energy {:.1e}, residual {:.1e}",
         file.file_name().unwrap().display(),
         curve.peak() / 25e-4 / 1e6,
         slid,
@@ -104,8 +106,8 @@ fn crushed(file: &Path, penalty: f64, tied: bool) -> f64 {
     curve.peak() / 25e-4
 }
 
-/// 2 c cos(phi) / (1 - sin(phi)) of Mohr and Coulomb for the concrete of table 2: 57.16 MPa.
-fn uniaxial() -> f64 {
+/// Returns the Mohr-Coulomb strength 2 c cos(phi) / (1 - sin(phi)) for the concrete of table 2, 57.16 MPa.
+fn uniaxial_strength() -> f64 {
     let phi = STRENGTH.friction.atan();
     2.0 * STRENGTH.cohesion * phi.cos() / (1.0 - phi.sin())
 }
@@ -114,39 +116,37 @@ fn coarse(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/fracture/meshes/{name}-coarse.msh"))
 }
 
-/// On elements of 12.5 mm: 58.6 MPa with tied faces, 55.1 MPa with joints of p_0 = 50 E; with 20 E it is 47.7 MPa.
-///
-/// cargo test --release --test verification strength::a_prism -- --ignored --nocapture
+/// Reached with elements of 12.5 mm: 58.6 MPa with tied faces, 55.1 MPa with joints of p_0 = 50 E, 47.7 MPa with 20 E.
 #[test]
-#[ignore = "some minutes"]
+#[ignore = "minutes: \
+    cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_prism"]
 fn a_prism_is_crushed_at_the_uniaxial_strength() {
     for (penalty, tied) in [(2.0, true), (50.0, false)] {
-        let found = crushed(&coarse("compression"), penalty, tied);
-        // 10 %: asked for.
-        assert!((found / uniaxial() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
+        let found = crush_prism(&coarse("compression"), penalty, tied);
+        // Target: 10 %.
+        assert!((found / uniaxial_strength() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
     }
 }
 
-/// 58.0 MPa. Mesh: tools/mesh/make.py compression --size 0.0075 --out runs/meshes/compression-7.5mm.msh
-///
-/// cargo test --release --test verification strength::a_finer_prism -- --ignored --nocapture
+/// Reached: 58.0 MPa. Mesh: tools/mesh/make.py compression --size 0.0075 --out runs/meshes/compression-7.5mm.msh
 #[test]
-#[ignore = "needs a mesh of 7.5 mm; minutes"]
+#[ignore = "minutes, needs a mesh of 7.5 mm: \
+    cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_finer_prism"]
 fn a_finer_prism_is_crushed_at_the_uniaxial_strength() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("runs/meshes/compression-7.5mm.msh");
-    let found = crushed(&file, 2.0, true);
-    assert!((found / uniaxial() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
+    let found = crush_prism(&file, 2.0, true);
+    assert!((found / uniaxial_strength() - 1.0).abs() < 0.1, "{:.2} MPa", found / 1e6);
 }
 
-/// Beam of 320 x 40 x 20 mm on supports 314 mm apart, as Guo's mesh: cells of 24 tetrahedra, so many over the height. Half
-/// of the width, y = 0 is a plane of symmetry.
+/// Creates Guo's beam of 320 x 40 x 20 mm on supports 314 mm apart, from cells of 24 tetrahedra with `cells` over the
+/// height. It is half of the width; y = 0 is a plane of symmetry.
 fn beam(cells: usize) -> PreparedMesh {
     let (length, height, span) = (0.32, 0.04, 0.314);
     let mut mesh = block(DVec3::new(length, 0.01, height), [8 * cells, cells / 4, cells], Pattern::Centred);
     let cell = height / cells as f64;
     let overhang = 0.5 * (length - span);
     for node in &mut mesh.nodes {
-        // The supports stand on nodes.
+        // Nodes are moved to the supports.
         let inner = overhang + (node.x - cell) * span / (length - 2.0 * cell);
         let end = if node.x < 0.5 * length { node.x } else { length - node.x };
         let x = if end >= cell { inner } else { end * overhang / cell };
@@ -156,8 +156,8 @@ fn beam(cells: usize) -> PreparedMesh {
     prepare(mesh).unwrap()
 }
 
-/// Force and stiffness of three-point bending of the whole width [N, N/m].
-fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
+/// Returns largest load [N] and stiffness [N/m] of the whole beam in three-point bending.
+fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     let mesh = beam(cells);
     let strength = Strength {
         tensile: 3e6,
@@ -168,27 +168,27 @@ fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     };
     let mut setup = material(strength, penalty, tied, &mesh);
     setup.bodies[0].contact_penalty *= 0.05;
-    // The velocity rises over one period of the beam, so that it does not swing on.
+    // The velocity rises over one period of the beam, so the beam does not oscillate.
     let velocity = downwards(speed, 1.6e-3);
     let near = 1e-7;
     let is_support = |x: DVec3| (x.x.abs() - 0.157).abs() < near && x.z.abs() < near;
     let is_load = |x: DVec3| x.x.abs() < near && (x.z - 0.04).abs() < near;
     let on_plane = |x: DVec3| x.y < near;
-    let hold = |is_there: &dyn Fn(DVec3) -> bool, velocity: [Option<History<1>>; 3]| {
-        let split = |plane: bool| Constraint {
+    let constrain = |is_there: &dyn Fn(DVec3) -> bool, velocity: [Option<History<1>>; 3]| {
+        let split_by_plane = |plane: bool| Constraint {
             nodes: nodes_where(&mesh, |x| is_there(x) && on_plane(x) == plane),
             velocity: [velocity[0].clone(), plane.then(|| 0.0.into()), velocity[2].clone()],
         };
-        [split(true), split(false)]
+        [split_by_plane(true), split_by_plane(false)]
     };
     let plane = nodes_where(&mesh, |x| on_plane(x) && !is_support(x) && !is_load(x));
     setup.constraints = [
-        hold(&is_support, [None, None, Some(0.0.into())]),
-        hold(&is_load, [Some(0.0.into()), None, Some(velocity.clone())]),
+        constrain(&is_support, [None, None, Some(0.0.into())]),
+        constrain(&is_load, [Some(0.0.into()), None, Some(velocity.clone())]),
     ]
     .concat();
     setup.constraints.push(Constraint::constant(plane, [None, Some(0.0), None]));
-    // Deflection of the axis: of nodes in the middle of the height, without the dents under load and supports.
+    // The deflection is that of nodes at half the height, which excludes local dents at load and supports.
     let axis: Vec<usize> = [0.0, -0.157, 0.157]
         .map(|x| {
             let found = nodes_where(&mesh, |at| (at - DVec3::new(x, 0.0, 0.02)).length() < near);
@@ -202,7 +202,7 @@ fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         0.5 * (z(axis[1]) + z(axis[2])) - z(axis[0])
     };
     let curve = load(setup, 0.8, &velocity, 2e-6 / speed, deflection);
-    // Before the first faces give way.
+    // The stiffness is that before the first faces fail.
     let (peak, stiffness) = (2.0 * curve.peak(), 2.0 * curve.slope(0.1, 0.4));
     println!(
         "{cells} cells, tied {tied}: {peak:.1} N, {:.3} MN/m, {} faces failed, kinetic over strain energy {:.1e}, residual {:.1e}",
@@ -214,45 +214,41 @@ fn bent(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     [peak, stiffness]
 }
 
-/// Load of this beam by a fictitious crack with the same softening, in plane stress (tools/fictitious-crack/beam) [N]. Guo
-/// found 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
+/// Largest load of this beam by a fictitious crack with the same softening in plane stress
+/// (tools/fictitious-crack/beam) [N]. Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
-/// 334.5 N on cells of 10 mm, 9 % more than theory; with 20 E 331 and 328 N on 10 and 5 mm.
-///
-/// cargo test --release --test verification strength::a_beam_breaks -- --nocapture
+/// Reached with cells of 10 mm: 334.5 N, 9 % above theory; with 20 E, 331 and 328 N on cells of 10 and 5 mm.
 #[test]
 fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
-    let [peak, _] = bent(4, 50.0, false, 0.025);
-    // 15 %: asked for.
+    let [peak, _] = bend_beam(4, 50.0, false, 0.025);
+    // Target: 15 %.
     assert!((peak / BY_FICTITIOUS_CRACK - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
-/// Guo's beam bends half as stiffly as a beam, 2.0 MN/m: his joints are soft. With such joints it breaks where his does.
-///
-/// cargo test --release --test verification strength::a_beam_of -- --ignored --nocapture
+/// Guo's beam has half of the bending stiffness of a beam, 2.0 MN/m, because his joints are soft. With such joints,
+/// this beam has his largest load.
 #[test]
-#[ignore = "ten minutes"]
+#[ignore = "10 minutes: \
+    cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_beam_of_soft_joints"]
 fn a_beam_of_soft_joints_breaks_at_the_published_load() {
-    let [peak, _] = bent(8, 2.0, false, 0.025);
-    // Guo's 279.3 N for elements of 5 mm; 15 %: asked for.
+    let [peak, _] = bend_beam(8, 2.0, false, 0.025);
+    // Target: 15 % of Guo's 279.3 N for elements of 5 mm.
     assert!((peak / 279.3 - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
-/// The load is not asserted: tied faces come free by the mean stress of two tetrahedra, which is less than the
-/// largest on the section between them, and a node splits only when the faces around it have. On cells of 10 and 5 mm the
-/// beam breaks at 429 and 360 N, 39 and 17 % more than by theory.
-///
-/// cargo test --release --test verification strength::a_beam_bends -- --nocapture
+/// The load is not asserted. Tied faces open by the mean stress of two tetrahedra, which is less than the largest
+/// stress on the plane between them. A node splits only after the faces around it. With cells of 10 and 5 mm the
+/// beam breaks at 429 and 360 N, 39 and 17 % above theory.
 #[test]
 fn a_beam_bends_with_the_stiffness_of_a_beam() {
-    let [_, stiffness] = bent(4, 10.0, true, 0.025);
-    // Timoshenko's 4.07 MN/m; 3 %: asked for.
+    let [_, stiffness] = bend_beam(4, 10.0, true, 0.025);
+    // Target: 3 % of Timoshenko's 4.07 MN/m.
     assert!((stiffness / 4.07e6 - 1.0).abs() < 0.03, "{:.3} MN/m", stiffness / 1e6);
 }
 
-/// Largest force on a disc of 40 mm, 15 mm thick, between strips of 10 degrees [N].
-fn split(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
+/// Returns the largest force on a disc of 40 mm diameter, 15 mm thick, loaded on arcs of 10 degrees [N].
+fn split_disc(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
     let mesh = mesh::read(&coarse("disc"), 1.0).unwrap();
     let strength = Strength {
         tensile: 3e6,
@@ -288,14 +284,13 @@ fn split(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
     curve.peak()
 }
 
-/// Does not hold yet, and need not: E G_f / f_t^2 is 144 mm, the disc is too small to split at its tensile strength. With
-/// G_f = 5 J/m2 and joints in the middle plane alone, the load is 1.1 times that of the strength.
-///
-/// cargo test --release --test verification strength::a_disc -- --ignored --nocapture
+/// This test fails: with E G_f / f_t^2 = 144 mm, the disc is too small to split at its tensile strength. With G_f = 5
+/// J/m2 and joints in the middle plane only, the load is 1.1 times that of the strength.
 #[test]
-#[ignore = "some minutes; does not hold: the disc is small against E G_f / f_t^2"]
+#[ignore = "minutes, known to fail: \
+    cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_disc"]
 fn a_disc_splits_at_its_tensile_strength() {
-    let found = split(2.0, true, 50.0);
-    // 2 P / (pi D L) = f_t; 15 %: asked for.
+    let found = split_disc(2.0, true, 50.0);
+    // Target: 15 % of 2 P / (pi D L) = f_t.
     assert!((found / 2827.0 - 1.0).abs() < 0.15, "{found:.0} N");
 }

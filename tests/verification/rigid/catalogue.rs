@@ -1,4 +1,4 @@
-//! Heaps of every unit of the catalogue come to rest and gain no energy.
+//! Heaps of each catalogue unit come to rest and gain no energy.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::rigid::{BodyShape, RigidSetup, RigidWorld};
@@ -6,20 +6,20 @@ use glam::DVec3;
 
 use super::{MORTAR, heap, run};
 
-/// Ten units of about the size of the Tetrapod fall into a shaft.
-fn settles(name: &str, unit: &ArmourUnit) {
+/// Asserts that ten units of about the size of the Tetrapod come to rest in a shaft.
+fn assert_settles(name: &str, unit: &ArmourUnit) {
     let mass = 2300.0 * unit.solid().volume_properties().volume;
     let setup = RigidSetup { shape: BodyShape::of_unit(unit, mass), material: MORTAR, ..heap(unit) };
     let mut world = RigidWorld::new(setup).unwrap();
     let e = world.energy();
     let start = e.kinetic + e.potential + e.elastic;
-    let (mut before, mut rise) = (start, 0.0f64);
+    let (mut previous, mut rise) = (start, 0.0f64);
     for _ in 0..300 {
         run(&mut world, 0.01, 1e-4);
         let e = world.energy();
         let now = e.kinetic + e.potential + e.elastic;
-        rise = rise.max(now - before);
-        before = now;
+        rise = rise.max(now - previous);
+        previous = now;
     }
     let e = world.energy();
     println!(
@@ -28,7 +28,7 @@ fn settles(name: &str, unit: &ArmourUnit) {
         world.contact_count(),
         world.substeps()
     );
-    // 1e-6 of the energy at the start: asked for.
+    // Target: 1e-6 of the energy at the start.
     assert!(rise < 1e-6 * start, "{name} gains energy");
     assert!(e.kinetic < 1e-6 * start, "{name} does not come to rest");
     assert!(world.states().iter().all(|s| s.position.z > 0.0 && s.position.abs().cmple(DVec3::splat(2.0)).all()));
@@ -36,20 +36,20 @@ fn settles(name: &str, unit: &ArmourUnit) {
 
 #[test]
 fn tetrapods_settle() {
-    settles("Tetrapod", &ArmourUnit::tetrapod(0.077, 0.05).unwrap());
+    assert_settles("Tetrapod", &ArmourUnit::tetrapod(0.077, 0.05).unwrap());
 }
 
 #[test]
 fn dolosse_settle() {
-    settles("Dolos", &ArmourUnit::dolos(0.09, 0.34, 0.05).unwrap());
+    assert_settles("Dolos", &ArmourUnit::dolos(0.09, 0.34, 0.05).unwrap());
 }
 
 #[test]
 fn core_locs_settle() {
-    settles("Core-Loc", &ArmourUnit::core_loc(0.085, 0.04).unwrap());
+    assert_settles("Core-Loc", &ArmourUnit::core_loc(0.085, 0.04).unwrap());
 }
 
 #[test]
 fn grooved_cubes_settle() {
-    settles("grooved cube", &ArmourUnit::grooved_cube(0.05, 0.05).unwrap());
+    assert_settles("grooved cube", &ArmourUnit::grooved_cube(0.05, 0.05).unwrap());
 }

@@ -1,12 +1,12 @@
-//! Units below the friction angle stay where they are; in the law of the published runs they do not.
+//! Creep below the friction angle: none with Hertz-Mindlin, some with the contact law of the published runs.
 
 use breakwater::rigid::{BodyShape, ContactModel, RigidWorld};
 use glam::DVec3;
 
 use super::{G, MASS, MORTAR, run, setup, standing, tetrapod};
 
-/// Way [m] and speed [m/s] of a Tetrapod at 0.9 of the friction angle over a time [s].
-fn creep(model: ContactModel, duration: f64) -> [f64; 2] {
+/// Returns displacement [m] and final speed [m/s] of a Tetrapod at 0.9 of the friction angle over a time [s].
+fn creep_of(model: ContactModel, duration: f64) -> [f64; 2] {
     let unit = tetrapod();
     let body = standing(&unit, 0.0, 0.0, 0.0);
     let setup = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.32);
@@ -23,16 +23,16 @@ fn creep(model: ContactModel, duration: f64) -> [f64; 2] {
 
 #[test]
 fn a_tetrapod_below_the_friction_angle_does_not_creep_in_a_minute() {
-    let [way, speed] = creep(ContactModel::HertzMindlin, 60.0);
-    println!("Hertz-Mindlin: {way:.2e} m in 60 s, {speed:.1e} m/s");
-    // 0.01 mm: asked for.
-    assert!(way < 1e-5);
+    let [displacement, speed] = creep_of(ContactModel::HertzMindlin, 60.0);
+    println!("Hertz-Mindlin: {displacement:.2e} m in 60 s, {speed:.1e} m/s");
+    // Target: 0.01 mm.
+    assert!(displacement < 1e-5);
 }
 
 #[test]
-fn without_history_it_creeps() {
-    let [way, speed] = creep(ContactModel::Chrono4, 5.0);
-    println!("chrono4: {:.3} mm in 5 s, {:.3} mm/s", way * 1e3, speed * 1e3);
-    // A unit that rests cannot be held without a speed: at least that below which chrono4 has no friction.
-    assert!(way > 5.0 * 1e-4);
+fn a_tetrapod_creeps_with_chrono4() {
+    let [displacement, speed] = creep_of(ContactModel::Chrono4, 5.0);
+    println!("chrono4: {:.3} mm in 5 s, {:.3} mm/s", displacement * 1e3, speed * 1e3);
+    // chrono4 has friction only above a least speed, 0.1 mm/s, so the unit creeps at least with it.
+    assert!(displacement > 5.0 * 1e-4);
 }

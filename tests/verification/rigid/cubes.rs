@@ -1,4 +1,4 @@
-//! Cubes: sliding, tipping over, standing on each other, turned or not, and the energy of a heap.
+//! Cubes: sliding, tipping, stacks of aligned and turned cubes, and the energy of a heap.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::rigid::{BodyShape, BodyState, RigidSetup, RigidWorld};
@@ -13,7 +13,7 @@ fn cube() -> ArmourUnit {
     ArmourUnit::cuboid(DVec3::splat(EDGE), 0.05).unwrap()
 }
 
-/// Cubes on each other, each turned about the vertical by so much more [rad].
+/// Setup of a stack of cubes, each turned about the vertical relative to the one below [rad].
 fn stack(count: u32, turn: f64) -> RigidSetup {
     let body = |level: u32| {
         let centre = DVec3::Z * (f64::from(level) + 0.5) * EDGE;
@@ -22,8 +22,8 @@ fn stack(count: u32, turn: f64) -> RigidSetup {
     setup(BodyShape::of_unit(&cube(), MASS), (0..count).map(body).collect(), MORTAR, 0.45)
 }
 
-/// A world on ground that has been tilted to this slope [rad] within a second, slowly enough not to rock the cube.
-fn on_slope(setup: RigidSetup, angle: f64) -> RigidWorld {
+/// Creates a world and tilts its ground to a slope [rad] within a second, slowly enough not to rock the cube.
+fn tilted_world(setup: RigidSetup, angle: f64) -> RigidWorld {
     let mut world = RigidWorld::new(setup).unwrap();
     run(&mut world, 0.3, 1e-4);
     for percent in 1..=100 {
@@ -35,24 +35,24 @@ fn on_slope(setup: RigidSetup, angle: f64) -> RigidWorld {
 }
 
 #[test]
-fn a_cube_slides_above_the_friction_angle_and_not_below() {
+fn a_cube_slides_only_above_the_friction_angle() {
     for (share, slides) in [(0.98, false), (1.02, true)] {
-        let mut world = on_slope(stack(1, 0.0), share * 0.45f64.atan());
+        let mut world = tilted_world(stack(1, 0.0), share * 0.45f64.atan());
         run(&mut world, 1.0, 1e-4);
-        // 2 % above, g (sin - mu cos) = 0.07 m/s2 carries it 36 mm in the second; below, the springs give by
+        // 2 % above, g (sin - mu cos) = 0.07 m/s2 moves the cube 36 mm in a second; below, springs deform by
         // micrometres.
         assert_eq!(world.states()[0].position.x > 0.01, slides, "{share}: {}", world.states()[0].position.x);
     }
 }
 
 #[test]
-fn a_cube_that_cannot_slide_tips_over_when_its_weight_passes_the_edge() {
-    // The rounded edge on which it tips stands in by R: tan = (a/2 - R) / (a/2).
+fn a_rough_cube_tips_when_its_weight_passes_the_edge() {
+    // The rounded tipping edge lies R inside the sharp edge: tan = (a/2 - R) / (a/2).
     let tipping = ((0.5 - 0.05) / 0.5_f64).atan();
     for (share, tips) in [(0.98, false), (1.02, true)] {
         let mut rough = stack(1, 0.0);
         rough.friction.unit_ground = 5.0.into();
-        let mut world = on_slope(rough, share * tipping);
+        let mut world = tilted_world(rough, share * tipping);
         run(&mut world, 1.0, 1e-4);
         let up = world.states()[0].rotation * DVec3::Z;
         assert_eq!(up.z < 0.9, tips, "{share}: {up}");
@@ -60,25 +60,25 @@ fn a_cube_that_cannot_slide_tips_over_when_its_weight_passes_the_edge() {
 }
 
 #[test]
-fn a_stack_stands_however_its_cubes_are_turned() {
-    // Aligned; turned so little that corners bear; turned so far that only crossing edges do.
+fn a_stack_of_cubes_stands_for_any_rotation() {
+    // Aligned cubes; a small rotation, where corners carry; large rotations, where only crossing edges carry.
     for turn in [0.0, 0.02, 0.4, 0.7] {
         let mut world = RigidWorld::new(stack(3, turn)).unwrap();
         run(&mut world, 0.5, 1e-4);
         let before = world.states().to_vec();
         run(&mut world, 2.0, 1e-4);
         for (a, b) in world.states().iter().zip(&before) {
-            // A hundredth of a millimetre in two seconds.
+            // 0.01 mm in two seconds.
             assert!((a.position - b.position).length() < 1e-5, "{turn}: {}", a.position - b.position);
         }
-        // Weight of the two upper cubes, to the accuracy of rest.
+        // The net contact force on the lowest cube is its own weight; 1e-3 allows for residual motion.
         let on_lowest = world.contact_loads()[0].force.z;
         assert!((on_lowest / (MASS * G) - 1.0).abs() < 1e-3, "{turn}: {on_lowest}");
     }
 }
 
 #[test]
-fn a_heap_of_cubes_loses_energy_and_gains_none() {
+fn a_heap_of_cubes_gains_no_energy() {
     let unit = ArmourUnit::cuboid(DVec3::splat(0.06), 0.05).unwrap();
     let mut world = RigidWorld::new(RigidSetup { shape: BodyShape::of_unit(&unit, 0.5), ..heap(&unit) }).unwrap();
     let start = total_energy(&world);
@@ -91,11 +91,13 @@ fn a_heap_of_cubes_loses_energy_and_gains_none() {
         mechanical = now;
     }
     let energy = world.energy();
-    let (lost, gap) = (energy.friction + energy.damping, total_energy(&world) - start);
-    println!("heap of cubes: rise {highest:.1e} J, lost {lost:.3} J, balance {gap:+.3} J: {energy:?}");
-    // What is left may not rise: 1e-3 J is 0.01 % of the energy of the fall.
+    let (dissipated, residual) = (energy.friction + energy.damping, total_energy(&world) - start);
+    println!(
+        "heap of cubes: rise {highest:.1e} J, dissipated {dissipated:.3} J, residual {residual:+.3} J: {energy:?}"
+    );
+    // The mechanical energy may not rise; 1e-3 J is 0.01 % of the energy of the fall.
     assert!(highest < 1e-3);
-    // The book itself is 1.3 % of the heat off: the places of contact between boxes come and go with some overlap.
-    // What fell has stopped: the kinetic energy left is a thousandth of what was lost.
-    assert!(energy.kinetic < 1e-3 * lost);
+    // The energy balance itself has an error of 1.3 % of the dissipation, as contacts between boxes start and end with
+    // some overlap. The cubes have stopped: the kinetic energy is below a thousandth of the dissipation.
+    assert!(energy.kinetic < 1e-3 * dissipated);
 }

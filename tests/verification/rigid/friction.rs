@@ -1,4 +1,4 @@
-//! Sliding, standing and rolling on level and tilted ground.
+//! Friction of Tetrapods on level and tilted ground.
 
 use breakwater::rigid::{BodyShape, Load, RigidWorld};
 use glam::DVec3;
@@ -25,17 +25,17 @@ fn a_sliding_tetrapod_stops_after_the_coulomb_distance() {
         let mut world = RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), bodies, MORTAR, mu)).unwrap();
         let before = total_energy(&world);
         run(&mut world, 1.0, 1e-4);
-        let (way, expected) = (world.states()[0].position.x - start, speed * speed / (2.0 * mu * G));
-        println!("sliding mu {mu}: {way:.5} m, expected {expected:.5} m, {:?}", world.energy());
-        // 0.5 % of the way; the last tenth of a per cent is the tangential spring.
-        assert!((way / expected - 1.0).abs() < 0.005);
-        // All of the kinetic energy went into heat: 1 % of it.
+        let (distance, expected) = (world.states()[0].position.x - start, speed * speed / (2.0 * mu * G));
+        println!("sliding with mu {mu}: {distance:.5} m, expected {expected:.5} m, {:?}", world.energy());
+        // 0.5 % of the distance; the tangential spring causes 0.1 %.
+        assert!((distance / expected - 1.0).abs() < 0.005);
+        // 1 %: all kinetic energy is dissipated by friction.
         assert!((total_energy(&world) - before).abs() < 0.01 * 0.5 * MASS * speed * speed);
     }
 }
 
 #[test]
-fn a_standing_tetrapod_does_not_drift_and_does_not_creep_below_the_friction_angle() {
+fn a_standing_tetrapod_does_not_drift_below_the_friction_angle() {
     let unit = tetrapod();
     for (slope, azimuth) in [(0.0, 0.0), (0.9, 0.0), (0.9, PI)] {
         let angle = slope * 0.32f64.atan();
@@ -53,10 +53,10 @@ fn a_standing_tetrapod_does_not_drift_and_does_not_creep_below_the_friction_angl
         let after = world.states()[0];
         let drift = (after.position - before.position).length();
         println!(
-            "rest at {slope} of the friction angle: drift {drift:.2e} m in 10 s, speed {:.1e}",
+            "slope of {slope} times the friction angle: drift {drift:.2e} m in 10 s, speed {:.1e}",
             after.velocity.length()
         );
-        // A hundredth of a millimetre in ten seconds.
+        // 0.01 mm in ten seconds.
         assert!(drift < 1e-5);
         assert!(after.rotation.dot(before.rotation).abs() > 1.0 - 1e-9);
         // The mean contact force carries the weight.
@@ -76,27 +76,27 @@ fn a_tetrapod_on_a_tilting_plane_slides_at_the_friction_angle() {
             let mut angle = 0.9 * f64::atan(mu);
             world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
             run(&mut world, 0.5, 1e-4);
-            // It slides when it is faster than 0.2 mm/s: 0.05 s or 0.05 degrees after the start, 0.3 % of the smaller
+            // Sliding is a speed above 0.2 mm/s, reached 0.05 s or 0.05 degrees after the start: 0.3 % of the smaller
             // angle.
             while world.states()[0].velocity.length() < 2e-4 {
                 angle += rate * 1e-4;
                 world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
                 world.advance(1e-4, &[Load::default()]).unwrap();
-                assert!(angle < 1.0, "it never slides");
+                assert!(angle < 1.0, "the Tetrapod does not slide");
             }
             println!(
-                "tilt mu {mu} azimuth {azimuth:.2}: tan {:.4} ({:+.2} %)",
+                "tilt with mu {mu}, azimuth {azimuth:.2}: tan {:.4} ({:+.2} %)",
                 angle.tan(),
                 100.0 * (angle.tan() / mu - 1.0)
             );
-            // 0.5 %: what is asked of the slope test; the measure of sliding takes 0.3 % of it.
+            // Target of the tilt test: 0.5 %; the detection of sliding uses 0.3 % of it.
             assert!((angle.tan() / mu - 1.0).abs() < 0.005);
         }
     }
 }
 
 #[test]
-fn load_that_flutters_below_the_friction_limit_moves_nothing() {
+fn a_fluctuating_load_below_the_friction_limit_moves_nothing() {
     let unit = tetrapod();
     let mut world =
         RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), vec![standing(&unit, 0.0, 0.0, 0.0)], MORTAR, 0.32))
@@ -109,7 +109,7 @@ fn load_that_flutters_below_the_friction_limit_moves_nothing() {
     };
     let mut settled = DVec3::ZERO;
     for step in 0..50_000 {
-        // Half of the friction limit on average, with a flutter of a fifth of the weight in each direction.
+        // The mean is half of the friction limit; the noise is a fifth of the weight in each direction.
         let force = weight * DVec3::new(0.16 + 0.2 * noise(), 0.2 * noise(), 0.2 * noise());
         world.advance(1e-4, &[Load { force, torque: DVec3::ZERO }]).unwrap();
         if step == 5000 {
@@ -117,6 +117,6 @@ fn load_that_flutters_below_the_friction_limit_moves_nothing() {
         }
     }
     let drift = (world.states()[0].position - settled).length();
-    println!("flutter: {drift:.2e} m in 4.5 s");
+    println!("drift under a fluctuating load: {drift:.2e} m in 4.5 s");
     assert!(drift < 1e-5);
 }

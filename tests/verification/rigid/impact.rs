@@ -1,4 +1,4 @@
-//! One impact: Hertz's law, restitution, and elastic collisions without loss.
+//! Impacts: Hertz's law, restitution, and elastic collisions without loss.
 
 use breakwater::rigid::{BodyState, Friction, Ground, Load, Material, RigidSetup, RigidWorld};
 use glam::{DQuat, DVec3};
@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use super::{MORTAR, ball, heap, level, run, setup, tetrapod};
 
 #[test]
-fn hertz_impact_of_a_sphere_on_a_plane() {
+fn a_sphere_on_a_plane_follows_the_law_of_hertz() {
     let material = Material { young_modulus: 1e9, poisson_ratio: 0.25, restitution: 1.0 };
     let body = BodyState { velocity: DVec3::NEG_Z, ..BodyState::at_rest(DVec3::Z * 0.0201, DQuat::IDENTITY) };
     let mut setup = setup(ball(0.02, 2650.0), vec![body], material, 0.3);
@@ -22,34 +22,34 @@ fn hertz_impact_of_a_sphere_on_a_plane() {
     assert_eq!(events.len(), 1);
     let e = &events[0];
     println!("Hertz: F {:.2} N, d {:.2} um, t {:.1} us", e.peak_force, deepest * 1e6, (e.end - e.start) * 1e6);
-    // 1 %: the reference figures are for this law; the step resolves the contact with 150 points.
+    // 1 %: the reference values are for this law, and the contact lasts 150 time steps.
     assert!((e.peak_force / 424.8 - 1.0).abs() < 0.01);
     assert!((deepest / 261.3e-6 - 1.0).abs() < 0.01);
-    assert!(((e.end - e.start) / 769e-6 - 1.0).abs() < 0.015, "one step is 0.7 % of the contact");
+    assert!(((e.end - e.start) / 769e-6 - 1.0).abs() < 0.015, "a time step is 0.7 % of the contact");
     assert!((e.approach_normal - 1.0).abs() < 1e-9);
-    // Impulse of an elastic impact: 2 m v.
+    // The impulse of an elastic impact is 2 m v.
     assert!((e.impulse[2] / (2.0 * 2650.0 * 4.0 / 3.0 * PI * 8e-6) - 1.0).abs() < 2e-3);
 }
 
 #[test]
-fn restitution_out_is_restitution_in() {
+fn restitution_equals_the_given_coefficient() {
     let mut worst: f64 = 0.0;
     for e in [0.3, 0.5, 0.8, 0.95, 1.0] {
         for (speed, dt) in [(0.1, 1e-4), (1.0, 1e-4), (1.0, 2e-5)] {
             let material = Material { restitution: e, ..MORTAR };
-            let at = |x: f64, v: f64| BodyState {
+            let ball_at = |x: f64, v: f64| BodyState {
                 velocity: DVec3::X * v,
                 ..BodyState::at_rest(DVec3::X * x, DQuat::IDENTITY)
             };
-            let bodies = vec![at(-0.0201, speed), at(0.0201, -speed)];
+            let bodies = vec![ball_at(-0.0201, speed), ball_at(0.0201, -speed)];
             let mut setup = RigidSetup { ground: None, ..setup(ball(0.02, 2380.0), bodies, material, 0.3) };
             setup.gravity = DVec3::ZERO;
             let mut world = RigidWorld::new(setup).unwrap();
             run(&mut world, 0.02, dt);
             let out = world.states()[1].velocity.x / speed;
-            println!("restitution in {e}, out {out:.5}, speed {speed}, dt {dt}, substeps {}", world.substeps());
+            println!("restitution {e}: found {out:.5}, speed {speed}, dt {dt}, substeps {}", world.substeps());
             worst = worst.max((out - e).abs());
-            // Momentum: equal and opposite forces, to rounding.
+            // 1e-12: rounding; forces are equal and opposite.
             assert!((world.states()[0].velocity + world.states()[1].velocity).length() < 1e-12);
         }
     }
@@ -68,7 +68,7 @@ fn frictionless_elastic_bodies_keep_their_energy() {
     for _ in 0..10 {
         run(&mut world, 0.1, 1e-4);
     }
-    println!("elastic: {:.2e} of {start:.3} J after 1 s of collisions", mechanical(&world) - start);
-    // 0.2 %: second-order steps over some fifty impacts; a jump in gap or normal would show far above it.
+    println!("elastic collisions: energy change {:.2e} of {start:.3} J after 1 s", mechanical(&world) - start);
+    // 0.2 %: second-order time steps over some fifty impacts; a jump in gap or normal would exceed it by far.
     assert!((mechanical(&world) - start).abs() < 0.002 * start);
 }

@@ -1,4 +1,4 @@
-//! Impacts under the linear law.
+//! Impacts with the linear contact law.
 
 use breakwater::rigid::{BodyState, ContactModel, Material, Resistance, RigidSetup, RigidWorld};
 use glam::{DQuat, DVec3};
@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use super::{MORTAR, ball, run, setup};
 
-/// Two balls that meet head on at a speed [m/s] each: speed after over before, and time of contact [s].
+/// Returns the speed ratio after a head-on impact of two balls, and the duration of contact [s].
 fn impact(e: f64, stiffness: f64) -> [f64; 2] {
     let ball = ball(0.02, 2380.0);
     let coming = |side: f64| BodyState {
@@ -26,11 +26,11 @@ fn impact(e: f64, stiffness: f64) -> [f64; 2] {
 }
 
 #[test]
-fn restitution_out_is_restitution_in() {
+fn restitution_equals_the_given_coefficient() {
     for e in [0.3, 0.5, 0.8, 1.0] {
         let [out, _] = impact(e, 1e5);
-        println!("in {e}, out {out:.5}");
-        // 0.005: the dashpot sets in with a jump, which steps of an eightieth of a period resolve to first order.
+        println!("restitution {e}: found {out:.5}");
+        // 0.005: the dashpot force starts with a jump, resolved to first order by steps of an eightieth of a period.
         assert!((out - e).abs() < 0.005);
     }
 }
@@ -41,8 +41,8 @@ fn an_elastic_impact_lasts_half_a_period() {
     for stiffness in [1e4, 1e6] {
         let [_, time] = impact(1.0, stiffness);
         let expected = PI * (0.5 * mass / stiffness).sqrt();
-        println!("k = {stiffness:e}: {:.2} us, expected {:.2} us", time * 1e6, expected * 1e6);
-        // 3 %: start and end are known to a step, a hundred and sixtieth of the period.
+        println!("k = {stiffness:e}: duration {:.2} us, expected {:.2} us", time * 1e6, expected * 1e6);
+        // 3 %: start and end are known to one substep, 1/160 of the period.
         assert!((time / expected - 1.0).abs() < 0.03);
     }
 }

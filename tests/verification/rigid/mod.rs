@@ -1,4 +1,4 @@
-//! Rigid bodies and contact against answers known from mechanics.
+//! Rigid bodies and contact compared with exact answers from mechanics.
 
 mod catalogue;
 mod creep;
@@ -51,7 +51,7 @@ fn tetrapod() -> ArmourUnit {
     ArmourUnit::tetrapod(HEIGHT, 0.05).unwrap()
 }
 
-/// Tetrapod on the level ground at (x, y), sunk in by about the overlap at rest.
+/// Returns a Tetrapod on level ground at (x, y) with about the overlap at rest.
 fn standing(unit: &ArmourUnit, x: f64, y: f64, azimuth: f64) -> BodyState {
     BodyState::at_rest(DVec3::new(x, y, unit.standing_height() - 3.5e-5), unit.standing_rotation(azimuth))
 }
@@ -63,7 +63,7 @@ fn run(world: &mut RigidWorld, duration: f64, dt: f64) {
     }
 }
 
-/// Kinetic, potential and stored energy and everything that was lost [J].
+/// Returns kinetic, potential and elastic energy plus all dissipated energy, minus the work of loads [J].
 fn total_energy(world: &RigidWorld) -> f64 {
     let e = world.energy();
     e.kinetic + e.potential + e.elastic + e.friction + e.damping - e.load_work
@@ -73,7 +73,7 @@ fn ball(radius: f64, density: f64) -> BodyShape {
     BodyShape::ball(radius, density * 4.0 / 3.0 * PI * radius.powi(3))
 }
 
-/// Ten Tetrapods above each other in a shaft, turned at will.
+/// Setup of ten units above each other in a shaft, in various orientations.
 fn heap(unit: &ArmourUnit) -> RigidSetup {
     let body = |i: usize| {
         let t = i as f64;

@@ -1,4 +1,4 @@
-//! Tetrapods dropped into a pile on a slope of 1:1.5.
+//! Tetrapods that fall into a pile on a slope of 1:1.5.
 
 use std::time::Instant;
 
@@ -8,10 +8,10 @@ use glam::{DQuat, DVec3};
 
 use super::{HEIGHT, MASS, MORTAR, setup, tetrapod};
 
-/// Spacing of the lattice that they fall from [m]: free of each other however they are turned.
+/// Spacing of the initial lattice [m], so wide that Tetrapods of any orientation do not touch.
 const SPACING: f64 = 1.36 * HEIGHT;
 
-/// `count` Tetrapods turned at will over a slope between walls, `across` and `along` in a layer.
+/// Setup of `count` Tetrapods in various orientations over a slope between walls, `along` x `across` in each layer.
 fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
     let (length, width) = (SPACING * along as f64, SPACING * across as f64);
     let slope = |x: f64| x.clamp(0.0, length) / 1.5;
@@ -32,15 +32,15 @@ fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
     }
 }
 
-/// What a pile is after it has come to rest.
+/// Properties of a pile at rest.
 struct Pile {
     contacts: usize,
-    /// Wall clock of a substep [s].
+    /// Wall-clock time of a substep [s].
     substep: f64,
 }
 
-/// Let a pile come to rest; it must within `longest` [s].
-fn settled(count: usize, along: usize, across: usize, longest: f64) -> Pile {
+/// Runs a pile until it is at rest; fails if that takes more than `longest` [s].
+fn run_to_rest(count: usize, along: usize, across: usize, longest: f64) -> Pile {
     let mut world = RigidWorld::new(lattice(count, along, across)).unwrap();
     let loads = vec![Load::default(); count];
     let start = world.energy();
@@ -68,7 +68,7 @@ fn settled(count: usize, along: usize, across: usize, longest: f64) -> Pile {
     let e = world.energy();
     println!(
         "{count} units: at rest after {:.2} s, {all} substeps, {wall:.0} s; kinetic {:.1e} of the drop, deepest overlap \
-         {:.3} % of H, largest rise {:.1e} of the drop, {} contacts, {:.0} us a substep, {:.2} us a contact",
+         {:.3} % of H, largest rise {:.1e} of the drop, {} contacts, {:.0} us per substep, {:.2} us per contact",
         world.time(),
         e.kinetic / (start.potential - e.potential),
         100.0 * world.deepest_overlap() / HEIGHT,
@@ -77,7 +77,7 @@ fn settled(count: usize, along: usize, across: usize, longest: f64) -> Pile {
         substep * 1e6,
         substep * 1e6 / world.contact_count() as f64
     );
-    // 1 % of the height and 1e-6 of the energy: asked for.
+    // Targets: 1 % of the height, and 1e-6 of the energy.
     assert!(world.deepest_overlap() < 0.01 * HEIGHT);
     assert!(rise < 1e-6 * start.potential);
     Pile { contacts: world.contact_count(), substep }
@@ -85,23 +85,22 @@ fn settled(count: usize, along: usize, across: usize, longest: f64) -> Pile {
 
 #[test]
 fn forty_tetrapods_come_to_rest_in_a_pile() {
-    settled(40, 4, 3, 10.0);
+    run_to_rest(40, 4, 3, 10.0);
 }
 
-/// cargo test --release --test verification -- --ignored --nocapture five_hundred
 #[test]
-#[ignore = "a quarter of an hour on 2 cores"]
-fn five_hundred_tetrapods_come_to_rest_and_cost_as_much_a_contact_as_fifteen() {
+#[ignore = "15 minutes on 2 cores: cargo test --release --test verification -- --ignored --nocapture rigid::pile"]
+fn five_hundred_tetrapods_cost_as_much_per_contact_as_fifteen() {
     let piles =
-        [(15, 3, 2), (100, 6, 4), (500, 10, 8)].map(|(count, along, across)| settled(count, along, across, 20.0));
-    let each = |pile: &Pile| pile.substep / pile.contacts as f64;
-    // Near-linear: asked for. Twice, because a substep has a part that every unit pays, in contact or not.
-    assert!(each(&piles[2]) < 2.0 * each(&piles[0]));
+        [(15, 3, 2), (100, 6, 4), (500, 10, 8)].map(|(count, along, across)| run_to_rest(count, along, across, 20.0));
+    let per_contact = |pile: &Pile| pile.substep / pile.contacts as f64;
+    // Target: nearly linear cost. Twice, as part of a substep costs time per unit, in contact or not.
+    assert!(per_contact(&piles[2]) < 2.0 * per_contact(&piles[0]));
 }
 
 #[test]
 fn a_pile_has_the_same_bits_for_any_number_of_threads() {
-    let with = |threads: usize| {
+    let states_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut world = RigidWorld::new(lattice(120, 6, 5)).unwrap();
@@ -109,5 +108,5 @@ fn a_pile_has_the_same_bits_for_any_number_of_threads() {
             world.states().to_vec()
         })
     };
-    assert_eq!(with(1), with(2));
+    assert_eq!(states_with(1), states_with(2));
 }

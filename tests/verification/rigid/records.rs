@@ -1,4 +1,4 @@
-//! What is recorded of impacts: the states before them, their forces against time, their impulses.
+//! Recorded impacts: states before them, force histories, impulses.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,13 @@ fn impulse_of(contact: &RecordedContact) -> DVec3 {
 }
 
 #[test]
-fn a_dropped_ball_gives_its_change_of_momentum_and_its_free_flight() {
+fn the_impact_of_a_dropped_ball_records_its_fall_and_its_impulse() {
     let (radius, height, density) = (0.02, 0.01, 2400.0);
     let shape = ball(radius, density);
-    let (mass, turned) = (shape.mass, DQuat::from_rotation_x(1.0));
-    let body = BodyState::at_rest(DVec3::new(0.3, 0.0, radius + height), turned);
+    let (mass, rotation) = (shape.mass, DQuat::from_rotation_x(1.0));
+    let body = BodyState::at_rest(DVec3::new(0.3, 0.0, radius + height), rotation);
     let mut world = RigidWorld::new(setup(shape, vec![body], MORTAR, 0.3)).unwrap();
-    // Steps of a different length, so that substeps are of different lengths within the impact.
+    // Time steps of different lengths give substeps of different lengths within the impact.
     let steps = [1e-4, 3.3e-4, 7.1e-5];
     let mut events = Vec::new();
     for step in steps.iter().cycle() {
@@ -32,45 +32,45 @@ fn a_dropped_ball_gives_its_change_of_momentum_and_its_free_flight() {
     let impacts = world.impacts();
     let [contact] = &impacts[..] else { panic!("{} impacts", impacts.len()) };
     assert_eq!(contact.event, event);
-    // Free flight until the start: exact but for rounding, as is the scheme for constant gravity.
+    // 1e-12: rounding; the scheme is exact in free fall, until the impact starts.
     let t = event.start;
     assert!((event.before.velocity - DVec3::NEG_Z * G * t).length() < 1e-12);
     assert!((event.before.position - body.position - DVec3::NEG_Z * (0.5 * G * t * t)).length() < 1e-12);
-    assert_eq!(event.before.rotation, turned.normalize());
+    assert_eq!(event.before.rotation, rotation.normalize());
     assert!(event.partner_before.is_none() && (event.approach_normal - G * t).abs() < 1e-12);
     assert!((event.approach_energy / (0.5 * mass * (G * t).powi(2)) - 1.0).abs() < 1e-12);
     assert!((DVec3::from_array(event.normal) - DVec3::Z).length() < 1e-12);
-    // The place is under the centre, half the overlap above the lowest point; in axes that are turned.
-    let below = turned * DVec3::from_array(event.point_in_body);
+    // In body axes, the contact point is below the centre, half the overlap above the lowest point.
+    let below = rotation * DVec3::from_array(event.point_in_body);
     assert!((below - DVec3::NEG_Z * radius).length() < 1e-4, "{below}");
-    // The impulse is m (v + v') with the weight over the history taken off: to 1e-9, asked for.
+    // The impulse is m (v + v') plus that of the weight during the history. Target: 1e-9.
     let samples = contact.history.samples();
     let [first, last] = [samples.first(), samples.last()].map(Option::unwrap);
-    let (begun, ended) = (first.start, last.start + last.duration);
+    let (begin, ended) = (first.start, last.start + last.duration);
     let after = world.states()[0].velocity.z + G * (world.time() - ended);
-    let expected = mass * (after + G * begun + G * (ended - begun));
+    let expected = mass * (after + G * begin + G * (ended - begin));
     assert!((event.impulse[2] / expected - 1.0).abs() < 1e-9, "{} {expected}", event.impulse[2]);
     let sum = impulse_of(contact);
     assert!((sum - DVec3::from_array(event.impulse)).length() < 1e-9 * sum.length());
-    // As fast as it flies off, but for the force of the last substep.
+    // The rebound is the final speed, except for the force in the last substep.
     println!("approach {:.4}, rebound {:.4}, {} samples", event.approach_normal, event.rebound, samples.len());
     assert!((event.rebound - world.states()[0].velocity.z - G * (world.time() - event.end)).abs() < 1e-3 * G * t);
     assert!((DVec3::from_array(event.peak).length() - event.peak_force).abs() < 1e-12);
-    let hardest = samples.iter().map(|s| s.force().length()).fold(0.0, f64::max);
-    assert!((0.97..=1.0).contains(&(hardest / event.peak_force)));
+    let strongest = samples.iter().map(|s| s.force().length()).fold(0.0, f64::max);
+    assert!((0.97..=1.0).contains(&(strongest / event.peak_force)));
     assert!(event.start < event.peak_time && event.peak_time < event.end);
 }
 
 #[test]
-fn partners_stand_beside_each_other_across_a_periodic_side() {
+fn impact_partners_are_adjacent_across_a_periodic_side() {
     let width = 1.0;
-    let at = |y: f64, v: f64| BodyState {
+    let ball_at = |y: f64, v: f64| BodyState {
         velocity: DVec3::Y * v,
         angular_velocity: DVec3::X * v,
         ..BodyState::at_rest(DVec3::Y * y, DQuat::IDENTITY)
     };
-    // They meet where y = 0 and y = 1 are one.
-    let bodies = vec![at(0.03, -1.0), at(0.97, 1.0)];
+    // The balls meet at y = 0, which is also y = 1.
+    let bodies = vec![ball_at(0.03, -1.0), ball_at(0.97, 1.0)];
     let mut setup = setup(ball(0.02, 2400.0), bodies, MORTAR, 0.3);
     (setup.ground, setup.sides, setup.gravity) = (None, Sides::Periodic { width }, DVec3::ZERO);
     let mut world = RigidWorld::new(setup).unwrap();
@@ -79,7 +79,7 @@ fn partners_stand_beside_each_other_across_a_periodic_side() {
     let event = &contact.event;
     let partner = event.partner_before.unwrap();
     let apart = event.before.position - partner.position;
-    // At the start they touch: but for the overlap of the first substep.
+    // 1e-4 m: at the start they touch, except for the overlap of the first substep.
     assert!((apart.length() - 0.04).abs() < 1e-4, "{apart}");
     assert!(DVec3::from_array(event.normal).dot(apart.normalize()) > 1.0 - 1e-9);
     assert!((event.before.velocity + partner.velocity).length() < 1e-12 && event.before.velocity.length() == 1.0);
@@ -90,11 +90,11 @@ fn partners_stand_beside_each_other_across_a_periodic_side() {
 }
 
 #[test]
-fn impulses_of_all_contacts_are_the_change_of_momentum_of_a_heap() {
+fn impulses_of_all_contacts_equal_the_change_of_momentum_of_a_heap() {
     let mut world = RigidWorld::new(heap(&tetrapod())).unwrap();
     let start: Vec<DVec3> = world.states().iter().map(|state| state.velocity).collect();
     let mut impulses = vec![DVec3::ZERO; start.len()];
-    let mut hardest: BTreeMap<u32, f64> = BTreeMap::new();
+    let mut strongest: BTreeMap<u32, f64> = BTreeMap::new();
     let (duration, dt) = (0.6, 1e-3);
     run(&mut world, duration, dt);
     let ended = world.take_events();
@@ -105,18 +105,18 @@ fn impulses_of_all_contacts_are_the_change_of_momentum_of_a_heap() {
             impulses[partner as usize] -= impulse;
         }
         for unit in [Some(event.body), event.partner_unit()].into_iter().flatten() {
-            let most = hardest.entry(unit).or_default();
-            *most = most.max(event.peak_force);
+            let peak = strongest.entry(unit).or_default();
+            *peak = peak.max(event.peak_force);
         }
     }
     for ((now, start), impulse) in world.states().iter().zip(&start).zip(&impulses) {
         let change = MASS * (now.velocity - *start + DVec3::Z * (G * duration));
-        // Rounding of thousands of substeps.
+        // 1e-9: rounding of thousands of substeps.
         assert!((change - *impulse).length() < 1e-9, "{change} {impulse}");
     }
-    // The hardest contact of each unit is in the log, with all of its impulse in the history.
+    // The record contains the strongest contact of each unit, with its whole impulse in the history.
     let impacts = world.impacts();
-    for (unit, force) in hardest {
+    for (unit, force) in strongest {
         let found = impacts.iter().find(|c| c.event.body == unit || c.event.partner_unit() == Some(unit)).unwrap();
         assert_eq!(found.event.peak_force, force);
     }
@@ -124,36 +124,36 @@ fn impulses_of_all_contacts_are_the_change_of_momentum_of_a_heap() {
         assert!(contact.history.samples().len() <= 64);
         assert!((impulse_of(contact) - DVec3::from_array(contact.event.impulse)).length() < 1e-9);
     }
-    println!("{} contacts, {} kept", ended.len(), impacts.len());
+    println!("{} contacts, {} recorded", ended.len(), impacts.len());
 }
 
 #[test]
 fn a_restored_world_records_the_same_impacts() {
-    let mut whole = RigidWorld::new(heap(&tetrapod())).unwrap();
-    run(&mut whole, 0.3, 1e-3);
-    let text = serde_json::to_string(&whole.snapshot()).unwrap();
+    let mut uninterrupted = RigidWorld::new(heap(&tetrapod())).unwrap();
+    run(&mut uninterrupted, 0.3, 1e-3);
+    let text = serde_json::to_string(&uninterrupted.snapshot()).unwrap();
     let mut restored = RigidWorld::new(heap(&tetrapod())).unwrap();
     restored.restore(&serde_json::from_str(&text).unwrap()).unwrap();
-    for world in [&mut whole, &mut restored] {
+    for world in [&mut uninterrupted, &mut restored] {
         run(world, 0.3, 1e-3);
     }
-    assert!(!whole.impacts().is_empty());
-    assert_eq!(whole.impacts(), restored.impacts());
+    assert!(!uninterrupted.impacts().is_empty());
+    assert_eq!(uninterrupted.impacts(), restored.impacts());
 }
 
 #[test]
-fn a_resting_unit_fills_no_history() {
+fn a_unit_at_rest_does_not_fill_its_histories() {
     let unit = tetrapod();
     let shape = BodyShape::of_unit(&unit, MASS);
-    let resting = setup(shape, vec![standing(&unit, 0.0, 0.0, 0.3)], MORTAR, 0.65);
-    let mut world = RigidWorld::new(resting).unwrap();
+    let at_rest = setup(shape, vec![standing(&unit, 0.0, 0.0, 0.3)], MORTAR, 0.65);
+    let mut world = RigidWorld::new(at_rest).unwrap();
     run(&mut world, 2.0, 1e-3);
     let impacts = world.impacts();
     assert_eq!(impacts.len(), 3);
     for contact in impacts {
         let samples = contact.history.samples();
         let last = samples.last().unwrap();
-        println!("{} samples, the last one of {:.3} s", samples.len(), last.duration);
+        println!("{} samples, the last one lasts {:.3} s", samples.len(), last.duration);
         assert!(last.duration > 1.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Balls that roll, with and without resistance.
+//! Rolling balls with and without rolling resistance.
 
 use breakwater::rigid::{BodyState, Resistance, RigidWorld};
 use glam::{DQuat, DVec3};
@@ -7,7 +7,7 @@ use super::{G, MORTAR, ball, run, setup};
 
 const RADIUS: f64 = 0.02;
 
-/// A ball on the level that has come to rest, with rolling resistance.
+/// Creates a ball at rest on level ground, with rolling resistance.
 fn at_rest(rolling: f64) -> RigidWorld {
     let body = BodyState::at_rest(DVec3::Z * (RADIUS - 1e-6), DQuat::IDENTITY);
     let mut setup = setup(ball(RADIUS, 2380.0), vec![body], MORTAR, 0.5);
@@ -18,7 +18,7 @@ fn at_rest(rolling: f64) -> RigidWorld {
 }
 
 #[test]
-fn a_ball_rolls_down_an_incline_with_what_resistance_leaves() {
+fn a_ball_rolls_down_an_incline_with_the_acceleration_of_theory() {
     for (rolling, angle) in [(0.0, 0.3f64), (0.05, 0.3)] {
         let mut world = at_rest(rolling);
         world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
@@ -27,17 +27,17 @@ fn a_ball_rolls_down_an_incline_with_what_resistance_leaves() {
         run(&mut world, 0.4, 1e-4);
         let state = world.states()[0];
         let acceleration = (state.velocity.x - before.velocity.x) / 0.4;
-        // The moment mu_r R N takes mu_r N of the weight along the slope; two sevenths of the rest go into the spin.
+        // The moment mu_r R N reduces the weight along the slope by mu_r N, and two sevenths of the rest turn it.
         let expected = 5.0 / 7.0 * G * (angle.sin() - rolling * angle.cos());
         println!("mu_r = {rolling}: {acceleration:.5} m/s2, expected {expected:.5}");
-        // 0.1 %: the tangential spring swings for a moment after the tilt.
+        // 0.1 %: the tangential spring oscillates for a moment after the tilt.
         assert!((acceleration / expected - 1.0).abs() < 1e-3);
         assert!((state.angular_velocity.y * RADIUS / state.velocity.x - 1.0).abs() < 1e-3);
     }
 }
 
 #[test]
-fn below_the_angle_of_rolling_resistance_a_ball_stays() {
+fn a_ball_stays_below_the_angle_of_rolling_resistance() {
     let mut world = at_rest(0.05);
     let angle = 0.9 * 0.05f64.atan();
     world.set_gravity(DVec3::new(G * angle.sin(), 0.0, -G * angle.cos()));
@@ -46,18 +46,18 @@ fn below_the_angle_of_rolling_resistance_a_ball_stays() {
     run(&mut world, 10.0, 1e-4);
     let moved = (world.states()[0].position - before.position).length();
     println!("moved {moved:.1e} m in 10 s");
-    // 0.01 mm: as for a unit below the friction angle.
+    // 0.01 mm: the limit for a unit below the friction angle.
     assert!(moved < 1e-5);
-    // And the energy of rolling goes where the book says.
+    // The energy balance counts the dissipation by rolling resistance.
     let mut world = at_rest(0.05);
     world.set_gravity(DVec3::new(G * 0.3f64.sin(), 0.0, -G * 0.3f64.cos()));
     let start = super::total_energy(&world);
     let friction = world.energy().friction;
     run(&mut world, 0.5, 1e-4);
-    let lost = world.energy().friction - friction;
-    let rolled = world.states()[0].angular_velocity.y * 0.5 * 0.5;
-    let expected = 0.05 * RADIUS * ball(RADIUS, 2380.0).mass * G * 0.3f64.cos() * rolled;
-    println!("lost {lost:.3e} J, expected {expected:.3e} J, balance {:.1e} J", super::total_energy(&world) - start);
-    // 1 %: the angle rolled is taken from a constant acceleration.
-    assert!((lost / expected - 1.0).abs() < 0.01);
+    let loss = world.energy().friction - friction;
+    let angle_rolled = world.states()[0].angular_velocity.y * 0.5 * 0.5;
+    let expected = 0.05 * RADIUS * ball(RADIUS, 2380.0).mass * G * 0.3f64.cos() * angle_rolled;
+    println!("loss {loss:.3e} J, expected {expected:.3e} J, residual {:.1e} J", super::total_energy(&world) - start);
+    // 1 %: the expected angle assumes a constant acceleration.
+    assert!((loss / expected - 1.0).abs() < 0.01);
 }

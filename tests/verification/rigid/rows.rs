@@ -1,4 +1,4 @@
-//! Rows of Tetrapods: neighbours, images across periodic sides, the way over a mound.
+//! Rows of Tetrapods: neighbours, images across periodic sides, sliding over a mound.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::geometry::profile::Profile;
@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use super::{MASS, MORTAR, run, setup, standing, tetrapod, total_energy};
 
-/// Smallest pitch of a row without overlap, by halving.
+/// Returns the smallest pitch of a row without overlap [m] by bisection.
 fn least_pitch(unit: &ArmourUnit, second_azimuth: f64) -> f64 {
     let touches = |pitch: f64| {
         let bodies = vec![standing(unit, 0.0, 0.0, 0.0), standing(unit, 0.0, pitch, second_azimuth)];
@@ -26,12 +26,12 @@ fn least_pitch(unit: &ArmourUnit, second_azimuth: f64) -> f64 {
 }
 
 #[test]
-fn neighbours_turned_by_half_a_circle_do_not_overlap_at_the_pitch_of_the_experiment() {
+fn alternating_neighbours_do_not_overlap_at_the_pitch_of_the_experiment() {
     let unit = tetrapod();
-    let [turned, alike] = [PI, 0.0].map(|azimuth| least_pitch(&unit, azimuth));
-    println!("least pitch: turned {:.2} mm, alike {:.2} mm", turned * 1e3, alike * 1e3);
-    assert!(turned < 0.08);
-    // The other unit's sharp surface, as the water sees it.
+    let [alternating, equal] = [PI, 0.0].map(|azimuth| least_pitch(&unit, azimuth));
+    println!("least pitch: alternating {:.2} mm, equal orientation {:.2} mm", alternating * 1e3, equal * 1e3);
+    assert!(alternating < 0.08);
+    // The gap to the sharp surface of the other unit, which bounds the water.
     let second = unit.standing_rotation(PI);
     let gap = unit
         .solid()
@@ -40,7 +40,7 @@ fn neighbours_turned_by_half_a_circle_do_not_overlap_at_the_pitch_of_the_experim
         .map(|v| unit.solid().signed_distance(second.inverse() * (*v - DVec3::Y * 0.08)))
         .fold(f64::MAX, f64::min);
     println!(
-        "gap of the sharp surfaces at 80 mm: {:.2} mm; reach in y {:.2} mm",
+        "gap of the sharp surfaces at 80 mm: {:.2} mm; extent in y {:.2} mm",
         gap * 1e3,
         unit.solid().bounds()[1].y * 1e3
     );
@@ -63,14 +63,14 @@ fn images_across_periodic_sides_touch_like_neighbours() {
     };
     let width = 0.24;
     let (images, plain) = (run_row(Sides::Periodic { width }, 0.0), run_row(Sides::Open, width));
-    assert!(images[0].position.y > -0.06, "they met across the side");
-    // The shift changes the last bits of y, which the impacts magnify; 1e-6 m is far below any effect of interest.
+    assert!(images[0].position.y > -0.06, "the units did not meet across the side");
+    // 1e-6 m: the shift changes the last bits of y, which the impacts amplify.
     assert!((images[0].position + DVec3::Y * width - plain[0].position).length() < 1e-6);
     assert!((images[1].position - plain[1].position).length() < 1e-6);
 }
 
 #[test]
-fn a_row_costs_well_below_a_millisecond_a_substep() {
+fn a_substep_of_a_row_takes_less_than_half_a_millisecond() {
     let unit = tetrapod();
     for count in [2, 15] {
         let row =
@@ -82,8 +82,8 @@ fn a_row_costs_well_below_a_millisecond_a_substep() {
             world.advance(1e-4, &push).unwrap();
         }
         let each = clock.elapsed().as_secs_f64() / world.substeps() as f64;
-        println!("{count} units: {:.1} us a substep, {} substeps", each * 1e6, world.substeps());
-        // Half of the target, so that a busy machine does not fail the test.
+        println!("{count} units: {:.1} us per substep, {} substeps", each * 1e6, world.substeps());
+        // 0.5 ms: half of the target.
         assert!(each < 5e-4);
     }
 }
@@ -102,19 +102,19 @@ fn a_unit_slides_over_the_lee_edge_and_comes_to_rest_below() {
     run(&mut world, 3.0, 1e-4);
     let end = world.states()[0];
     println!(
-        "over the edge: {:.4?}, balance {:.2e} J, {:?}",
+        "over the edge: {:.4?}, energy residual {:.2e} J, {:?}",
         end.position,
         total_energy(&world) - before,
         world.energy()
     );
     assert!(end.position.x > 0.16 && end.position.z > profile.z(end.position.x));
     assert!(end.velocity.length() < 1e-3);
-    // 1 % of the energy of the fall and the push, 0.6 J.
+    // 1 % of the energy of the fall and of the initial velocity, 0.6 J.
     assert!((total_energy(&world) - before).abs() < 6e-3);
 }
 
 #[test]
-fn a_row_is_washed_over_the_mound() {
+fn a_row_slides_over_the_mound_and_its_energy_balance_closes() {
     let unit = tetrapod();
     let profile = Profile::new(vec![[-2.0, 0.0], [-0.4, 0.0], [-0.16, 0.12], [0.16, 0.12], [0.4, 0.0], [2.0, 0.0]]);
     let row: Vec<BodyState> = (0..15)
@@ -130,7 +130,7 @@ fn a_row_is_washed_over_the_mound() {
     let mut world = RigidWorld::new(s).unwrap();
     let start = total_energy(&world);
     let clock = Instant::now();
-    let mut busy = 0;
+    let mut most_contacts = 0;
     for step in 0..20_000 {
         let time = 1e-4 * f64::from(step);
         let push = if time < 0.4 { 3.0 } else { 0.0 };
@@ -138,11 +138,11 @@ fn a_row_is_washed_over_the_mound() {
             .map(|i| Load { force: DVec3::new(push * (1.0 + 0.02 * f64::from(i)), 0.0, 0.0), torque: DVec3::ZERO })
             .collect();
         world.advance(1e-4, &loads).unwrap();
-        busy = busy.max(world.contact_count());
+        most_contacts = most_contacts.max(world.contact_count());
     }
-    let slowest = world.states().iter().map(|s| s.velocity.length()).fold(0.0, f64::max);
+    let fastest = world.states().iter().map(|s| s.velocity.length()).fold(0.0, f64::max);
     println!(
-        "row: balance {:.1e} J of {:?}, fastest {slowest:.1e}, at most {busy} contacts, {:.1} us a substep, {} substeps",
+        "row: energy residual {:.1e} J of {:?}, fastest {fastest:.1e} m/s, at most {most_contacts} contacts, {:.1} us per substep, {} substeps",
         total_energy(&world) - start,
         world.energy(),
         clock.elapsed().as_secs_f64() / world.substeps() as f64 * 1e6,
@@ -152,6 +152,6 @@ fn a_row_is_washed_over_the_mound() {
         assert!(state.position.x > 0.16 && state.position.z > profile.z(state.position.x));
         assert!(state.position.y > 0.0 && state.position.y < 1.2);
     }
-    // 1 % of the work of the push.
+    // 1 % of the work of the load.
     assert!((total_energy(&world) - start).abs() < 0.01 * world.energy().load_work);
 }

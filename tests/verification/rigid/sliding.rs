@@ -1,20 +1,20 @@
-//! Friction at rest and in motion.
+//! Static and kinetic friction.
 
 use breakwater::rigid::{BodyShape, Resistance, RigidWorld};
 use glam::DVec3;
 
 use super::{G, MASS, MORTAR, run, setup, standing, tetrapod};
 
-/// A Tetrapod with a leg forward or backward on a plane at the given slope [rad], settled on the level first; it slides
-/// along x.
-fn on_slope(azimuth: f64, resistance: Resistance, angle: f64) -> RigidWorld {
+/// Creates a Tetrapod that settled on level ground, and tilts the ground to a slope [rad]. The azimuth turns a leg
+/// forward or backward; the unit slides along x.
+fn tilted_world(azimuth: f64, resistance: Resistance, angle: f64) -> RigidWorld {
     let unit = tetrapod();
     let body = standing(&unit, 0.0, 0.0, azimuth);
     let mut setup = setup(BodyShape::of_unit(&unit, MASS), vec![body], MORTAR, 0.0);
     setup.friction.unit_ground = resistance;
     let mut world = RigidWorld::new(setup).unwrap();
     run(&mut world, 0.3, 1e-4);
-    // Slowly: tilted at once, the unit would swing on its tangential spring to twice the load.
+    // The tilt is slow: after a sudden tilt, the unit would oscillate on its tangential spring up to twice the load.
     for step in 1..=500 {
         let now = angle * f64::from(step) / 500.0;
         world.set_gravity(DVec3::new(G * now.sin(), 0.0, -G * now.cos()));
@@ -28,31 +28,31 @@ fn a_sliding_tetrapod_has_the_acceleration_of_kinetic_friction() {
     for azimuth in [0.0, std::f64::consts::PI] {
         let resistance = Resistance { kinetic_friction: 0.32, ..0.65.into() };
         let angle = 0.72f64.atan();
-        let mut world = on_slope(azimuth, resistance, angle);
-        // It starts and takes up the speed at which friction is that of motion.
+        let mut world = tilted_world(azimuth, resistance, angle);
+        // The unit starts and reaches the speed of kinetic friction.
         run(&mut world, 0.1, 1e-4);
         let before = world.states()[0].velocity.x;
         run(&mut world, 0.3, 1e-4);
         let acceleration = (world.states()[0].velocity.x - before) / 0.3;
         let expected = G * (angle.sin() - 0.32 * angle.cos());
         println!("azimuth {azimuth:.2}: {acceleration:.4} m/s2, expected {expected:.4}");
-        // 1 %: asked for.
+        // Target: 1 %.
         assert!((acceleration / expected - 1.0).abs() < 0.01);
     }
 }
 
 #[test]
-fn between_the_angles_of_motion_and_rest_a_unit_stays_until_it_is_pushed() {
+fn a_unit_between_both_friction_angles_slides_only_after_a_push() {
     let resistance = Resistance { kinetic_friction: 0.32, ..0.65.into() };
     let angle = 0.5f64.atan();
-    let mut world = on_slope(0.0, resistance, angle);
+    let mut world = tilted_world(0.0, resistance, angle);
     run(&mut world, 0.5, 1e-4);
     let rest = world.states()[0];
     run(&mut world, 1.0, 1e-4);
     let now = world.states()[0];
-    // 0.01 mm: what is allowed below the friction angle.
+    // 0.01 mm: the limit below the friction angle.
     assert!((now.position - rest.position).length() < 1e-5 && now.velocity.length() < 1e-5);
-    // A push of 0.2 m/s lasting 0.1 s: friction drops to that of motion and it goes on sliding.
+    // The push, 0.2 m/s within 0.1 s, lowers the friction to the kinetic one, and the unit continues to slide.
     let push = breakwater::rigid::Load { force: DVec3::X * (MASS * 2.0 + 2.0), torque: DVec3::ZERO };
     for _ in 0..1000 {
         world.advance(1e-4, &[push]).unwrap();
@@ -82,7 +82,7 @@ fn an_oblique_impact_gains_no_energy_at_any_instant() {
         rise = rise.max(mechanical(&world) - before);
         before = mechanical(&world);
     }
-    println!("largest rise {rise:.1e} of {start:.3} J, {:.3} J left", before);
-    // 1e-6 of the energy at the start: asked for.
+    println!("largest rise {rise:.1e} J of {start:.3} J, final energy {:.3} J", before);
+    // Target: 1e-6 of the energy at the start.
     assert!(rise < 1e-6 * start && before < 0.9 * start);
 }

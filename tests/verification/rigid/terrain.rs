@@ -1,4 +1,4 @@
-//! Units on a triangle surface against the same on exact planes, and on a bed without planes.
+//! Units on a triangle surface compared with exact planes, and on curved and rough surfaces.
 
 use std::sync::Arc;
 
@@ -9,12 +9,12 @@ use glam::{DQuat, DVec3};
 
 use super::{HEIGHT, MASS, MORTAR, ball, run, setup, standing, tetrapod, total_energy};
 
-/// Far below everything.
-fn abyss() -> Profile {
+/// Returns a bed far below the terrain.
+fn bed_far_below() -> Profile {
     Profile::new(vec![[-9.0, -5.0], [9.0, -5.0]])
 }
 
-/// A height field over the nodes of a grid.
+/// Creates a terrain from heights over the nodes of a grid.
 fn height_field(x: &[f64], y: &[f64], z: impl Fn(f64, f64) -> f64) -> Arc<Terrain> {
     let vertices = x.iter().flat_map(|x| y.iter().map(|y| DVec3::new(*x, *y, z(*x, *y)))).collect();
     let node = |i: usize, j: usize| (i * y.len() + j) as u32;
@@ -30,11 +30,11 @@ fn nodes(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 fn on_terrain(setup: RigidSetup, terrain: Arc<Terrain>) -> RigidSetup {
-    RigidSetup { ground: Some(Ground { profile: abyss(), terrain: Some(terrain), material: MORTAR }), ..setup }
+    RigidSetup { ground: Some(Ground { profile: bed_far_below(), terrain: Some(terrain), material: MORTAR }), ..setup }
 }
 
 #[test]
-fn a_tetrapod_slides_over_the_lee_edge_as_on_exact_planes() {
+fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
     let unit = tetrapod();
     let corners = [[-2.0, 0.0], [-0.4, 0.0], [-0.16, 0.12], [0.16, 0.12], [0.4, 0.0], [2.0, 0.0]];
     let profile = Profile::new(corners.to_vec());
@@ -47,38 +47,38 @@ fn a_tetrapod_slides_over_the_lee_edge_as_on_exact_planes() {
     let surface = height_field(&x, &nodes(-0.5, 0.5, 4), |x, _| profile.z(x));
     let mut worlds =
         [RigidSetup { ground: planes, ..base.clone() }, on_terrain(base, surface)].map(|s| RigidWorld::new(s).unwrap());
-    // Until it tumbles down the lee flank; from there on, the last digit decides.
+    // The comparison ends when the unit tumbles down the lee flank, where the motion is chaotic.
     for _ in 0..12 {
         worlds.iter_mut().for_each(|world| run(world, 0.025, 1e-4));
         let [a, b] = [0, 1].map(|k| worlds[k].states()[0]);
-        let apart = a.position.distance(b.position);
-        println!("{:.3} s: x = {:.5} m, {apart:.1e} m apart", worlds[0].time(), a.position.x);
-        // The same planes to rounding on the crest; over its edge, which is touched while the legs are pressed into the crest,
-        // a contact with triangles counts from its first overlap on: a unit then rolls by up to a millimetre otherwise.
-        assert!(apart < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
+        let distance = a.position.distance(b.position);
+        println!("{:.3} s: x = {:.5} m, {distance:.1e} m apart", worlds[0].time(), a.position.x);
+        // On the crest both surfaces agree to rounding. The legs touch the lee edge while they press into the crest.
+        // Contacts with triangles count from their first overlap, which changes the rolling by up to a millimetre.
+        assert!(distance < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
     }
     assert!(worlds[0].states()[0].position.x > 0.25);
 }
 
 #[test]
-fn a_ball_rolls_to_and_fro_in_a_trough_of_fine_triangles_without_loss() {
+fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     let (radius, hollow) = (0.05, 0.5);
     let smooth = breakwater::rigid::Material { restitution: 1.0, ..MORTAR };
     let x: Vec<f64> = (-60..=60).map(|i| hollow * (0.02 * f64::from(i)).sin()).collect();
     let surface = height_field(&x, &[-0.2, 0.013, 0.2], |x, _| hollow - (hollow * hollow - x * x).sqrt());
     let angle: f64 = 0.4;
-    let way = hollow - radius;
-    let start = DVec3::new(way * angle.sin(), 0.0, hollow - way * angle.cos());
+    let pendulum_length = hollow - radius;
+    let start = DVec3::new(pendulum_length * angle.sin(), 0.0, hollow - pendulum_length * angle.cos());
     let base = setup(ball(radius, 2400.0), vec![BodyState::at_rest(start, DQuat::IDENTITY)], smooth, 0.0);
     let mut world = RigidWorld::new(RigidSetup {
-        ground: Some(Ground { profile: abyss(), terrain: Some(surface), material: smooth }),
+        ground: Some(Ground { profile: bed_far_below(), terrain: Some(surface), material: smooth }),
         material: smooth,
         ..base
     })
     .unwrap();
     let before = total_energy(&world);
-    // Without friction it does not turn: a pendulum of the length R - r, slower by angle^2 / 16.
-    let period = std::f64::consts::TAU * (way / 9.81).sqrt() * (1.0 + angle * angle / 16.0);
+    // Without friction the ball does not rotate: a pendulum of length R - r with a period longer by angle^2 / 16.
+    let period = std::f64::consts::TAU * (pendulum_length / 9.81).sqrt() * (1.0 + angle * angle / 16.0);
     let (mut crossings, mut last) = (Vec::new(), start.x);
     while world.time() < 3.3 * period {
         run(&mut world, 1e-3, 1e-4);
@@ -91,19 +91,20 @@ fn a_ball_rolls_to_and_fro_in_a_trough_of_fine_triangles_without_loss() {
     let found = 2.0 * (crossings[5] - crossings[0]) / 5.0;
     let e = world.energy();
     println!(
-        "period {found:.4} s, {period:.4} s expected; lost {:.1e} of {before:.3} J",
+        "period {found:.4} s, {period:.4} s expected; energy loss {:.1e} of {before:.3} J",
         before - e.kinetic - e.potential - e.elastic
     );
-    // Facets of 0.02 rad shake the ball a little.
+    // 1 %: facets of 0.02 rad disturb the ball a little.
     assert!((found / period - 1.0).abs() < 0.01);
-    let fall = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * 2400.0 * 9.81 * way * (1.0 - angle.cos());
+    let fall =
+        4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * 2400.0 * 9.81 * pendulum_length * (1.0 - angle.cos());
     assert!((total_energy(&world) - before).abs() < 0.01 * fall);
 }
 
 #[test]
 fn ten_tetrapods_come_to_rest_on_rough_rock() {
     let unit = tetrapod();
-    // Bumps of about a third of the height of a unit, on a slope of 1:4.
+    // The bumps on a slope of 1:4 are about a third as high as a unit.
     let rough =
         |x: f64, y: f64| 0.25 * x + 0.02 * ((40.0 * x).sin() * (33.0 * y).cos() + (71.0 * x + 23.0 * y).sin() * 0.4);
     let surface = height_field(&nodes(-0.05, 0.65, 35), &nodes(-0.05, 0.45, 25), rough);
@@ -137,7 +138,7 @@ fn ten_tetrapods_come_to_rest_on_rough_rock() {
         100.0 * world.deepest_overlap() / HEIGHT,
         world.contact_count()
     );
-    // 1e-6 of the energy and 1 % of the height: asked for of piles.
+    // Targets for piles: 1e-6 of the energy, and 1 % of the height.
     assert!(e.kinetic < 1e-6 * drop && rise < 1e-6 * start.potential.abs());
     assert!(world.deepest_overlap() < 0.01 * HEIGHT);
 }

@@ -1,4 +1,4 @@
-//! The world as a whole: many contacts, going on from a snapshot, what it refuses.
+//! The rigid-body world: many contacts, restoring a snapshot, refused input.
 
 use breakwater::rigid::{BodyShape, Load, Material, RigidError, RigidSnapshot, RigidWorld};
 use glam::DVec3;
@@ -17,13 +17,13 @@ fn a_heap_comes_to_rest_without_gaining_energy() {
         run(&mut world, 0.01, 1e-4);
         let e = world.energy();
         let now = e.kinetic + e.potential + e.elastic;
-        // What is left may not rise: 1e-3 J is 0.01 % of the energy of the fall.
+        // The mechanical energy may not rise; 1e-3 J is 0.01 % of the energy of the fall.
         highest = highest.max(now - mechanical);
         mechanical = now;
     }
     let e = world.energy();
     println!(
-        "heap: {e:?}, rise {highest:.1e} J, balance {:.2e} J, {} contacts, {} substeps, {:.1} us each, {} events",
+        "heap: {e:?}, largest rise {highest:.1e} J, residual {:.2e} J, {} contacts, {} substeps, {:.1} us each, {} events",
         total_energy(&world) - start,
         world.contact_count(),
         world.substeps(),
@@ -32,29 +32,29 @@ fn a_heap_comes_to_rest_without_gaining_energy() {
     );
     assert!(highest < 1e-3);
     assert!(e.kinetic < 1e-4);
-    // The book closes to 1 % of the energy of the fall, about 10 J.
+    // 1 % of the energy of the fall, about 10 J.
     assert!((total_energy(&world) - start).abs() < 0.1);
     assert!(world.states().iter().all(|s| s.position.z > 0.02 && s.position.is_finite()));
 }
 
 #[test]
-fn a_restored_world_goes_on_with_the_same_bits() {
+fn a_restored_world_continues_with_the_same_bits() {
     let unit = tetrapod();
     let mut world = RigidWorld::new(heap(&unit)).unwrap();
     run(&mut world, 0.5, 1e-4);
     let text = serde_json::to_string(&world.snapshot()).unwrap();
     run(&mut world, 0.3, 1e-4);
     let snapshot: RigidSnapshot = serde_json::from_str(&text).unwrap();
-    let mut again = RigidWorld::new(heap(&unit)).unwrap();
-    again.restore(&snapshot).unwrap();
-    run(&mut again, 0.3, 1e-4);
-    assert_eq!(world.states(), again.states());
-    assert_eq!(world.contact_loads(), again.contact_loads());
-    assert_eq!(serde_json::to_string(&world.snapshot()).unwrap(), serde_json::to_string(&again.snapshot()).unwrap());
+    let mut restored = RigidWorld::new(heap(&unit)).unwrap();
+    restored.restore(&snapshot).unwrap();
+    run(&mut restored, 0.3, 1e-4);
+    assert_eq!(world.states(), restored.states());
+    assert_eq!(world.contact_loads(), restored.contact_loads());
+    assert_eq!(serde_json::to_string(&world.snapshot()).unwrap(), serde_json::to_string(&restored.snapshot()).unwrap());
 }
 
 #[test]
-fn too_deep_is_an_error_that_names_the_bodies() {
+fn a_too_deep_overlap_is_an_error_that_names_the_units() {
     let unit = tetrapod();
     let bodies = vec![standing(&unit, 0.0, 0.0, 0.0), standing(&unit, 0.0, 0.04, 0.0)];
     let error = RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), bodies, MORTAR, 0.3)).unwrap_err();
@@ -63,7 +63,7 @@ fn too_deep_is_an_error_that_names_the_bodies() {
 }
 
 #[test]
-fn loads_that_are_no_numbers_or_do_not_fit_are_errors() {
+fn invalid_loads_and_materials_are_errors() {
     let unit = tetrapod();
     let mut world =
         RigidWorld::new(setup(BodyShape::of_unit(&unit, MASS), vec![standing(&unit, 0.0, 0.0, 0.0)], MORTAR, 0.3))

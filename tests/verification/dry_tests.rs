@@ -1,4 +1,4 @@
-//! Dry runs and placed layers from end to end.
+//! Dry tests and armour layers from end to end.
 
 use std::{path::Path, sync::Arc};
 
@@ -23,7 +23,7 @@ fn dry_case(case: &Value) -> Arc<DryCase> {
 }
 
 #[test]
-fn the_slope_test_gives_the_friction_that_was_put_in() {
+fn the_tilt_test_returns_the_given_friction_coefficient() {
     let folder = tempfile::tempdir().unwrap();
     for (name, friction) in [("tilt-tetrapod.json", 0.32), ("tilt-tetrapod-on-mortar.json", 0.65)] {
         let dir = folder.path().join(name);
@@ -32,14 +32,14 @@ fn the_slope_test_gives_the_friction_that_was_put_in() {
         for unit in &summary.units {
             let found = unit.friction.unwrap();
             println!("{name}: unit {}: {found:.4} ({:+.2} %)", unit.unit, 100.0 * (found / friction - 1.0));
-            // 0.5 %: asked for; the published runs have 1.8 and 1.9 %.
+            // Target: 0.5 %; the published runs have 1.8 and 1.9 %.
             assert!((found / friction - 1.0).abs() < 0.005);
         }
     }
 }
 
 #[test]
-fn a_broken_dry_run_goes_on_with_the_same_bits() {
+fn an_interrupted_dry_test_resumes_with_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = case_file("drop-dolos.json");
     case["output"] = json!({ "checkpoint_interval_s": 0.2, "series_interval_s": 0.05, "units_interval_s": 0.05 });
@@ -49,20 +49,20 @@ fn a_broken_dry_run_goes_on_with_the_same_bits() {
         std::fs::create_dir(dir).unwrap();
         run(dry_case(&case), dir, &Control::quiet()).unwrap();
     }
-    // The last checkpoint is of 0.6 s: going on from there writes the end once more.
+    // The last checkpoint is at 0.6 s; resuming repeats the time after it.
     breakwater::simulation::dry_test::run::resume(dry_case(&case), &dirs[1], &Control::quiet()).unwrap();
     for file in ["units.csv", "energy.csv", "contacts.csv"] {
-        let [whole, broken] = dirs.each_ref().map(|dir| std::fs::read(dir.join(file)).unwrap());
-        assert_eq!(whole, broken, "{file}");
+        let [whole, interrupted] = dirs.each_ref().map(|dir| std::fs::read(dir.join(file)).unwrap());
+        assert_eq!(whole, interrupted, "{file}");
     }
-    let [whole, broken] = dirs.map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
-    // Up to 16 of the one unit; it is dropped, so some approach fast.
+    let [whole, interrupted] = dirs.map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
+    // A run keeps up to 16 impacts of its only unit, and the dropped unit has fast ones.
     assert!((4..=16).contains(&whole.impacts.len()) && whole.places.is_empty());
     assert!(whole.impacts.iter().any(|impact| impact.event.approach_normal > 0.1 && impact.history.len() > 10));
-    assert_eq!(whole, broken);
+    assert_eq!(whole, interrupted);
 }
 
-/// A layer of Tetrapods on a slope, a handful.
+/// Case of a small armour layer of Tetrapods on a slope.
 fn small_layer() -> Value {
     let mut case = case_file("armour-layer.json");
     case["domain"]["width_m"] = json!(0.25);
@@ -72,12 +72,12 @@ fn small_layer() -> Value {
 }
 
 #[test]
-fn a_placed_layer_rests_and_can_be_run() {
+fn a_placed_layer_is_at_rest_and_can_be_run() {
     let job =
         PlacementJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
     let placed = place(&job, |_, _| ()).unwrap();
     println!(
-        "{} units, packing density {:.3}, {} rolled off, overlap {:.2e} H, kinetic energy {:.1e} of what was let go, {} contacts",
+        "{} units, packing density {:.3}, {} rolled off, overlap {:.2e} H, kinetic energy {:.1e} of the potential energy, {} contacts",
         placed.units.len(),
         placed.packing_density,
         placed.rolled_off,
@@ -86,10 +86,10 @@ fn a_placed_layer_rests_and_can_be_run() {
         placed.contacts
     );
     assert_eq!(placed.units.len(), job.count());
-    // 1 % of the height and 1e-6 of the potential energy: asked for.
+    // Targets: 1 % of the height, and 1e-6 of the potential energy.
     assert!(placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
-    // From the file it goes on resting. The tangential springs have to form again, which takes a way of about the
-    // overlap of the contacts, of which the deepest is some thousandths of the height: half of what may overlap.
+    // The layer from the placement file stays at rest. Units move while the tangential springs form again, by about the
+    // overlap of the contacts, at most some thousandths of the height: half of the allowed overlap.
     let mut case = small_layer();
     let file = placed.file("layer");
     case["units"]["poses"] = serde_json::to_value(&file.poses).unwrap();
@@ -98,27 +98,27 @@ fn a_placed_layer_rests_and_can_be_run() {
         run.advance(1.0).unwrap();
     }
     let moved = run.world.states().iter().zip(&run.start).map(|(now, start)| now.position.distance(start.position));
-    let most = moved.fold(0.0, f64::max);
-    println!("moved by {:.1e} H within 0.2 s", most / 0.077);
-    assert!(most < 5e-3 * 0.077, "{most}");
+    let largest = moved.fold(0.0, f64::max);
+    println!("largest displacement within 0.2 s: {:.1e} H", largest / 0.077);
+    assert!(largest < 5e-3 * 0.077, "{largest}");
 }
 
 #[test]
-fn the_number_of_threads_does_not_change_a_layer() {
+fn a_layer_is_the_same_for_any_number_of_threads() {
     let job =
         PlacementJob::from_str(&small_layer().to_string(), "test.json").unwrap_or_else(|errors| panic!("{errors}"));
-    let with = |threads: usize| {
+    let layer_with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| place(&job, |_, _| ()).unwrap().units)
     };
-    assert_eq!(with(1), with(2));
+    assert_eq!(layer_with(1), layer_with(2));
 }
 
 #[test]
-fn a_run_that_fails_keeps_its_last_checkpoint_and_the_state_it_failed_in() {
+fn a_failed_run_keeps_its_last_checkpoint_and_its_failed_state() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = case_file("drop-dolos.json");
-    // Concrete as soft as rubber, from five metres: the floor cannot stop it within the rounding.
+    // Concrete as soft as rubber, dropped 5 m: the overlap exceeds the rounding of the edges.
     case["dry"]["height_m"] = json!(5.0);
     case["materials"][0]["young_modulus_pa"] = json!(1e6);
     case["output"] = json!({ "checkpoint_interval_s": 0.4 });
@@ -129,6 +129,6 @@ fn a_run_that_fails_keeps_its_last_checkpoint_and_the_state_it_failed_in() {
         serde_json::from_str::<Value>(&text).unwrap()["world"]["time_s"].as_f64().unwrap()
     };
     let (kept, failed) = (time("checkpoint.json"), time("failed.json"));
-    // It falls for a second; the checkpoints are at 0.4 and 0.8 s.
+    // The unit falls for one second; checkpoints are written at 0.4 and 0.8 s.
     assert!((kept - 0.8).abs() < 2e-3 && failed > kept, "{kept} {failed}");
 }
