@@ -60,7 +60,6 @@
 
 #[doc(hidden)]
 pub mod bench;
-pub mod book;
 pub mod case;
 #[doc(hidden)]
 pub mod cli;

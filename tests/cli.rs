@@ -267,7 +267,7 @@ fn a_run_writes_all_output_files_and_summary_keys() {
     impacts_hold_the_water_loads(&out);
     files_are_about_as_large_as_estimated(&case, &out);
     refuse_to_overwrite(&case, &out);
-    compare_needs_a_published_wave(&out);
+    compare_needs_a_measured_wave(&out);
     report_can_be_rewritten(&out);
 }
 
@@ -309,10 +309,30 @@ fn refuse_to_overwrite(case: &Path, out: &Path) {
     assert_eq!(std::fs::read(out.join("summary.json")).unwrap(), before);
 }
 
-fn compare_needs_a_published_wave(out: &Path) {
+fn compare_needs_a_measured_wave(out: &Path) {
     let message = refuse(&["compare", path(out)]);
-    assert!(message.contains("no wave"), "{message}");
+    assert!(message.contains("give one with --reference DIR"), "{message}");
+    let message = refuse(&["compare", path(out), "--reference", "cases/fudo/reference"]);
+    assert!(message.contains("no wave") && message.contains("solitary 0.026 m"), "{message}");
     assert!(!out.join("compare.html").exists());
+}
+
+#[test]
+fn run_keeps_the_measurements_and_can_be_moved() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = tiny_case(folder.path());
+    let mut measured = read_json(&case);
+    measured["reference"] = path(&std::path::absolute("cases/fudo/reference").unwrap()).into();
+    measured["stop"]["duration_s"] = json!(0.025);
+    std::fs::write(&case, measured.to_string()).unwrap();
+    let [out, moved] = ["out", "moved"].map(|name| folder.path().join(name));
+    let said = succeed(&["run", path(&case), "--out", path(&out), "--quiet"]);
+    assert!(said.contains("compare with the measurements: breakwater compare"), "{said}");
+    std::fs::rename(&out, &moved).unwrap();
+    assert_eq!(read_json(&moved.join("case.json"))["reference"], "reference");
+    succeed(&["check", path(&moved.join("case.json")), path(&moved.join("reference/reference.json"))]);
+    let message = refuse(&["compare", path(&moved)]);
+    assert!(message.contains("no wave of known height"), "{message}");
 }
 
 fn report_can_be_rewritten(out: &Path) {
@@ -395,12 +415,10 @@ fn resume_before_the_first_checkpoint_says_what_to_do() {
 #[test]
 fn compare_and_report_refuse_a_folder_without_a_run() {
     let folder = tempfile::tempdir().unwrap();
-    for command in ["compare", "report", "book"] {
-        let message = refuse(&[command, path(folder.path())]);
-        assert!(message.contains("summary.json"), "{message}");
-    }
-    let message = refuse(&["book", "--out", path(folder.path())]);
-    assert!(message.contains("holds no run yet"), "{message}");
+    let message = refuse(&["report", path(folder.path())]);
+    assert!(message.contains("summary.json"), "{message}");
+    let message = refuse(&["compare", path(folder.path()), "--reference", "cases/fudo/reference"]);
+    assert!(message.contains("summary.json"), "{message}");
 }
 
 /// A failed write ends the run with a message that names the file.

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use breakwater::case::file::{CaseFile, DryFile, FractureFile};
 use breakwater::case::{
-    BreakageSettings, Case, Document, DryTestCase, FractureCase, InputFile, InputKind, Wave, schema_text, template_text,
+    BreakageSettings, Case, Document, DryTestCase, FractureCase, InputFile, InputKind, Reference, Wave, schema_text,
+    template_text,
 };
 use breakwater::sweep::plan::Sweep;
 
@@ -132,10 +133,15 @@ fn flume_cases_survive_a_round_trip() {
         let case = Case::load(&path).unwrap();
         let reread = path.with_file_name("again.json").display().to_string();
         assert_eq!(Case::from_str(&written, &reread).unwrap().hash, case.hash, "{}", path.display());
-        // The case that a run keeps needs only the mesh that the run writes, and is the same case.
+        // The case that a run keeps needs only the mesh and the measurements that the run writes, and is the same case.
         let Some(breakage) = &case.breakage else { continue };
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(BreakageSettings::MESH), &breakage.mesh_file).unwrap();
+        if let Some(reference) = &case.reference {
+            let folder = folder.path().join(Reference::FOLDER);
+            std::fs::create_dir(&folder).unwrap();
+            reference.files.iter().for_each(|(name, content)| std::fs::write(folder.join(name), content).unwrap());
+        }
         let name = folder.path().join("case.json").display().to_string();
         assert_eq!(Case::from_str(&case.text, &name).unwrap().hash, case.hash, "{}", path.display());
     }

@@ -4,15 +4,13 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use breakwater::{
+    case::Reference,
     output::{
         Cells, ContactSummary, CsvSeries, EnergySummary, Execution, FieldKind, FieldValues, GaugeSummary, OutputError,
         ParticleCounts, PolyDataSeries, Stopped, Summary, TimeStepSummary, UnitSummary, UnitSurface, WaveSummary,
         columns,
     },
-    report::{
-        compare::{Fudo, compare},
-        run::write_report,
-    },
+    report::{compare::compare, run::write_report},
 };
 
 const DAMAGE_DISTANCE_M: f64 = 0.077;
@@ -337,10 +335,10 @@ fn runs_are_compared_with_the_experiment() {
     let (full, slice) = (empty_folder("compare_full"), empty_folder("compare_slice"));
     write_run(&full, 15).unwrap();
     write_run(&slice, 2).unwrap();
-    let comparison = compare(&[&full, &slice], &Fudo::published().unwrap()).unwrap();
+    let comparison = compare(&[&full, &slice], &Reference::load(Path::new("cases/fudo/reference")).unwrap()).unwrap();
     let [html, csv] = comparison.write(&full).unwrap();
     let html = std::fs::read_to_string(html).unwrap();
-    assert!(html.contains("compare_slice") && html.contains("stands for the inner units") && !html.contains("NaN"));
+    assert!(html.contains("compare_slice") && html.contains("represents the inner units") && !html.contains("NaN"));
     assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 1 + 15 + 2);
     println!("{comparison}");
 }

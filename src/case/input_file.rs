@@ -8,6 +8,7 @@ use super::flume_case::Case;
 use super::fracture::FractureCase;
 use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
+use super::reference::Reference;
 
 /// An input file of any kind.
 #[derive(Debug, Clone)]
@@ -22,6 +23,8 @@ pub enum InputFile {
     Sweep(SweepFile),
     /// A placement file: the poses of the units of an armour layer.
     Placement(PlacementFile),
+    /// A reference folder: measured displacements that runs are compared with.
+    Reference(Box<Reference>),
 }
 
 impl InputFile {
@@ -38,6 +41,10 @@ impl InputFile {
             InputKind::Fracture => Self::Fracture(Box::new(FractureCase::from_document(document)?)),
             InputKind::Sweep => Self::Sweep(document.parse()?),
             InputKind::Placement => Self::Placement(document.parse()?),
+            InputKind::Reference => {
+                let folder = Path::new(&document.name).parent().unwrap_or(Path::new(""));
+                Self::Reference(Box::new(Reference::load(folder)?))
+            }
         })
     }
 
@@ -47,7 +54,7 @@ impl InputFile {
             Self::Flume(case) => &case.warnings,
             Self::DryTest(case) => &case.warnings,
             Self::Fracture(case) => &case.warnings,
-            Self::Sweep(_) | Self::Placement(_) => &[],
+            Self::Sweep(_) | Self::Placement(_) | Self::Reference(_) => &[],
         }
     }
 
@@ -59,6 +66,7 @@ impl InputFile {
             Self::Fracture(_) => InputKind::Fracture,
             Self::Sweep(_) => InputKind::Sweep,
             Self::Placement(_) => InputKind::Placement,
+            Self::Reference(_) => InputKind::Reference,
         }
     }
 }

@@ -9,6 +9,7 @@
 //! | `input_file` | an input file of any kind |
 //! | `flume_case`, `dry_test`, `fracture` | the three kinds of cases |
 //! | `breakage` | settings of the breakage analysis |
+//! | `reference` | measured displacements that runs are compared with |
 //! | `layer_job` | what `breakwater place` needs of a case |
 //! | `output`, `units`, `wave`, `flume` | sections of a case, from the top down |
 //! | `reading` | JSON, keys, types, errors |
@@ -24,6 +25,7 @@ mod input_file;
 mod layer_job;
 mod output;
 mod reading;
+mod reference;
 mod units;
 mod wave;
 
@@ -49,8 +51,11 @@ pub use output::gauges::{Gauge, Motion, Quantity};
 pub use output::stop::{AtRest, Stop};
 pub use reading::document::{Document, InputKind};
 pub use reading::error::{CaseError, CaseErrors};
-pub use reading::schema::{dry_schema_text, fracture_schema_text, schema_text, sweep_schema_text};
+pub use reading::schema::{
+    dry_schema_text, fracture_schema_text, reference_schema_text, schema_text, sweep_schema_text,
+};
 pub use reading::template::template_text;
+pub use reference::{Reference, ReferenceWave, ReferenceWaveKind, Resolution, Series, SeriesRole, mean};
 pub use units::contact::Contact;
 pub use units::materials::{FrictionPair, Material};
 pub use units::shape::{UnitKind, UnitShape};

@@ -27,7 +27,7 @@ const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 /// Validate input files and print particles, memory, file sizes, time step and an estimate of the run time.
 #[derive(Args)]
 pub struct CheckArguments {
-    /// Case, sweep and placement files.
+    /// Case, sweep and placement files, and `reference.json` of folders with measurements.
     #[arg(required = true)]
     cases: Vec<PathBuf>,
 }
@@ -44,8 +44,14 @@ impl CheckArguments {
     }
 }
 
-const ALL_KINDS: [InputKind; 5] =
-    [InputKind::Flume, InputKind::DryTest, InputKind::Fracture, InputKind::Sweep, InputKind::Placement];
+const ALL_KINDS: [InputKind; 6] = [
+    InputKind::Flume,
+    InputKind::DryTest,
+    InputKind::Fracture,
+    InputKind::Sweep,
+    InputKind::Placement,
+    InputKind::Reference,
+];
 
 fn check(path: &Path) -> Result<(), Trouble> {
     match load(path, &ALL_KINDS)? {
@@ -57,6 +63,10 @@ fn check(path: &Path) -> Result<(), Trouble> {
         InputFile::Fracture(case) => run::fracture::check(&case, path),
         InputFile::Sweep(file) => {
             print_sweep(path, &Sweep::new(file, path).map_err(Trouble::refused)?);
+            Ok(())
+        }
+        InputFile::Reference(reference) => {
+            println!("{}: {}: {}", path.display(), reference.title, reference.waves_in_words());
             Ok(())
         }
         InputFile::Placement(file) => {

@@ -1,40 +1,38 @@
-//! `breakwater compare`: compares runs with published measurements.
+//! `breakwater compare`: compares runs with measurements.
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::Trouble;
-use crate::report::compare::{Fudo, compare};
+use crate::{case::Reference, report::compare::compare};
 
-/// Compare finished runs with published measurements: displacement of each unit, mean, damage ratio.
+/// Compare finished runs with measurements: displacement of each unit, mean, damage ratio.
 #[derive(Args)]
 pub struct CompareArguments {
     /// Folders of the runs.
     #[arg(required = true)]
     dirs: Vec<PathBuf>,
-    /// The measurements.
-    #[arg(long, value_enum, default_value = "fudo")]
-    reference: Reference,
+    /// Folder with the measurements: reference.json and its CSV files (`breakwater schema --reference` lists the keys).
+    /// Default: the folder that the case of the first run names.
+    #[arg(long, value_name = "DIR")]
+    reference: Option<PathBuf>,
     /// Folder for compare.html and compare.csv; default: the folder of the first run.
     #[arg(long)]
     out: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Reference {
-    /// Mitsui et al. 2023: one row of Tetrapods in solitary waves of 2.6, 4.5 and 6.4 cm.
-    Fudo,
-}
-
 impl CompareArguments {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let reference = match self.reference {
-            Reference::Fudo => Fudo::published().map_err(Trouble::failed)?,
-        };
+        let first = &self.dirs[0];
+        let folder = self.reference.clone().or_else(|| Reference::folder_of_run(first)).ok_or_else(|| {
+            let what = "no case.json here names a folder with measurements; give one with --reference DIR";
+            Trouble::refused(format!("{}: {what}", first.display()))
+        })?;
+        let reference = Reference::load(&folder).map_err(Trouble::refused)?;
         let comparison = compare(&self.dirs, &reference).map_err(Trouble::refused)?;
         println!("{comparison}");
-        let out = self.out.as_ref().unwrap_or(&self.dirs[0]);
+        let out = self.out.as_ref().unwrap_or(first);
         for path in comparison.write(out).map_err(Trouble::failed)? {
             println!("{}", path.display());
         }

@@ -54,6 +54,7 @@ fn advice(kind: InputKind) -> &'static str {
         InputKind::Flume | InputKind::DryTest => "run it with breakwater run",
         InputKind::Fracture => "run it with breakwater fracture",
         InputKind::Sweep => "run it with breakwater sweep",
+        InputKind::Reference => "compare a run with it: breakwater compare RUN --reference DIR",
         InputKind::Placement => "run the case that names it as `units.placement_file`",
     }
 }

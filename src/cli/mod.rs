@@ -3,7 +3,6 @@
 //! Exit codes: 0 success, 1 the work failed, 2 the input was refused (nothing was written).
 
 mod bench;
-mod book;
 mod check;
 mod compare;
 mod devices;
@@ -26,7 +25,7 @@ use clap::{Parser, Subcommand};
 /// Will this wave move the armour units, and will the units break?
 ///
 /// A case file (JSON) describes a flume, a wave and armour units, or units on a bed without water. `check` estimates
-/// the cost of a run, `run` computes the case, and `compare` compares the result with published measurements.
+/// the cost of a run, `run` computes the case, and `compare` compares the result with measurements.
 #[derive(Parser)]
 #[command(name = "breakwater", version, after_help = EXAMPLES)]
 struct Arguments {
@@ -39,7 +38,7 @@ Examples:
   breakwater check cases/fudo/quick-look.json      contents of a case and cost of a run
   breakwater run cases/fudo/quick-look.json        run it; then open runs/quick-look/report.html
   breakwater resume runs/quick-look                continue after an interruption
-  breakwater compare runs/quick-look               compare with the Fudo experiment
+  breakwater compare runs/quick-look               compare with measurements
   breakwater sweep cases/fudo/friction-sweep.json  run it with nine friction coefficients, in one table
   breakwater wave cases/fudo/H4.5-slice.json       compute only the wave, in seconds
   breakwater run cases/contact/tilt-tetrapod.json  units without water: a tilt test
@@ -59,7 +58,6 @@ enum Command {
     Unit(unit::UnitArguments),
     Wave(wave::WaveArguments),
     Compare(compare::CompareArguments),
-    Book(book::BookArguments),
     Report(report::ReportArguments),
     Init(init::InitArguments),
     Schema(schema::SchemaArguments),
@@ -98,7 +96,6 @@ pub fn main() -> ExitCode {
         Command::Unit(arguments) => arguments.execute(),
         Command::Wave(arguments) => arguments.execute(),
         Command::Compare(arguments) => arguments.execute(),
-        Command::Book(arguments) => arguments.execute(),
         Command::Report(arguments) => arguments.execute(),
         Command::Init(arguments) => arguments.execute(),
         Command::Schema(arguments) => arguments.execute(),

@@ -16,6 +16,9 @@ pub struct SchemaArguments {
     /// Print the schema of sweep files (one case with varied keys); default: flume cases.
     #[arg(long, conflicts_with_all = ["dry", "fracture"])]
     sweep: bool,
+    /// The schema of `reference.json`: measured displacements that runs are compared with.
+    #[arg(long, conflicts_with_all = ["dry", "fracture", "sweep"])]
+    reference: bool,
 }
 
 impl SchemaArguments {
@@ -24,6 +27,7 @@ impl SchemaArguments {
             Self { dry: true, .. } => crate::case::dry_schema_text(),
             Self { fracture: true, .. } => crate::case::fracture_schema_text(),
             Self { sweep: true, .. } => crate::case::sweep_schema_text(),
+            Self { reference: true, .. } => crate::case::reference_schema_text(),
             _ => crate::case::schema_text(),
         };
         println!("{text}");

@@ -55,12 +55,6 @@ impl Table {
         Ok(Self { path: path.to_owned(), names, columns })
     }
 
-    /// Creates a table from named columns of equal length; `path` names it in errors.
-    pub(crate) fn of_columns(path: &Path, columns: impl Iterator<Item = (String, Vec<f64>)>) -> Self {
-        let (names, columns) = columns.unzip();
-        Self { path: path.to_owned(), names, columns }
-    }
-
     /// Column names in the order of the file.
     pub fn names(&self) -> &[String] {
         &self.names

@@ -9,6 +9,7 @@ mod fracture;
 mod fracture_places;
 mod numerics;
 mod objects;
+mod reference;
 mod sweep;
 mod wave_source;
 mod waves;
@@ -25,6 +26,7 @@ pub use objects::{
     ArmourFile, ArmourOrientation, ContactFile, ContactLawName, ElevationFile, FrictionFile, GaugeFile, MaterialFile,
     Orientation, PlacementFile, PointFile, PoseFile, Shape, StlFile, UnitsFile,
 };
+pub use reference::{ReferenceFile, ReferenceWaveFile, ReferenceWaveKind, SeriesFile, SeriesRole};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 pub use sweep::{Combine, SweepFile, VaryFile};
@@ -45,6 +47,11 @@ pub struct CaseFile {
     /// Assumptions: values that no source gives. The report lists them.
     #[serde(default)]
     pub assumptions: Vec<String>,
+    /// Folder of a `reference.json` with measured displacements, seen from the case file: `breakwater compare` compares
+    /// the run with them.
+    // Not part of the fingerprint: it changes no result.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<String>,
     /// The whole flume: bed, mound and still water level.
     pub flume: FlumeFile,
     /// Particle domain: the part of the flume that is filled with particles.

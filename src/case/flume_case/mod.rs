@@ -23,6 +23,7 @@ use super::flume::{bed::Flume, domain::Domain, site::Site};
 use super::output::{files::Output, gauges::Gauge, stop::Stop};
 use super::reading::document::Document;
 use super::reading::error::CaseErrors;
+use super::reference::Reference;
 use super::units::Units;
 use super::units::contact::Contact;
 use super::units::materials::{FrictionPair, Material};
@@ -67,6 +68,8 @@ pub struct Case {
     pub contact: Contact,
     /// Breakage analysis, if any.
     pub breakage: Option<BreakageSettings>,
+    /// Measured displacements to compare the run with, if any.
+    pub reference: Option<Reference>,
     /// Gauges: points at which the water is measured.
     pub gauges: Vec<Gauge>,
     /// Output files and their intervals.
@@ -78,7 +81,7 @@ pub struct Case {
 impl Case {
     /// Keys that may differ between a run and the run whose checkpoint it starts from: they do not affect units at
     /// rest. The duration must not differ, because the wavemaker's motion is prepared for it.
-    pub const KEYS_FREE_AT_START: [&str; 4] = ["title", "assumptions", "friction", "stop.at_rest"];
+    pub const KEYS_FREE_AT_START: [&str; 5] = ["title", "assumptions", "reference", "friction", "stop.at_rest"];
 
     /// Reads and validates a case file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {

@@ -56,7 +56,7 @@ mod tests {
     fn slice(alpha: f64) -> Case {
         let text = include_str!("../../../cases/fudo/H2.6-slice.json");
         let text = text.replace("\"wall_slip\"", &format!("\"viscosity_alpha\": {alpha}, \"wall_slip\""));
-        Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"))
+        Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"))
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use crate::case::breakage::BreakageSettings;
 use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
+use crate::case::reference::Reference;
 use crate::case::units::Units;
 use crate::case::wave::Wave;
 use crate::case::wave::external_wave::ROWS_FILE;
 
 /// Returns the case as a run stores it, and the bytes read from other files. The case refers only to files in the run
 /// folder, so that the folder can be moved and resumed: wave files become one file that the run writes, STL files
-/// become copies, and a placement file becomes poses in the case.
+/// and the reference folder become copies, and a placement file becomes poses in the case.
 pub(super) fn self_contained(
     file: &CaseFile,
     wave: &Wave,
@@ -21,6 +22,7 @@ pub(super) fn self_contained(
         kept.wave = WaveFile::File(ExternalWaveFile { source, celerity_m_s: wave.celerity });
         read = wave.rows_text();
     }
+    kept.reference = kept.reference.as_ref().map(|_| Reference::FOLDER.to_owned());
     if let (Some(file), Some(units)) = (&mut kept.units, units) {
         units.make_self_contained(file, &mut read);
     }
@@ -34,5 +36,6 @@ pub(super) fn self_contained(
 /// Returns the case file without its schema and without [`KEYS_FREE_AT_START`](super::Case::KEYS_FREE_AT_START).
 pub(super) fn without_keys_free_at_start(file: &CaseFile) -> CaseFile {
     let stop = StopFile { at_rest: None, ..file.stop.clone() };
-    CaseFile { schema: None, title: String::new(), assumptions: Vec::new(), friction: Vec::new(), stop, ..file.clone() }
+    let (title, assumptions, friction) = (String::new(), Vec::new(), Vec::new());
+    CaseFile { schema: None, title, assumptions, reference: None, friction, stop, ..file.clone() }
 }

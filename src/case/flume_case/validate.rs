@@ -12,6 +12,7 @@ use crate::case::output::{files, stop, stop::Stop};
 use crate::case::reading::check::{Checker, as_text};
 use crate::case::reading::document::Document;
 use crate::case::reading::hash::fingerprint;
+use crate::case::reference::{self, Reference};
 use crate::case::units::contact::{self, Contact};
 use crate::case::units::materials::{self, Materials};
 use crate::case::units::{self, Surroundings, Units, WaterAround};
@@ -41,6 +42,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     let output = files::validate(&file.output, stop.duration, sections.domain.as_ref(), check);
     let units = units.ok()?;
     let breakage = sections.breakage(units.as_ref(), check).ok()?;
+    let reference = sections.reference(check);
     let Sections { flume, domain, .. } = sections;
     let (wave, domain) = (wave?, domain?);
     wave::refuse_relaxation_zone(domain.relaxation_zone.as_ref(), &wave, wavemaker, check);
@@ -50,7 +52,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         assumptions: file.assumptions.clone(),
         warnings: Vec::new(),
         name: document.name.clone(),
-        hash: fingerprint(&CaseFile { schema: None, ..kept.clone() }, &read),
+        hash: fingerprint(&CaseFile { schema: None, reference: None, ..kept.clone() }, &read),
         start_hash: fingerprint(&without_keys_free_at_start(&kept), &read),
         text: document.text_of(file, &kept),
         flume: flume?,
@@ -64,6 +66,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         friction: materials.friction,
         contact,
         breakage,
+        reference,
         gauges,
         output,
         stop,
@@ -109,6 +112,10 @@ impl Sections<'_> {
         let reach = gauges::Reach::of(&self.file.wave, wavemaker);
         let count = units.map_or(0, |units| units.placements.len());
         gauges::validate(&self.file.gauges, self.flume.as_ref(), self.domain.as_ref(), count, reach, check)
+    }
+
+    fn reference(&self, check: &mut Checker) -> Option<Reference> {
+        self.file.reference.as_ref().and_then(|path| reference::validate(path, self.name, check))
     }
 
     /// Validates the breakage analysis, which needs units in three dimensions.

@@ -27,6 +27,8 @@ pub enum InputKind {
     Sweep,
     /// A placement file.
     Placement,
+    /// The description of a reference folder.
+    Reference,
 }
 
 impl InputKind {
@@ -38,6 +40,7 @@ impl InputKind {
             Self::Fracture => "a fracture case",
             Self::Sweep => "a sweep",
             Self::Placement => "a placement file",
+            Self::Reference => "the description of a reference folder",
         }
     }
 }
@@ -90,6 +93,7 @@ impl Document {
             () if has("dry_test") || has("dry") => InputKind::DryTest,
             // Old flume cases have a key `fracture` for their breakage analysis.
             () if has("fracture") && !has_flume => InputKind::Fracture,
+            () if has("series") && !has_flume => InputKind::Reference,
             () if has("poses") && !has_flume => InputKind::Placement,
             () => InputKind::Flume,
         }

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 
-use crate::case::file::{CaseFile, DryFile, FractureFile, SweepFile};
+use crate::case::file::{CaseFile, DryFile, FractureFile, ReferenceFile, SweepFile};
 
 /// Returns the JSON schema of [`CaseFile`], indented.
 pub fn schema_text() -> String {
@@ -22,6 +22,11 @@ pub fn fracture_schema_text() -> String {
 /// Returns the JSON schema of [`SweepFile`], indented.
 pub fn sweep_schema_text() -> String {
     indented_schema::<SweepFile>()
+}
+
+/// Returns the JSON schema of [`ReferenceFile`], indented.
+pub fn reference_schema_text() -> String {
+    indented_schema::<ReferenceFile>()
 }
 
 fn indented_schema<T: JsonSchema>() -> String {

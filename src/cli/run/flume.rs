@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use super::{Trouble, breakage, trouble};
 use crate::{
-    case::Case,
+    case::{Case, Reference},
     output::{Summary, driver::RunError, progress::readable},
     report::run::write_report,
     simulation::flume::{
@@ -76,8 +76,8 @@ pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Re
         println!("  mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio);
     }
     println!("report: {}", report.display());
-    if summary.wave.is_some() && !summary.units.is_empty() {
-        println!("to compare with the Fudo experiment: breakwater compare {}", dir.display());
+    if Reference::folder_of_run(dir).is_some() {
+        println!("compare with the measurements: breakwater compare {}", dir.display());
     }
     Ok(summary)
 }

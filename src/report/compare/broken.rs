@@ -1,4 +1,4 @@
-//! Which units of a run broke, in words.
+//! Lists the broken units of a run.
 
 use super::super::plot::short;
 use crate::simulation::breakage::results::{Breakage, UnitBreakage};
@@ -24,7 +24,7 @@ pub fn in_words(breakage: &Breakage) -> String {
     }
     let others = those(None).len();
     if others > 0 {
-        words += &format!("; {others} of {} not handed over, counted as not broken", breakage.units.len());
+        words += &format!("; {others} of {} not analysed, counted as not broken", breakage.units.len());
     }
     words + "."
 }
@@ -53,7 +53,7 @@ mod tests {
         };
         assert_eq!(
             told(&[Some(true), None, Some(false), Some(true)]),
-            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 not handed over, \
+            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 not analysed, \
              counted as not broken."
         );
         assert_eq!(told(&[Some(false)]), "in a prototype 50 times as large, no unit broke; unit 1 did not break.");

@@ -1,36 +1,37 @@
-//! Runs beside the published experiment: displacement of each unit, damage ratio, deviation of the mean.
+//! Compares runs with measurements: displacement of each unit, damage ratio, deviation of the mean.
 
 mod broken;
 mod page;
-mod published;
 mod terminal;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-pub use published::{FRICTION_ON_MOUND, FrictionSweep, Fudo, PublishedWave, Resolution, UNIT_HEIGHT_M};
-
+use crate::case::{Reference, ReferenceWave, ReferenceWaveKind, Series, mean};
 use crate::output::{CsvSeries, OutputError, Summary, write_atomically};
 use crate::simulation::breakage::results::Breakage;
-use published::{DAMAGE_DISTANCE_M, SERIES, mean};
 
-/// Runs beside the published experiment; printed as a table for the terminal.
+/// Runs compared with measurements; printed as a table for the terminal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
+    /// What was measured, and where it was published.
+    pub title: String,
+    /// Remarks on the measurements.
+    pub notes: Vec<String>,
     /// The waves of the runs, lowest first.
     pub waves: Vec<WaveComparison>,
 }
 
-/// The runs of one wave height beside what was published for it.
+/// The runs of one wave and its measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaveComparison {
-    /// What was published.
-    pub published: PublishedWave,
+    /// What was measured and published.
+    pub reference: ReferenceWave,
     /// The runs.
     pub runs: Vec<RunResult>,
 }
 
-/// What a run gives to compare.
+/// The results of a run that are compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunResult {
     /// Name of the run folder.
@@ -39,57 +40,59 @@ pub struct RunResult {
     pub summary: Summary,
     /// Mean displacement [m].
     pub mean_m: f64,
-    /// Deviation of the mean displacement from the measured mean of all 15 units, (run - EXP) / EXP [%].
+    /// Deviation of the mean displacement from the measured mean of all units, (run - measured) / measured [%].
     pub deviation_percent: f64,
-    /// The same against the measured mean of the 13 units that do not stand at a side wall [%].
+    /// Deviation from the measured mean of the inner units [%].
     pub inner_deviation_percent: f64,
-    /// Share of the units that moved further than 0.077 m, whatever the case's own damage distance [-].
+    /// Share of the units that moved further than the reference's damage distance [-].
     pub damage_ratio: f64,
-    /// What came of the impacts; none if the run handed none over.
+    /// Results of the breakage analysis, if the run has one.
     pub breakage: Option<Breakage>,
 }
 
-/// Compares runs with the published experiment; each run's wave height says with which of its waves.
+/// Compares runs with measurements; wave kind, height and period of a run select the wave of the reference.
 ///
 /// # Errors
-/// If a summary cannot be read, a run has no solitary wave of a published height, or no units.
-pub fn compare<P: AsRef<Path>>(run_dirs: &[P], reference: &Fudo) -> Result<Comparison, OutputError> {
+/// If a summary cannot be read, the reference lacks the wave of a run, or a run has no units.
+pub fn compare<P: AsRef<Path>>(run_dirs: &[P], reference: &Reference) -> Result<Comparison, OutputError> {
     let mut waves: Vec<WaveComparison> = Vec::new();
     for dir in run_dirs {
         let dir = dir.as_ref();
         let summary = Summary::read(dir)?;
-        let published = published_wave(dir, &summary, reference)?;
-        let run = RunResult::new(dir, summary, Breakage::read_if_present(dir)?, published);
-        match waves.iter_mut().find(|wave| wave.published.height_m == published.height_m) {
-            Some(wave) => wave.runs.push(run),
-            None => waves.push(WaveComparison { published: published.clone(), runs: vec![run] }),
+        let wave = reference_wave(dir, &summary, reference)?;
+        let run = RunResult::new(dir, summary, Breakage::read_if_present(dir)?, wave);
+        match waves.iter_mut().find(|other| other.reference == *wave) {
+            Some(other) => other.runs.push(run),
+            None => waves.push(WaveComparison { reference: wave.clone(), runs: vec![run] }),
         }
     }
-    waves.sort_by(|a, b| a.published.height_m.total_cmp(&b.published.height_m));
-    Ok(Comparison { waves })
+    waves.sort_by_key(|wave| reference.waves.iter().position(|other| *other == wave.reference));
+    let title = format!("{}, {}", reference.title, reference.source);
+    Ok(Comparison { title, notes: reference.notes.clone(), waves })
 }
 
-/// The published wave of a run.
-fn published_wave<'a>(dir: &Path, summary: &Summary, reference: &'a Fudo) -> Result<&'a PublishedWave, OutputError> {
+/// The reference's wave of a run.
+fn reference_wave<'a>(
+    dir: &Path,
+    summary: &Summary,
+    reference: &'a Reference,
+) -> Result<&'a ReferenceWave, OutputError> {
     let refuse = |what: String| OutputError::NoReference { path: dir.join(Summary::FILE), what };
-    let heights = reference.heights();
+    let waves = reference.waves_in_words();
     let Some(wave) = &summary.wave else {
-        return Err(refuse(format!("the run has no wave; the experiment has solitary waves of {heights}")));
+        return Err(refuse(format!("the run has no wave of known height; the reference has: {waves}")));
     };
-    if wave.kind != "solitary" {
-        return Err(refuse(format!("the wave is {}; the experiment has solitary waves of {heights}", wave.kind)));
-    }
     if summary.units.is_empty() {
-        return Err(refuse("the run has no units to compare".to_owned()));
+        return Err(refuse("the run has no units; run a case with units".to_owned()));
     }
-    reference.wave(wave.height_m).ok_or_else(|| {
-        let height = 100.0 * wave.height_m;
-        refuse(format!("the wave is {height:.2} cm high; the experiment has only {heights}"))
+    reference.wave(&wave.kind, wave.height_m, wave.period_s).ok_or_else(|| {
+        let period = wave.period_s.map(|period| format!(", {period} s")).unwrap_or_default();
+        refuse(format!("the run has the wave: {} {} m{period}; the reference has: {waves}", wave.kind, wave.height_m))
     })
 }
 
 impl RunResult {
-    fn new(dir: &Path, summary: Summary, breakage: Option<Breakage>, published: &PublishedWave) -> Self {
+    fn new(dir: &Path, summary: Summary, breakage: Option<Breakage>, reference: &ReferenceWave) -> Self {
         let displacements: Vec<f64> = summary.units.iter().map(|unit| unit.displacement_m).collect();
         let mean_m = mean(&displacements);
         let deviation = |measured: f64| 100.0 * (mean_m / measured - 1.0);
@@ -97,29 +100,28 @@ impl RunResult {
         Self {
             name,
             mean_m,
-            deviation_percent: deviation(published.measured_mean_m()),
-            inner_deviation_percent: deviation(published.measured_inner_mean_m()),
-            damage_ratio: displacements.iter().filter(|d| **d > DAMAGE_DISTANCE_M).count() as f64
-                / displacements.len() as f64,
+            deviation_percent: deviation(reference.measured_mean_m()),
+            inner_deviation_percent: deviation(reference.measured_inner_mean_m()),
+            damage_ratio: reference.damage_ratio(&displacements),
             summary,
             breakage,
         }
     }
 
-    /// Whether the run holds fewer units than the experiment: a slice that stands for the inner units.
-    pub fn is_slice_of(&self, published: &PublishedWave) -> bool {
-        self.summary.units.len() < published.units()
+    /// Whether the run has fewer units than the experiment: a slice that represents the inner units.
+    pub fn is_slice_of(&self, reference: &ReferenceWave) -> bool {
+        self.summary.units.len() < reference.units()
     }
 }
 
-/// A place in the row of units: one of the experiment's, or one of a slice.
+/// A unit of the experiment or of a slice, by its index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum UnitIndex {
     Unit(usize),
     Slice(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for UnitIndex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unit(index) => f.pad(&format!("{}", index + 1)),
@@ -129,74 +131,75 @@ impl fmt::Display for Place {
 }
 
 impl WaveComparison {
-    /// Displacement of each unit in words, as rows of a table: the place, the published series, the runs [m].
-    pub fn displacement_rows(&self) -> Vec<Vec<String>> {
-        let words = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.3}"));
-        let row = |place: Place| {
-            let published = (0..SERIES.len()).map(|series| words(self.published_m(series, place)));
-            let runs = self.runs.iter().map(|run| words(self.run_m(run, place)));
-            [place.to_string()].into_iter().chain(published).chain(runs).collect()
-        };
-        self.places().into_iter().map(row).collect()
-    }
-
-    /// Displacement of each unit as a chart, `<svg>`.
-    pub fn units_chart(&self) -> String {
-        page::units_chart(self)
-    }
-
-    /// Mean displacement against the distance between particles as a chart, `<svg>`.
-    pub fn resolution_chart(&self) -> String {
-        page::resolution_chart(self)
-    }
-
     /// The experiment's units, then those of the slices, which are not units of the experiment.
-    fn places(&self) -> Vec<Place> {
+    fn units(&self) -> Vec<UnitIndex> {
         let most = |slices: bool| {
-            let runs = self.runs.iter().filter(|run| run.is_slice_of(&self.published) == slices);
+            let runs = self.runs.iter().filter(|run| run.is_slice_of(&self.reference) == slices);
             runs.map(|run| run.summary.units.len()).max().unwrap_or(0)
         };
-        let units = self.published.units().max(most(false));
-        (0..units).map(Place::Unit).chain((0..most(true)).map(Place::Slice)).collect()
+        let units = self.reference.units().max(most(false));
+        (0..units).map(UnitIndex::Unit).chain((0..most(true)).map(UnitIndex::Slice)).collect()
     }
 
-    /// Displacement in a published series [m].
-    fn published_m(&self, series: usize, place: Place) -> Option<f64> {
-        match place {
-            Place::Unit(index) => self.published.displacement_m[series].get(index).copied(),
-            Place::Slice(_) => None,
-        }
+    /// Displacement in each series of the reference [m].
+    fn reference_m(&self, unit: UnitIndex) -> impl Iterator<Item = Option<f64>> {
+        self.reference.series.iter().map(move |series| match unit {
+            UnitIndex::Unit(index) => series.displacement_m.get(index).copied(),
+            UnitIndex::Slice(_) => None,
+        })
+    }
+
+    /// The wave in words: `Solitary wave, H = 0.045 m`.
+    fn title(&self) -> String {
+        let ReferenceWave { kind, height_m, period_s, .. } = &self.reference;
+        let kind = match kind {
+            ReferenceWaveKind::Solitary => "Solitary wave",
+            ReferenceWaveKind::Regular => "Regular waves",
+            ReferenceWaveKind::Irregular => "Irregular waves",
+        };
+        let period = period_s.map(|period| format!(", T = {period} s")).unwrap_or_default();
+        format!("{kind}, H = {height_m} m{period}")
+    }
+
+    /// Deviation of a published simulation from the measured mean [%]; none for a measurement.
+    fn published_deviation_percent(&self, series: &Series) -> Option<f64> {
+        (!series.is_measured()).then(|| 100.0 * (series.mean_m() / self.reference.measured_mean_m() - 1.0))
     }
 
     /// Displacement in a run [m].
-    fn run_m(&self, run: &RunResult, place: Place) -> Option<f64> {
-        let index = match (place, run.is_slice_of(&self.published)) {
-            (Place::Unit(index), false) | (Place::Slice(index), true) => index,
+    fn run_m(&self, run: &RunResult, unit: UnitIndex) -> Option<f64> {
+        let index = match (unit, run.is_slice_of(&self.reference)) {
+            (UnitIndex::Unit(index), false) | (UnitIndex::Slice(index), true) => index,
             _ => return None,
         };
         run.summary.units.get(index).map(|unit| unit.displacement_m)
     }
 
-    /// Whether the units of a run were asked to break.
-    fn tells_breakage(&self) -> bool {
+    /// Whether a run has a breakage analysis.
+    fn has_breakage(&self) -> bool {
         self.runs.iter().any(|run| run.breakage.is_some())
     }
 
-    /// Sentences that belong to the numbers: slices, other numbers of units, breakage, assumptions.
+    /// Remarks on the runs: slices, other numbers of units, breakage, assumptions.
     fn remarks(&self) -> Vec<String> {
         let mut remarks = Vec::new();
         for run in &self.runs {
-            let (units, all) = (run.summary.units.len(), self.published.units());
-            if run.is_slice_of(&self.published) {
+            let (units, all) = (run.summary.units.len(), self.reference.units());
+            if run.is_slice_of(&self.reference) {
                 remarks.push(format!(
-                    "{}: {units} of {all} units. The slice stands for the inner units of the row; it has no side walls and \
-                     no neighbours beyond its own, so its units are not the experiment's first {units}. Against the 13 \
-                     inner units alone the mean deviates by {} %.",
+                    "{}: {units} of {all} units. The slice represents the inner units of the row; it has no side walls, so \
+                     its units are not the first {units} units of the experiment. Its mean deviates from the measured \
+                     mean of the inner units ({} to {}) by {} %.",
                     run.name,
+                    self.reference.inner.start + 1,
+                    self.reference.inner.end,
                     format!("{:+.1}", run.inner_deviation_percent).replace('-', "\u{2212}")
                 ));
             } else if units > all {
-                remarks.push(format!("{}: {units} units, the experiment has {all}; the mean is over all.", run.name));
+                remarks.push(format!(
+                    "{}: {units} units, but the experiment has {all}; the mean includes all units of the run.",
+                    run.name
+                ));
             }
             let broken = run.breakage.as_ref().map(|breakage| format!("{}: {}", run.name, broken::in_words(breakage)));
             remarks.extend(broken);
@@ -218,24 +221,30 @@ impl Comparison {
         Ok([html, csv])
     }
 
-    /// One row a wave and unit. Units of a slice have rows of their own, numbered from 1, with `slice` = 1; a series
+    /// One row per wave and unit. Units of a slice have rows of their own, numbered from 1, with `slice` = 1; a series
     /// without such a unit leaves its field empty.
     fn write_csv(&self, path: &Path) -> Result<(), OutputError> {
-        let mut columns: Vec<String> = ["wave_height_m", "slice", "unit"].map(str::to_owned).to_vec();
-        columns.extend(SERIES.map(|series| format!("{series}_displacement_m")));
+        let has_periods = self.waves.iter().any(|wave| wave.reference.period_s.is_some());
+        let mut columns = vec!["wave_height_m".to_owned()];
+        columns.extend(has_periods.then(|| "wave_period_s".to_owned()));
+        columns.extend(["slice", "unit"].map(str::to_owned));
+        let series = self.waves.first().map_or(&[][..], |wave| &wave.reference.series);
+        columns.extend(series.iter().map(|series| format!("{}_displacement_m", series.name)));
         let runs = self.waves.iter().flat_map(|wave| &wave.runs);
         columns.extend(runs.map(|run| format!("{}_displacement_m", run.name.replace([',', '\n'], "_"))));
         let mut table = CsvSeries::create(path, &columns)?;
         for (number, wave) in self.waves.iter().enumerate() {
-            for place in wave.places() {
-                let (slice, index) = match place {
-                    Place::Unit(index) => (0.0, index),
-                    Place::Slice(index) => (1.0, index),
+            for unit in wave.units() {
+                let (slice, index) = match unit {
+                    UnitIndex::Unit(index) => (0.0, index),
+                    UnitIndex::Slice(index) => (1.0, index),
                 };
-                let mut row = vec![wave.published.height_m, slice, (index + 1) as f64];
-                row.extend((0..SERIES.len()).map(|series| wave.published_m(series, place).unwrap_or(f64::NAN)));
+                let mut row = vec![wave.reference.height_m];
+                row.extend(has_periods.then(|| wave.reference.period_s.unwrap_or(f64::NAN)));
+                row.extend([slice, (index + 1) as f64]);
+                row.extend(wave.reference_m(unit).map(|value| value.unwrap_or(f64::NAN)));
                 for (other_number, other) in self.waves.iter().enumerate() {
-                    let value = |run| if other_number == number { wave.run_m(run, place) } else { None };
+                    let value = |run| if other_number == number { wave.run_m(run, unit) } else { None };
                     row.extend(other.runs.iter().map(|run| value(run).unwrap_or(f64::NAN)));
                 }
                 table.append(&row)?;
@@ -264,11 +273,15 @@ mod tests {
         dir
     }
 
+    fn fudo() -> Reference {
+        Reference::load(Path::new("cases/fudo/reference")).unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
     #[test]
-    fn the_published_run_deviates_as_the_paper_says() {
+    fn published_run_deviates_as_the_paper_says() {
         let folder = tempfile::tempdir().unwrap();
-        let fudo = Fudo::published().unwrap();
-        let sph1 = run(folder.path(), "sph1", 0.045, &fudo.waves[1].displacement_m[3]);
+        let fudo = fudo();
+        let sph1 = run(folder.path(), "sph1", 0.045, &fudo.waves[1].series[3].displacement_m);
         let slice = run(folder.path(), "slice", 0.045, &[0.05, 0.24]);
         let low = run(folder.path(), "low", 0.026, &[0.1, 0.12]);
         let (units, impacts) = (Vec::new(), Vec::new());
@@ -281,10 +294,11 @@ mod tests {
         assert!((full.deviation_percent + 2.0).abs() < 0.1, "{}", full.deviation_percent);
         assert_eq!((full.damage_ratio, slice.damage_ratio), (1.0, 0.5));
         let text = comparison.to_string();
-        for words in ["H = 2.6 cm", "H = 4.5 cm", "sph1", "stands for the inner units", "assumed: crest width 0.32 m"] {
+        for words in ["H = 0.026 m", "H = 0.045 m", "sph1", "represents the inner units", "assumed: crest width 0.32 m"]
+        {
             assert!(text.contains(words), "{words} in\n{text}");
         }
-        // Only one of the runs was asked.
+        // Only one of the runs has a breakage analysis.
         let broken: Vec<&str> = text.lines().filter(|line| line.starts_with("broken [%]")).collect();
         let [line] = broken[..] else { panic!("one line in\n{text}") };
         assert_eq!(line.split_whitespace().collect::<Vec<_>>(), ["broken", "[%]", "-", "25"]);
@@ -299,12 +313,15 @@ mod tests {
     }
 
     #[test]
-    fn another_wave_height_is_refused_with_the_allowed_ones() {
+    fn other_wave_is_refused_with_the_allowed_waves() {
         let folder = tempfile::tempdir().unwrap();
-        let fudo = Fudo::published().unwrap();
+        let fudo = fudo();
         let other = run(folder.path(), "other", 0.05, &[0.1]);
         let message = compare(&[&other], &fudo).unwrap_err().to_string();
-        assert!(message.contains("5.00 cm high") && message.contains("2.6, 4.5, 6.4 cm"), "{message}");
+        assert!(
+            message.contains("solitary 0.05 m") && message.contains("solitary 0.045 m; solitary 0.064 m"),
+            "{message}"
+        );
         let empty = run(folder.path(), "empty", 0.045, &[]);
         assert!(compare(&[&empty], &fudo).unwrap_err().to_string().contains("no units"));
         let missing = folder.path().join("missing");

@@ -2,72 +2,79 @@
 
 use std::fmt;
 
-use super::published::{MEASURED, SERIES};
 use super::{Comparison, RunResult, WaveComparison};
+use crate::case::Series;
 
 /// Width of a column.
 const COLUMN: usize = 9;
+/// Width of the first column.
+const LABEL: usize = 14;
 
 impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "Tetrapods on a PVC mound, Mitsui et al. (2023): displacement seen from above [m]")?;
-        self.waves.iter().try_for_each(|wave| write_wave(f, wave))
+        writeln!(f, "{}: displacement seen from above [m]", self.title)?;
+        self.waves.iter().try_for_each(|wave| write_wave(f, wave))?;
+        self.notes.iter().try_for_each(|note| writeln!(f, "{note}"))
     }
 }
 
 fn write_wave(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result {
-    let published = &wave.published;
-    writeln!(f, "\nSolitary wave H = {:.1} cm", 100.0 * published.height_m)?;
-    let width = wave.runs.iter().map(|run| run.name.chars().count() + 2).fold(COLUMN, usize::max);
-    let rule = "-".repeat(12 + SERIES.len() * COLUMN + wave.runs.len() * width);
+    let reference = &wave.reference;
+    writeln!(f, "\n{}", wave.title())?;
+    let widest =
+        |names: &mut dyn Iterator<Item = &str>| names.map(|name| name.chars().count() + 2).fold(COLUMN, usize::max);
+    let column = widest(&mut reference.series.iter().map(|series| series.name.as_str()));
+    let width = widest(&mut wave.runs.iter().map(|run| run.name.as_str()));
+    let rule = "-".repeat(LABEL + reference.series.len() * column + wave.runs.len() * width);
 
-    write!(f, "{:12}", "unit")?;
-    SERIES.iter().try_for_each(|name| write!(f, "{name:>COLUMN$}"))?;
+    write!(f, "{:LABEL$}", "unit")?;
+    reference.series.iter().try_for_each(|series| write!(f, "{:>column$}", series.name))?;
     wave.runs.iter().try_for_each(|run| write!(f, "{:>width$}", run.name))?;
     writeln!(f, "\n{rule}")?;
-    for place in wave.places() {
-        write!(f, "{place:12}")?;
-        (0..SERIES.len()).try_for_each(|series| write_number(f, COLUMN, wave.published_m(series, place)))?;
-        wave.runs.iter().try_for_each(|run| write_number(f, width, wave.run_m(run, place)))?;
+    for unit in wave.units() {
+        write!(f, "{unit:LABEL$}")?;
+        wave.reference_m(unit).try_for_each(|value| write_number(f, column, value))?;
+        wave.runs.iter().try_for_each(|run| write_number(f, width, wave.run_m(run, unit)))?;
         writeln!(f)?;
     }
     writeln!(f, "{rule}")?;
-    write!(f, "{:12}", "mean [m]")?;
-    (0..SERIES.len()).try_for_each(|series| write_number(f, COLUMN, Some(published.mean_m(series))))?;
+    write!(f, "{:LABEL$}", "mean [m]")?;
+    reference.series.iter().try_for_each(|series| write_number(f, column, Some(series.mean_m())))?;
     wave.runs.iter().try_for_each(|run| write_number(f, width, Some(run.mean_m)))?;
-    write!(f, "\n{:12}", "damaged [%]")?;
-    (0..SERIES.len()).try_for_each(|series| write!(f, "{:>COLUMN$.0}", 100.0 * published.damage_ratio(series)))?;
+    write!(f, "\n{:LABEL$}", "damaged [%]")?;
+    let damaged = |series: &Series| 100.0 * reference.damage_ratio(&series.displacement_m);
+    reference.series.iter().try_for_each(|series| write!(f, "{:>column$.0}", damaged(series)))?;
     wave.runs.iter().try_for_each(|run| write!(f, "{:>width$.0}", 100.0 * run.damage_ratio))?;
-    if wave.tells_breakage() {
-        // Nothing was published about breakage: units of the flume do not break.
-        write!(f, "\n{:12}{:>2$}", "broken [%]", "", SERIES.len() * COLUMN)?;
+    if wave.has_breakage() {
+        // References have no breakage: model units do not break.
+        write!(f, "\n{:LABEL$}{:>2$}", "broken [%]", "", reference.series.len() * column)?;
         let ratio = |run: &RunResult| run.breakage.as_ref().map(|breakage| 100.0 * breakage.broken_ratio);
         wave.runs.iter().try_for_each(|run| match ratio(run) {
             Some(percent) => write!(f, "{percent:>width$.0}"),
             None => write!(f, "{:>width$}", "-"),
         })?;
     }
-    write!(f, "\n{:12}", "vs EXP [%]")?;
-    for series in 0..SERIES.len() {
-        let deviation = 100.0 * (published.mean_m(series) / published.measured_mean_m() - 1.0);
-        if series < MEASURED { write!(f, "{:>COLUMN$}", "")? } else { write!(f, "{deviation:>+COLUMN$.1}")? }
-    }
+    write!(f, "\n{:LABEL$}", "deviation [%]")?;
+    reference.series.iter().try_for_each(|series| match wave.published_deviation_percent(series) {
+        Some(percent) => write!(f, "{percent:>+column$.1}"),
+        None => write!(f, "{:>column$}", ""),
+    })?;
     wave.runs.iter().try_for_each(|run| write!(f, "{:>+width$.1}", run.deviation_percent))?;
-    writeln!(f, "\n\nEXP: mean of the three repetitions, {:.3} m.", published.measured_mean_m())?;
+    let (repetitions, mean) = (reference.measured().count(), reference.measured_mean_m());
+    writeln!(f, "\n\nMeasured mean displacement ({repetitions} repetitions): {mean:.3} m.")?;
     write_resolutions(f, wave)?;
-    for remark in wave.remarks() {
-        writeln!(f, "{remark}")?;
-    }
-    Ok(())
+    wave.remarks().iter().try_for_each(|remark| writeln!(f, "{remark}"))
 }
 
 /// Deviation of the mean at each resolution: published and of the runs.
 fn write_resolutions(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result {
-    writeln!(f, "Deviation of the mean displacement from EXP by distance between particles:")?;
-    for resolution in &wave.published.convergence {
+    writeln!(f, "Deviation of the mean displacement from the measured mean by particle spacing:")?;
+    for resolution in &wave.reference.convergence {
         let dp = 1000.0 * resolution.dp_m;
-        write!(f, "  {dp:>5.1} mm {:>+8.1} %  published (SPH1), ", resolution.deviation_percent)?;
-        writeln!(f, "{:.1} million particles, {:.1} h", 1e-6 * resolution.particles, resolution.runtime_h)?;
+        write!(f, "  {dp:>5.1} mm {:>+8.1} %  published", resolution.deviation_percent)?;
+        resolution.particles.map_or(Ok(()), |number| write!(f, ", {:.1} million particles", 1e-6 * number))?;
+        resolution.runtime_h.map_or(Ok(()), |hours| write!(f, ", {hours:.1} h"))?;
+        writeln!(f)?;
     }
     for run in &wave.runs {
         let dp = 1000.0 * run.summary.dp_m;

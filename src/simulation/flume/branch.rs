@@ -118,6 +118,8 @@ mod tests {
         assert!(differing_keys(case, other).is_empty());
         let another = r#"{ "stop": { "duration_s": 2 }, "wave": { "height_m": 0.2 }, "gauges": [] }"#;
         assert_eq!(differing_keys(case, another), ["gauges", "stop", "wave"]);
-        assert!(difference(case, another).contains("only title, assumptions, friction, stop.at_rest may differ"));
+        assert!(
+            difference(case, another).contains("only title, assumptions, reference, friction, stop.at_rest may differ")
+        );
     }
 }

@@ -19,7 +19,7 @@ use super::{
     water_at_impacts::pressure_places,
 };
 use crate::{
-    case::{BreakageSettings, Case, Gauge, Quantity, ROWS_FILE, Wave},
+    case::{BreakageSettings, Case, Gauge, Quantity, ROWS_FILE, Reference, Wave},
     output::{
         CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, is_due, write_atomically,
         write_flume_gauges,
@@ -56,6 +56,11 @@ impl Recorder {
         write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
         if let Some(settings) = &case.breakage {
             write_atomically(&dir.join(BreakageSettings::MESH), &settings.mesh_file)?;
+        }
+        if let Some(reference) = &case.reference {
+            let folder = dir.join(Reference::FOLDER);
+            fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;
+            reference.files.iter().try_for_each(|(name, content)| write_atomically(&folder.join(name), content))?;
         }
         if let Wave::External(wave) = &case.wave {
             write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;

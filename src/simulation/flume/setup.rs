@@ -350,7 +350,7 @@ mod tests {
         for slides in [false, true] {
             let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);
             let text = given.replace(r#""wall_slip": "original""#, &wanted);
-            let case = Case::from_str(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
+            let case = Case::from_str(&text, "cases/fudo/test.json").unwrap_or_else(|errors| panic!("{errors}"));
             let units = case.units.as_ref().expect("the slice has two units");
             let particles = unit_in_place(units.shape.unit(), &case);
             assert!(!particles.is_empty() && particles.iter().all(|particle| particle.allows_free_slip == slides));

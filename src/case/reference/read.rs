@@ -1,0 +1,256 @@
+//! Reads and validates a reference folder.
+
+use std::path::Path;
+
+use super::{Reference, ReferenceWave, Resolution, Series};
+use crate::case::{
+    file::{ReferenceFile, ReferenceWaveFile, SeriesRole},
+    reading::{
+        check::{Checker, at_least, more_than},
+        document::Document,
+        error::CaseErrors,
+    },
+};
+
+/// Longest series [-].
+const MOST_UNITS: u32 = 10_000;
+
+impl Reference {
+    /// Reads and validates a folder.
+    ///
+    /// # Errors
+    /// All that is wrong in `reference.json`; each error names the key and what is allowed there.
+    pub fn load(folder: &Path) -> Result<Self, CaseErrors> {
+        let path = folder.join(Self::FILE);
+        let document = Document::read(&path)?;
+        let file: ReferenceFile = document.parse()?;
+        let mut check = Checker::new(&document.name);
+        let mut files = vec![(Self::FILE.to_owned(), document.text.into_bytes())];
+        check_keys(&file, &mut check);
+        let waves: Vec<Option<ReferenceWave>> =
+            (0..file.waves.len()).map(|index| read_wave(&file, index, folder, &mut files, &mut check)).collect();
+        if check.count() > 0 {
+            return Err(check.into_errors());
+        }
+        let mut waves: Vec<ReferenceWave> = waves.into_iter().flatten().collect();
+        let order = |wave: &ReferenceWave| (wave.height_m, wave.period_s.unwrap_or(0.0));
+        waves.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
+        Ok(Self { title: file.title, source: file.source, notes: file.notes, waves, files })
+    }
+}
+
+/// Reads the folder that a case names, seen from the folder of the case file `case_name`.
+pub(in crate::case) fn validate(path: &str, case_name: &str, check: &mut Checker) -> Option<Reference> {
+    let folder = Path::new(case_name).parent().unwrap_or(Path::new("")).join(path);
+    match Reference::load(&folder) {
+        Ok(reference) => Some(reference),
+        Err(errors) => {
+            let found: Vec<String> = errors.errors.iter().map(ToString::to_string).collect();
+            let allowed = format!("a folder with a valid {} ({})", Reference::FILE, found.join("; "));
+            check.reject("reference", format!("{path:?}"), allowed, "paths start at the folder of the case file");
+            None
+        }
+    }
+}
+
+fn check_keys(file: &ReferenceFile, check: &mut Checker) {
+    for (key, text) in [("title", &file.title), ("source", &file.source)] {
+        if text.trim().is_empty() {
+            check.reject(key, format!("{text:?}"), "a line of text", "comparisons show it");
+        }
+    }
+    if !(1..=MOST_UNITS).contains(&file.units) {
+        check.reject("units", file.units, format!("between 1 and {MOST_UNITS}"), "write the number of units");
+    }
+    if let Some([first, last]) =
+        file.inner_units.filter(|[first, last]| !(1 <= *first && first <= last && *last <= file.units))
+    {
+        let allowed = format!("first and last unit, rising, between 1 and {}", file.units);
+        check.reject("inner_units", format!("[{first}, {last}]"), allowed, "leave it out if no unit stands at a wall");
+    }
+    check.number(
+        "damage_distance_m",
+        file.damage_distance_m,
+        more_than(0.0).up_to(1000.0),
+        "m",
+        "the unit's height is usual",
+    );
+    if !file.series.iter().any(|series| series.role == SeriesRole::Measured) {
+        let count = format!("{} series", file.series.len());
+        check.reject("series", count, "a list with a measured series", "add an entry with \"role\": \"measured\"");
+    }
+    for (index, series) in file.series.iter().enumerate() {
+        let key = format!("series[{index}]");
+        if file.series[..index].iter().any(|other| other.name == series.name) {
+            check.reject(
+                &format!("{key}.name"),
+                format!("{:?}", series.name),
+                "unlike the others",
+                "rename one of them",
+            );
+        }
+        if let Some(dp) = series.dp_m {
+            check.number(&format!("{key}.dp_m"), dp, more_than(0.0).up_to(100.0), "m", "leave it out for measurements");
+        }
+    }
+    if file.waves.is_empty() {
+        check.reject("waves", "[]", "a list with at least one wave", "add the waves of the experiment");
+    }
+    for (index, wave) in file.waves.iter().enumerate() {
+        let key = format!("waves[{index}]");
+        check.number(&format!("{key}.height_m"), wave.height_m, more_than(0.0).up_to(100.0), "m", "write it in metres");
+        if let Some(period) = wave.period_s {
+            check.number(
+                &format!("{key}.period_s"),
+                period,
+                more_than(0.0).up_to(1e4),
+                "s",
+                "solitary waves have none",
+            );
+        }
+        let same = |other: &&ReferenceWaveFile| {
+            (other.kind, other.height_m, other.period_s) == (wave.kind, wave.height_m, wave.period_s)
+        };
+        if file.waves[..index].iter().any(|other| same(&other)) {
+            let words = format!("{} {} m", wave.kind.name(), wave.height_m);
+            check.reject(&key, words, "unlike the other waves", "give the period, or remove one of them");
+        }
+    }
+}
+
+fn read_wave(
+    file: &ReferenceFile,
+    index: usize,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+    check: &mut Checker,
+) -> Option<ReferenceWave> {
+    let wave = &file.waves[index];
+    let key = format!("waves[{index}].displacements");
+    let table = read_table(&wave.displacements, &key, folder, files, check)?;
+    let before = check.count();
+    if table.rows.len() != file.units as usize {
+        let value = format!("{:?} with {} rows", wave.displacements, table.rows.len());
+        check.reject(&key, value, format!("a table with {} rows, one per unit", file.units), "see the key `units`");
+    }
+    let mut column = |name: &str, range| {
+        let values = table.column(name, &key, check)?;
+        let advice = "displacements are distances seen from above";
+        let is_sound = values.iter().all(|value| check.number(&format!("{key}: {name}"), *value, range, "m", advice));
+        is_sound.then_some(values)
+    };
+    let series: Vec<Series> = (file.series.iter())
+        .filter_map(|series| {
+            let (name, role, dp_m) = (series.name.clone(), series.role, series.dp_m);
+            let displacement_m = column(&name, at_least(0.0).up_to(1e6))?;
+            Some(Series { name, role, dp_m, displacement_m })
+        })
+        .collect();
+    let convergence = match &wave.convergence {
+        None => Vec::new(),
+        Some(name) => read_convergence(name, &format!("waves[{index}].convergence"), folder, files, check)?,
+    };
+    let inner = file.inner_units.unwrap_or([1, file.units]).map(|unit| unit as usize);
+    (check.count() == before).then_some(ReferenceWave {
+        kind: wave.kind,
+        height_m: wave.height_m,
+        period_s: wave.period_s,
+        damage_distance_m: file.damage_distance_m,
+        inner: inner[0].saturating_sub(1)..inner[1],
+        series,
+        convergence,
+    })
+}
+
+fn read_convergence(
+    name: &str,
+    key: &str,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+    check: &mut Checker,
+) -> Option<Vec<Resolution>> {
+    let table = read_table(name, key, folder, files, check)?;
+    let (dp, deviation) = (table.column("dp_m", key, check)?, table.column("deviation_percent", key, check)?);
+    let optional = |name: &str, row: usize| {
+        let column = table.names.iter().position(|column| column == name)?;
+        Some(table.rows[row][column]).filter(|value| value.is_finite())
+    };
+    let resolution = |row: usize| {
+        let advice = "particle spacings are in metres";
+        let is_sound = check.number(&format!("{key}: dp_m"), dp[row], more_than(0.0).up_to(100.0), "m", advice)
+            && check.number(
+                &format!("{key}: deviation_percent"),
+                deviation[row],
+                at_least(-100.0),
+                "%",
+                "write a number",
+            );
+        is_sound.then(|| Resolution {
+            dp_m: dp[row],
+            deviation_percent: deviation[row],
+            particles: optional("particles", row),
+            runtime_h: optional("runtime_h", row),
+        })
+    };
+    (0..dp.len()).map(resolution).collect()
+}
+
+/// Numbers in rows under names; an empty field is not a number.
+struct Table {
+    file: String,
+    names: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn column(&self, name: &str, key: &str, check: &mut Checker) -> Option<Vec<f64>> {
+        let Some(index) = self.names.iter().position(|column| column == name) else {
+            let allowed = format!("a table with a column {name:?}; it has {}", self.names.join(", "));
+            check.reject(key, format!("{:?}", self.file), allowed, "add the column, or correct its name");
+            return None;
+        };
+        Some(self.rows.iter().map(|row| row[index]).collect())
+    }
+}
+
+/// Reads a CSV file of the folder and keeps it; lines that begin with `#` are comments.
+fn read_table(
+    name: &str,
+    key: &str,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+    check: &mut Checker,
+) -> Option<Table> {
+    let mut refuse = |allowed: String, advice: &str| {
+        check.reject(key, format!("{name:?}"), allowed, advice);
+        None
+    };
+    // A run keeps the files side by side.
+    if Path::new(name).file_name().is_none_or(|file| file != name) || !name.ends_with(".csv") {
+        return refuse("the name of a .csv file, without folders".to_owned(), "put it in the folder of reference.json");
+    }
+    let text = match std::fs::read_to_string(folder.join(name)) {
+        Ok(text) => text,
+        Err(reason) => {
+            return refuse(format!("a file that can be read ({reason})"), "put it in the folder of reference.json");
+        }
+    };
+    let fields = |line: &str| line.split(',').map(|field| field.trim().to_owned()).collect::<Vec<String>>();
+    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
+    let names = lines.next().map(|(_, line)| fields(line)).unwrap_or_default();
+    let mut rows = Vec::new();
+    for (number, line) in lines {
+        let number_of = |field: &String| if field.is_empty() { Ok(f64::NAN) } else { field.parse::<f64>() };
+        match fields(line).iter().map(number_of).collect::<Result<Vec<f64>, _>>() {
+            Ok(row) if row.len() == names.len() => rows.push(row),
+            _ => {
+                let allowed = format!("a table of numbers: line {} is not {} numbers", number + 1, names.len());
+                return refuse(allowed, "separate numbers by commas, with a decimal point");
+            }
+        }
+    }
+    if files.iter().all(|(other, _)| other != name) {
+        files.push((name.to_owned(), text.clone().into_bytes()));
+    }
+    Some(Table { file: name.to_owned(), names, rows })
+}

@@ -1,0 +1,150 @@
+//! Differences between the case of a run and the base case, `cases/fudo/H4.5-slice.json`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use breakwater::{case::file::CaseFile, sweep::plan::in_words};
+use serde_json::Value;
+
+/// Two units between periodic sides; the three waves differ in the wave height alone.
+const BASE: &str = include_str!("../../../cases/fudo/H4.5-slice.json");
+
+/// Friction of the units on the mound.
+pub const FRICTION: &str = "friction.mortar-pvc.coefficient";
+
+/// Keys that do not change how the units move.
+const WITHOUT_EFFECT: [&str; 8] =
+    ["$schema", "title", "assumptions", "reference", "output", "gauges", "fracture", "stop"];
+
+/// Particle spacing and wave have columns of their own; twice the time step changes the forces by less than 2 %.
+const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_m"];
+
+/// Keys that change together with the number of units.
+const OF_ROW: [&str; 3] = ["domain.sides", "domain.width_m", "units.pitch_m"];
+
+/// A key with another value than in the base case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Change {
+    /// Path of the key; an element of a list has its name or its pair of names: `friction.mortar-pvc.coefficient`.
+    pub key: String,
+    /// Value in the base case; null if not set.
+    pub base: Value,
+    /// Value in the run.
+    pub value: Value,
+}
+
+impl Change {
+    /// The value in the run, in words.
+    pub fn value_in_words(&self) -> String {
+        words(&self.value)
+    }
+
+    /// The value in the base case, in words.
+    pub fn base_in_words(&self) -> String {
+        words(&self.base)
+    }
+}
+
+/// Large numbers with a power of ten.
+fn words(value: &Value) -> String {
+    match value.as_f64() {
+        Some(number) if number >= 1e6 => format!("{number:e}"),
+        _ if value.is_null() => "default".to_owned(),
+        _ => in_words(value).replace(',', ", "),
+    }
+}
+
+/// Friction of the units on the mound in the base case.
+pub fn base_friction() -> f64 {
+    leaves(&base())[FRICTION].as_f64().unwrap_or(f64::NAN)
+}
+
+fn base() -> Value {
+    serde_json::from_str(BASE).unwrap_or_default()
+}
+
+/// Changes of a case from the base case, by key.
+pub fn changes(case: &Value) -> Vec<Change> {
+    let (base, case) = (leaves(&base()), leaves(case));
+    let value = |leaves: &BTreeMap<String, Value>, key: &str| leaves.get(key).cloned().unwrap_or_default();
+    let keys: BTreeSet<&String> = base.keys().chain(case.keys()).collect();
+    let mut changes: Vec<Change> = (keys.into_iter())
+        .filter(|key| !SHOWN_ELSEWHERE.contains(&key.as_str()) && value(&base, key) != value(&case, key))
+        .map(|key| Change { key: key.clone(), base: value(&base, key), value: value(&case, key) })
+        .collect();
+    if changes.iter().any(|change| change.key == "units.count") {
+        changes.retain(|change| !OF_ROW.contains(&change.key.as_str()));
+    }
+    changes
+}
+
+/// Values at the ends of all paths of a case, with its defaults.
+fn leaves(case: &Value) -> BTreeMap<String, Value> {
+    let complete = serde_json::from_value::<CaseFile>(case.clone()).and_then(serde_json::to_value);
+    let mut leaves = BTreeMap::new();
+    if let Value::Object(keys) = complete.as_ref().unwrap_or(case) {
+        let with_effect = keys.iter().filter(|(key, _)| !WITHOUT_EFFECT.contains(&key.as_str()));
+        with_effect.for_each(|(key, value)| collect(key, value, &mut leaves));
+    }
+    leaves
+}
+
+fn collect(path: &str, value: &Value, leaves: &mut BTreeMap<String, Value>) {
+    match value {
+        Value::Object(keys) => keys.iter().for_each(|(key, inner)| collect(&format!("{path}.{key}"), inner, leaves)),
+        Value::Array(items) if items.iter().any(Value::is_object) => {
+            for (number, item) in items.iter().enumerate() {
+                collect(&format!("{path}.{}", name(item).unwrap_or_else(|| number.to_string())), item, leaves);
+            }
+        }
+        leaf => {
+            leaves.insert(path.to_owned(), leaf.clone());
+        }
+    }
+}
+
+/// Name of an element of a list: its `name`, or the names that it lies `between`.
+fn name(item: &Value) -> Option<String> {
+    if let Some(name) = item.get("name").and_then(Value::as_str) {
+        return Some(name.to_owned());
+    }
+    let between = item.get("between")?.as_array()?.iter().map(Value::as_str).collect::<Option<Vec<_>>>()?;
+    Some(between.join("-"))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn only_keys_with_an_effect_are_changes() {
+        let mut case = base();
+        case["title"] = json!("another");
+        case["reference"] = json!("elsewhere");
+        case["domain"]["dp_m"] = json!(0.012);
+        case["output"]["series_interval_s"] = json!(0.02);
+        case["numerics"]["cfl"] = json!(0.4);
+        case["wave"]["height_m"] = json!(0.026);
+        // A default that is written, and a number in another notation.
+        case["numerics"]["viscosity_alpha"] = json!(0.04);
+        case["flume"]["mound"]["lee_run_per_rise"] = json!(2);
+        assert_eq!(changes(&case), []);
+        case["friction"][1]["coefficient"] = json!(0.1);
+        case["materials"][1]["young_modulus_pa"] = json!(1.5e9);
+        let [friction, modulus] = &changes(&case)[..] else { panic!("{:?}", changes(&case)) };
+        assert_eq!((friction.key.as_str(), friction.value.as_f64()), (FRICTION, Some(0.1)));
+        assert_eq!(friction.base.as_f64(), Some(base_friction()));
+        assert_eq!((modulus.base_in_words(), modulus.value_in_words()), ("1e8".to_owned(), "1.5e9".to_owned()));
+    }
+
+    #[test]
+    fn row_of_fifteen_is_one_change() {
+        let mut case = base();
+        case["units"]["count"] = json!(15);
+        case["units"]["pitch_m"] = json!(0.078);
+        case["domain"]["sides"] = json!("walls");
+        case["domain"]["width_m"] = json!(1.2);
+        assert_eq!(changes(&case).len(), 1);
+    }
+}

@@ -1,0 +1,91 @@
+//! The friction of the mound: mean displacement in runs that differ in nothing else.
+
+use std::path::Path;
+
+use breakwater::{
+    case::ReferenceWave,
+    output::{OutputError, Table},
+    report::plot::{Line, LineChart},
+};
+
+use crate::{
+    change::{self, FRICTION},
+    markdown::Page,
+    page::{Compared, centimetres, millimetres},
+};
+
+/// The two points of the friction sweep of a wave that section 4.7 of the paper gives in numbers.
+pub struct Published {
+    height_m: f64,
+    /// Friction coefficient [-] and mean displacement [m].
+    points: Vec<[f64; 2]>,
+}
+
+/// Reads the published sweeps.
+///
+/// # Errors
+/// If the table cannot be read.
+pub fn published(reference: &Path) -> Result<Vec<Published>, OutputError> {
+    let table = Table::read(&reference.join("friction_sweep_section47.csv"))?;
+    let [height, least, mean] =
+        [table.column("H_WG1_cm")?, table.column("least_friction")?, table.column("mean_displacement_m")?];
+    let [beyond, less] = [table.column("beyond_friction")?, table.column("less_than_m")?];
+    let row = |row: usize| {
+        let points = vec![[least[row], mean[row]], [beyond[row], less[row]]];
+        Published { height_m: 0.01 * height[row], points }
+    };
+    Ok((0..table.rows()).map(row).collect())
+}
+
+/// Friction of the mound in a run that differs from the base case in nothing else.
+fn friction(result: &Compared) -> Option<f64> {
+    match &result.changes[..] {
+        [] => Some(change::base_friction()),
+        [change] if change.key == FRICTION => change.value.as_f64(),
+        _ => None,
+    }
+}
+
+/// Adds the figure; nothing if no run has another friction.
+pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared], published: &[Published]) {
+    let mut lines: Vec<Line> = Vec::new();
+    for (index, wave) in waves.iter().enumerate() {
+        let mut spacings: Vec<f64> = results.iter().map(Compared::dp_m).collect();
+        spacings.sort_by(f64::total_cmp);
+        spacings.dedup();
+        let before = lines.len();
+        for dp_m in spacings {
+            let alike = results.iter().filter(|result| result.wave == *wave && result.dp_m() == dp_m);
+            let mut points: Vec<[f64; 2]> =
+                alike.filter_map(|result| Some([friction(result)?, result.run.mean_m])).collect();
+            if points.len() < 2 {
+                continue;
+            }
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let name = format!("{} cm, {} mm", centimetres(wave), millimetres(dp_m));
+            lines.push(Line { name, points, colour: 1 + lines.len() % 5, dots: true, ..Line::default() });
+        }
+        let is_same = |published: &&Published| (published.height_m - wave.height_m).abs() < 1e-9;
+        if let Some(published) = published.iter().find(is_same).filter(|_| lines.len() > before) {
+            let (name, points) = (format!("published, {} cm, 5 mm", centimetres(wave)), published.points.clone());
+            let colour = if index == 0 { 0 } else { 5 };
+            lines.push(Line { name, points, colour, dashed: true, dots: true, ..Line::default() });
+        }
+    }
+    if lines.is_empty() {
+        return;
+    }
+    let chart = LineChart {
+        title: "Mean displacement against the friction of the mound".to_owned(),
+        x_label: "friction coefficient of the units on the mound".to_owned(),
+        y_label: "mean displacement [m]".to_owned(),
+        lines,
+        size: [920.0, 320.0],
+        ..LineChart::default()
+    };
+    let caption = format!(
+        "Mean displacement against the friction coefficient of the mound ({} in the experiment), with the two published points.",
+        change::base_friction()
+    );
+    page.figure("fudo-friction.svg", &chart.svg(), &caption);
+}

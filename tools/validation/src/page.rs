@@ -1,0 +1,165 @@
+//! The page: verdict, table, figures, dependence, command.
+
+use breakwater::{
+    case::ReferenceWave,
+    report::{
+        compare::{Comparison, RunResult},
+        plot::short,
+    },
+};
+
+use crate::{
+    change::{Change, changes},
+    dependence, figures,
+    friction::{self, Published},
+    kept_run::KeptRun,
+    markdown::{Page, joined, signed},
+};
+
+/// Name of the page.
+pub const FILE: &str = "fudo.md";
+
+/// Last line that is written by the program; what follows it on the page is kept.
+pub const END: &str = "<!-- Generated up to here; text below this line is kept. -->";
+
+/// A mean that deviates by more than this is missed [%]: the measured repetitions scatter by less than half as much.
+const MISSED_PERCENT: f64 = 10.0;
+
+/// A run with its changes from the base case.
+pub struct Compared<'a> {
+    /// The wave.
+    pub wave: &'a ReferenceWave,
+    /// The results.
+    pub run: &'a RunResult,
+    /// Changes from the base case.
+    pub changes: Vec<Change>,
+}
+
+impl Compared<'_> {
+    /// Particle spacing [m].
+    pub fn dp_m(&self) -> f64 {
+        self.run.summary.dp_m
+    }
+}
+
+/// Wave height for people, [cm].
+pub fn centimetres(wave: &ReferenceWave) -> String {
+    short(100.0 * wave.height_m, 1)
+}
+
+/// Particle spacing for people, [mm].
+pub fn millimetres(dp_m: f64) -> String {
+    short(1000.0 * dp_m, 2)
+}
+
+/// The page.
+pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) -> Page {
+    let changes_of = |run: &RunResult| {
+        runs.iter().find(|kept| kept.name == run.name).map(|kept| changes(&kept.case)).unwrap_or_default()
+    };
+    let mut results: Vec<Compared> = Vec::new();
+    for of_wave in &comparison.waves {
+        let wave = &of_wave.reference;
+        results.extend(of_wave.runs.iter().map(|run| Compared { wave, run, changes: changes_of(run) }));
+    }
+    let mut base: Vec<&Compared> = results.iter().filter(|result| result.changes.is_empty()).collect();
+    base.sort_by(|a, b| a.wave.height_m.total_cmp(&b.wave.height_m).then(b.dp_m().total_cmp(&a.dp_m())));
+    let waves: Vec<&ReferenceWave> = comparison.waves.iter().map(|wave| &wave.reference).collect();
+
+    let mut page = Page::default();
+    page.add(&format!("# Validation: {}", comparison.title));
+    page.add(&verdict(&waves, &base));
+    page.add(
+        "The runs of breakwater have two units between periodic sides, which represent the inner units of the row of fifteen.\n\
+         The published code is DualSPHysics with Project Chrono, all fifteen units, at the same particle spacing.\n\
+         A unit is damaged when it has moved further than its height, 0.077 m.",
+    );
+    add_table(&mut page, &base);
+    figures::add(&mut page, &waves, &base);
+    friction::add(&mut page, &waves, &results, frictions);
+    dependence::add(&mut page, &waves, &results);
+    page.add("## Repeat a run");
+    page.add("The cases of all runs are in `tools/validation/runs`. The second command adds the new run to this page:");
+    let name = base.last().map_or("RUN", |result| &result.run.name);
+    page.add(&format!(
+        "    cargo run --release -- run tools/validation/runs/{name}/case.json --out runs/{name}\n    \
+         cargo run --release -p validation -- runs/{name}"
+    ));
+    page.add(END);
+    page
+}
+
+/// How near the means come at the published spacings, which waves are missed, and damage ratios.
+fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
+    let of_wave = |wave: &ReferenceWave| -> Vec<&Compared> {
+        let is_published = |dp_m: f64| wave.convergence.iter().any(|other| (other.dp_m - dp_m).abs() < 1e-9);
+        base.iter().filter(|result| result.wave == wave && is_published(result.dp_m())).copied().collect()
+    };
+    let mut spacings: Vec<f64> = Vec::new();
+    let (mut deviations, mut missed, mut damaged, mut measured) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for wave in waves {
+        let results = of_wave(wave);
+        let Some(finest) = results.last() else { continue };
+        spacings.extend(results.iter().map(|result| result.dp_m()));
+        let percents: Vec<f64> = results.iter().map(|result| result.run.deviation_percent).collect();
+        let words: Vec<String> = percents.iter().map(|percent| signed(*percent)).collect();
+        let name = format!("the {} cm wave", centimetres(wave));
+        deviations.push(format!("by {} % for {name}", joined(&words)));
+        let side = match percents.iter().copied().reduce(|a, b| if a.abs() > b.abs() { a } else { b }) {
+            Some(percent) if percent < -MISSED_PERCENT => Some(("unsafe", "less", -percent)),
+            Some(percent) if percent > MISSED_PERCENT => Some(("safe", "more", percent)),
+            _ => None,
+        };
+        missed.extend(side.map(|(side, than, percent)| {
+            format!(
+                "{name} is missed on the {side} side: the units move up to {} % {than} than measured",
+                short(percent, 0)
+            )
+        }));
+        damaged.push(short(100.0 * finest.run.damage_ratio, 0));
+        measured.push(short(100.0 * wave.measured_damage_ratio(), 0));
+    }
+    spacings.sort_by(|a, b| b.total_cmp(a));
+    spacings.dedup();
+    let spacings: Vec<String> = spacings.into_iter().map(millimetres).collect();
+    let missed =
+        if missed.is_empty() { format!("no wave is missed by more than {MISSED_PERCENT} %") } else { joined(&missed) };
+    format!(
+        "At particle spacings of {} mm the mean displacement deviates from the measured mean {}.\n{}{}.\n\
+         At the finest spacing breakwater damages {} % of the units; {} % were measured.",
+        joined(&spacings),
+        joined(&deviations),
+        missed[..1].to_uppercase(),
+        &missed[1..],
+        joined(&damaged),
+        joined(&measured)
+    )
+}
+
+fn add_table(page: &mut Page, base: &[&Compared]) {
+    let head = [
+        "wave [cm]",
+        "spacing [mm]",
+        "measured [m]",
+        "breakwater [m]",
+        "deviation [%]",
+        "published deviation [%]",
+        "damaged, measured / breakwater [%]",
+    ];
+    let row = |result: &&Compared| {
+        let (wave, run) = (result.wave, result.run);
+        let published = wave.convergence.iter().find(|other| (other.dp_m - result.dp_m()).abs() < 1e-9);
+        let percent = |ratio: f64| short(100.0 * ratio, 0);
+        vec![
+            centimetres(wave),
+            millimetres(result.dp_m()),
+            format!("{:.3}", wave.measured_mean_m()),
+            format!("{:.3}", run.mean_m),
+            signed(run.deviation_percent),
+            published.map(|published| signed(published.deviation_percent)).unwrap_or_default(),
+            format!("{} / {}", percent(wave.measured_damage_ratio()), percent(run.damage_ratio)),
+        ]
+    };
+    page.table(&head.map(str::to_owned), &base.iter().map(row).collect::<Vec<_>>());
+    page.add("Means of the displacement of all units; deviations are relative to the measured mean.");
+}
