@@ -255,9 +255,9 @@ fn a_state_that_does_not_fit_the_mesh_is_refused() {
         ("nodes", |s| s.position.truncate(3)),
         ("nodes", |s| s.vertices[7][2] = u32::MAX),
         ("nodes", |s| s.vertices.truncate(5)),
-        ("apart in the mesh", |s| s.vertices[7][2] = s.vertices[7][1]),
+        ("separate in the mesh", |s| s.vertices[7][2] = s.vertices[7][1]),
         ("joints", |s| s.bonds.truncate(1)),
-        ("nothing known", |s| s.bonds[0] = 9),
+        ("unknown bond", |s| s.bonds[0] = 9),
         ("joints", |s| s.failed[0] = u32::MAX),
         ("pairs", |s| s.contacts.tets[0] = [u32::MAX; 2]),
         ("friction", |s| s.contacts.pairs_with_spring.push(u32::MAX)),
@@ -343,7 +343,7 @@ fn an_unstable_run_keeps_its_state_and_its_checkpoint() {
     case["fracture"]["dt_s"] = json!(1e-8);
     let (case, out) = (written(&case, folder.path()), folder.path().join("out"));
     let message = end_with(1, &["fracture", path(&case), "--out", path(&out), "--quiet"]);
-    for part in ["after 0.0", "(step ", " of body \"", "m, ", "failed.h5; the last regular checkpoint is not touched"] {
+    for part in ["after 0.0", "(step ", " of body \"", "m, ", "failed.h5; the last regular checkpoint is unchanged"] {
         assert!(message.contains(part), "\"{part}\" is missing:\n{message}");
     }
     let state = |file: &str| -> Value {
