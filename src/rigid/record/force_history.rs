@@ -110,7 +110,7 @@ impl ForceHistory {
         }
     }
 
-    /// Merges neighbouring bins until at most [`KEPT`] are left.
+    /// Merges neighbouring bins until at most `KEPT` are left.
     pub fn shorten(&mut self) {
         let mut costs: Vec<f64> = (1..self.samples.len()).map(|next| self.cost(next)).collect();
         while self.samples.len() > KEPT {
