@@ -45,7 +45,7 @@ pub struct SweepArguments {
     /// The sweep file: title, case and `vary`, a list of {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or
     /// {"key": ..., "from": 0.1, "to": 0.98, "count": 9}.
     sweep: PathBuf,
-    /// Folder of the results; default: runs/<name of the sweep>.
+    /// Folder of the results; default: runs/NAME, with the name of the sweep file.
     #[arg(long)]
     out: Option<PathBuf>,
     /// Number of runs at the same time on this machine; default: number of cores divided by --threads.

@@ -25,7 +25,7 @@ use crate::{
 pub struct WaveArguments {
     /// The case file.
     case: PathBuf,
-    /// Folder of the results; default: runs/<name of the case>-wave.
+    /// Folder of the results; default: runs/NAME-wave, with the name of the case file.
     #[arg(long)]
     out: Option<PathBuf>,
     /// Replace the results in the folder; default: a folder with files is refused.

@@ -38,7 +38,7 @@ use crate::{
 pub struct RunArguments {
     /// The case file.
     case: PathBuf,
-    /// Folder of the results; default: runs/<name of the case>.
+    /// Folder of the results; default: runs/NAME, with the name of the case file.
     #[arg(long)]
     out: Option<PathBuf>,
     /// Replace the results in the folder; default: a folder with files is refused.
