@@ -31,7 +31,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `examples/custom_loop.rs` stops on a condition of its own and reads a gauge; `examples/still_water.rs` begins with a
+//! `examples/custom_loop.rs` reads a gauge and stops when its own condition is met; `examples/still_water.rs` loads a
 //! case file. Errors are values that say what to do: [`case::CaseErrors`] lists everything that is wrong with a file,
 //! [`simulation::flume::failure::Failure`] says where a state has become impossible.
 //!

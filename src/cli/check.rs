@@ -191,8 +191,8 @@ fn print_units(units: &Units) {
     }
 }
 
-/// Overlap at the start, over the height of a unit, above which `check` warns [-]. A unit at rest has 0.0001, a unit
-/// wedged in a layer up to 0.005.
+/// Overlap at the start, divided by the height of a unit [-], above which `check` warns. A unit at rest has 0.0001, a
+/// unit wedged in a layer up to 0.005.
 const TOLD_OVERLAP: f64 = 0.01;
 
 /// Tell how deep units start in each other, the bed or a wall, if they do.

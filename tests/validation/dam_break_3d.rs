@@ -30,8 +30,8 @@ struct Moment {
 
 /// Returns the DualSPHysics results up to a time [s] in order of time, each with its source.
 ///
-/// Both sources have the same tolerance: the times of the table are within 0.3 ms of the calculated ones, and the tip
-/// moves by less than 1 mm in that time.
+/// Both sources have the same tolerance: each time in the table differs by less than 0.3 ms from a time at which
+/// DualSPHysics wrote its results, and the tip moves by less than 1 mm in 0.3 ms.
 fn reference(end: f64) -> Vec<(&'static str, Moment)> {
     let table = data::table_of(TABLE).into_iter().map(|[time, tip, kinetic]| Moment { time, tip, kinetic }).collect();
     let series = data::series_of(SERIES).map(|rows: Vec<[f64; 6]>| {

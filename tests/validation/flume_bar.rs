@@ -1,8 +1,8 @@
 //! Regular waves over a submerged bar: Beji & Battjes, T = 2.02 s, H = 2 cm in 0.4 m of water.
 //!
-//! The bar, with slopes of 1:20 up and 1:10 down, reaches 0.1 m below the still water level. Behind it, bound harmonics
-//! become free waves. A beach of 1:25 closes the flume from x = 18.95 m on. The surface was measured at eight gauges;
-//! one time shift, common to all gauges, aligns measurement and model.
+//! The bar has a seaward slope of 1:20 and a shoreward slope of 1:10. Its crest is 0.1 m below the still water level.
+//! Behind the bar, bound harmonics become free waves. A beach of 1:25 closes the flume from x = 18.95 m on. The surface
+//! was measured at eight gauges; one time shift, common to all gauges, aligns measurement and model.
 
 use std::f64::consts::TAU;
 
@@ -31,7 +31,7 @@ fn measured() -> Vec<(&'static str, Gauges)> {
     data::table_and_series(gauges_of_table(), (4..12).map(gauge_of_series).collect())
 }
 
-/// Returns the elevations of the harmonics in the table at round times.
+/// Returns the elevations at round times, computed from the harmonics in the table.
 fn gauges_of_table() -> Gauges {
     let elevation = |row: &[f64; 15], time: f64| {
         let harmonic = |(n, [amplitude, phase]): (usize, &[f64; 2])| {

@@ -204,8 +204,8 @@ fn laboratory_profiles(name: &str, times: &[f64]) -> Vec<(&'static str, Vec<Vec<
     data::table_and_series((0..times.len()).map(profile).collect(), times.iter().map(file).collect())
 }
 
-/// Returns the rms differences from the measured profiles over H, after the common time shift that is best on average,
-/// and that shift, for each source.
+/// Returns for each source the rms differences from the measured profiles, divided by H, and the time shift used. The
+/// shift is the same for all profiles: the one with the smallest mean difference.
 fn differences_from_laboratory(height: f64, depth_m: f64, name: &str, times: &[f64]) -> Vec<(Vec<f64>, f64)> {
     let beach = Beach { height, depth_m, cell: 0.1, pressure: Pressure::NonHydrostatic, friction: GLASS };
     let shifts: Vec<f64> = (-15..16).map(|i| 0.1 * f64::from(i)).collect();

@@ -41,8 +41,8 @@ fn impact_by(breakage: &Breakage, way: RerunMethod) -> &Outcome {
 fn a_dropped_tetrapod_keeps_momentum_energy_and_impulse() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = drop_case();
-    case["fracture"]["joints"] = json!("unbreakable");
-    case["fracture"]["duration_s"] = json!(0.02);
+    case["breakage"]["joints"] = json!("unbreakable");
+    case["breakage"]["duration_s"] = json!(0.02);
     let breakage = rerun_impacts(&case, folder.path());
     let impacts = Impacts::read(&folder.path().join(Impacts::FILE)).unwrap().impacts;
     // Momentum and energy of the nodes in the solver, compared with those of the rigid unit by Froude's law.
@@ -83,12 +83,12 @@ fn stress_grows_with_the_scale_by_the_law_of_hertz() {
         let dir = folder.path().join(format!("{scale}"));
         std::fs::create_dir(&dir).unwrap();
         let mut case = drop_case();
-        case["fracture"]["scale"] = json!(scale);
-        case["fracture"]["joints"] = json!("unbreakable");
-        case["fracture"]["way"] = json!("re_enact");
-        case["fracture"]["duration_s"] = json!(4e-4 * scale);
+        case["breakage"]["scale"] = json!(scale);
+        case["breakage"]["joints"] = json!("unbreakable");
+        case["breakage"]["way"] = json!("re_enact");
+        case["breakage"]["duration_s"] = json!(4e-4 * scale);
         // Scaled, so that viscosity takes the same share of a wave's energy at any scale.
-        case["fracture"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
+        case["breakage"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
         rerun_impacts(&case, &dir).impacts[0].found[0].sigma_1_pa
     };
     let [one, fifty] = [1.0, 50.0].map(stress);
@@ -108,9 +108,9 @@ fn the_prototype_cracks_and_the_model_does_not() {
         std::fs::create_dir(&dir).unwrap();
         let mut case = drop_case();
         case["dry"]["height_m"] = json!(DROP);
-        case["fracture"]["scale"] = json!(scale);
-        case["fracture"]["way"] = json!("re_enact");
-        case["fracture"]["duration_s"] = json!(1.2e-4 * scale);
+        case["breakage"]["scale"] = json!(scale);
+        case["breakage"]["way"] = json!("re_enact");
+        case["breakage"]["duration_s"] = json!(1.2e-4 * scale);
         let breakage = rerun_impacts(&case, &dir);
         let unit = &breakage.units[0];
         println!(

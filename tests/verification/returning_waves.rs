@@ -1,4 +1,5 @@
-//! A multi-layer piston and the wave reflected by a wall: without measures, with a relaxation zone, with absorption.
+//! A wall reflects a wave back to a multi-layer piston: without absorption, with a relaxation zone, with active
+//! absorption by the piston.
 
 use glam::DVec2;
 use serde_json::{Value, json};

@@ -83,7 +83,7 @@ impl Wave {
         let [first, last] = self.run();
         let loss = 1.0 - (last / first).powf(depths / self.travel);
         println!(
-            "  {:.2} % of the height lost over {} d: {:.2} % over {depths} d",
+            "  loss of height: {:.2} % over a distance of {} d, which is {:.2} % over {depths} d",
             100.0 * (1.0 - last / first),
             self.travel,
             100.0 * loss

@@ -82,7 +82,7 @@ pub enum Joints {
     Intrinsic,
     /// Tetrahedra share their nodes until the stress reaches the strength. The joints add no compliance and the time
     /// step is longer. Elements must be small compared with the fracture process zone, or the strength comes out too
-    /// high (docs/validation.md).
+    /// high (docs/validation/fracture.md).
     Tied,
     /// Nothing cracks: an elastic run, for comparison.
     Unbreakable,

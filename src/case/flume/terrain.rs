@@ -25,7 +25,7 @@ impl SiteTerrain {
     /// Name of the file in the run folder.
     pub const FILE: &str = "terrain.stl";
 
-    /// Returns the entry for a case file in the same folder as [`Self::FILE`].
+    /// Returns the `terrain` entry of a case file that is in the same folder as the file [`Self::FILE`].
     pub(in crate::case) fn entry(&self) -> TerrainFile {
         TerrainFile { path: Self::FILE.to_owned(), scale: self.scale }
     }

@@ -5,7 +5,7 @@ use crate::case::file::{Sides, Viscosity};
 use crate::case::reading::check::{Checker, as_text};
 
 /// Reynolds number below which `check` warns [-]. At 20 to 35 the force on a standing unit is proportional to the
-/// velocity, at 80 no longer (docs/validation.md). In real flumes it is 1e4 and more.
+/// velocity, at 80 no longer (docs/validation/fudo-notes.md). In real flumes it is 1e4 and more.
 const LEAST_REYNOLDS: f64 = 50.0;
 /// Kinematic viscosity of water at 20 degrees [m2/s].
 const WATER_VISCOSITY: f64 = 1e-6;

@@ -158,8 +158,9 @@ fn corner_approach(
     })
 }
 
-/// Finds where a part of a body at (rotation, position) is nearest to the segment from a to b. Returns the fraction of
-/// the segment [-] and the point of the core [m]; `None` beyond `reach` [m].
+/// Finds where a part of a body at (rotation, position) is nearest to the segment from a to b. Returns the position
+/// along the segment, from 0 at a to 1 at b [-], and the nearest point of the part's core [m]; `None` if the two are
+/// farther apart than `reach` [m].
 pub(super) fn nearest_to_segment(
     part: &ConvexPart,
     rotation: DQuat,

@@ -285,7 +285,7 @@ fn unit_contact_point(
     let distance = (p_a - p_b).length();
     let sum = roundings[0] + roundings[1];
     let overlap = sum - distance;
-    // The cores meet at the full sum; below it, gap and normal are defined.
+    // If the overlap is equal to the sum, the cores touch; gap and normal are defined only for a smaller overlap.
     let allowed = 0.75 * sum;
     if overlap > allowed {
         let BodyPair { first, second, .. } = pair.bodies;

@@ -108,7 +108,8 @@ impl Run for FlumeRun {
         let checkpoints = self.recorder.state().checkpoints;
         self.recorder.record_due(&mut now)?;
         if now.is_on_card() && self.recorder.state().checkpoints > checkpoints {
-            // The checkpoint does not hold the card's positions to the last bit: continue as a resumed run will.
+            // The checkpoint does not hold the positions on the graphics card exactly. Load the host's positions, as a
+            // resumed run does, so that both runs continue alike.
             now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;
             now = self.simulation.begin_step().map_err(StepFailure::failure)?;
         }

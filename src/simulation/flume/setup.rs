@@ -285,7 +285,7 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
     basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
 }
 
-/// Returns the units at their start.
+/// Returns the units as they are at the start of the run.
 fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     let shape = units.shape.unit().clone();
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);

@@ -52,7 +52,7 @@ impl Simulation {
             return Err(failure::not_finite(self));
         }
         if self.steps == 0 {
-            // The first row of the series needs loads, and there is no half step yet.
+            // The first row of the series needs loads before any half step: sum them at the start.
             self.sum_unit_loads(0.0)?;
         }
         Ok(PreparedStep { simulation: self, dt, is_fetched: false })

@@ -33,7 +33,7 @@ pub struct FractureRecorder {
     energy: CsvSeries,
     bodies: CsvSeries,
     surfaces: Option<[PolyDataSeries; 2]>,
-    /// Outputs of failed faces, cut plane and tetrahedra.
+    /// Output files of the failed faces, the cut plane and the tetrahedra.
     pub detail: DetailRecorder,
 }
 

@@ -51,7 +51,7 @@ impl Grid {
 
     /// Returns the bin index along one axis, clamped to the grid.
     pub fn along(&self, axis: usize, value: f64) -> usize {
-        // The cast maps everything below the grid, and NaN, to bin 0.
+        // The cast gives 0, the first bin, for a value below the grid and for NaN.
         (((value - self.low[axis]) * self.per_size[axis]) as usize).min(self.count[axis] - 1)
     }
 

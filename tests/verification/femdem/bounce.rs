@@ -9,7 +9,7 @@ fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     let size = 0.1;
     let mesh = Mesh {
         nodes: [
-            // The first corner is above the middle of the face below.
+            // The tip of the upper tetrahedron. It is above the middle of the top face of the lower one.
             [0.03, 0.02, 0.0],
             [0.1, 0.03, 0.08],
             [0.0, 0.1, 0.09],

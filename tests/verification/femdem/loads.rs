@@ -36,7 +36,7 @@ fn a_bar_under_traction_stretches_by_hooke_and_its_energy_balance_closes() {
     let mut setup = setup(&mesh, None);
     setup.bodies[0].elastic.viscosity = 1e5;
     setup.constraints = vec![constant_velocity(nodes_at(0), [Some(0.0), None, None])];
-    // The load rises over ten periods of a wave along the bar and back.
+    // The load rises during ten periods; in one period, a wave travels along the bar and back.
     let time = 20.0 * length / bar_celerity();
     setup.loads = vec![Load::Traction { faces: side(&mesh, "xmax"), stress: DVec3::X * stress, factor: ramp(time) }];
     let mut world = World::new(setup, 0.5);

@@ -56,7 +56,7 @@ fn setup(mesh: &PreparedMesh, cohesion: Option<Cohesion>) -> Setup {
     Setup::of_mesh(mesh, vec![body])
 }
 
-/// Displaces all nodes of an undeformed world at rest.
+/// Displaces all nodes of a world that is undeformed and at rest; `by` gives the displacement [m] at a position.
 fn displace(world: &mut World, by: impl Fn(DVec3) -> DVec3) {
     world.nodes.position.iter_mut().for_each(|x| *x += by(*x));
 }

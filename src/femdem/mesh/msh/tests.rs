@@ -159,10 +159,10 @@ fn unexpected_words_are_reported_with_line_and_section() {
     let line = 1 + text()[..text().find("0.0 1.0 0.0 \n").unwrap()].matches('\n').count();
     let message = error_with("0.0 1.0 0.0 \n", "0.0 half 0.0 \n");
     assert_eq!(message, format!("line {line}, section $Nodes: found \"half\", expected a number"));
-    // One node too many: a coordinate is read as a tag.
+    // The stated number of nodes is one too high: a coordinate is read as a tag.
     let message = error_with("3 1 0 12 \n", "3 1 0 13 \n");
     assert!(message.contains("section $Nodes: found \"0.0\", expected a count or a tag"), "{message}");
-    // One node too few: the last tag is read as a coordinate, and a coordinate is left over.
+    // The stated number of nodes is one too low: the last tag is read as a coordinate, and the last coordinate is left.
     let message = error_with("3 1 0 12 \n", "3 1 0 11 \n");
     assert!(message.contains("section $Nodes: ") && message.contains("expected the end of the section"), "{message}");
     let message = error_with("3 1 4 12 \n", "3 1 4 99999999999999999 \n");
