@@ -107,7 +107,7 @@ fn the_prototype_cracks_and_the_model_does_not() {
         let dir = folder.path().join(format!("{scale}"));
         std::fs::create_dir(&dir).unwrap();
         let mut case = drop_case();
-        case["dry"]["height_m"] = json!(DROP);
+        case["dry_test"]["height_m"] = json!(DROP);
         case["breakage"]["scale"] = json!(scale);
         case["breakage"]["way"] = json!("re_enact");
         case["breakage"]["duration_s"] = json!(1.2e-4 * scale);

@@ -117,7 +117,7 @@ fn a_failed_run_keeps_its_last_checkpoint_and_its_failed_state() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = case_file("drop-dolos.json");
     // Concrete as soft as rubber, dropped 5 m: the overlap exceeds the rounding of the edges.
-    case["dry"]["height_m"] = json!(5.0);
+    case["dry_test"]["height_m"] = json!(5.0);
     case["materials"][0]["young_modulus_pa"] = json!(1e6);
     case["output"] = json!({ "checkpoint_interval_s": 0.4 });
     let error = run(dry_case(&case), folder.path(), &Control::quiet()).unwrap_err().to_string();
