@@ -114,7 +114,7 @@ pub(in crate::cli) fn check(case: &FractureCase, path: &Path) -> Result<(), Trou
         case.duration
     );
     if case.tets_interval.is_some() {
-        println!("  tets.vtkhdf {:.0} MB, more as cracks split nodes", tets_bytes(&case) * 1e-6);
+        println!("  tets.vtkhdf {:.0} MB, more as cracks split nodes", tets_bytes(case) * 1e-6);
     }
     Ok(())
 }
