@@ -59,8 +59,7 @@ pub fn units(breakage: &Breakage) -> String {
 /// Table of the impacts that were re-run at prototype scale.
 pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
     if breakage.impacts.is_empty() {
-        return "<p>No impact was re-run: none was as hard as <code>breakage.select</code> asks for.</p>\n"
-            .to_owned();
+        return "<p>No impact was re-run: none was as hard as <code>breakage.select</code> asks for.</p>\n".to_owned();
     }
     let found = || breakage.impacts.iter().flat_map(|impact| &impact.found);
     let area = Measure::of_areas(found().map(|found| found.crack_area_m2));
