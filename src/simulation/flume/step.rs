@@ -1,6 +1,6 @@
 //! One time step of the coupled run, in the order of the algorithm.
 //!
-//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations (10) to (13)) evaluates the rates of the water
+//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations 7 to 9) evaluates the rates of the water
 //! twice: at the present state and at the half step. Outputs are written after the first evaluation.
 
 use std::ops::{Deref, DerefMut};
