@@ -10,7 +10,7 @@ use glam::DVec3;
 /// A column of water, 0.25 m wide and 0.5 m high, at one end of a tank of 1 m, in two dimensions.
 const CASE: &str = r#"{
     "title": "Dam break",
-    "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]] },
+    "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.5 },
     "domain": {
         "x_m": [0.0, 1.0], "sides": "two_dimensional", "top_z_m": 1.0, "dp_m": 0.0125,
         "water": { "kind": "block", "x_m": [0.0, 0.25], "top_z_m": 0.5 }
