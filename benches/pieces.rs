@@ -10,8 +10,9 @@ use breakwater::sph::{
 use divan::{Bencher, counter::ItemsCount};
 use glam::DVec2;
 
-/// Particle spacing [m], and edge of the cube in particles.
+/// Particle spacing [m].
 const DP: f64 = 0.01;
+/// Edge of the cube of water [particle spacings].
 const EDGE: f64 = 24.0;
 
 fn main() {
@@ -37,7 +38,7 @@ fn tank(instructions: InstructionSet) -> Tank {
     tank
 }
 
-/// Measures a stage; the throughput is in particles.
+/// Measures one stage; the throughput is the number of particles per second.
 fn measure(bencher: Bencher, instructions: InstructionSet, mut run: impl FnMut(&mut Tank)) {
     let mut tank = tank(instructions);
     let particles = tank.water.len() + tank.boundary.len();
@@ -64,7 +65,7 @@ fn pair_sums(bencher: Bencher, instructions: InstructionSet) {
     measure(bencher, instructions, |Tank { solver, .. }| solver.rates());
 }
 
-/// Sum of the kernel and its gradient over distances.
+/// Sums the kernel and its gradient factor over all distances [m].
 struct KernelSum<'a> {
     kernel: &'a Wendland,
     distances: &'a [f32],

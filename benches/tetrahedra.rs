@@ -1,5 +1,5 @@
-//! Benchmarks of FEMDEM time steps on one thread: without joints, with joints everywhere, and with tied joints; and of
-//! the contact detection. `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
+//! Benchmarks on one thread of FEMDEM time steps (without joints, with joints on all faces, with tied joints) and of
+//! the contact detection: `cargo bench --bench tetrahedra`. The block of tetrahedra rotates and nothing breaks.
 
 use breakwater::femdem::{
     contact::detection::{Bounds, intersecting_pairs},
@@ -21,7 +21,7 @@ const CONCRETE: Elastic = Elastic { density: 2340.0, young_modulus: 26e9, poisso
 const STRENGTH: Strength =
     Strength { tensile: 3.3e6, cohesion: 16.5e6, friction: 0.577, opening_energy: 50.0, sliding_energy: 1250.0 };
 
-/// Number of cells along an edge: 16,464, 131,712 and 998,250 tetrahedra.
+/// Number of cells along an edge of the block: 16,464, 131,712 and 998,250 tetrahedra.
 const CELLS: [usize; 3] = [14, 28, 55];
 
 fn main() {
@@ -57,7 +57,8 @@ fn tied_joints(bencher: Bencher, cells: usize) {
     measure_steps(bencher, cells, Some(cohesion(true)));
 }
 
-/// Boxes as dense as the bounding boxes of a mesh of tetrahedra with edges of 1 m: the time is linear in their number.
+/// Measures contact detection on boxes as dense as the bounding boxes of a mesh of tetrahedra with edges of 1 m. The
+/// time must grow linearly with the number of boxes.
 #[divan::bench(args = [10_000, 100_000, 1_000_000])]
 fn contact_detection(bencher: Bencher, count: usize) {
     // Volume of a regular tetrahedron: 0.118 m3.

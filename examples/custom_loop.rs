@@ -1,4 +1,4 @@
-//! A loop of one's own: a dam breaks, and the loop stops when the water reaches the far wall.
+//! A custom simulation loop: a dam breaks, and the loop stops when the water reaches the far wall.
 //!
 //!     cargo run --release --example custom_loop
 
@@ -25,14 +25,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let foot = DVec3::new(0.0, 0.0, case.domain.dp);
 
     loop {
-        // Between the evaluation of the present state and the time step, the water can be measured.
+        // `begin_step` evaluates the current state. The water can be sampled before `finish` completes the time step.
         let mut now = simulation.begin_step()?;
         let front = now.water.position.iter().map(|position| position.x).fold(0.0, f64::max);
         if now.steps.is_multiple_of(100) {
             let pressure = now.sampler()?.sample(foot).map_or(0.0, |sample| sample.pressure);
             println!("{:.3} s: front at {front:.3} m, {pressure:.0} Pa at the foot of the column", now.time);
         }
-        // A particle touches the wall when its centre is half a particle spacing away.
+        // A particle touches the wall when its centre is half a particle spacing away; 0.75 includes a tolerance.
         if front > wall - 0.75 * case.domain.dp {
             println!("The water reaches the wall after {:.3} s and {} steps.", now.time, now.steps);
             return Ok(());

@@ -1,4 +1,4 @@
-//! Still water in a small tank: the pressure on the bed must stay that of the water above it.
+//! Still water over a mound with units: the pressure at the gauges must stay hydrostatic.
 //!
 //!     cargo run --release --example still_water
 
@@ -11,13 +11,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut simulation = Simulation::new(case.clone())?;
     println!("{}: {} water particles", case.title, simulation.water.len());
 
-    while simulation.time < 0.5 {
+    while simulation.time < 0.1 {
         simulation.step()?;
     }
 
     let mut now = simulation.begin_step()?;
     for gauge in &case.gauges {
-        let point = now.place_of(gauge);
+        let point = now.gauge_position(gauge);
         if let Some(sample) = now.sampler()?.sample(point) {
             let depth = case.flume.still_water_level - point.z;
             let hydrostatic = case.fluid.rho0 * case.fluid.gravity * depth;

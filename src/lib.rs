@@ -1,11 +1,12 @@
-//! breakwater answers two questions that coastal engineers ask before they build: *will this wave move the armour units,
-//! and will the units break?*
+//! breakwater answers two questions that coastal engineers ask before they build: *will this wave move the armour
+//! units, and will the units break?*
 //!
-//! A case file describes flume, wave and units; a [`Case`] is that file, validated. A [`Simulation`] is a case in motion:
-//! water particles (SPH), rigid units, their contact, and the wavemaker that couples the particles to a model of the
-//! whole flume. [`run()`] takes a case to its end and writes everything into one folder.
+//! A case file describes the flume, the wave and the armour units. A [`Case`] is a validated case file. A
+//! [`Simulation`] advances a case in time steps: water particles (SPH), rigid units and their contact, and the
+//! wavemaker, which couples the particles to a model of the whole flume. [`run()`] simulates a case to its end and
+//! writes the results to one folder.
 //!
-//! # A first loop
+//! # A first simulation loop
 //!
 //! ```
 //! use std::sync::Arc;
@@ -24,38 +25,39 @@
 //!     simulation.step()?;
 //! }
 //!
-//! // Once a time step is prepared, the water can be measured anywhere.
+//! // `begin_step` evaluates the current state. Then the water can be sampled at any point.
 //! let mut now = simulation.begin_step()?;
 //! let sample = now.sampler()?.sample(DVec3::new(0.25, 0.0, 0.1)).expect("water at mid-depth");
 //! assert!((sample.pressure - 1000.0 * 9.81 * 0.1).abs() < 50.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `examples/custom_loop.rs` reads a gauge and stops when its own condition is met; `examples/still_water.rs` loads a
-//! case file. Errors are values that say what to do: [`case::CaseErrors`] lists everything that is wrong with a file,
-//! [`simulation::flume::failure::Failure`] says where a state has become impossible.
+//! `examples/custom_loop.rs` samples a pressure and stops when the water reaches a wall. `examples/still_water.rs`
+//! loads a case file and reads its gauges. Error messages say what to do: [`case::CaseErrors`] lists all errors of a
+//! case file, and [`simulation::flume::failure::Failure`] gives the cause and the position of a failed time step.
 //!
 //! # The modules, from the top down
 //!
-//! A module uses only those below it.
+//! A module uses only the modules below it.
 //!
-//! | module | what it holds |
+//! | module | content |
 //! | --- | --- |
 //! | [`report`] | everything that a person reads: pages, charts, pictures, comparison with measurements |
 //! | [`sweep`] | many runs of one case, on this machine or by Slurm |
 //! | [`simulation`] | the runs: flume, dry tests, armour layers, fracture, breakage analysis |
-//! | [`output`] | what a run leaves: records, their file formats, and the loop that every run shares |
-//! | [`case`] | the case file as written, and the validated case |
-//! | [`sph`] | weakly compressible water: one term of the equations per file |
+//! | [`output`] | output files of a run and their formats; the run loop that all kinds of runs share |
+//! | [`case`] | reading of case files, and the validated case |
+//! | [`sph`] | weakly compressible water: one file per term of the equations |
 //! | [`rigid`] | rigid units and their contact |
 //! | [`waves`] | wave theories, the flume model, wavemakers, waves of other programs |
 //! | [`femdem`] | deformable units that crack |
 //! | [`geometry`] | solids, armour units, terrain |
+//! | [`mechanics`] | motion of a rigid body, and the loads on it |
 //!
-//! SI units throughout. Axes: x from the wavemaker to the shore, y across the flume, z upwards. On one machine a case
-//! gives the same bits with any number of threads, and after a restart.
+//! All quantities are in SI units. Axes: x from the wavemaker to the shore, y across the flume, z upwards. On one
+//! machine, the results of a case are bitwise identical for any number of threads and after a restart.
 
-// Units stand in brackets in every description; rustdoc would read `[m]` as a link to something called m.
+// Descriptions give units in brackets. Without this line, rustdoc would read `[m]` as a broken link to an item m.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 #[doc(hidden)]

@@ -1,16 +1,17 @@
-//! The `breakwater` program; everything happens in [`breakwater::cli`].
+//! The `breakwater` program; the command line is in [`breakwater::cli`].
 
 fn main() -> std::process::ExitCode {
-    end_quietly_when_nobody_reads();
+    restore_default_sigpipe();
     breakwater::cli::main()
 }
 
-/// `breakwater check case.json | head` closes the pipe early; Rust ignores the signal and `println!` would panic.
+/// Ends the process silently if the reader of its output closes the pipe, as `head` does in
+/// `breakwater check case.json | head`. By default, Rust ignores the signal SIGPIPE, and `println!` panics.
 #[cfg(unix)]
-fn end_quietly_when_nobody_reads() {
-    // SAFETY: the default action is no handler of ours, and no other thread runs yet.
+fn restore_default_sigpipe() {
+    // SAFETY: SIG_DFL installs no handler function, and no other thread runs yet.
     unsafe { libc::signal(libc::SIGPIPE, libc::SIG_DFL) };
 }
 
 #[cfg(not(unix))]
-fn end_quietly_when_nobody_reads() {}
+fn restore_default_sigpipe() {}

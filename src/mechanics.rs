@@ -1,4 +1,4 @@
-//! Motion of a rigid body and the load on it: what water, contact and outputs exchange.
+//! Motion and load of a rigid body: the data that water, contact and outputs exchange.
 
 use std::ops::AddAssign;
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "BodyNumbers", into = "BodyNumbers")]
 pub struct BodyState {
-    /// Centre of mass [m]; y is not wrapped at periodic sides.
+    /// Position of the centre of mass [m]. At periodic sides, y is not wrapped into the domain.
     pub position: DVec3,
     /// Rotation from body to world axes, a unit quaternion.
     pub rotation: DQuat,
@@ -26,11 +26,11 @@ impl BodyState {
     }
 }
 
-/// Serialized form of a body's state.
+/// Serialized form of [`BodyState`].
 #[derive(Serialize, Deserialize)]
 struct BodyNumbers {
     position: [f64; 3],
-    /// x, y, z, w.
+    /// Quaternion components x, y, z, w.
     rotation: [f64; 4],
     velocity: [f64; 3],
     angular_velocity: [f64; 3],
@@ -69,12 +69,12 @@ pub struct Load {
 }
 
 impl Load {
-    /// Returns the load of a force [N] that acts at `arm` [m] from the centre of mass.
+    /// Returns the force and the torque of a force [N] that acts at `arm` [m] from the centre of mass.
     pub fn of_force(force: DVec3, arm: DVec3) -> Self {
         Self { force, torque: arm.cross(force) }
     }
 
-    /// Returns the load with `f` applied to force and torque.
+    /// Returns a load whose force and torque are the results of `f` for the force and the torque of this load.
     pub fn map(self, f: impl Fn(DVec3) -> DVec3) -> Self {
         Self { force: f(self.force), torque: f(self.torque) }
     }

@@ -15,7 +15,7 @@ impl SplitMix64 {
         Self { state: seed }
     }
 
-    /// Returns a number uniformly distributed in 0..1, with 53 bits.
+    /// Returns a random number, uniformly distributed from 0 to less than 1, with 53 random bits.
     pub fn next_share(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
@@ -25,7 +25,7 @@ impl SplitMix64 {
         (z >> 11) as f64 * (-53f64).exp2()
     }
 
-    /// Returns a uniformly distributed rotation (Shoemake 1992).
+    /// Returns a random rotation, uniformly distributed over all orientations (Shoemake 1992).
     pub fn next_rotation(&mut self) -> DQuat {
         let [u, v, w] = [0; 3].map(|_| self.next_share());
         let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
@@ -54,7 +54,7 @@ mod tests {
         let mut random = SplitMix64::new(1);
         let count = 20_000;
         let mean = (0..count).map(|_| random.next_rotation() * DVec3::Z).sum::<DVec3>() / f64::from(count);
-        // The mean of n unit vectors has a length of about 1/sqrt(n) = 0.007; the limit is three times that.
+        // The mean of n unit vectors has a length of about 1/sqrt(n) = 0.007; the limit is three times this length.
         assert!(mean.length() < 0.021, "{mean}");
     }
 }

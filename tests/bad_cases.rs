@@ -23,7 +23,7 @@ fn bad_cases() -> Vec<(PathBuf, Vec<String>)> {
         .collect()
 }
 
-/// Lists the expected lines that the message lacks, and its lines that do not name the file.
+/// Lists the expected lines that the message lacks, and the lines of the message that do not name the file.
 fn message_faults(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
     let name = path.file_name().unwrap().to_string_lossy();
     let mut found = Vec::new();

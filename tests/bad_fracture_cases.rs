@@ -26,7 +26,7 @@ fn bad_cases() -> Vec<(PathBuf, Vec<String>)> {
     files.into_iter().map(with_lines).collect()
 }
 
-/// Lists the expected lines that the message lacks, and its lines that do not name the file.
+/// Lists the expected lines that the message lacks, and the lines of the message that do not name the file.
 fn message_faults(message: &str, path: &Path, expected: &[String]) -> Vec<String> {
     let name = path.file_name().unwrap().to_string_lossy();
     let missing = expected.iter().filter(|line| !message.contains(line.as_str()));
@@ -69,7 +69,7 @@ fn program_refuses_every_bad_case_with_exit_code_2() {
     }
 }
 
-/// Returns a valid case, a block on a plate, and its mesh.
+/// Returns the text of a valid case, a block on a plate, and the text of its mesh.
 fn valid_case_and_mesh() -> (String, String) {
     let mesh = std::fs::read_to_string(root().join("tests/data/meshes/block_on_plate.msh")).unwrap();
     let case = json!({
@@ -124,7 +124,7 @@ fn every_corrupted_mesh_is_refused_with_its_message() {
         (replaced("\n29 1 2 3 4\n", "\n29 1 2 3 77\n"), "element 29 refers to node 77, which is not in section $Nodes"),
         (
             with_detached_triangle(&mesh),
-            "physical surface \"plate_bottom\": 1 of 12 triangles are no face of a tetrahedron",
+            "physical surface \"plate_bottom\": 1 of 12 triangles are not faces of tetrahedra",
         ),
         (replaced("3 2 \"plate\"\n", "").replacen("\n5\n2 1", "\n4\n2 1", 1), "physical Volume 2 has no name"),
         (
@@ -138,7 +138,7 @@ fn every_corrupted_mesh_is_refused_with_its_message() {
         (replaced("3 2 4 36\n", "3 2 11 36\n"), "type 11 (second order)"),
         (
             replaced("\"plate_bottom\"", "\"crack_bottom\""),
-            "physical surface \"crack_bottom\" is a crack by its name, but 12 of",
+            "physical surface \"crack_bottom\" is a crack because its name begins with \"crack\", but 12 of",
         ),
     ];
     for (mesh, expected) in cases {
@@ -149,7 +149,8 @@ fn every_corrupted_mesh_is_refused_with_its_message() {
     }
 }
 
-/// Returns the mesh with the first triangle of its first set moved to nodes that no tetrahedron joins.
+/// Returns the mesh with the nodes of the first triangle of its first set changed. The triangle is then no longer a
+/// face of a tetrahedron.
 fn with_detached_triangle(mesh: &str) -> String {
     let set = "\n2 1 2 12\n";
     let start = mesh.find(set).unwrap() + set.len();
@@ -157,7 +158,7 @@ fn with_detached_triangle(mesh: &str) -> String {
     format!("{}1 37 48 60{}", &mesh[..start], &mesh[end..])
 }
 
-/// Advances an accepted case by two time steps; they may return an error but must not panic.
+/// Advances an accepted case by two time steps. A time step may return an error but must not panic.
 fn run_two_steps(case: &FractureCase) {
     let Ok(mut world) = world(case) else { return };
     let _ = world.step().and_then(|()| world.step()).and_then(|()| world.check_limits());
@@ -217,7 +218,7 @@ enum Damage {
     Removed(usize),
     /// A line is duplicated.
     Duplicated(usize),
-    /// A copy of the first line replaces the second.
+    /// A copy of the line with the first number replaces the line with the second number.
     Copied(usize, usize),
     /// An extreme number replaces a word.
     Number(usize, &'static str),

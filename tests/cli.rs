@@ -106,7 +106,7 @@ fn assert_same_tables(a: &Path, b: &Path) {
     assert!(impacts_a == impacts_b, "{}: {} and {} differ", Impacts::FILE, a.display(), b.display());
 }
 
-/// Returns the bits of a dataset as the file holds them.
+/// Returns the bits of all numbers in a dataset of an HDF5 file.
 fn numbers(file: &Path, dataset: &str) -> Vec<u64> {
     let values = hdf5_metno::File::open(file).unwrap().dataset(dataset).unwrap().read_raw::<f64>().unwrap();
     values.into_iter().map(f64::to_bits).collect()
@@ -146,7 +146,7 @@ fn run_refuses_bad_arguments_and_leaves_no_folder() {
 }
 
 #[test]
-fn a_file_of_another_kind_is_refused_with_the_command_that_fits() {
+fn a_file_of_the_wrong_kind_is_refused_with_the_right_command() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
     let [flume, dry, fracture, sweep] =
         ["fudo/quick-look.json", "contact/drop-dolos.json", "fracture/dolos-drop.json", "fudo/friction-sweep.json"]
@@ -168,7 +168,7 @@ fn a_file_of_another_kind_is_refused_with_the_command_that_fits() {
 }
 
 #[test]
-fn faults_in_any_kind_of_file_name_line_and_likely_key() {
+fn errors_in_any_kind_of_file_state_the_line_and_the_likely_key() {
     let folder = tempfile::tempdir().unwrap();
     for (text, expected) in [
         ("{ \"vary\": [],\n \"title\": }", "line 2, column 11: not valid JSON"),
@@ -210,7 +210,7 @@ fn bench_writes_its_measurements() {
         assert!(measured[key].as_f64().is_some_and(|value| value > 0.0), "{key}: {measured:#}");
     }
     assert_eq!(measured["threads"], 2);
-    // Still and moving water on one and two threads.
+    // The four measurements are still and moving water, each on one and two threads.
     assert_eq!(measured["measurements"].as_array().unwrap().len(), 4);
     let shares = measured["phases"].as_array().unwrap().iter().map(|phase| phase["share"].as_f64().unwrap());
     assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9);
@@ -225,7 +225,7 @@ fn schema_prints_json() {
     assert_eq!(sweep["required"], serde_json::json!(["title", "case", "vary"]));
 }
 
-/// As in `breakwater schema | head`.
+/// Example: `breakwater schema | head`.
 #[test]
 fn a_reader_that_closes_the_pipe_early_causes_no_error() {
     let mut program = breakwater().arg("schema").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -257,10 +257,10 @@ fn a_run_writes_all_output_files_and_summary_keys() {
     // The surge has reached the unit and moved it.
     assert!(summary["mean_displacement_m"].as_f64().unwrap() > 1e-3, "{}", summary["mean_displacement_m"]);
     let rows = std::fs::read_to_string(out.join("gauges.csv")).unwrap().lines().count();
-    // Heading, 0 to 0.3 s every 0.005 s, the end.
+    // A heading, a row every 0.005 s from 0 to 0.3 s, and a row at the end.
     assert!((61..=63).contains(&rows), "{rows} rows of gauges");
 
-    // The surge runs at about 2 m/s, the speed of sound is 15 sqrt(9.81 x 0.3) = 25.7 m/s.
+    // The surge moves at about 2 m/s, and the speed of sound is 15 sqrt(9.81 x 0.3) = 25.7 m/s.
     let mach = summary["largest_mach"].as_f64().unwrap();
     assert!((0.03..0.3).contains(&mach), "{mach}");
     assert_eq!(summary["warnings"].as_array().map(Vec::is_empty), Some(mach <= 0.1));
@@ -286,7 +286,8 @@ fn impacts_hold_the_water_loads(out: &Path) {
     assert!(impacts.iter().any(|impact| impact.fluid.as_ref().is_some_and(|f| f.pressure.iter().any(|p| *p > 100.0))));
 }
 
-/// Asserts a factor of two at most: large parts of so small a file are reserved and empty.
+/// Asserts that real and estimated file sizes differ by less than a factor of two. Small files contain large reserved
+/// parts that are empty.
 fn files_are_about_as_large_as_estimated(case: &Path, out: &Path) {
     let estimate = breakwater::output::OutputSize::estimate(&breakwater::case::Case::load(case).unwrap());
     let size = |file: &str| std::fs::metadata(out.join(file)).unwrap().len() as f64;
@@ -318,7 +319,7 @@ fn compare_needs_a_measured_wave(out: &Path) {
 }
 
 #[test]
-fn run_keeps_the_measurements_and_can_be_moved() {
+fn a_run_folder_keeps_the_measurements_and_can_be_moved() {
     let folder = tempfile::tempdir().unwrap();
     let case = tiny_case(folder.path());
     let mut measured = read_json(&case);
@@ -372,7 +373,7 @@ fn a_killed_run_resumes_to_the_same_results() {
         assert!(start.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
         std::thread::sleep(Duration::from_millis(2));
     }
-    // Leaves time for rows after the checkpoint; resuming must remove them.
+    // Meanwhile the run writes rows after the checkpoint. Resuming must remove these rows.
     std::thread::sleep(Duration::from_millis(100));
     child.kill().unwrap();
     assert!(child.wait().unwrap().code().is_none(), "the run ended before it was killed");
@@ -443,7 +444,8 @@ fn a_full_disk_ends_the_run_with_an_error() {
     assert!(!message.contains("panicked") && !out.join("summary.json").exists(), "{message}");
 }
 
-/// The other record is the wave itself, 10 % higher, in the format of OpenFOAM's function object interfaceHeight.
+/// The record of the other program is the wave of breakwater, 10 % higher, in the format of OpenFOAM's function object
+/// interfaceHeight.
 #[test]
 fn wave_compares_its_gauges_with_those_of_another_program() {
     let folder = tempfile::tempdir().unwrap();
@@ -479,7 +481,7 @@ fn wave_compares_its_gauges_with_those_of_another_program() {
     assert!(!folder.path().join("none").exists());
 }
 
-/// Checks the files that `tools/openfoam` writes; running them needs OpenFOAM.
+/// Checks the files that `tools/openfoam` writes. OpenFOAM itself is not run.
 #[test]
 fn openfoam_tool_writes_the_flume_case() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -494,7 +496,7 @@ fn openfoam_tool_writes_the_flume_case() {
     };
     assert!(done.status.success(), "{}", text(&done.stderr));
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
-    // Cells of 8 cm on 19 m of level bed; the four gauges of the case and the column at the wavemaker.
+    // Cells are 8 cm long on 19 m of level bed. Probes are at the four gauges of the case and at the wavemaker.
     assert!(read("system/blockMeshDict").contains("(238 1 55)"), "{}", read("system/blockMeshDict"));
     assert_eq!(read("system/controlDict").matches("type            probes;").count(), 5);
     assert!(read("constant/piston").starts_with("(\n(0 (0 0 0))\n"));

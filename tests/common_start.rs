@@ -1,4 +1,5 @@
-//! Runs that start at the checkpoint of another run: they give the same bits, or are refused with a reason.
+//! A run that starts from the checkpoint of another run gives the same bits as an uninterrupted run, or is refused with
+//! a reason.
 
 use std::{
     fs,
@@ -83,7 +84,7 @@ fn runs_from_a_common_start_equal_uninterrupted_runs() {
     let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
     assert!(table.lines().count() == 3 && !table.contains("000_start"), "{table}");
 
-    // This run has the friction coefficient of the start.
+    // This run has the same friction coefficient as the run that wrote the checkpoint.
     let branched = out.join("001_coefficient=0.5");
     assert_succeeded(&run(&at("surge.json"), &at("whole"), None));
     let (unbroken, summary) = (summary(&at("whole")), summary(&branched));
@@ -98,7 +99,7 @@ fn runs_from_a_common_start_equal_uninterrupted_runs() {
     let slippery = out.join("002_coefficient=0.1");
     assert!(displacement(&slippery) > 1.1 * displacement(&branched));
 
-    // The same run started from the command line.
+    // The same run is started with `--from` on the command line.
     let case = write(folder.path(), "slippery.json", &surge(0.1, 0.25));
     assert_succeeded(&run(&case, &at("slippery"), Some(&out.join("000_start"))));
     assert_eq!(displacement(&at("slippery")), displacement(&slippery));
@@ -112,7 +113,7 @@ fn starting_at_an_unsuitable_checkpoint_is_refused() {
     assert_refused(&run(&case, &at("out"), Some(&at("none"))), "the run cannot begin there: there is no checkpoint.h5");
     assert!(!at("out").exists());
 
-    // In this run the surge has moved the unit.
+    // At the last checkpoint of this run, the surge has moved the unit.
     assert_succeeded(&run(&case, &at("moved"), None));
     assert_refused(&run(&case, &at("moved"), Some(&at("moved"))), "is the folder of the results");
     assert!(at("moved").join("summary.json").exists());

@@ -40,7 +40,7 @@ fn case(folder: &Path) -> PathBuf {
     file
 }
 
-/// Returns bodies as the text of an MSH 4.1 file.
+/// Returns the text of an MSH 4.1 file with the given bodies, each shifted by a vector [m].
 fn msh(bodies: &[(&str, breakwater::femdem::mesh::Mesh, DVec3)]) -> String {
     let mut names = format!("$PhysicalNames\n{}\n", bodies.len());
     let mut entities = format!("$Entities\n0 0 0 {}\n", bodies.len());
@@ -102,19 +102,19 @@ fn a_fracture_run_writes_tables_paraview_files_and_a_report() {
 
     let cracks = Table::read(&dir.join("cracks.csv")).unwrap();
     let area: f64 = cracks.column("area_m2").unwrap().iter().sum();
-    // The sum has the same order, and the files keep all digits.
+    // The numbers are equal, because both sums have the same order and the files keep all digits.
     assert_eq!(area, summary["crack_area_m2"].as_f64().unwrap());
     let fragments = Table::read(&dir.join("fragments.csv")).unwrap();
     assert_eq!(fragments.rows(), summary["fragments"].as_array().unwrap().len());
     let mass: f64 = fragments.column("mass_kg").unwrap().iter().sum();
-    // 1e-12: rounding of some hundred volumes.
+    // Limit 1e-12: rounding of some hundred volumes.
     assert!((mass / (0.4 * 0.1 * 0.1 * 2340.0) - 1.0).abs() < 1e-12, "{mass}");
 
     let section = TriangleMoments::open(&dir.join("section.vtkhdf")).unwrap();
     assert_eq!(section.times_s().len(), 11);
     let section_area: f64 =
         section.triangles(0).unwrap().iter().map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length()).sum();
-    // The section cuts both bodies along their middle; positions are in single precision.
+    // The section cuts both bodies along their middle. Limit 1e-6: positions are in single precision.
     assert!((section_area - 0.08).abs() < 1e-6, "{section_area}");
     let tets = File::open(dir.join("tets.vtkhdf")).unwrap();
     let count = summary["tets"].as_u64().unwrap() as i64;

@@ -29,7 +29,8 @@ const FILES: [&str; 13] = [
     "tets.vtkhdf",
 ];
 
-/// Case of a block with a crack, 12 x 8 x 8 cm, thrown at a plate: 108 tetrahedra, some of which break off within 1 ms.
+/// Returns the case of a block with a crack, 12 x 8 x 8 cm, thrown at a plate: 108 tetrahedra, some of which break off
+/// within 1 ms.
 fn thrown() -> Value {
     json!({
         "title": "A block thrown at a plate",
@@ -240,7 +241,7 @@ fn a_world_restored_at_any_moment_ends_with_the_same_bits() {
     }
 }
 
-/// A fragment of the error message, and the function that corrupts the state.
+/// A part of the expected error message, and the function that corrupts the state.
 type Corruption = (&'static str, fn(&mut Snapshot));
 
 #[test]
@@ -293,7 +294,7 @@ fn a_killed_run_resumes_to_the_same_results() {
         assert!(start.elapsed() < Duration::from_secs(120), "no checkpoint within two minutes");
         std::thread::sleep(Duration::from_millis(1));
     }
-    // Leaves time for rows after the checkpoint; resuming must remove them.
+    // Meanwhile the run writes rows after the checkpoint. Resuming must remove these rows.
     std::thread::sleep(Duration::from_millis(10));
     child.kill().unwrap();
     assert!(child.wait().unwrap().code().is_none(), "the run ended before it was killed");
@@ -327,7 +328,7 @@ fn resume_reports_what_is_wrong_with_a_checkpoint() {
     assert!(message.contains("belongs to another case"), "{message}");
     std::fs::write(other.join("energy.csv"), "time_s\n").unwrap();
     let message = end_with(1, &["resume", path(&other)]);
-    assert!(message.contains("energy.csv: holds 7 bytes, fewer than"), "{message}");
+    assert!(message.contains("energy.csv: has 7 bytes, fewer than"), "{message}");
 }
 
 #[test]
@@ -373,11 +374,11 @@ fn run_corrupted(case: &Value, corrupt: impl Fn(&mut World), steps: usize) -> (S
 #[test]
 fn an_unstable_world_names_the_node_or_element() {
     let mut thrown = thrown();
-    // With joints, the springs would move the neighbours of the node in the same time step.
+    // Breakable joints would move the neighbours of the node in the same time step.
     thrown["fracture"]["joints"] = json!("tied");
     let move_node_to = |to: DVec3| move |world: &mut World| world.nodes.position[5] = to;
     let (error, message) = run_corrupted(&thrown, |world| world.nodes.velocity[5].y = f64::NAN, 2);
-    // Viscosity passes the value on to neighbouring nodes, so any of them may be named.
+    // Viscosity spreads the NaN to neighbouring nodes, so the message may name any of these nodes.
     assert!(matches!(error, StepError::NotFinite { .. }), "{message}");
     assert!(message.contains(" of body \"block\", in the mesh at (0.") && message.contains("step_share"), "{message}");
     let (error, message) = run_corrupted(&thrown, move_node_to(DVec3::new(f64::INFINITY, 0.0, 0.0)), 2);
@@ -401,7 +402,7 @@ fn an_unstable_world_names_the_node_or_element() {
 }
 
 #[test]
-fn a_contact_that_is_too_soft_is_named() {
+fn a_contact_that_is_too_soft_is_reported_with_advice() {
     let mut case = thrown();
     case["fracture"]["contact_penalty"] = json!(1e-3);
     case["fracture"]["joints"] = json!("unbreakable");

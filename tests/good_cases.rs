@@ -1,4 +1,4 @@
-//! Every case file that comes with the program loads, and the schema lists every key.
+//! Every case file in `cases` loads, and the schema lists every key.
 
 use std::path::{Path, PathBuf};
 
@@ -70,7 +70,7 @@ fn every_dry_test_loads_and_survives_a_round_trip() {
         let file: DryFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
         assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
-        // The case that a run keeps needs only files that the run writes, and is the same case.
+        // The copy of the case in a run folder needs only files that the run writes, and is the same case.
         let folder = tempfile::tempdir().unwrap();
         if let Some(terrain) = &case.site.terrain {
             std::fs::write(folder.path().join("terrain.stl"), terrain.content.as_slice()).unwrap();
@@ -95,7 +95,7 @@ fn every_fracture_case_loads_and_survives_a_round_trip() {
         let file: FractureFile = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let written = serde_json::to_string_pretty(&file).unwrap();
         assert_eq!(file, serde_json::from_str(&written).unwrap(), "{}", path.display());
-        // The case that a run keeps is the same case.
+        // The copy of the case in a run folder is the same case.
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(FractureCase::MESH), &case.mesh_file).unwrap();
         let name = folder.path().join("case.json").display().to_string();
@@ -133,7 +133,8 @@ fn flume_cases_survive_a_round_trip() {
         let case = Case::load(&path).unwrap();
         let reread = path.with_file_name("again.json").display().to_string();
         assert_eq!(Case::from_str(&written, &reread).unwrap().hash, case.hash, "{}", path.display());
-        // The case that a run keeps needs only the mesh and the measurements that the run writes, and is the same case.
+        // The copy of the case in a run folder needs only the mesh and the measurements that the run writes, and is the
+        // same case.
         let Some(breakage) = &case.breakage else { continue };
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(BreakageSettings::MESH), &breakage.mesh_file).unwrap();
@@ -193,7 +194,7 @@ fn derived_numbers_equal_those_of_the_published_run() {
     let case = case("fudo/H6.4-full.json");
     // Mitsui et al. 2023, section 4.1: h = 1.2 sqrt(3) dp = 0.0104 m at dp = 0.005 m.
     assert!((case.numerics.h - 0.010_392).abs() < 1e-6);
-    // Still depth at the wavemaker, x = 33 m: 0.8 - 14/30 m.
+    // Still water depth at the wavemaker, x = 33 m: 0.8 - 14/30 m.
     assert!((case.domain.depth - (0.8 - 14.0 / 30.0)).abs() < 1e-12);
     assert!((case.fluid.sound_speed - 15.0 * (9.81 * case.domain.depth).sqrt()).abs() < 1e-12);
     assert!((case.flume.profile.z(39.0) - 0.717).abs() < 1e-12);
@@ -205,7 +206,7 @@ fn derived_numbers_equal_those_of_the_published_run() {
     assert_eq!(units.placements.len(), 15);
     assert_eq!(units.placements[0].rotation, glam::DQuat::IDENTITY);
     assert_eq!(units.placements[1].rotation, glam::DQuat::from_rotation_z(std::f64::consts::PI));
-    // The row is centred.
+    // The row of units is centred across the flume.
     assert!((units.placements[7].centre.y - 0.6).abs() < 1e-12);
     assert_eq!((units.on_unit, units.on_ground), (0.65.into(), 0.32.into()));
     assert!(!case.gauges[0].in_domain && case.gauges[1].in_domain);
@@ -214,7 +215,7 @@ fn derived_numbers_equal_those_of_the_published_run() {
 #[test]
 fn estimate_counts_the_water_particles_of_the_dam_break() {
     let case = case("verification/dam-break.json");
-    // 1 m x 2 m of particles of (0.01 m)^2.
+    // The column is 1 m x 2 m; each particle has (0.01 m)^2.
     assert_eq!(case.estimate().fluid, 20_000.0);
     assert_eq!((case.domain.nx, case.domain.ny, case.domain.nz), (400, 1, 300));
 }

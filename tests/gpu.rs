@@ -1,7 +1,7 @@
-//! The time step on a graphics card compared with that on the processor.
+//! Compares the time step on a graphics card with the time step on the processor.
 //!
-//! Any card works, and so does a software driver (Debian's mesa-vulkan-drivers). Without either, the tests print
-//! "skipped" and pass; they fail if BREAKWATER_NEEDS_CARD is set.
+//! The tests run on any graphics card, or with a software driver (Debian's mesa-vulkan-drivers). If there is neither
+//! card nor software driver, the tests print "skipped" and pass, or fail if BREAKWATER_NEEDS_CARD is set.
 
 #![cfg(feature = "gpu")]
 
@@ -9,8 +9,8 @@ use std::{path::Path, sync::Arc};
 
 use breakwater::case::Case;
 use breakwater::simulation::flume::Simulation;
-use breakwater::simulation::flume::checkpoint::{self, Checkpoint};
-use breakwater::simulation::flume::recorder_state::RecorderState;
+use breakwater::simulation::flume::outputs::checkpoint::{self, Checkpoint};
+use breakwater::simulation::flume::outputs::recorder_state::RecorderState;
 use breakwater::sph::device::{Device, DeviceChoice};
 use breakwater::sph::solver::backend::Surfaces;
 use glam::DVec3;
@@ -37,7 +37,7 @@ fn case_file(name: &str) -> Arc<Case> {
     Arc::new(Case::load(&path).unwrap_or_else(|errors| panic!("{errors}")))
 }
 
-/// Case of a tank; with `column`, a dam break from a column of this length and height [m].
+/// Returns the case of a tank; with `column`, a dam break from a column of this length and height [m].
 fn tank(column: Option<[f64; 2]>) -> Value {
     let mut tank = json!({
         "title": "Tank",
@@ -60,8 +60,9 @@ fn steps(simulation: &mut Simulation, count: u32) {
     }
 }
 
-/// Returns acceleration and density rate of each particle by its number, and force and torque on each unit. They are
-/// those of the first half of a time step. `before` time steps on the processor move the water off its lattice.
+/// Computes the first half of a time step. Returns acceleration and density rate of each particle, in the order of the
+/// particle numbers, and force and torque on each unit. Earlier, `before` time steps on the processor move the water
+/// off its lattice.
 fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>, Vec<[DVec3; 2]>) {
     let mut start = Simulation::new(case.clone()).unwrap();
     steps(&mut start, before);
@@ -81,7 +82,7 @@ fn first_half(device: &Device, case: &Arc<Case>, before: u32) -> (Vec<[f64; 4]>,
     (by_number, loads.collect())
 }
 
-/// Returns the relative rms differences of the vectors (first three numbers) and of the fourth numbers [-].
+/// Returns the relative rms difference of the vectors (the first three numbers) and of the fourth numbers [-].
 fn relative(values: &[[f64; 4]], others: &[[f64; 4]]) -> [f64; 2] {
     let sum_of =
         |term: &dyn Fn(&[f64; 4], &[f64; 4]) -> f64| values.iter().zip(others).map(|(a, b)| term(a, b)).sum::<f64>();
@@ -93,7 +94,7 @@ fn relative(values: &[[f64; 4]], others: &[[f64; 4]]) -> [f64; 2] {
 }
 
 #[test]
-fn rates_equal_those_of_the_processor() {
+fn rates_on_card_and_processor_agree() {
     let Some(device) = card() else { return };
     let cases = [
         ("still water", case(&tank(None)), 30),
@@ -110,14 +111,14 @@ fn rates_equal_those_of_the_processor() {
         for (gpu, cpu) in gpu_loads.iter().zip(&cpu_loads) {
             let [force, torque] = [0, 1].map(|k| (gpu[k] - cpu[k]).length() / cpu[k].length());
             println!("  loads of a unit: force {force:.1e}, torque {torque:.1e}");
-            // 1e-5 as for the rates of the water; ten times that for the torque, a difference of opposing forces.
+            // Force: 1e-5 as for the rates of the water. Torque: 1e-4, because it is a difference of opposing forces.
             assert!(force < 1e-5 && torque < 1e-4);
         }
     }
 }
 
 #[test]
-fn a_dam_break_equals_that_on_the_processor() {
+fn dam_breaks_on_card_and_processor_agree() {
     let Some(device) = card() else { return };
     let case = case(&tank(Some([0.2, 0.25])));
     let end = |device: &Device| {
@@ -132,7 +133,7 @@ fn a_dam_break_equals_that_on_the_processor() {
     println!(
         "after {time:.4} s: tip {gpu_tip:.5} and {tip:.5} m, energy {gpu_energy:.5} and {energy:.5} J, kinetic {gpu_kinetic:.5} and {kinetic:.5} J"
     );
-    // Target: 1e-3 for tip and energy; it is applied to the time, too.
+    // Target: 1e-3 for tip and energy. The time has the same limit.
     assert!((gpu_time / time - 1.0).abs() < 1e-3);
     assert!((gpu_tip / tip - 1.0).abs() < 1e-3);
     assert!((gpu_energy / energy - 1.0).abs() < 1e-3);
@@ -191,11 +192,12 @@ fn a_checkpoint_resumes_with_the_same_bits_and_on_the_other_device() {
     assert_eq!(on_card.water, uninterrupted.water);
     assert_eq!((on_card.time, on_card.steps), (uninterrupted.time, uninterrupted.steps));
     let energies = [&on_card, &on_cpu].map(|simulation| simulation.energy().total());
-    // 1e-5: the agreement of the rates.
+    // Limit 1e-5: the rates on card and processor agree to 1e-5.
     assert!((energies[0] / energies[1] - 1.0).abs() < 1e-5, "{energies:?}");
 }
 
-/// Returns the same state on the card and on the processor, `before` time steps after the start of a case.
+/// Returns two simulations with the same state, `before` time steps after the start of a case: the first on the card,
+/// the second on the processor.
 fn both(device: &Device, case: &Arc<Case>, before: u32) -> [Simulation; 2] {
     [device, &Device::Cpu].map(|device| {
         let mut start = Simulation::new(case.clone()).unwrap();
@@ -208,13 +210,13 @@ fn both(device: &Device, case: &Arc<Case>, before: u32) -> [Simulation; 2] {
     })
 }
 
-/// Returns the largest distance between the positions of the same particle [m].
+/// Returns the largest distance between the positions of the same particle in two simulations [m].
 fn furthest_apart(a: &Simulation, b: &Simulation) -> f64 {
     let mut places = vec![DVec3::ZERO; a.water.len()];
     a.water.id.iter().zip(&a.water.position).for_each(|(&id, place)| places[id as usize] = *place);
     let apart = |(&id, place): (&u32, &DVec3)| {
         let mut r = places[id as usize] - *place;
-        // One of the two may have crossed the periodic side.
+        // The particle may have crossed a periodic side in one of the simulations.
         r.y -= a.case.domain.width * (r.y / a.case.domain.width).round();
         r.length()
     };
@@ -222,7 +224,7 @@ fn furthest_apart(a: &Simulation, b: &Simulation) -> f64 {
 }
 
 #[test]
-fn walls_obstacles_and_two_dimensions_equal_those_of_the_processor() {
+fn walls_obstacles_and_two_dimensions_agree_on_card_and_processor() {
     let Some(device) = card() else { return };
     let mut walled = tank(Some([0.2, 0.25]));
     walled["domain"]["sides"] = json!("walls");
@@ -239,7 +241,8 @@ fn walls_obstacles_and_two_dimensions_equal_those_of_the_processor() {
             [&mut gpu, &mut cpu].map(|simulation| simulation.begin_step().unwrap().powers().unwrap());
         let apart = furthest_apart(&gpu, &cpu);
         println!("{name}: positions {apart:.1e} m apart, powers {gpu_result:?}, {cpu_result:?}");
-        // Errors of 1e-5 of some 100 m/s2 over 13 ms make 1e-7 m; at walls, a hundred times that.
+        // A relative error of 1e-5 of some 100 m/s2 changes positions by 1e-7 m in 13 ms. At walls, the limit is a
+        // hundred times larger.
         assert!(apart < 1e-5);
         let all = cpu_result.boundary.abs() + cpu_result.viscosity.abs() + cpu_result.diffusion.abs();
         for (gpu, cpu) in [
@@ -247,14 +250,14 @@ fn walls_obstacles_and_two_dimensions_equal_those_of_the_processor() {
             (gpu_result.viscosity, cpu_result.viscosity),
             (gpu_result.diffusion, cpu_result.diffusion),
         ] {
-            // 1e-3: the power is a small difference of large sums.
+            // Limit 1e-3: the power is a small difference of large sums.
             assert!((gpu - cpu).abs() < 1e-3 * all, "{gpu} {cpu}");
         }
     }
 }
 
 #[test]
-fn units_and_wavemaker_move_like_those_on_the_processor() {
+fn units_and_wavemaker_move_alike_on_card_and_processor() {
     let Some(device) = card() else { return };
     let mut value: Value =
         serde_json::from_str(include_str!("../cases/fudo/quick-look.json")).expect("the quick look is JSON");
@@ -271,7 +274,7 @@ fn units_and_wavemaker_move_like_those_on_the_processor() {
         gpu_result.iter().zip(&cpu_result).map(|(a, b)| (a.velocity - b.velocity).length() / b.velocity.length());
     let units = units.fold(0.0, f64::max);
     println!("water positions {apart:.1e} m apart, relative difference of unit velocities {units:.1e}");
-    // As above; the loads of the units agree to 1e-5.
+    // Positions change by 1e-7 m, see above; the loads on the units agree to 1e-5. The limits are ten times larger.
     assert!(apart < 1e-6 && units < 1e-4);
 }
 
@@ -304,7 +307,7 @@ fn velocities_of_all_water_near_surfaces_can_be_read_and_written() {
     let mut solver = device.solver(*start.solver().parameters(), [grid.low, high], [grid.low, high]).unwrap();
     solver.device_memory().unwrap().load(&water, &boundary).unwrap();
     solver.sort(&mut water, &boundary);
-    // This is more water than the buffer holds at first.
+    // This is more water than the initial buffer can contain.
     let everywhere = Surfaces { bounding_spheres: vec![(high, 100.0)], ..Surfaces::default() };
     let memory = solver.device_memory().unwrap();
     let mut near = memory.fetch_near_water(&everywhere).unwrap();

@@ -16,7 +16,7 @@ use breakwater::{
 const DAMAGE_DISTANCE_M: f64 = 0.077;
 const START_Z_M: f64 = 0.755;
 
-/// Creates an empty folder inside the build folder, where its files stay for inspection.
+/// Creates an empty folder inside the build folder. Its files are kept after the test for inspection.
 fn empty_folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if folder.exists() {
@@ -26,7 +26,7 @@ fn empty_folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Surface of four conical legs from the centre to the corners of a tetrahedron, one of them upwards.
+/// Returns the surface of four conical legs from the centre to the corners of a tetrahedron. One leg points upwards.
 fn four_legs() -> UnitSurface {
     let (mut vertices_m, mut triangles) = (Vec::new(), Vec::new());
     let slant = (-1.0_f64 / 3.0, (8.0_f64 / 9.0).sqrt());
@@ -283,12 +283,12 @@ fn the_report_shows_the_wave_at_the_units() {
     ];
     let places: Vec<usize> = moments.iter().map(|words| html.find(words).expect(words)).collect();
     assert!(places.is_sorted(), "the moments are not in the order of time");
-    // The middle of the flume lies between two layers; the picture shows the upper one.
+    // The middle of the flume is between two layers of particles. The picture shows the layer with the larger y.
     assert!(html.contains("less than 3.8 mm from y = 0.0825 m") && html.contains("picture.svg"));
 
     let picture = std::fs::read_to_string(folder.join("picture.svg")).unwrap();
     assert!(picture.starts_with("<svg xmlns=") && picture.contains("Flume time 2.6 s. Near the peak"));
-    assert!(!picture.contains("var(") && !picture.contains("NaN"), "colours from the page, or NaN");
+    assert!(!picture.contains("var(") && !picture.contains("NaN"), "the picture uses colours of the page or NaN");
     let classes = picture.split("class=\"").skip(1).flat_map(|rest| rest.split('"').next().unwrap().split(' '));
     for class in classes.filter(|class| *class != "unit") {
         let styled = [" {", ","].iter().any(|after| picture.contains(&format!(".{class}{after}")));

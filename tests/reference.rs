@@ -1,4 +1,5 @@
-//! Reference folders: runs are compared with them, runs keep them, and bad ones are refused with a message that helps.
+//! Reference folders with measurements: runs are compared with a reference, a case keeps its reference, and invalid
+//! references are refused with advice.
 
 use std::{
     fs,
@@ -12,7 +13,7 @@ use breakwater::{
 };
 use serde_json::{Value, json};
 
-/// A made-up flume: regular waves of one height and two periods over three units, measured twice.
+/// Returns an invented reference: regular waves of one height and two periods over three units, measured twice.
 fn reference() -> Value {
     json!({
         "title": "Three cubes on a slope", "source": "made up", "notes": ["The second unit has a mark."],
@@ -41,7 +42,7 @@ fn write_reference(folder: &Path, reference: &Value) {
     fs::write(folder.join("spacing.csv"), "dp_m,deviation_percent,runtime_h\n0.02,-50,0.5\n0.01,-100,\n").unwrap();
 }
 
-/// A finished run of regular waves 0.1 m high.
+/// Writes the folder of a finished run of regular waves 0.1 m high.
 fn write_run(folder: &Path, name: &str, period_s: f64, displacements: &[f64]) -> PathBuf {
     let dir = folder.join(name);
     fs::create_dir(&dir).unwrap();
@@ -64,7 +65,7 @@ fn runs_are_compared_with_the_wave_of_their_period() {
     write_reference(&folder.path().join("flume"), &reference());
     let reference = Reference::load(&folder.path().join("flume")).unwrap_or_else(|errors| panic!("{errors}"));
     let short = write_run(folder.path(), "short", 1.0, &[0.02, 0.08, 0.02]);
-    // Within half a per cent of the period in the reference.
+    // This period differs by less than 0.5 % from the period in the reference.
     let slice = write_run(folder.path(), "slice", 2.005, &[0.2]);
     let comparison = compare(&[&slice, &short], &reference).unwrap();
     let [of_short, of_long] = &comparison.waves[..] else { panic!("two waves") };
@@ -113,10 +114,14 @@ fn bad_reference_folders_are_refused_with_key_value_and_advice() {
             json!(4),
             "waves[0].displacements = \"long.csv\" with 3 rows: must be a table with 4 rows, one per unit",
         ),
-        ("/inner_units", json!([2, 4]), "inner_units = [2, 4]: must be first and last unit, rising, between 1 and 3"),
+        ("/inner_units", json!([2, 4]), "inner_units = [2, 4]: must be first and last unit in ascending order"),
         ("/damage_distance_m", json!(0), "damage_distance_m = 0: must be > 0"),
         ("/series/2/name", json!("third"), "must be a table with a column \"third\"; it has unit, first, second, code"),
-        ("/series/2/name", json!("first"), "series[2].name = \"first\": must be unlike the others; rename one of them"),
+        (
+            "/series/2/name",
+            json!("first"),
+            "series[2].name = \"first\": must be different from the other names; rename one of them",
+        ),
         ("/series/0/role", json!("guessed"), "unknown value \"guessed\"; allowed here: measured, published_simulation"),
         (
             "/series",
@@ -124,7 +129,11 @@ fn bad_reference_folders_are_refused_with_key_value_and_advice() {
             "must be a list with a measured series",
         ),
         ("/waves/0/height_m", json!(-0.1), "waves[0].height_m = -0.1: must be > 0"),
-        ("/waves/0/period_s", json!(1.0), "waves[1] = regular 0.1 m: must be unlike the other waves; give the period"),
+        (
+            "/waves/0/period_s",
+            json!(1.0),
+            "waves[1] = regular 0.1 m: must be different from the other waves; give the period",
+        ),
         (
             "/waves/0/displacements",
             json!("none.csv"),

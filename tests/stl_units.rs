@@ -11,7 +11,8 @@ use breakwater::{
 use glam::DVec3;
 use serde_json::{Value, json};
 
-/// Case of a settling test with a unit from the STL file of `stl`; its path is relative to the folder of the case.
+/// Returns the case of a settling test with a unit from an STL file. `stl` is the section `units.stl`; paths in it are
+/// relative to the folder of the case.
 fn settling_case(stl: Value, poses: Value) -> Value {
     json!({
         "title": "unit from STL",
@@ -79,7 +80,7 @@ fn a_unit_from_stl_moves_like_the_same_catalogue_unit() {
     };
     let (a, b) = (end(&from_stl), end(&catalogue));
     println!("{} {}", a.position, b.position);
-    // 1e-5 m: the file is in single precision, and the impact amplifies its rounding a hundredfold.
+    // Limit 1e-5 m: the file is in single precision, and the impact amplifies its rounding a hundredfold.
     assert!((a.position - b.position).length() < 1e-5);
 }
 
@@ -88,8 +89,8 @@ fn convex_parts_come_from_files_or_from_decomposition() {
     let folder = tempfile::tempdir().unwrap();
     let dolos = ArmourUnit::dolos(0.2, 0.34, 0.05).unwrap();
     write_unit(&folder.path().join("dolos.stl"), &dolos);
-    for (number, block) in breakwater::geometry::dolos::blocks(0.2, 0.34).unwrap().iter().enumerate() {
-        let (vertices, triangles) = breakwater::geometry::union::surface(std::slice::from_ref(block));
+    for (number, block) in breakwater::geometry::armour_unit::dolos::blocks(0.2, 0.34).unwrap().iter().enumerate() {
+        let (vertices, triangles) = breakwater::geometry::convex::union::surface(std::slice::from_ref(block));
         stl::write(&folder.path().join(format!("part{number}.stl")), &vertices, &triangles).unwrap();
     }
     let pose = json!([{ "centre_m": [0.0, 0.5, 0.3] }]);
@@ -153,7 +154,7 @@ fn damaged(intact: &[u8], random: &mut Random) -> Vec<u8> {
                 let count = [0, 1, 11, 13, u32::MAX][random.below(5)];
                 bytes[80..84].copy_from_slice(&u32::to_le_bytes(count));
             }
-            // Overwrites the start with that of an ASCII file.
+            // Overwrites the start of the file with the start of an ASCII file.
             _ => {
                 let text = b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n";
                 let length = text.len().min(bytes.len());
@@ -277,6 +278,6 @@ fn two_hundred_damaged_terrains_are_refused_or_run() {
         }
     }
     println!("{refused} of 200 terrains refused");
-    // A terrain may have a hole, so fewer of them are refused than of units.
+    // A terrain may have a hole but a unit may not, so fewer terrains than units are refused.
     assert!(refused > 50 && refused < 200);
 }

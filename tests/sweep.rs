@@ -8,7 +8,7 @@ use std::{
 
 use serde_json::{Value, json};
 
-/// Case of a tank with a few hundred particles for a few time steps.
+/// Returns the case of a tank with a few hundred particles for a few time steps.
 fn tank() -> Value {
     json!({
         "title": "Tank",
@@ -63,7 +63,7 @@ fn every_combination_runs_and_finished_runs_are_kept() {
     let case: Value = serde_json::from_str(&case).unwrap();
     assert_eq!(case["title"], "Tanks: viscosity_alpha=0.02 dp_m=0.05");
 
-    // One run is deleted and one has no summary: both are completed, and the others stay untouched.
+    // One run is deleted and one run has no summary. The sweep completes both and does not touch the other runs.
     let summary = |name: &str| out.join(name).join("summary.json");
     let changed = |name: &str| fs::metadata(summary(name)).unwrap().modified().unwrap();
     let kept = changed("003_viscosity_alpha=0.04_dp_m=0.04");
@@ -74,7 +74,7 @@ fn every_combination_runs_and_finished_runs_are_kept() {
     assert!(again.status.success(), "{}", String::from_utf8_lossy(&again.stderr));
     assert_eq!(changed("003_viscosity_alpha=0.04_dp_m=0.04"), kept);
     assert!(summary(interrupted).exists());
-    // The wall-clock time in column 11 differs.
+    // The wall-clock time (column index 11) differs between the two sweeps.
     let without_wall_time = |table: &str| {
         let cells =
             |row: &str| row.split(',').enumerate().filter(|(k, _)| *k != 11).map(|(_, c)| c.to_owned()).collect();
@@ -113,7 +113,7 @@ fn one_at_a_time_varies_each_key_against_the_base_case() {
 }
 
 #[test]
-fn a_failed_run_is_named() {
+fn a_failed_run_is_listed() {
     let (folder, sweep) = sweep_of(&json!([{ "key": "numerics.cfl", "values": [0.2, 0.3] }]));
     let out = folder.path().join("out");
     fs::create_dir(&out).unwrap();
@@ -161,7 +161,7 @@ fn a_base_case_that_is_not_a_json_object_is_refused() {
 #[test]
 fn invalid_sweeps_are_refused_before_any_run_starts() {
     let cases = [
-        (json!([]), "vary: must hold at least one key"),
+        (json!([]), "vary: must contain at least one key"),
         (json!([{ "key": "domain.dp_m" }]), "vary[0] (domain.dp_m): must have either `values`"),
         (json!([{ "key": "friction[4].coefficient", "values": [0.1] }]), "friction has 1 entries"),
         (json!([{ "key": "domain.dp_mm", "values": [0.1] }]), "run 1 of the sweep (dp_mm=0.1) is refused"),

@@ -11,10 +11,10 @@ use crate::sph::{lanes::InstructionSet, parameters::Parameters, solver::step::So
 
 const GRAVITY: f64 = 9.81;
 
-/// Particle spacing [m]; it does not affect the speed of the program.
+/// Particle spacing [m]; it does not affect the measured speed.
 const DP: f64 = 0.01;
 
-/// A cube of water on a bed between two end walls, periodic across.
+/// A cube of water on a bed between two end walls, periodic in y.
 pub struct Block {
     tank: Tank,
     /// "still" or "moving".
@@ -22,14 +22,15 @@ pub struct Block {
 }
 
 impl Block {
-    /// Returns a block with about `particles` water particles, still or sloshing; `support_per_dp` is 2h/dp.
+    /// Creates a block with about `particles` water particles; the water sloshes if `moving` is true. `support_per_dp`
+    /// is the radius 2h of the kernel support over the particle spacing [-].
     pub fn new(instructions: InstructionSet, particles: usize, support_per_dp: f64, moving: bool) -> Self {
         let side = (particles as f64).cbrt().round().max(8.0) * DP;
         let h = 0.5 * support_per_dp * DP;
         let mut parameters = Parameters::published(DP, h, 15.0 * (GRAVITY * side).sqrt(), GRAVITY, Some(side));
-        // The default of case files.
+        // Case files use free slip by default.
         parameters.slip = WallSlip::FreeSlip;
-        // The lowest mode of the tank: water falls along one wall and rises along the other.
+        // Velocity of the lowest sloshing mode: water falls along one wall and rises along the other.
         let speed = if moving { 0.3 * (GRAVITY * side).sqrt() } else { 0.0 };
         let wave = std::f64::consts::PI / side;
         let slosh = |x: f64, z: f64| {
@@ -41,13 +42,13 @@ impl Block {
         }
     }
 
-    /// Returns the constants of the scheme on a graphics card, which has only the original wall slip.
+    /// Returns the SPH parameters for a graphics card, whose solver supports only the original wall slip.
     #[cfg(feature = "gpu")]
     pub(super) fn parameters_of_cards(&self) -> Parameters {
         Parameters { slip: WallSlip::Original, ..self.tank.solver.parameters }
     }
 
-    /// Returns water and boundary.
+    /// Returns the water particles and the boundary particles.
     #[cfg(feature = "gpu")]
     pub(super) fn state(&mut self) -> (&mut Water, &mut Boundary) {
         (&mut self.tank.water, &mut self.tank.boundary)
@@ -94,15 +95,15 @@ impl Block {
         end_phase(5);
     }
 
-    /// Returns the least memory traffic of a time step [bytes]: lists and records for two evaluations, and the state of
-    /// the water, which is sorted, predicted and corrected.
-    pub fn least_traffic(&self) -> f64 {
+    /// Returns a lower bound of the memory traffic of a time step [bytes]. Neighbour lists and particle records are
+    /// read for two evaluations. The state of the water is sorted, predicted and corrected.
+    pub fn min_traffic(&self) -> f64 {
         2.0 * self.tank.solver.bytes_read() as f64 + 5.0 * self.tank.water.bytes() as f64
     }
 
-    /// Returns the memory of water and boundary [bytes].
+    /// Returns the memory of water and boundary particles [bytes].
     pub fn state_bytes(&self) -> usize {
-        // Position, velocity, vector to the surface, volume, density.
+        // A boundary particle has a position, velocity, vector to the surface, volume and density.
         self.tank.water.bytes() + self.tank.boundary.len() * (3 * size_of::<DVec3>() + 2 * size_of::<f64>())
     }
 }

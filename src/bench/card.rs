@@ -12,13 +12,13 @@ use crate::sph::{
     solver::backend::{Backend, DeviceError, DeviceMemory},
 };
 
-/// Shader that measures the peaks.
+/// Source of the shader that measures the peaks.
 pub const PEAKS: &str = include_str!("card.wgsl");
 
-/// Operations per thread of `multiply_and_add`.
+/// Arithmetic operations per thread of the shader function `multiply_and_add`.
 const OPERATIONS: f64 = 2.0 * 16.0 * 1024.0;
 
-/// Basic number of threads of the tests, 16 MB per array. Software renderers get fewer.
+/// Base number of threads of the tests, 16 MB per array. A card runs 4 times, a software renderer 1/64 of this number.
 const THREADS: usize = 1 << 20;
 
 /// Measured peaks of a graphics card.
@@ -31,7 +31,7 @@ pub struct Peaks {
 }
 
 impl Peaks {
-    /// Measures a card.
+    /// Measures the peaks of a card.
     ///
     /// # Errors
     /// If the device is lost.
@@ -125,7 +125,7 @@ pub fn measure_on_card(block: &mut Block, card: &Card, seconds: f64, peaks: Peak
         pairs_per_s: pairs / total,
         share_of_peak: FLOPS_PER_PAIR * pairs / total / peaks.flops,
         share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / times[3].as_secs_f64() / peaks.flops,
-        share_of_bandwidth: solver.least_traffic() * f64::from(steps) / total / peaks.bandwidth,
+        share_of_bandwidth: solver.min_traffic() * f64::from(steps) / total / peaks.bandwidth,
         bytes_per_particle: solver.bytes() as f64 / particles as f64,
         phases: phases_of(&times, steps, particles),
     })

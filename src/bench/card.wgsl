@@ -1,4 +1,4 @@
-// Peaks of a graphics card (card.rs).
+// Measures the peak arithmetic speed and memory bandwidth of a graphics card; used by card.rs.
 
 @group(0) @binding(0) var<storage, read_write> a: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> b: array<vec4<f32>>;

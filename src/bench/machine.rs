@@ -1,4 +1,4 @@
-//! Measured peaks of the machine: fused multiply-adds and memory traffic.
+//! Measures the peak arithmetic speed and the memory bandwidth of the machine.
 
 use std::{hint::black_box, time::Instant};
 
@@ -6,13 +6,14 @@ use rayon::prelude::*;
 
 use crate::sph::lanes::{InstructionSet, Lanes, WithLanes};
 
-/// Number of independent chains of operations: more than latency times number of arithmetic units.
+/// Number of independent chains of operations. It exceeds the latency [cycles] times the number of arithmetic units, so
+/// that no unit waits.
 const CHAINS: usize = 12;
 
-/// Numbers in each of the three arrays of the traffic test: much larger than the caches of a core.
+/// Length of each of the three arrays of the bandwidth test: 64 MiB, much larger than the caches of a core.
 const NUMBERS: usize = 1 << 24;
 
-/// Measured peaks for 1, 2, ... threads.
+/// Measured peak speed and bandwidth for 1, 2, ... threads.
 #[derive(Debug, Clone)]
 pub struct Machine {
     flops: Vec<f64>,
@@ -34,18 +35,18 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Returns the single-precision operations per second on a number of threads; a fused multiply-add counts as two.
+    /// Returns the peak number of single-precision operations per second; a fused multiply-add counts as two.
     pub fn flops(&self, threads: usize) -> f64 {
         self.flops[threads - 1]
     }
 
-    /// Returns the memory traffic on a number of threads [bytes/s].
+    /// Returns the peak memory traffic [bytes/s].
     pub fn bandwidth(&self, threads: usize) -> f64 {
         self.bandwidth[threads - 1]
     }
 }
 
-/// Chains of fused multiply-adds; returns the number of operations.
+/// Computes `rounds` fused multiply-adds in each chain; `run` returns the number of operations.
 struct Chains {
     rounds: u32,
 }
@@ -78,7 +79,7 @@ fn peak_flops(instructions: InstructionSet, threads: usize) -> f64 {
     best_of(|| measure(4_000_000))
 }
 
-/// Measures the traffic of a = b + s c: two arrays read, one written.
+/// Measures the memory traffic of a = b + s c [bytes/s]: two arrays are read and one is written.
 fn peak_bandwidth() -> f64 {
     let (b, c) = (vec![1.0_f32; NUMBERS], vec![2.0_f32; NUMBERS]);
     let mut a = vec![0.0_f32; NUMBERS];

@@ -16,14 +16,14 @@ use machine::Machine;
 /// Phases of a time step in their order.
 pub const PHASES: [&str; 6] = ["sort", "list", "boundary densities", "rates", "predict", "correct"];
 
-/// Arithmetic operations per pair of particles: the terms of equations 1 to 5 and the distance. A fused multiply-add
-/// counts as two. SIMD lanes outside the support do not count.
+/// Arithmetic operations per pair of particles: the distance and the terms of equations (1) to (5) in
+/// `docs/methods.md`. A fused multiply-add counts as two. SIMD lanes outside the support do not count.
 pub const FLOPS_PER_PAIR: f64 = 47.0;
 
 /// One measurement.
 #[derive(Debug, Clone, Serialize)]
 pub struct Measurement {
-    /// Still or moving water.
+    /// Motion of the water: `"still"` or `"moving"`.
     pub water: &'static str,
     /// Number of threads; 0 on a graphics card.
     pub threads: usize,
@@ -33,26 +33,26 @@ pub struct Measurement {
     pub water_particles: usize,
     /// Mean number of neighbours of a water particle within the support of the kernel.
     pub neighbours_mean: f64,
-    /// Share of SIMD lanes that hold pairs within the support [-]; NaN on a graphics card.
+    /// Share of SIMD lanes with a particle pair within the support [-]; NaN on a graphics card.
     pub useful_lanes: f64,
     /// Number of measured time steps.
     pub steps: u32,
-    /// Evaluations of all particles per second of whole time steps; a time step has two. With mDBC the evaluation of a
-    /// boundary particle is its density, once per time step.
+    /// Evaluations of all particles per second of whole time steps, two per particle and time step. With mDBC, the
+    /// density of a boundary particle is evaluated once per time step, but counts as two evaluations.
     pub full_evaluations_per_s: f64,
-    /// Evaluations of water particles only, per second.
+    /// Evaluations of water particles only, per second of whole time steps.
     pub water_evaluations_per_s: f64,
-    /// Pairs within the support per second of whole time steps.
+    /// Particle pairs within the support, evaluated per second of whole time steps.
     pub pairs_per_s: f64,
-    /// Useful operations over the measured peak of the threads [-].
+    /// Arithmetic operations of the pairs within the support over the measured peak of the threads [-].
     pub share_of_peak: f64,
-    /// Useful operations over the measured peak during the pair loop only [-].
+    /// Arithmetic operations of the pairs over the measured peak, during the phase "rates" only [-].
     pub share_of_peak_in_rates: f64,
-    /// Least memory traffic of lists, records and state over the measured bandwidth of the threads [-].
+    /// Lower bound of the memory traffic over the measured bandwidth of the threads [-].
     pub share_of_bandwidth: f64,
-    /// Memory of solver and state per particle [bytes].
+    /// Memory of the solver and of the particle state, per particle [bytes].
     pub bytes_per_particle: f64,
-    /// Times of the phases.
+    /// Time of each phase of the time step.
     pub phases: Vec<Phase>,
 }
 
@@ -67,7 +67,7 @@ pub struct Phase {
     pub ns_per_particle: f64,
 }
 
-/// Measures whole time steps of a block on a number of threads for about `seconds`.
+/// Measures whole time steps of a block on `threads` threads for about `seconds`.
 ///
 /// # Errors
 /// If the threads cannot be started.
@@ -111,13 +111,13 @@ fn measure_here(block: &mut Block, threads: usize, seconds: f64, machine: &Machi
         pairs_per_s: pairs / total,
         share_of_peak: FLOPS_PER_PAIR * pairs / total / machine.flops(threads),
         share_of_peak_in_rates: FLOPS_PER_PAIR * pairs / rates / machine.flops(threads),
-        share_of_bandwidth: block.least_traffic() * f64::from(steps) / total / machine.bandwidth(threads),
+        share_of_bandwidth: block.min_traffic() * f64::from(steps) / total / machine.bandwidth(threads),
         bytes_per_particle: (block.solver().bytes() + block.state_bytes()) as f64 / particles as f64,
         phases: phases_of(&times, steps, particles),
     }
 }
 
-/// Converts the times of the phases over a number of time steps.
+/// Converts the total times of the phases over `steps` time steps to shares and times per particle.
 fn phases_of(times: &[Duration; PHASES.len()], steps: u32, particles: usize) -> Vec<Phase> {
     let total: f64 = times.iter().map(Duration::as_secs_f64).sum();
     let phase = |(name, time): (&&'static str, &Duration)| Phase {

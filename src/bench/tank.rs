@@ -14,10 +14,10 @@ use crate::sph::{
     solver::step::Solver,
 };
 
-/// Layers of particles in bed and walls.
+/// Number of particle layers in bed and walls.
 const LAYERS: u32 = 3;
 
-/// Water on a flat bed between two end walls, periodic across.
+/// Water on a flat bed between two end walls, periodic in y.
 pub struct Tank {
     /// The solver.
     pub solver: Solver,
@@ -28,8 +28,9 @@ pub struct Tank {
 }
 
 impl Tank {
-    /// Returns a tank of a length, width and mean depth [m]; its walls are 1.5 times as high as the depth.
-    /// `surface` is z(x) [m], `velocity` is v(x, z) [m/s], `unit` are the particles of its only unit, if any.
+    /// Creates a tank with the given length, width and mean depth [m]. Its walls are 1.5 times as high as the depth.
+    /// `surface` is the initial surface level z(x) [m] and `velocity` the initial velocity v(x, z) [m/s]. `unit` lists
+    /// the particles of the only unit; empty if the tank has no unit.
     pub fn new(
         instructions: InstructionSet,
         parameters: Parameters,

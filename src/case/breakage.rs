@@ -15,38 +15,38 @@ const MOST_CORES: usize = 1024;
 /// Settings of the breakage analysis; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BreakageSettings {
-    /// Prototype length over case length [-].
+    /// Length scale: prototype length over length in the case [-].
     pub scale: f64,
-    /// Mesh of one unit, at the size of the case.
+    /// Mesh of one unit, scaled to the size of the units in the case.
     pub mesh: UnitMesh,
     /// Content of the mesh file.
     pub mesh_file: Vec<u8>,
-    /// Concrete of the prototype.
+    /// Concrete of the prototype units, without its density.
     pub material: BreakageMaterialFile,
     /// Material of bed and mound; `None` for the concrete of the units.
     pub base: Option<BaseFile>,
-    /// Friction coefficient [-].
+    /// Coulomb friction coefficient between unit and bed, between two units, and between crack faces [-].
     pub friction: f64,
-    /// How an impact is re-run.
+    /// Method by which impacts are re-run.
     pub way: RerunMethod,
-    /// Which impacts are re-run.
+    /// Selection of the impacts that are re-run.
     pub select: Selection,
-    /// How tetrahedra are joined before they crack.
+    /// Kind of the joints between tetrahedra before the concrete cracks.
     pub joints: Joints,
-    /// Time that is simulated after first contact, in the prototype [s]; `None` for the default.
+    /// Simulated time after first contact, at prototype scale [s]; `None` for the default.
     pub duration: Option<f64>,
-    /// Number of impacts computed at the same time; `None` for the default.
+    /// Number of impacts that are computed at the same time; `None` for the number of threads.
     pub cores: Option<usize>,
 }
 
-/// Which impacts are re-run at prototype scale.
+/// Selection of the impacts that are re-run at prototype scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Selection {
-    /// Quantity by which impacts are ranked.
+    /// Quantity by which the impacts are ranked, the hardest first.
     pub by: ImpactMeasure,
     /// Largest number of impacts; `None` for all.
     pub worst: Option<usize>,
-    /// Smallest value of the quantity [N, m/s or J].
+    /// Smallest value of the quantity `by` at the scale of the case [N, m/s or J].
     pub at_least: f64,
 }
 
@@ -54,18 +54,18 @@ impl BreakageSettings {
     /// Name of the mesh file in the run folder.
     pub const MESH: &str = "unit_mesh.msh";
 
-    /// Returns the entry for the case file that is saved with the run.
+    /// Returns the entry `breakage` for the case file in the run folder. It refers to the file [`Self::MESH`].
     pub(super) fn entry(file: &BreakageFile) -> BreakageFile {
         BreakageFile { mesh: Self::MESH.to_owned(), ..file.clone() }
     }
 
-    /// Returns the characteristic lengths E G_f / f_t^2 and E G_fII / c^2 [m].
+    /// Returns the characteristic lengths of the concrete: E G_f / f_t^2 (opening) and E G_fII / c^2 (shear) [m].
     pub fn characteristic_lengths(&self) -> [f64; 2] {
-        self.material.strength.of_material().characteristic_lengths(self.material.young_modulus_pa)
+        self.material.strength.to_strength().characteristic_lengths(self.material.young_modulus_pa)
     }
 }
 
-/// Validates the entry. `name` is the case file; the mesh path is relative to its folder.
+/// Validates the entry `breakage`. `name` is the path of the case file; the path of the mesh is relative to its folder.
 pub(super) fn validate(
     file: &BreakageFile,
     shape: &UnitShape,
@@ -156,7 +156,8 @@ fn read_mesh(file: &BreakageFile, shape: &UnitShape, name: &str, check: &mut Che
     }
 }
 
-/// Warns of elements larger than a quarter of the characteristic length: these do not resolve cracks.
+/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length. Such elements do not
+/// resolve cracks.
 fn warn_of_coarse_mesh(settings: &BreakageSettings, check: &mut Checker) {
     let [opening, _] = settings.characteristic_lengths();
     let edge = settings.mesh.edge() * settings.scale;

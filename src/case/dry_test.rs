@@ -16,60 +16,61 @@ use super::units::contact::{self, Contact};
 use super::units::materials::{self, Material, Materials};
 use super::units::{self, Surroundings, Units};
 
-/// The kind of dry test. SI units, angles in radians.
+/// Kind of dry test, with its parameters. SI units; angles in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DryTestKind {
-    /// The units are released where they are.
+    /// The units are released from their initial poses.
     Settle,
-    /// The units are lifted, then released.
+    /// The units are lifted from their initial poses and then released.
     Drop,
-    /// The bed is tilted at `rate` [rad/s] up to the angle `to` [rad]; a unit faster than `slide_speed` [m/s] slides.
+    /// The bed tilts at `rate` [rad/s] up to the angle `to` [rad]. A unit faster than `slide_speed` [m/s] counts as
+    /// sliding.
     Tilt { rate: f64, to: f64, slide_speed: f64 },
 }
 
-/// Output intervals of a dry test [s]; `None` for no output.
+/// Output intervals of a dry test [s]. `None` means that this output is not written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DryOutput {
-    /// Surfaces of the units.
+    /// Interval between outputs of the unit surfaces [s].
     pub units_interval: Option<f64>,
-    /// Motion and energy.
+    /// Interval between rows of the tables with unit motion and energy [s].
     pub series_interval: f64,
-    /// Checkpoints.
+    /// Interval between checkpoints [s].
     pub checkpoint_interval: Option<f64>,
 }
 
 /// A validated dry test; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DryTestCase {
-    /// One line that names the case.
+    /// Title of the case in reports, one line.
     pub title: String,
-    /// Assumptions listed in the case file.
+    /// Assumptions of the case, which the report lists.
     pub assumptions: Vec<String>,
-    /// Values that are allowed but probably not intended.
+    /// Warnings about values that are allowed but probably not intended.
     pub warnings: Vec<String>,
-    /// Name of the file as given.
+    /// Path of the case file, as the user passed it.
     pub name: String,
     /// Fingerprint of the case: 32 hexadecimal digits.
     pub hash: String,
-    /// Case text that is saved with the run.
+    /// Text of the case file that the run writes into its folder.
     pub text: String,
-    /// The test.
+    /// Kind of dry test.
     pub test: DryTestKind,
-    /// Ground and walls.
+    /// Ground and boundaries of the test area.
     pub site: Site,
-    /// Acceleration of gravity [m/s2].
+    /// Gravitational acceleration, positive [m/s2].
     pub gravity: f64,
-    /// The units.
+    /// The armour units.
     pub units: Units,
-    /// Elastic constants; other structs hold indices into this list.
+    /// Materials; other structs contain indices into this list.
     pub materials: Vec<Material>,
-    /// Contact parameters.
+    /// Contact between units, and between units and the bed.
     pub contact: Contact,
-    /// Breakage analysis of the hardest impacts, if requested.
+    /// Breakage analysis, if any.
     pub breakage: Option<BreakageSettings>,
     /// Output intervals.
     pub output: DryOutput,
-    /// Stop criteria.
+    /// Criteria that end the run.
     pub stop: Stop,
 }
 
@@ -116,7 +117,7 @@ fn validate(file: &DryFile, document: &Document, check: &mut Checker) -> Option<
         warnings: Vec::new(),
         name: name.clone(),
         hash: fingerprint(&DryFile { schema: None, ..kept.clone() }, &read),
-        text: document.text_of(file, &kept),
+        text: document.stored_text(file, &kept),
         test,
         site,
         gravity: file.gravity_m_s2,
@@ -129,8 +130,8 @@ fn validate(file: &DryFile, document: &Document, check: &mut Checker) -> Option<
     })
 }
 
-/// Returns the case as a run stores it, and the bytes read from other files. The case refers only to files in the run
-/// folder.
+/// Returns the case as a run stores it, and the bytes read from other files. The stored case refers only to files in
+/// the run folder.
 fn self_contained(
     file: &DryFile,
     units: &Units,
@@ -150,14 +151,14 @@ fn self_contained(
     (kept, read)
 }
 
-/// What the units of a dry test stand on and touch.
+/// Materials, ground and contact settings of a dry test.
 pub(super) struct Ground {
     pub materials: Materials,
     pub site: Option<Site>,
     pub contact: Contact,
 }
 
-/// Validates materials, ground and contact.
+/// Validates the materials, the ground and the contact settings.
 pub(super) fn validate_ground(file: &DryFile, name: &str, check: &mut Checker) -> Ground {
     let materials = materials::validate(&file.materials, &file.friction, Some(&file.flume.material), check);
     let site = validate_site(file, name, materials.ground, check);
@@ -166,14 +167,14 @@ pub(super) fn validate_ground(file: &DryFile, name: &str, check: &mut Checker) -
 }
 
 impl Ground {
-    /// Returns what the units of the case `name` depend on.
+    /// Returns the parts of a dry test on which its units depend; `name` is the path of the case file.
     pub(super) fn surroundings<'a>(&'a self, name: &'a str) -> Surroundings<'a> {
         let Self { materials, site, contact } = self;
         Surroundings { name, site: site.as_ref(), materials, ground_named: true, contact: *contact, water: None }
     }
 }
 
-/// Validates ground, ends and walls.
+/// Validates ground, terrain and boundaries of the test area.
 fn validate_site(file: &DryFile, name: &str, material: Option<usize>, check: &mut Checker) -> Option<Site> {
     let ground = FlumeFile::dry(file.flume.bed_m.clone(), file.flume.mound.clone());
     let flume = bed::validate(&ground, material, check)?;
@@ -216,7 +217,7 @@ fn validate_test(file: &DryTestFile, check: &mut Checker) -> (DryTestKind, f64) 
             (DryTestKind::Drop, drop.height_m)
         }
         DryTestFile::Tilt(tilt) => {
-            let advice = "at 1 degree/s the angle of sliding is found within 0.3 %";
+            let advice = "at 1 degree/s, the error of the sliding angle is at most 0.3 %";
             check.number("dry_test.rate_deg_s", tilt.rate_deg_s, more_than(0.0).up_to(90.0), "degrees/s", advice);
             check.number(
                 "dry_test.to_deg",

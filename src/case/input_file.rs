@@ -19,21 +19,21 @@ pub enum InputFile {
     DryTest(Box<DryTestCase>),
     /// A fracture case: deformable bodies that crack.
     Fracture(Box<FractureCase>),
-    /// A sweep: one case with keys that vary.
+    /// A sweep: many runs of one case, in which some keys vary.
     Sweep(SweepFile),
-    /// A placement file: the poses of the units of an armour layer.
+    /// A placement file: the poses of units that `breakwater place` has placed.
     Placement(PlacementFile),
     /// A reference folder: measured displacements that runs are compared with.
     Reference(Box<Reference>),
 }
 
 impl InputFile {
-    /// Reads an input file and validates it; of a sweep, only the file itself.
+    /// Reads and validates an input file. For a sweep, it does not read the case file that the sweep varies.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
         Self::from_document(&Document::read(path.as_ref())?)
     }
 
-    /// Validates a document as what its keys say that it is.
+    /// Validates a document. The keys of the document determine which kind of file it is.
     pub fn from_document(document: &Document) -> Result<Self, CaseErrors> {
         Ok(match document.kind() {
             InputKind::Flume => Self::Flume(Box::new(Case::from_document(document)?)),
@@ -48,7 +48,7 @@ impl InputFile {
         })
     }
 
-    /// Returns the warnings about values that are allowed but probably not intended.
+    /// Returns the warnings of the validation: values that are allowed but probably not intended.
     pub fn warnings(&self) -> &[String] {
         match self {
             Self::Flume(case) => &case.warnings,

@@ -1,4 +1,4 @@
-//! Validates the parts of a flume case or dry test that the placing of armour layers needs.
+//! Validates the parts of a flume case or dry test that are needed to place armour layers.
 
 use std::path::Path;
 
@@ -9,55 +9,55 @@ use super::reading::document::{Document, InputKind};
 use super::reading::error::CaseErrors;
 use super::units::contact::{self, Contact};
 use super::units::materials::{self, Material};
-use super::units::{self, MOST_UNITS, Surroundings, Units};
+use super::units::{self, MAX_UNITS, Surroundings, Units};
 use super::{dry_test, flume_case};
 
 /// Armour layers on a slope; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Armour {
-    /// Seaward and shoreward end [m].
+    /// x of the seaward and of the shoreward end of the layers [m].
     pub x: [f64; 2],
     /// Number of layers.
     pub layers: u32,
-    /// Number of units in all layers per area D_n^2 of the slope [-].
+    /// Packing density [-]: number of units in all layers per slope area of D_n^2.
     pub packing_density: f64,
-    /// Orientation of the units.
+    /// Rotation of the units before they are lowered onto the slope.
     pub orientation: ArmourOrientation,
-    /// Seed of the random numbers.
+    /// Seed of the random rotations.
     pub seed: u64,
 }
 
-/// Armour layers to be placed.
+/// Armour layers that `breakwater place` has to place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerJob {
     /// Title of the case.
     pub title: String,
-    /// Ground and walls.
+    /// Ground and boundaries of the area in which units stand.
     pub site: Site,
     /// The units, not yet placed.
     pub units: Units,
-    /// The layers.
+    /// Extent and packing of the armour layers.
     pub armour: Armour,
-    /// Elastic constants.
+    /// Materials; other structs contain indices into this list.
     pub materials: Vec<Material>,
-    /// Contact parameters.
+    /// Contact between units, and between units and the bed.
     pub contact: Contact,
-    /// Acceleration of gravity [m/s2].
+    /// Gravitational acceleration, positive [m/s2].
     pub gravity: f64,
 }
 
 impl LayerJob {
-    /// Reads a flume case or dry test and validates what the placing needs.
+    /// Reads a flume case or dry test and validates the parts that are needed to place armour layers.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, CaseErrors> {
         Self::from_document(&Document::read(path.as_ref())?)
     }
 
-    /// Like [`Self::load`], from the text of a case file; `name` is its name in messages.
+    /// Like [`Self::load`], but takes the text of a case file; `name` is the path of the case file.
     pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
         Self::from_document(&Document::new(text, name)?)
     }
 
-    /// Validates what the placing needs; a document that is not a dry test is read as a flume case.
+    /// Like [`Self::load`], but takes a document. A document that is not a dry test is read as a flume case.
     pub fn from_document(document: &Document) -> Result<Self, CaseErrors> {
         let (job, _) = match document.kind() {
             InputKind::DryTest => document.validate(validate_dry_test)?,
@@ -66,7 +66,7 @@ impl LayerJob {
         Ok(job)
     }
 
-    /// Returns the corners (x, z) of the slope under the layers, including both ends [m].
+    /// Returns the points (x, z) of the slope under the layers: both ends and the corner points between them [m].
     pub fn slope(&self) -> Vec<[f64; 2]> {
         let [x0, x1] = self.armour.x;
         let inner = self.site.profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
@@ -122,9 +122,9 @@ fn validate_job(
     let (title, site, materials) = (title.to_owned(), around.site?.clone(), around.materials.list.clone());
     let job = LayerJob { title, site, units: units?, armour, materials, contact: around.contact, gravity };
     let count = job.count();
-    if !(1..=MOST_UNITS as usize).contains(&count) {
+    if !(1..=MAX_UNITS as usize).contains(&count) {
         let advice = "change the length of the layers or the packing density";
-        check.reject("units.armour", format!("{count} units"), format!("1 to {MOST_UNITS} units"), advice);
+        check.reject("units.armour", format!("{count} units"), format!("1 to {MAX_UNITS} units"), advice);
     }
     Some(job)
 }

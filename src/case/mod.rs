@@ -1,19 +1,21 @@
 //! Input files: parsing, validation and error messages.
 //!
-//! An input file becomes a [`Document`], which knows its kind from its keys. Parsing turns that into a struct of
-//! [`file`] (keys and types), validation into a [`Case`] or another entry of [`InputFile`] (consistent values). Solvers
-//! read only the validated form.
+//! 1. An input file becomes a [`Document`]. Its top-level keys determine the kind of the file.
+//! 2. Parsing turns the document into a struct of [`file`] and checks keys and types.
+//! 3. Validation turns this struct into a [`Case`] or another variant of [`InputFile`] and checks the values.
 //!
-//! | file | what it holds |
+//! Solvers read only validated cases.
+//!
+//! | file | contents |
 //! | --- | --- |
 //! | `input_file` | an input file of any kind |
 //! | `flume_case`, `dry_test`, `fracture` | the three kinds of cases |
 //! | `breakage` | settings of the breakage analysis |
 //! | `reference` | measured displacements that runs are compared with |
-//! | `layer_job` | what `breakwater place` needs of a case |
-//! | `output`, `units`, `wave`, `flume` | sections of a case, from the top down |
+//! | `layer_job` | the parts of a case that `breakwater place` needs |
+//! | `output`, `units`, `wave`, `flume` | sections of a case; each imports only from those to its right |
 //! | `reading` | JSON, keys, types, errors |
-//! | [`file`] | all files as the user writes them |
+//! | [`file`] | all input files as the user writes them |
 
 mod breakage;
 mod dry_test;

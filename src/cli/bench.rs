@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use super::Trouble;
+use super::CommandError;
 use crate::{
     bench::{Measurement, block::Block, machine::Machine, measure},
     output::write_atomically,
@@ -15,17 +15,19 @@ use crate::{
     },
 };
 
-/// Measure the speed of the solver: evaluations and particle pairs per second for a block of water, 1 to N threads.
+/// Measure the speed of the solver: evaluations and particle pairs per second for a block of water, with 1 to N
+/// threads.
 ///
-/// A "full evaluation" is continuity, density diffusion, pressure and viscosity of one particle. A time step has two
-/// per particle, and also sorting, neighbour lists and the boundary. Boundary particles are counted as well, although
-/// with mDBC only their density is computed; the rate of the water particles alone is printed next to it.
+/// A "full evaluation" computes continuity, density diffusion, pressure and viscosity of one particle. A time step has
+/// two full evaluations per particle, and also sorting, neighbour lists and the boundary. The rate of full evaluations
+/// includes boundary particles, although mDBC computes only their density. The rate of water particles alone is printed
+/// after it.
 #[derive(Args)]
 pub struct BenchArguments {
     /// Number of water particles.
     #[arg(long, default_value_t = 170_000, value_parser = clap::value_parser!(u32).range(512..=50_000_000))]
     particles: u32,
-    /// Support radius of the kernel over the particle spacing, 2h/dp [-]; h = 1.2 sqrt(3) dp gives 4.16.
+    /// Support radius of the kernel divided by the particle spacing, 2h/dp [-]; h = 1.2 sqrt(3) dp gives 4.16.
     #[arg(long, default_value_t = 4.157)]
     support: f64,
     /// Largest number of threads; default: the number of cores.
@@ -37,10 +39,11 @@ pub struct BenchArguments {
     /// SIMD instruction set; default: the best one of this processor.
     #[arg(long, value_enum)]
     instructions: Option<Instructions>,
-    /// What to measure: cpu, gpu, or gpu:N as listed by `breakwater devices`.
+    /// Device to measure: cpu, gpu, or gpu:N as listed by `breakwater devices`.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     device: DeviceChoice,
-    /// Also write the measurements to this JSON file, moving water on all threads first; default: not written.
+    /// Also write the measurements to this JSON file; its top-level keys are the last measurement, moving water with
+    /// all threads; default: not written.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -49,9 +52,9 @@ pub struct BenchArguments {
 enum Instructions {
     /// Arrays of eight numbers, vectorised by the compiler.
     Portable,
-    /// Eight lanes of AVX2.
+    /// AVX2: eight lanes.
     Avx2,
-    /// Sixteen lanes of AVX-512.
+    /// AVX-512: sixteen lanes.
     Avx512,
 }
 
@@ -66,12 +69,12 @@ impl Instructions {
 }
 
 impl BenchArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         if !(2.0..=8.0).contains(&self.support) {
-            return Err(Trouble::refused(format!("--support {}: must be between 2 and 8", self.support)));
+            return Err(CommandError::refused(format!("--support {}: must be between 2 and 8", self.support)));
         }
         if !(0.1..=600.0).contains(&self.seconds) {
-            return Err(Trouble::refused(format!("--seconds {}: must be between 0.1 and 600", self.seconds)));
+            return Err(CommandError::refused(format!("--seconds {}: must be between 0.1 and 600", self.seconds)));
         }
         if self.device != DeviceChoice::Cpu {
             return self.measure_card();
@@ -80,9 +83,11 @@ impl BenchArguments {
         let threads = self.threads.map_or(cores, |threads| threads as usize);
         let instructions = self.instructions.map_or_else(InstructionSet::best, Instructions::set);
         if !InstructionSet::available().contains(&instructions) {
-            return Err(Trouble::refused(format!("--instructions: this processor does not support {instructions:?}")));
+            return Err(CommandError::refused(format!(
+                "--instructions: this processor does not support {instructions:?}"
+            )));
         }
-        let machine = Machine::measure(instructions, threads).map_err(Trouble::failed)?;
+        let machine = Machine::measure(instructions, threads).map_err(CommandError::failed)?;
         println!("{instructions:?}, {} lanes", instructions.lanes());
         for count in 1..=threads {
             println!(
@@ -95,7 +100,7 @@ impl BenchArguments {
         for moving in [false, true] {
             for count in 1..=threads {
                 let mut block = Block::new(instructions, self.particles as usize, self.support, moving);
-                let measured = measure(&mut block, count, self.seconds, &machine).map_err(Trouble::failed)?;
+                let measured = measure(&mut block, count, self.seconds, &machine).map_err(CommandError::failed)?;
                 print(&measured);
                 measurements.push(measured);
             }
@@ -104,17 +109,17 @@ impl BenchArguments {
     }
 
     #[cfg(feature = "gpu")]
-    fn measure_card(self) -> Result<(), Trouble> {
+    fn measure_card(self) -> Result<(), CommandError> {
         use crate::bench::card::{Peaks, measure_on_card};
 
-        let (device, reason) = Device::open(self.device, None).map_err(Trouble::refused)?;
-        let Device::Gpu(card) = device else { return Err(Trouble::refused(reason.unwrap_or_default())) };
-        let peaks = Peaks::measure(&card).map_err(Trouble::failed)?;
+        let (device, reason) = Device::open(self.device, None).map_err(CommandError::refused)?;
+        let Device::Gpu(card) = device else { return Err(CommandError::refused(reason.unwrap_or_default())) };
+        let peaks = Peaks::measure(&card).map_err(CommandError::failed)?;
         println!("{}: peak {:.0} GFLOP/s, memory {:.1} GB/s", card.name(), peaks.flops / 1e9, peaks.bandwidth / 1e9);
         let mut measurements = Vec::new();
         for moving in [false, true] {
             let mut block = Block::new(InstructionSet::best(), self.particles as usize, self.support, moving);
-            let measured = measure_on_card(&mut block, &card, self.seconds, peaks).map_err(Trouble::failed)?;
+            let measured = measure_on_card(&mut block, &card, self.seconds, peaks).map_err(CommandError::failed)?;
             print(&measured);
             measurements.push(measured);
         }
@@ -122,22 +127,27 @@ impl BenchArguments {
     }
 
     #[cfg(not(feature = "gpu"))]
-    fn measure_card(self) -> Result<(), Trouble> {
-        Device::open(self.device, None).map_err(Trouble::refused).map(|_| ())
+    fn measure_card(self) -> Result<(), CommandError> {
+        Device::open(self.device, None).map_err(CommandError::refused).map(|_| ())
     }
 }
 
-/// Writes the list of measurements, and on the top level the last one: moving water on all threads, as in a run.
-fn write_json(path: Option<&Path>, measurements: &[Measurement], (key, value): (&str, String)) -> Result<(), Trouble> {
+/// Writes the list of measurements. The top-level keys are the last measurement: moving water with all threads, as in a
+/// run.
+fn write_json(
+    path: Option<&Path>,
+    measurements: &[Measurement],
+    (key, value): (&str, String),
+) -> Result<(), CommandError> {
     let Some(path) = path else { return Ok(()) };
     let mut text = json!(measurements.last());
     text[key] = json!(value);
     text["measurements"] = json!(measurements);
-    write_atomically(path, format!("{text:#}\n").as_bytes()).map_err(Trouble::refused)
+    write_atomically(path, format!("{text:#}\n").as_bytes()).map_err(CommandError::refused)
 }
 
 fn print(measured: &Measurement) {
-    let on = if measured.threads == 0 { "the card".to_owned() } else { format!("{} threads", measured.threads) };
+    let on = if measured.threads == 0 { "graphics card".to_owned() } else { format!("{} threads", measured.threads) };
     println!(
         "\n{} water, {on}, {:.0} thousand particles ({:.0} water), {:.0} neighbours, {} steps",
         measured.water,

@@ -4,43 +4,47 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, input::load, run};
+use super::{CommandError, counted, input::load, run};
 use crate::{
-    case::{BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Sides, Units, Wave},
+    case::{
+        BreakageSettings, Case, DryTestCase, DryTestKind, ImpactMeasure, InputFile, InputKind, Reference, Sides, Units,
+        Wave,
+    },
     output::{OutputSize, progress::readable},
     rigid::{RigidSetup, RigidWorld},
     simulation::{
         bodies::rigid_setup,
         dry_test::DryTest,
-        flume::{incoming::particle_start, setup::check_times},
+        flume::{setup::check_times, wave::incoming::particle_start},
     },
     sweep::plan::{Sweep, in_words},
 };
 
-/// Full evaluations per second and core, assumed for the estimate of the run time; a time step takes two per particle.
-/// `breakwater bench` measures 1.5 million with AVX-512; gauges, outputs and contact take a share of it.
+/// Full evaluations per second and core [1/s], assumed in the estimate of the run time. A time step has two full
+/// evaluations per particle. `breakwater bench` measures 1.5 million with AVX-512; a run also computes gauges, outputs
+/// and contact.
 const EVALUATIONS_PER_S_AND_CORE: f64 = 1.2e6;
 
-/// The same rate in two dimensions, where a particle has a sixth of the neighbours.
+/// Full evaluations per second and core in two dimensions [1/s], where a particle has one sixth as many neighbours.
 const EVALUATIONS_IN_TWO_DIMENSIONS: f64 = 2.4e6;
 
-/// Validate input files and print particles, memory, file sizes, time step and an estimate of the run time.
+/// Validate input files, and estimate the number of particles, memory, file sizes, time step and run time.
 #[derive(Args)]
 pub struct CheckArguments {
-    /// Case, sweep and placement files, and `reference.json` of folders with measurements.
+    /// Files to check: case files, sweep files, placement files, and reference folders (or their `reference.json`).
     #[arg(required = true)]
     cases: Vec<PathBuf>,
 }
 
 impl CheckArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let mut refusals = Vec::new();
         for path in &self.cases {
-            if let Err(Trouble::Refused(reason) | Trouble::Failed(reason)) = check(path) {
+            if let Err(CommandError::Refused(reason) | CommandError::Failed(reason)) = check(path) {
                 refusals.push(reason);
             }
         }
-        if refusals.is_empty() { Ok(()) } else { Err(Trouble::refused(refusals.join("\n"))) }
+        if refusals.is_empty() { Ok(()) } else { Err(CommandError::refused(refusals.join("\n"))) }
     }
 }
 
@@ -53,7 +57,9 @@ const ALL_KINDS: [InputKind; 6] = [
     InputKind::Reference,
 ];
 
-fn check(path: &Path) -> Result<(), Trouble> {
+fn check(path: &Path) -> Result<(), CommandError> {
+    let reference = path.join(Reference::FILE);
+    let path = if reference.is_file() { &reference } else { path };
     match load(path, &ALL_KINDS)? {
         InputFile::Flume(case) => check_flume(&case, path),
         InputFile::DryTest(case) => {
@@ -62,7 +68,7 @@ fn check(path: &Path) -> Result<(), Trouble> {
         }
         InputFile::Fracture(case) => run::fracture::check(&case, path),
         InputFile::Sweep(file) => {
-            print_sweep(path, &Sweep::new(file, path).map_err(Trouble::refused)?);
+            print_sweep(path, &Sweep::new(file, path).map_err(CommandError::refused)?);
             Ok(())
         }
         InputFile::Reference(reference) => {
@@ -70,15 +76,16 @@ fn check(path: &Path) -> Result<(), Trouble> {
             Ok(())
         }
         InputFile::Placement(file) => {
-            println!("{}: {} units placed for: {}", path.display(), file.poses.len(), file.title);
+            let units = counted(file.poses.len(), "unit");
+            println!("{}: placement of {units} for the case: {}", path.display(), file.title);
             Ok(())
         }
     }
 }
 
-fn check_flume(case: &Case, path: &Path) -> Result<(), Trouble> {
+fn check_flume(case: &Case, path: &Path) -> Result<(), CommandError> {
     let times = check_times(case, particle_start(case, None))
-        .map_err(|reason| Trouble::refused(format!("{}: {reason}", path.display())));
+        .map_err(|reason| CommandError::refused(format!("{}: {reason}", path.display())));
     print(case);
     let Some(units) = &case.units else { return times };
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
@@ -191,19 +198,19 @@ fn print_units(units: &Units) {
     }
 }
 
-/// Overlap at the start, divided by the height of a unit [-], above which `check` warns. A unit at rest has 0.0001, a
-/// unit wedged in a layer up to 0.005.
-const TOLD_OVERLAP: f64 = 0.01;
+/// `check` warns if the overlap at the start, divided by the height of a unit [-], exceeds this value. Units at rest
+/// have an overlap of 0.0001; units wedged in an armour layer have up to 0.005.
+const WARNING_OVERLAP: f64 = 0.01;
 
-/// Tell how deep units start in each other, the bed or a wall, if they do.
-fn check_overlap(setup: RigidSetup, units: &Units, path: &Path) -> Result<(), Trouble> {
+/// Warns if units overlap each other, the bed or a wall at the start.
+fn check_overlap(setup: RigidSetup, units: &Units, path: &Path) -> Result<(), CommandError> {
     let world =
-        RigidWorld::new(setup).map_err(|error| Trouble::refused(format!("{}: units: {error}", path.display())))?;
+        RigidWorld::new(setup).map_err(|error| CommandError::refused(format!("{}: units: {error}", path.display())))?;
     let overlap = world.deepest_overlap() / units.shape.height();
-    if overlap > TOLD_OVERLAP {
+    if overlap > WARNING_OVERLAP {
         eprintln!(
             "warning: units overlap each other, the bed or a wall by up to {:.2} % of their height at the start; \
-             contact will force them apart",
+             contact forces will separate them",
             100.0 * overlap
         );
     }
@@ -216,7 +223,7 @@ fn print_dry(case: &DryTestCase) {
         DryTestKind::Settle => "units settle from their start positions".to_owned(),
         DryTestKind::Drop => "units are dropped".to_owned(),
         DryTestKind::Tilt { rate, to, .. } => {
-            format!("the bed is tilted by {:.3} degrees/s up to {:.1}", rate.to_degrees(), to.to_degrees())
+            format!("the bed is tilted at {:.3} degrees/s up to {:.1} degrees", rate.to_degrees(), to.to_degrees())
         }
     };
     println!("  dry test    {test}");
@@ -234,6 +241,7 @@ fn print_breakage(settings: &BreakageSettings) {
         ImpactMeasure::KineticEnergy => "kinetic energy",
     };
     let which = match settings.select.worst {
+        Some(1) => format!("the hardest impact by {by}"),
         Some(worst) => format!("the {worst} hardest impacts by {by}"),
         None => format!("all recorded impacts, the hardest by {by} first"),
     };
@@ -245,7 +253,7 @@ fn print_breakage(settings: &BreakageSettings) {
     );
 }
 
-/// Returns a file size in words; `bytes` is a number of bytes.
+/// Formats a file size [bytes] in megabytes or gigabytes.
 fn size(bytes: f64) -> String {
     match bytes {
         b if b <= 0.0 => "none".to_owned(),

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Trouble;
+use super::CommandError;
 use crate::{case::Reference, report::compare::compare};
 
-/// Compare finished runs with measurements: displacement of each unit, mean, damage ratio.
+/// Compare finished runs with measurements: displacement of each unit, mean displacement, damage ratio.
 #[derive(Args)]
 pub struct CompareArguments {
     /// Folders of the runs.
@@ -23,17 +23,17 @@ pub struct CompareArguments {
 }
 
 impl CompareArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let first = &self.dirs[0];
         let folder = self.reference.clone().or_else(|| Reference::folder_of_run(first)).ok_or_else(|| {
-            let what = "no case.json here names a folder with measurements; give one with --reference DIR";
-            Trouble::refused(format!("{}: {what}", first.display()))
+            let what = "has no case.json that names a folder with measurements; give one with --reference DIR";
+            CommandError::refused(format!("{}: {what}", first.display()))
         })?;
-        let reference = Reference::load(&folder).map_err(Trouble::refused)?;
-        let comparison = compare(&self.dirs, &reference).map_err(Trouble::refused)?;
+        let reference = Reference::load(&folder).map_err(CommandError::refused)?;
+        let comparison = compare(&self.dirs, &reference).map_err(CommandError::refused)?;
         println!("{comparison}");
         let out = self.out.as_ref().unwrap_or(first);
-        for path in comparison.write(out).map_err(Trouble::failed)? {
+        for path in comparison.write(out).map_err(CommandError::failed)? {
             println!("{}", path.display());
         }
         Ok(())

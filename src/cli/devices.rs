@@ -2,30 +2,31 @@
 
 use clap::Args;
 
-use super::Trouble;
+use super::CommandError;
 use crate::{
     case::Case,
     simulation::flume::scheme::unsupported_on_gpu,
     sph::device::{Device, DeviceChoice},
 };
 
-/// List the devices that can compute the water: processor and graphics cards, and how many particles fit.
+/// List the devices that can compute the water (processor, graphics cards), and how many particles each card can hold.
 #[derive(Args)]
 pub struct DevicesArguments {}
 
-/// The option --device.
+/// The option --device of the commands that compute water.
 #[derive(Args)]
 pub(super) struct DeviceArgument {
-    /// What computes the water: auto (a graphics card if one can compute the case), cpu, gpu, or gpu:N as listed by
-    /// `breakwater devices`.
+    /// Device that computes the water: auto (a graphics card if one can compute the case, otherwise the processor),
+    /// cpu, gpu, or gpu:N as listed by `breakwater devices`.
     #[arg(long, default_value = "auto", value_name = "DEVICE")]
     pub(super) device: DeviceChoice,
 }
 
 impl DeviceArgument {
-    /// Opens the device for a case.
-    pub(super) fn open(&self, case: &Case, quiet: bool) -> Result<Device, Trouble> {
-        let (mut device, mut reason) = Device::open(self.device, unsupported_on_gpu(case)).map_err(Trouble::refused)?;
+    /// Opens the device for a case. With `auto`, returns the processor if no graphics card can compute the case.
+    pub(super) fn open(&self, case: &Case, quiet: bool) -> Result<Device, CommandError> {
+        let (mut device, mut reason) =
+            Device::open(self.device, unsupported_on_gpu(case)).map_err(CommandError::refused)?;
         if self.device == DeviceChoice::Auto && !device.fits(case.estimate().particles()) {
             reason = Some(format!("{} has too little memory", device.name()));
             device = Device::Cpu;
@@ -38,11 +39,11 @@ impl DeviceArgument {
 }
 
 impl DeviceArgument {
-    /// Refuses a graphics card for a case without water.
-    pub(super) fn refuse_card(&self) -> Result<(), Trouble> {
+    /// Returns an error if a graphics card is selected for a dry test, which has no water.
+    pub(super) fn refuse_card(&self) -> Result<(), CommandError> {
         match self.device {
             DeviceChoice::Gpu(_) => {
-                Err(Trouble::refused("--device gpu: dry tests run on the processor; leave the option out"))
+                Err(CommandError::refused("--device gpu: dry tests run on the processor; leave the option out"))
             }
             DeviceChoice::Auto | DeviceChoice::Cpu => Ok(()),
         }
@@ -50,7 +51,7 @@ impl DeviceArgument {
 }
 
 impl DevicesArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         println!("cpu    the processor, {threads} threads");
         list_cards();
@@ -60,7 +61,7 @@ impl DevicesArguments {
 
 #[cfg(feature = "gpu")]
 fn list_cards() {
-    use crate::sph::gpu::{card::Card, memory::most_particles};
+    use crate::sph::gpu::{card::Card, memory::max_particles};
 
     let cards = Card::all();
     for (number, card) in cards.iter().enumerate() {
@@ -71,7 +72,7 @@ fn list_cards() {
         println!(
             "       {memory}, buffers of at most {:.2} GB: fits {:.1} million particles",
             card.largest_binding.min(card.largest_buffer) as f64 / 1e9,
-            most_particles(card) as f64 / 1e6
+            max_particles(card) as f64 / 1e6
         );
     }
     if cards.is_empty() {

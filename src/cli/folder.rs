@@ -1,8 +1,8 @@
-//! Folders of results.
+//! Preparation of result folders.
 
 use std::path::Path;
 
-use super::Trouble;
+use super::CommandError;
 use crate::simulation::breakage::run::FOLDER;
 
 /// Returns the name of a case file without folder and extension.
@@ -10,7 +10,7 @@ pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Files that a run or the flume model writes. --overwrite deletes these and the folder of impacts only.
+/// Files that a run or the flume model writes. --overwrite deletes only these files and the subfolder `impacts`.
 const RESULT_FILES: [&str; 35] = [
     "bodies.csv",
     "breakage.csv",
@@ -49,12 +49,13 @@ const RESULT_FILES: [&str; 35] = [
     "wave.html",
 ];
 
-/// Prepares an empty folder for results; with `overwrite`, deletes the files of an earlier run in it.
-pub(super) fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), Trouble> {
-    let cannot = |error: std::io::Error| Trouble::refused(format!("{}: {error}", dir.display()));
+/// Creates a folder for results, or checks that an existing folder is empty. With `overwrite`, deletes the result files
+/// of an earlier run in the folder instead.
+pub(super) fn fresh_folder(dir: &Path, overwrite: bool) -> Result<(), CommandError> {
+    let cannot = |error: std::io::Error| CommandError::refused(format!("{}: {error}", dir.display()));
     let occupied = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
     if occupied && !overwrite {
-        return Err(Trouble::refused(format!(
+        return Err(CommandError::refused(format!(
             "{}: the folder is not empty; choose another with --out DIR, or add --overwrite to replace its results \
              (to continue an interrupted run: breakwater resume {})",
             dir.display(),

@@ -2,51 +2,51 @@
 
 use std::path::Path;
 
-use super::Trouble;
+use super::CommandError;
 use crate::case::{Document, InputFile, InputKind};
 
-/// Reads an input file. A file of a kind that is not accepted is refused before it is validated.
-pub(super) fn read(path: &Path, accepted: &[InputKind]) -> Result<Document, Trouble> {
+/// Reads an input file. A file whose kind is not in `accepted` is refused before validation.
+pub(super) fn read(path: &Path, accepted: &[InputKind]) -> Result<Document, CommandError> {
     if path.is_dir() {
         let what = "is a folder, but must be an input file";
-        return Err(Trouble::refused(format!("{}: {what}", path.display())));
+        return Err(CommandError::refused(format!("{}: {what}", path.display())));
     }
-    let document = Document::read(path).map_err(Trouble::refused)?;
+    let document = Document::read(path).map_err(CommandError::refused)?;
     if accepted.contains(&document.kind()) { Ok(document) } else { Err(other_kind(path, document.kind())) }
 }
 
-/// Reads and validates an input file, and shows its warnings.
-pub(super) fn load(path: &Path, accepted: &[InputKind]) -> Result<InputFile, Trouble> {
-    let file = InputFile::from_document(&read(path, accepted)?).map_err(Trouble::refused)?;
+/// Reads and validates an input file, and prints its warnings.
+pub(super) fn load(path: &Path, accepted: &[InputKind]) -> Result<InputFile, CommandError> {
+    let file = InputFile::from_document(&read(path, accepted)?).map_err(CommandError::refused)?;
     show_warnings(file.warnings());
     Ok(file)
 }
 
-/// Reads the case of a run from the run's folder.
-pub(super) fn read_run(dir: &Path, accepted: &[InputKind]) -> Result<Document, Trouble> {
+/// Reads the case of a run from the run folder `dir`.
+pub(super) fn read_run(dir: &Path, accepted: &[InputKind]) -> Result<Document, CommandError> {
     if dir.is_file() {
-        let kind = Document::read(dir).map_err(Trouble::refused)?.kind();
+        let kind = Document::read(dir).map_err(CommandError::refused)?.kind();
         let what = format!("is {}, but must be the folder of a run; {}", kind.name(), advice(kind));
-        return Err(Trouble::refused(format!("{}: {what}", dir.display())));
+        return Err(CommandError::refused(format!("{}: {what}", dir.display())));
     }
     let file = dir.join("case.json");
     if !file.exists() {
-        let what = "is not the folder of a run, which has case.json and summary.json";
-        return Err(Trouble::refused(format!("{}: {what}", dir.display())));
+        let what = "is not the folder of a run, because case.json is missing";
+        return Err(CommandError::refused(format!("{}: {what}", dir.display())));
     }
     read(&file, accepted)
 }
 
-/// Reads and validates the case of a run, and shows its warnings.
-pub(super) fn load_run(dir: &Path, accepted: &[InputKind]) -> Result<InputFile, Trouble> {
-    let file = InputFile::from_document(&read_run(dir, accepted)?).map_err(Trouble::refused)?;
+/// Reads and validates the case of a run, and prints its warnings.
+pub(super) fn load_run(dir: &Path, accepted: &[InputKind]) -> Result<InputFile, CommandError> {
+    let file = InputFile::from_document(&read_run(dir, accepted)?).map_err(CommandError::refused)?;
     show_warnings(file.warnings());
     Ok(file)
 }
 
-/// Says what a file is and which command fits.
-pub(super) fn other_kind(path: &Path, kind: InputKind) -> Trouble {
-    Trouble::refused(format!("{}: is {}; {}", path.display(), kind.name(), advice(kind)))
+/// Returns the error for an input file of the wrong kind; the message names the kind and the right command.
+pub(super) fn other_kind(path: &Path, kind: InputKind) -> CommandError {
+    CommandError::refused(format!("{}: is {}; {}", path.display(), kind.name(), advice(kind)))
 }
 
 fn advice(kind: InputKind) -> &'static str {

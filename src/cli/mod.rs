@@ -35,15 +35,15 @@ struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  breakwater check cases/fudo/quick-look.json      contents of a case and cost of a run
-  breakwater run cases/fudo/quick-look.json        run it; then open runs/quick-look/report.html
+  breakwater check cases/fudo/quick-look.json      check a case and estimate the cost of its run
+  breakwater run cases/fudo/quick-look.json        run the case; then open runs/quick-look/report.html
   breakwater resume runs/quick-look                continue after an interruption
   breakwater compare runs/quick-look               compare with measurements
-  breakwater sweep cases/fudo/friction-sweep.json  run it with nine friction coefficients, in one table
+  breakwater sweep cases/fudo/friction-sweep.json  run a case with nine friction coefficients, results in one table
   breakwater wave cases/fudo/H4.5-slice.json       compute only the wave, in seconds
   breakwater run cases/contact/tilt-tetrapod.json  units without water: a tilt test
   breakwater fracture cases/fracture/dolos-drop.json  a Dolos dropped on concrete: where does it crack?
-  breakwater run cases/breakage/tetrapod-drop.json  a dropped model unit: does the prototype break?
+  breakwater run cases/breakage/tetrapod-drop.json  a dropped model unit: does the prototype unit break?
   breakwater init my-case.json                     write a template of a case";
 
 #[derive(Subcommand)]
@@ -66,15 +66,15 @@ enum Command {
     Sweep(sweep::SweepArguments),
 }
 
-/// Why a command failed.
-enum Trouble {
-    /// The input was refused: exit code 2.
+/// Reason why a command failed, with its message.
+enum CommandError {
+    /// The input was refused, and the exit code is 2.
     Refused(String),
-    /// The work failed: exit code 1.
+    /// The work failed, and the exit code is 1.
     Failed(String),
 }
 
-impl Trouble {
+impl CommandError {
     fn refused(reason: impl Display) -> Self {
         Self::Refused(reason.to_string())
     }
@@ -84,7 +84,7 @@ impl Trouble {
     }
 }
 
-/// Runs the program with the arguments of the process.
+/// Runs the command that the arguments of the process select, and returns the exit code.
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Run(arguments) => arguments.execute(),
@@ -105,13 +105,18 @@ pub fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(Trouble::Refused(reason)) => {
+        Err(CommandError::Refused(reason)) => {
             eprintln!("{reason}");
             ExitCode::from(2)
         }
-        Err(Trouble::Failed(reason)) => {
+        Err(CommandError::Failed(reason)) => {
             eprintln!("{reason}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// Formats a number of things: "1 unit", "2 units".
+fn counted(number: usize, thing: &str) -> String {
+    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }

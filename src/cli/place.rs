@@ -4,27 +4,27 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, input::read};
+use super::{CommandError, input::read};
 use crate::{
     case::{InputKind, LayerJob},
     output::write_atomically,
     simulation::armour_layer::{PlacementError, place},
 };
 
-/// Largest acceptable overlap over the height of a unit [-].
+/// Largest acceptable overlap divided by the height of a unit [-].
 const GOOD_OVERLAP: f64 = 0.01;
 
 /// Place armour layers: lower the units of a case one by one onto the slope, without water, until they are at rest.
 ///
-/// Their poses go to a placement file, which this and other cases can name as `units.placement_file`.
+/// The poses (positions and rotations) are written to a placement file. Cases name this file as `units.placement_file`.
 #[derive(Args)]
 pub struct PlaceArguments {
-    /// The case file, with `units.armour`.
+    /// The case file; it must have the key `units.armour`.
     case: PathBuf,
     /// The placement file; default: the case file with the extension `.placement.json`.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Replace an existing placement file; default: it is kept and the command refused.
+    /// Replace an existing placement file; default: the command is refused if the file exists.
     #[arg(long)]
     overwrite: bool,
     /// Show no progress; default: progress is shown.
@@ -33,13 +33,13 @@ pub struct PlaceArguments {
 }
 
 impl PlaceArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let document = read(&self.case, &[InputKind::Flume, InputKind::DryTest])?;
-        let job = LayerJob::from_document(&document).map_err(Trouble::refused)?;
+        let job = LayerJob::from_document(&document).map_err(CommandError::refused)?;
         let out = self.out.unwrap_or_else(|| self.case.with_extension("placement.json"));
         if out.exists() && !self.overwrite {
             let what = "exists already; add --overwrite to replace it, or choose another with --out FILE";
-            return Err(Trouble::refused(format!("{}: {what}", out.display())));
+            return Err(CommandError::refused(format!("{}: {what}", out.display())));
         }
         let (count, quiet) = (job.count(), self.quiet);
         if !quiet {
@@ -52,12 +52,12 @@ impl PlaceArguments {
             }
         };
         let placement = place(&job, tell).map_err(|error| match error {
-            PlacementError::NoRoom { .. } => Trouble::refused(format!("{}: {error}", self.case.display())),
-            PlacementError::Rigid(_) => Trouble::failed(error),
+            PlacementError::NoRoom { .. } => CommandError::refused(format!("{}: {error}", self.case.display())),
+            PlacementError::Rigid(_) => CommandError::failed(error),
         })?;
-        let mut text = serde_json::to_string_pretty(&placement.file(&job.title)).map_err(Trouble::failed)?;
+        let mut text = serde_json::to_string_pretty(&placement.file(&job.title)).map_err(CommandError::failed)?;
         text.push('\n');
-        write_atomically(&out, text.as_bytes()).map_err(Trouble::failed)?;
+        write_atomically(&out, text.as_bytes()).map_err(CommandError::failed)?;
         println!("{} units settled in {:.2} s of simulated time", placement.units.len(), placement.time);
         println!("  packing density {:.3}, {} units rolled off", placement.packing_density, placement.rolled_off);
         println!(

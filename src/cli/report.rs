@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Trouble, input::read_run};
+use super::{CommandError, input::read_run};
 use crate::{
     case::InputKind,
     report::{fracture::write_fracture_report, run::write_report},
 };
 
-/// Write the report of a finished run again.
+/// Write the report of a finished run again, from the files in its folder.
 #[derive(Args)]
 pub struct ReportArguments {
     /// Folder of the run.
@@ -18,17 +18,17 @@ pub struct ReportArguments {
 }
 
 impl ReportArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let kind = read_run(&self.dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])?.kind();
         let write = match kind {
             InputKind::Fracture => write_fracture_report,
             InputKind::DryTest => {
                 let what = "the run is a dry test, which has no report; see summary.json and units.csv";
-                return Err(Trouble::refused(format!("{}: {what}", self.dir.display())));
+                return Err(CommandError::refused(format!("{}: {what}", self.dir.display())));
             }
             _ => write_report,
         };
-        let path = write(&self.dir).map_err(Trouble::refused)?;
+        let path = write(&self.dir).map_err(CommandError::refused)?;
         println!("{}", path.display());
         Ok(())
     }

@@ -2,29 +2,29 @@
 
 use clap::Args;
 
-use super::Trouble;
+use super::CommandError;
 
-/// Print the JSON schema of flume cases or other input files, for editors that complete and check as you type.
+/// Print the JSON schema of flume cases or other input files, for editors that complete and check JSON.
 #[derive(Args)]
 pub struct SchemaArguments {
     /// Print the schema of dry tests (units on a bed without water); default: flume cases.
-    #[arg(long)]
-    dry: bool,
+    #[arg(long = "dry-test", alias = "dry")]
+    dry_test: bool,
     /// Print the schema of fracture cases (deformable bodies that crack); default: flume cases.
-    #[arg(long, conflicts_with = "dry")]
+    #[arg(long, conflicts_with = "dry_test")]
     fracture: bool,
     /// Print the schema of sweep files (one case with varied keys); default: flume cases.
-    #[arg(long, conflicts_with_all = ["dry", "fracture"])]
+    #[arg(long, conflicts_with_all = ["dry_test", "fracture"])]
     sweep: bool,
-    /// The schema of `reference.json`: measured displacements that runs are compared with.
-    #[arg(long, conflicts_with_all = ["dry", "fracture", "sweep"])]
+    /// Print the schema of `reference.json` (measured displacements for `breakwater compare`); default: flume cases.
+    #[arg(long, conflicts_with_all = ["dry_test", "fracture", "sweep"])]
     reference: bool,
 }
 
 impl SchemaArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let text = match self {
-            Self { dry: true, .. } => crate::case::dry_schema_text(),
+            Self { dry_test: true, .. } => crate::case::dry_schema_text(),
             Self { fracture: true, .. } => crate::case::fracture_schema_text(),
             Self { sweep: true, .. } => crate::case::sweep_schema_text(),
             Self { reference: true, .. } => crate::case::reference_schema_text(),

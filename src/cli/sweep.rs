@@ -9,7 +9,7 @@ use std::{
 use clap::{Args, ValueEnum};
 
 use super::{
-    Trouble,
+    CommandError, counted,
     devices::DeviceArgument,
     folder::{fresh_folder, stem},
     input::read,
@@ -22,7 +22,7 @@ use crate::{
     report::sweep::write_sweep_chart,
     simulation::flume::{
         branch::Start,
-        checkpoint::Checkpoint,
+        outputs::checkpoint::Checkpoint,
         run::{RunOptions, resume, run},
     },
     sweep::{
@@ -34,12 +34,13 @@ use crate::{
     },
 };
 
-/// How often unfinished runs are submitted to Slurm.
+/// Number of times that unfinished runs are submitted to Slurm.
 const SUBMISSIONS: usize = 2;
 
 /// Run a case for every combination of the listed values, and collect the results in one table and chart.
 ///
-/// Finished runs are kept: repeat the command to continue after an interruption. A failed run is tried once more.
+/// Finished runs are kept. To continue after an interruption, repeat the command. A failed run is started a second
+/// time.
 #[derive(Args)]
 pub struct SweepArguments {
     /// The sweep file: title, case and `vary`, a list of {"key": "friction[1].coefficient", "values": [0.3, 0.6]} or
@@ -51,61 +52,62 @@ pub struct SweepArguments {
     /// Number of runs at the same time on this machine; default: number of cores divided by --threads.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1024))]
     jobs: Option<u32>,
-    /// Threads of each run; several runs with one thread each are faster than one run with several threads.
+    /// Number of threads of each run; several runs with one thread each are faster than one run with several threads.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
     #[command(flatten)]
     device: DeviceArgument,
-    /// What starts the runs.
+    /// How the runs are started.
     #[arg(long, value_enum, default_value = "local")]
     launcher: Launcher,
-    /// Extra option for sbatch, as in --slurm-option=--partition=long; may be repeated; default: none.
+    /// Extra option for the Slurm command sbatch, e.g. --slurm-option=--partition=long; may be repeated; default: none.
     #[arg(long = "slurm-option", value_name = "OPTION")]
     slurm_options: Vec<String>,
-    /// Compute only the run with this number; 0 is the common start, if the sweep has one; default: all runs.
+    /// Compute only the run with this number; 0 is the common start of all runs, if the sweep has one; default: all
+    /// runs.
     #[arg(long, value_name = "NUMBER")]
     member: Option<usize>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Launcher {
-    /// This command, on this machine.
+    /// This command starts the runs on this machine.
     Local,
-    /// A Slurm job array; this command waits until it ends.
+    /// This command submits a Slurm job array and waits until the array ends.
     Slurm,
 }
 
 impl SweepArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = read(&self.sweep, &[InputKind::Sweep])?.parse().map_err(Trouble::refused)?;
-        let sweep = Sweep::new(file, &self.sweep).map_err(Trouble::refused)?;
+    pub(super) fn execute(self) -> Result<(), CommandError> {
+        let file = read(&self.sweep, &[InputKind::Sweep])?.parse().map_err(CommandError::refused)?;
+        let sweep = Sweep::new(file, &self.sweep).map_err(CommandError::refused)?;
         let dir = self.out.clone().unwrap_or_else(|| Path::new("runs").join(stem(&self.sweep)));
-        fs::create_dir_all(&dir).map_err(|error| Trouble::refused(format!("{}: {error}", dir.display())))?;
+        fs::create_dir_all(&dir).map_err(|error| CommandError::refused(format!("{}: {error}", dir.display())))?;
         if let Some(number) = self.member {
             let (first, last) = (usize::from(sweep.start.is_none()), sweep.members.len());
             let member = sweep.member(number).ok_or_else(|| {
-                Trouble::refused(format!(
+                CommandError::refused(format!(
                     "--member {number}: must be between {first} and {last}, the numbers of the runs"
                 ))
             })?;
             return self.make(&sweep, member, &dir);
         }
-        // Absolute paths: the processes and nodes may have other working directories.
-        let absolute = |path: &Path| path.canonicalize().map_err(Trouble::failed);
+        // The paths are absolute, because the started processes may have other working directories.
+        let absolute = |path: &Path| path.canonicalize().map_err(CommandError::failed);
         let (sweep_file, dir, program) =
-            (absolute(&self.sweep)?, absolute(&dir)?, std::env::current_exe().map_err(Trouble::failed)?);
+            (absolute(&self.sweep)?, absolute(&dir)?, std::env::current_exe().map_err(CommandError::failed)?);
         let device = self.device.device.to_string();
         let work = Work { sweep_file: &sweep_file, dir: &dir, threads: self.threads as usize, device: &device };
-        println!("{}: {} runs, results in {}", sweep.title, sweep.members.len(), dir.display());
-        // The other runs begin at the end of the common start.
+        println!("{}: {}, results in {}", sweep.title, counted(sweep.members.len(), "run"), dir.display());
+        // All runs of the sweep continue from the end of the common start.
         if let Some(start) = &sweep.start {
             self.launch(&work, &program, std::slice::from_ref(start))?;
             finished(start, &dir)?;
         }
         self.launch(&work, &program, &sweep.members)?;
         let outcomes: Vec<Outcome> = sweep.members.iter().map(|member| member.outcome(&dir)).collect();
-        println!("{}", write_table(&sweep, &outcomes, &dir).map_err(Trouble::failed)?.display());
-        if let Some(chart) = write_sweep_chart(&sweep, &outcomes, &dir).map_err(Trouble::failed)? {
+        println!("{}", write_table(&sweep, &outcomes, &dir).map_err(CommandError::failed)?.display());
+        if let Some(chart) = write_sweep_chart(&sweep, &outcomes, &dir).map_err(CommandError::failed)? {
             println!("{}", chart.display());
         }
         let unfinished = |(_, outcome): &(&Member, &Outcome)| !matches!(outcome, Outcome::Finished(_));
@@ -114,7 +116,7 @@ impl SweepArguments {
         if missing.is_empty() {
             return Ok(());
         }
-        Err(Trouble::failed(format!(
+        Err(CommandError::failed(format!(
             "{} of {} runs are not finished: {}; see their .log files in {}, then repeat the command",
             missing.len(),
             sweep.members.len(),
@@ -123,14 +125,14 @@ impl SweepArguments {
         )))
     }
 
-    fn launch(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
+    fn launch(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), CommandError> {
         match self.launcher {
-            Launcher::Local => self.make_here(work, program, members),
-            Launcher::Slurm => self.make_by_slurm(work, program, members),
+            Launcher::Local => self.run_locally(work, program, members),
+            Launcher::Slurm => self.run_by_slurm(work, program, members),
         }
     }
 
-    fn make_here(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
+    fn run_locally(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), CommandError> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let jobs = self.jobs.map_or_else(|| (cores / work.threads).max(1), |jobs| jobs as usize);
         let tell = |member: &Member, outcome: &Outcome, left: usize| {
@@ -141,15 +143,15 @@ impl SweepArguments {
             };
             println!("{}: {result} ({left} left)", member.name);
         };
-        work.make_all(program, members, jobs, tell).map_err(Trouble::failed)
+        work.execute_all(program, members, jobs, tell).map_err(CommandError::failed)
     }
 
-    fn make_by_slurm(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), Trouble> {
+    fn run_by_slurm(&self, work: &Work, program: &Path, members: &[Member]) -> Result<(), CommandError> {
         for _ in 0..SUBMISSIONS {
             let script = slurm::write_script(work, program, members, &self.slurm_options);
-            let Some(script) = script.map_err(Trouble::failed)? else { break };
-            let job = slurm::submit(&script).map_err(Trouble::failed)?;
-            println!("job {job} from {}", script.display());
+            let Some(script) = script.map_err(CommandError::failed)? else { break };
+            let job = slurm::submit(&script).map_err(CommandError::failed)?;
+            println!("Slurm job {job}, script {}", script.display());
             let mut last = usize::MAX;
             let tell = |tasks: usize| {
                 if tasks != last {
@@ -157,16 +159,16 @@ impl SweepArguments {
                     last = tasks;
                 }
             };
-            slurm::wait(&job, tell).map_err(Trouble::failed)?;
+            slurm::wait(&job, tell).map_err(CommandError::failed)?;
         }
         Ok(())
     }
 
-    /// Computes one run, or continues it.
-    fn make(&self, sweep: &Sweep, member: &Member, sweep_dir: &Path) -> Result<(), Trouble> {
+    /// Computes one run of the sweep, or continues the run from its checkpoint.
+    fn make(&self, sweep: &Sweep, member: &Member, sweep_dir: &Path) -> Result<(), CommandError> {
         let dir = member.dir(sweep_dir);
         let name = sweep.case.display().to_string();
-        let case = Arc::new(Case::from_str(&member.text, &name).map_err(Trouble::refused)?);
+        let case = Arc::new(Case::from_str(&member.text, &name).map_err(CommandError::refused)?);
         let machine = MachineArguments { threads: Some(self.threads as usize), quiet: false };
         let control = machine.prepare()?;
         let options = RunOptions { device: self.device.open(&case, control.quiet)?, control, until: member.until };
@@ -177,7 +179,7 @@ impl SweepArguments {
             match &sweep.start {
                 Some(start) if member.until.is_none() => {
                     let from = finished(start, sweep_dir)?;
-                    let start = Start::at(case.clone(), &from, &options).map_err(Trouble::failed)?;
+                    let start = Start::at(case.clone(), &from, &options).map_err(CommandError::failed)?;
                     fresh_folder(&dir, true)?;
                     start.run(&dir, &options)
                 }
@@ -195,20 +197,20 @@ impl SweepArguments {
     }
 }
 
-/// Returns the folder of the common start, if that run is finished.
-fn finished(start: &Member, sweep_dir: &Path) -> Result<PathBuf, Trouble> {
+/// Returns the folder of the common start; an error if the common start is not finished.
+fn finished(start: &Member, sweep_dir: &Path) -> Result<PathBuf, CommandError> {
     let dir = start.dir(sweep_dir);
     match start.outcome(sweep_dir) {
         Outcome::Finished(_) => Ok(dir),
-        _ => Err(Trouble::failed(format!(
-            "{}: the common start is not finished, see {}; the other runs need its last checkpoint",
+        _ => Err(CommandError::failed(format!(
+            "{}: the common start is not finished, see {}; all other runs need the last checkpoint of the common start",
             dir.display(),
             start.log(sweep_dir).display()
         ))),
     }
 }
 
-/// Describes the result of a run.
+/// Describes the result of a run in words.
 fn in_words(summary: &Summary) -> String {
     match (summary.mean_displacement_m, summary.damage_ratio) {
         (Some(mean), Some(ratio)) => format!("mean displacement {mean:.3} m, damage ratio {:.0} %", 100.0 * ratio),

@@ -1,17 +1,18 @@
-//! `breakwater unit`: properties and geometry files of a unit of the catalogue.
+//! `breakwater unit`: properties and geometry files of an armour unit in the catalogue.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Trouble;
+use super::CommandError;
 use crate::{
     case::UnitKind,
-    geometry::{gmsh, stl},
+    geometry::{armour_unit::gmsh, stl},
     output::write_atomically,
 };
 
-/// Show volume, nominal diameter, inertia and K_D of an armour unit; write its surface and Gmsh geometry.
+/// Show volume, nominal diameter, inertia and K_D of an armour unit. Optionally write its surface and its Gmsh
+/// geometry.
 #[derive(Args)]
 pub struct UnitArguments {
     /// Shape of the unit.
@@ -19,7 +20,7 @@ pub struct UnitArguments {
     /// Height H [m]; for a Core-Loc, its size C.
     #[arg(long, default_value_t = 1.0)]
     height_m: f64,
-    /// Waist ratio of a Dolos: width of the stem over the height [-].
+    /// Waist ratio of a Dolos: width of the stem divided by the height [-].
     #[arg(long, default_value_t = 0.34)]
     waist_ratio: f64,
     /// Density of the concrete [kg/m3].
@@ -43,16 +44,16 @@ enum CatalogueShape {
     Cube,
 }
 
-/// Radius of the rounded edges over the height [-].
+/// Radius of the rounded edges divided by the height [-].
 const ROUNDING: f64 = 0.03;
-/// Elements along the height in the Gmsh geometry.
+/// Number of elements along the height of the unit in the Gmsh geometry.
 const ELEMENTS: f64 = 20.0;
 
 impl UnitArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let height = self.height_m;
         if !(self.density_kg_m3 > 0.0 && self.density_kg_m3.is_finite()) {
-            return Err(Trouble::refused(format!("--density-kg-m3 {}: must be positive", self.density_kg_m3)));
+            return Err(CommandError::refused(format!("--density-kg-m3 {}: must be positive", self.density_kg_m3)));
         }
         let kind = match self.shape {
             CatalogueShape::Tetrapod => UnitKind::Tetrapod { height },
@@ -61,29 +62,54 @@ impl UnitArguments {
             CatalogueShape::GroovedCube => UnitKind::GroovedCube { height },
             CatalogueShape::Cube => UnitKind::Cuboid { edges: [height; 3] },
         };
-        let unit = kind.build(ROUNDING).map_err(Trouble::refused)?;
+        let unit = kind.build(ROUNDING).map_err(CommandError::refused)?;
         let properties = unit.solid().volume_properties();
         let mass = self.density_kg_m3 * properties.volume;
         let inertia = unit.inertia(mass);
         println!("{} of {height} m", kind.name());
-        println!("  volume       {:.5e} m3 = {:.4} H^3", properties.volume, properties.volume / height.powi(3));
+        println!(
+            "  volume       {} m3 = {:.4} H^3",
+            five_digits(properties.volume),
+            properties.volume / height.powi(3)
+        );
         println!("  D_n          {:.5} m", properties.volume.cbrt());
-        println!("  mass         {mass:.4e} kg at {} kg/m3", self.density_kg_m3);
-        println!("  inertia      {:.4e} {:.4e} {:.4e} kg m2", inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
+        println!("  mass         {} kg at {} kg/m3", five_digits(mass), self.density_kg_m3);
+        let [xx, yy, zz] = [inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z].map(five_digits);
+        println!("  inertia      {xx} {yy} {zz} kg m2");
         println!("  convex parts {}, {} triangles", unit.parts().len(), unit.solid().triangles().len());
         if let Some(k_d) = kind.stability_coefficient() {
-            println!("  K_D          {k_d} (Hudson; two layers, random placing, trunk, breaking waves)");
+            println!("  K_D          {k_d} (Hudson formula; two layers, random placement, trunk, breaking waves)");
         }
         if let Some(path) = &self.stl {
-            stl::write(path, unit.solid().vertices(), unit.solid().triangles()).map_err(Trouble::failed)?;
+            stl::write(path, unit.solid().vertices(), unit.solid().triangles()).map_err(CommandError::failed)?;
             println!("  surface      {}", path.display());
         }
         if let Some(path) = &self.geo {
-            // Every unit of the catalogue has an exact geometry.
+            // `geometry` returns `Some` for every unit in the catalogue.
             let text = gmsh::geometry(&unit, height / ELEMENTS).unwrap_or_default();
-            write_atomically(path, text.as_bytes()).map_err(Trouble::failed)?;
+            write_atomically(path, text.as_bytes()).map_err(CommandError::failed)?;
             println!("  geometry     {}: gmsh -3 {0}", path.display());
         }
         Ok(())
+    }
+}
+
+/// Formats a positive number with five significant digits; numbers below 0.01 in scientific notation.
+fn five_digits(value: f64) -> String {
+    if value < 0.01 {
+        return format!("{value:.4e}");
+    }
+    let decimals = (4 - value.log10().floor() as i32).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::five_digits;
+
+    #[test]
+    fn numbers_have_five_significant_digits() {
+        let texts = [0.000_127_62, 0.010_234_5, 2.236_32, 5255.352, 1_234_567.0].map(five_digits);
+        assert_eq!(texts, ["1.2762e-4", "0.010234", "2.2363", "5255.4", "1234567"]);
     }
 }

@@ -1,11 +1,11 @@
-//! `breakwater wave`: the flume model alone.
+//! `breakwater wave`: runs the flume model without particles.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::{
-    Trouble,
+    CommandError,
     folder::{fresh_folder, stem},
     input::{read, show_warnings},
 };
@@ -13,14 +13,14 @@ use crate::{
     case::{Case, InputKind, Quantity, Wave},
     output::{OutputError, write_atomically, write_flume_gauges, write_flume_piston},
     report::wave_page::write_wave_page,
-    simulation::flume::incoming::{ml_piston, particle_start, run_flume},
+    simulation::flume::wave::incoming::{ml_piston, particle_start, run_flume},
     waves::external::{
         comparison::Comparison,
         openfoam::{Frame, Up, gauges},
     },
 };
 
-/// Compute only the wave in the flume, without particles, in seconds: gauges, wavemaker motion and a plot.
+/// Compute only the wave in the flume, without particles (takes seconds): gauges, wavemaker motion and a plot.
 #[derive(Args)]
 pub struct WaveArguments {
     /// The case file.
@@ -33,17 +33,18 @@ pub struct WaveArguments {
     overwrite: bool,
     /// Compare with an OpenFOAM run (z upwards); default: no comparison.
     ///
-    /// FOLDER is its folder postProcessing with vertical probes of alpha.water, one folder per gauge, as written by
-    /// tools/openfoam; or the folder of the function object interfaceHeight, with the gauges as locations, in order.
+    /// FOLDER is the folder postProcessing of the OpenFOAM run. It has one folder per gauge with vertical probes of
+    /// alpha.water, as tools/openfoam writes them. FOLDER can also be the folder of the function object
+    /// interfaceHeight, whose locations are the elevation gauges of the case in the same order.
     #[arg(long, value_name = "FOLDER")]
     beside: Option<PathBuf>,
 }
 
 impl WaveArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
-        let case = Case::from_document(&read(&self.case, &[InputKind::Flume])?).map_err(Trouble::refused)?;
+    pub(super) fn execute(self) -> Result<(), CommandError> {
+        let case = Case::from_document(&read(&self.case, &[InputKind::Flume])?).map_err(CommandError::refused)?;
         show_warnings(&case.warnings);
-        let refuse = |reason: &str| Err(Trouble::refused(format!("{}: {reason}", self.case.display())));
+        let refuse = |reason: &str| Err(CommandError::refused(format!("{}: {reason}", self.case.display())));
         if matches!(case.wave, Wave::External(_)) {
             return refuse("wave.kind: the wave is read from files of another program; there is no flume model");
         }
@@ -53,7 +54,7 @@ impl WaveArguments {
                  `breakwater check` shows the wavelength and the stroke",
             );
         }
-        let Some(record) = run_flume(&case).map_err(Trouble::refused)? else {
+        let Some(record) = run_flume(&case).map_err(CommandError::refused)? else {
             return refuse("wave: the case has no wave; add one, e.g. {\"kind\": \"solitary\", \"height_m\": 0.045}");
         };
         let elevations = || case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
@@ -63,7 +64,7 @@ impl WaveArguments {
             Some(_) if names.is_empty() => {
                 return refuse("gauges: --beside needs at least one gauge of kind \"elevation\"");
             }
-            Some(folder) => gauges::read(folder, &names, "alpha.water", frame).map_err(Trouble::refused)?,
+            Some(folder) => gauges::read(folder, &names, "alpha.water", frame).map_err(CommandError::refused)?,
             None => Vec::new(),
         };
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(format!("{}-wave", stem(&self.case))));
@@ -81,7 +82,7 @@ impl WaveArguments {
             }
             write_wave_page(&case, &record, &piston, &beside, &dir)
         };
-        let page = write().map_err(Trouble::failed)?;
+        let page = write().map_err(CommandError::failed)?;
         println!("particle domain: wavemaker at x = {} m, start at flume time {start:.2} s", case.domain.x[0]);
         for (number, gauge) in elevations().enumerate() {
             let (height, time) = record.crest(number);

@@ -8,16 +8,17 @@ use super::element::{self, Deformed, LaneModuli, LaneShape, Moduli};
 use super::parallel::chunks::CHUNK;
 use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 
-/// Share of the least strength above which the faces of a tetrahedron are checked for failure [-]. The cheap check uses
-/// the first Piola-Kirchhoff stress. It differs from the Cauchy stress by strains, which are far below this margin.
-const NEAR: f64 = 0.9;
+/// Share of the least strength [-]. The faces of a tetrahedron are checked for failure if its stress exceeds this
+/// share. To save time, this comparison uses the first Piola-Kirchhoff stress. Its relative difference from the Cauchy
+/// stress is of the order of the strains, far below the margin of 10 %.
+const CHECK_SHARE: f64 = 0.9;
 
-/// Forces of the tetrahedra, and which of them are near failure.
+/// Forces of all tetrahedra, with marks on tetrahedra near failure.
 #[derive(Debug, Clone, Default)]
 pub struct Deformation {
     /// Forces on the vertices [N].
     pub forces: Vec<[DVec3; 4]>,
-    /// Whether the stress of each tetrahedron is near the least strength of its body; empty without tied faces.
+    /// For each tetrahedron, true if its stress is near the least strength of its body. Empty if no face is tied.
     pub strained: Vec<bool>,
     sums: Vec<ChunkSum>,
 }
@@ -28,7 +29,7 @@ struct ChunkSum {
     inverted: Option<usize>,
 }
 
-/// Input of the force computation.
+/// Tetrahedra, nodes, moduli and joint forces from which [`Deformation::compute`] computes nodal forces.
 #[derive(Clone, Copy)]
 pub struct Bodies<'a> {
     /// Tetrahedra.
@@ -37,14 +38,14 @@ pub struct Bodies<'a> {
     pub nodes: &'a Nodes,
     /// Moduli of each body.
     pub moduli: &'a [Moduli],
-    /// Least strength of each body [Pa].
+    /// Least stress that can break each body [Pa].
     pub strength: &'a [f64],
     /// Forces of each interface on the corners of its side 0 [N].
     pub joints: &'a [[DVec3; 3]],
 }
 
 impl Deformation {
-    /// Creates the workspace for `count` tetrahedra, with or without tied faces.
+    /// Creates the workspace for `count` tetrahedra; `tied` is true if some faces are tied.
     pub fn new(count: usize, tied: bool) -> Self {
         Self {
             forces: vec![[DVec3::ZERO; 4]; count],
@@ -56,7 +57,7 @@ impl Deformation {
     /// Computes the forces at the current positions and velocities. Returns the viscous power [W].
     ///
     /// # Errors
-    /// Returns the number of an inverted tetrahedron.
+    /// If a tetrahedron is inverted. The error is the number of the first inverted tetrahedron.
     pub fn compute(&mut self, bodies: Bodies) -> Result<f64, usize> {
         let Self { forces, strained, sums } = self;
         let compute = |chunk: usize, forces: &mut [[DVec3; 4]], strained: Option<&mut [bool]>, sum: &mut ChunkSum| {
@@ -92,7 +93,7 @@ impl WithLanes for Chunk<'_> {
         let mut sum = ChunkSum::default();
         let count = self.forces.len();
         for start in (0..count).step_by(LANES) {
-            // The last tetrahedron fills unused lanes.
+            // Unused lanes repeat the last tetrahedron.
             let number = |lane: usize| self.first + (start + lane).min(count - 1);
             let numbers = [number(0), number(1), number(2), number(3)];
             let deformed = self.deform::<L>(numbers);
@@ -104,7 +105,7 @@ impl WithLanes for Chunk<'_> {
                 *out = [-(a[lane] + b[lane] + c[lane]), a[lane], b[lane], c[lane]];
                 self.bodies.add_joints(numbers[lane], out);
                 sum.viscous += power[lane];
-                // NaN counts as inverted, too.
+                // A tetrahedron with the volume ratio NaN also counts as inverted.
                 if !ratio[lane].is_finite() || ratio[lane] <= 0.0 {
                     sum.inverted = sum.inverted.or(Some(numbers[lane]));
                 }
@@ -125,19 +126,19 @@ impl Chunk<'_> {
         element::forces(&shape, &moduli, &gather(&nodes.position, &vertices), &gather(&nodes.velocity, &vertices))
     }
 
-    /// Marks the tetrahedra whose stress is near the strength.
+    /// Marks the tetrahedra whose stress is near the least strength of their body.
     #[inline(always)]
     fn mark_strained<L: Lanes>(&mut self, start: usize, count: usize, t: [usize; LANES], stress_squared: L) {
         let Some(strained) = &mut self.strained else { return };
         let squared = stress_squared.to_array();
         for lane in 0..LANES.min(count - start) {
-            let limit = NEAR * self.bodies.strength[usize::from(self.bodies.tets.body[t[lane]])];
+            let limit = CHECK_SHARE * self.bodies.strength[usize::from(self.bodies.tets.body[t[lane]])];
             strained[start + lane] = squared[lane] >= limit * limit;
         }
     }
 }
 
-/// Gathers nodal values at the four vertices of the tetrahedra in the lanes.
+/// Gathers nodal values at the four vertices of the tetrahedra in the SIMD lanes.
 #[inline(always)]
 fn gather<L: Lanes>(values: &[DVec3], nodes: &[[u32; 4]; LANES]) -> [Vectors<L>; 4] {
     [

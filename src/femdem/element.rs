@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use super::material::Elastic;
 use super::parallel::lanes::{LANES, Lanes, Vectors};
 
-/// Moduli of an element.
+/// Elastic moduli and viscosity of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moduli {
     lambda: f64,
@@ -33,13 +33,13 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Computes the shape from the corners [m]; the fourth lies on the side of the normal of the first three.
+    /// Computes the shape from the corners [m]. The right-hand normal of the first three points to the fourth.
     pub fn new(corners: &[DVec3; 4]) -> Self {
         let edges = edges(corners);
         Self { inverse: edges.inverse(), volume: edges.determinant() / 6.0 }
     }
 
-    /// Gradients of the four shape functions [1/m].
+    /// Returns the gradients of the four shape functions [1/m].
     pub fn gradients(&self) -> [DVec3; 4] {
         let rows = self.inverse.transpose();
         [-(rows.x_axis + rows.y_axis + rows.z_axis), rows.x_axis, rows.y_axis, rows.z_axis]
@@ -50,7 +50,7 @@ fn edges(corners: &[DVec3; 4]) -> DMat3 {
     DMat3::from_cols(corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0])
 }
 
-/// Moduli of the elements in the lanes.
+/// Moduli of the elements in the SIMD lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneModuli<L> {
     lambda: L,
@@ -59,7 +59,7 @@ pub struct LaneModuli<L> {
 }
 
 impl<L: Lanes> LaneModuli<L> {
-    /// Builds the moduli from a function of the lane.
+    /// Builds the moduli from a function of the lane number.
     #[inline(always)]
     pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Moduli) -> Self {
         Self {
@@ -70,10 +70,10 @@ impl<L: Lanes> LaneModuli<L> {
     }
 }
 
-/// Columns of matrices.
+/// The three columns of one matrix per SIMD lane.
 type Matrices<L> = [Vectors<L>; 3];
 
-/// Undeformed shapes of the elements in the lanes.
+/// Undeformed shapes of the elements in the SIMD lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneShape<L> {
     inverse: Matrices<L>,
@@ -81,7 +81,7 @@ pub struct LaneShape<L> {
 }
 
 impl<L: Lanes> LaneShape<L> {
-    /// Builds the shapes from a function of the lane.
+    /// Builds the shapes from a function of the lane number.
     #[inline(always)]
     pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Shape) -> Self {
         let column = |k: usize| Vectors::from_fn(|lane| f(lane).inverse.col(k));
@@ -89,7 +89,7 @@ impl<L: Lanes> LaneShape<L> {
     }
 }
 
-/// Forces, volume ratio, viscous power and stress of the elements in the lanes.
+/// Forces, volume ratio, viscous power and stress of the elements in the SIMD lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct Deformed<L> {
     /// Forces on the vertices 1 to 3 [N]; the force on vertex 0 is the negative of their sum.
@@ -102,14 +102,14 @@ pub struct Deformed<L> {
     pub stress_squared: L,
 }
 
-/// Returns F and det F F^-T.
+/// Returns the deformation gradient F and its cofactor matrix, det F F^-T.
 fn deformation(shape: &Shape, x: &[DVec3; 4]) -> (DMat3, DMat3) {
     let f = edges(x) * shape.inverse;
     let cofactor = DMat3::from_cols(f.y_axis.cross(f.z_axis), f.z_axis.cross(f.x_axis), f.x_axis.cross(f.y_axis));
     (f, cofactor)
 }
 
-/// First Piola-Kirchhoff stress of the elastic part [Pa]: mu (F - F^-T) + lambda ln J F^-T.
+/// Elastic part of the first Piola-Kirchhoff stress [Pa]: mu (F - F^-T) + lambda ln J F^-T.
 fn elastic_stress(moduli: &Moduli, f: DMat3, inverse_transposed: DMat3, log_ratio: f64) -> DMat3 {
     f * moduli.mu + inverse_transposed * (moduli.lambda * log_ratio - moduli.mu)
 }
@@ -130,7 +130,7 @@ pub fn forces<L: Lanes>(
     let pressure = moduli.lambda * logarithm(ratio) - moduli.mu;
     let elastic = sum(&scaled(&f, moduli.mu), &scaled(&inverse_transposed, pressure));
     let stress_squared = norm_squared_of(&elastic);
-    // D = sym(dF/dt F^-1); on undeformed areas its stress eta D becomes det F eta D F^-T.
+    // D = sym(dF/dt F^-1). The first Piola-Kirchhoff stress of the Cauchy stress eta D is det F eta D F^-T.
     let gradient = times_transposed(&times(&lane_edges(v), &shape.inverse), &inverse_transposed);
     let half = L::splat(0.5);
     let [xy, xz, yz] = [
@@ -167,7 +167,7 @@ fn sum<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// A B.
+/// Returns the matrix product A B.
 #[inline(always)]
 fn times<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
     [
@@ -177,7 +177,7 @@ fn times<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
     ]
 }
 
-/// A B^T.
+/// Returns the matrix product A B^T.
 #[inline(always)]
 fn times_transposed<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
     [
@@ -187,7 +187,7 @@ fn times_transposed<L: Lanes>(a: &Matrices<L>, b: &Matrices<L>) -> Matrices<L> {
     ]
 }
 
-/// Whether all lanes are at most [`SMALL_CHANGE`].
+/// Returns true if all four numbers are at most [`SMALL_CHANGE`].
 #[inline(always)]
 fn is_small([a, b, c, d]: [f64; LANES]) -> bool {
     a <= SMALL_CHANGE && b <= SMALL_CHANGE && c <= SMALL_CHANGE && d <= SMALL_CHANGE
@@ -198,11 +198,12 @@ fn norm_squared_of<L: Lanes>(m: &Matrices<L>) -> L {
     m[0].dot(m[0]) + m[1].dot(m[1]) + m[2].dot(m[2])
 }
 
-/// Volume change J - 1 up to which ln J is computed by its series [-]. Concrete breaks at a hundredth of it.
+/// Largest volume change |J - 1| for which a series gives ln J [-]. Concrete in tension breaks at less than a
+/// hundredth of this value.
 const SMALL_CHANGE: f64 = 0.02;
 
-/// ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1). If J is near 1 in all lanes, five terms are exact to
-/// rounding.
+/// Returns ln J = 2 (s + s^3/3 + s^5/5 + ...), s = (J - 1) / (J + 1). If J is near 1 in all lanes, five terms are exact
+/// to rounding. Otherwise, the library function is used.
 #[inline(always)]
 fn logarithm<L: Lanes>(ratio: L) -> L {
     let one = L::splat(1.0);
@@ -218,7 +219,7 @@ fn logarithm<L: Lanes>(ratio: L) -> L {
     (s + s) * (squared * sum + one)
 }
 
-/// Elastic energy [J]: V_0 (mu/2 (tr B - 3 - 2 ln J) + lambda/2 ln^2 J).
+/// Returns the elastic energy of an element [J]: V_0 (mu/2 (tr B - 3 - 2 ln J) + lambda/2 ln^2 J).
 pub fn energy(shape: &Shape, moduli: &Moduli, x: &[DVec3; 4]) -> f64 {
     let (f, cofactor) = deformation(shape, x);
     let log_ratio = f.x_axis.dot(cofactor.x_axis).ln();
@@ -226,7 +227,7 @@ pub fn energy(shape: &Shape, moduli: &Moduli, x: &[DVec3; 4]) -> f64 {
     shape.volume * (0.5 * moduli.mu * (trace - 3.0 - 2.0 * log_ratio) + 0.5 * moduli.lambda * log_ratio * log_ratio)
 }
 
-/// Elastic Cauchy stress [Pa].
+/// Returns the elastic part of the Cauchy stress of an element [Pa].
 pub fn stress(shape: &Shape, moduli: &Moduli, x: &[DVec3; 4]) -> DMat3 {
     let (f, cofactor) = deformation(shape, x);
     let ratio = f.x_axis.dot(cofactor.x_axis);
@@ -284,7 +285,7 @@ mod tests {
         let spin = DVec3::new(3.0, -2.0, 5.0);
         let x = moved(|p| turn * p + DVec3::ONE);
         let answer = forces(&shape, &moduli, &x, &x.map(|p| spin.cross(p)));
-        // Rounding, relative to E times an area.
+        // Tolerance: rounding, relative to E times an area.
         let scale = CONCRETE.young_modulus * shape.volume.powf(2.0 / 3.0);
         assert!(answer.forces.iter().all(|f| f.length() < 1e-13 * scale), "{answer:?}");
         assert!((answer.ratio - 1.0).abs() < 1e-12);
@@ -295,7 +296,7 @@ mod tests {
         for change in [0.0f64, 1e-15, -3e-9, 1e-5, -0.0199, 0.02, 0.03, -0.7, 12.0] {
             let found = logarithm(Portable::load(&[1.0 + change; LANES])).to_array()[0];
             let expected = (1.0 + change).ln();
-            // Rounding: two units in the last place of J - 1.
+            // Tolerance: rounding, two units in the last place of J - 1.
             assert!((found - expected).abs() <= 5e-16 * expected.abs(), "{change}: {found:e} {expected:e}");
         }
     }
@@ -316,7 +317,7 @@ mod tests {
                     energy(&shape, &moduli, &x)
                 };
                 let slope = -(energy_at(1.0) - energy_at(-1.0)) / (2.0 * step);
-                // Central differences over 1e-6 of the element size, and rounding.
+                // Tolerance: central differences over 1e-6 of the element size, and rounding.
                 assert!((slope - answer.forces[vertex - 1][axis]).abs() < 1e-6 * answer.forces[vertex - 1].length());
             }
         }
@@ -329,7 +330,7 @@ mod tests {
         let strain = sigma / CONCRETE.young_modulus;
         let x = moved(|p| p + strain * DVec3::new(p.x, -nu * p.y, -nu * p.z));
         let t = stress(&shape, &moduli, &x);
-        // Strains of 4e-8: quadratic terms and rounding of the positions.
+        // Tolerance: quadratic terms of strains of 4e-8, and rounding of the positions.
         assert!(
             (t.x_axis.x / sigma - 1.0).abs() < 1e-6
                 && t.y_axis.y.abs() < 1e-6 * sigma

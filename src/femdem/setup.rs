@@ -1,4 +1,4 @@
-//! Input of a world: mesh, bodies, constraints and loads.
+//! Input of a world (all bodies, joints and contacts of a run): mesh, bodies, constraints and loads.
 
 use std::ops::Range;
 
@@ -11,20 +11,20 @@ use super::material::cohesive_law::Cohesion;
 use super::mesh::PreparedMesh;
 use super::mesh::faces::Interface;
 
-/// A body.
+/// A deformable or rigid body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Its tetrahedra.
+    /// Numbers of the tetrahedra of the body.
     pub tets: Range<usize>,
     /// Elasticity, density, viscosity.
     pub elastic: Elastic,
-    /// Cohesive parameters of its joints; `None` for a body that cannot crack.
+    /// Cohesive parameters of the joints of the body; `None` for a body that cannot crack.
     pub cohesion: Option<Cohesion>,
-    /// Whether the body is rigid; a rigid body cannot crack.
+    /// True if the body is rigid. A rigid body cannot crack.
     pub rigid: bool,
-    /// Contact penalty: stress per unit of contact potential [Pa]. A pair uses the smaller one of its bodies.
+    /// Contact penalty: stress per unit of contact potential [Pa]. Two bodies in contact use the smaller penalty.
     pub contact_penalty: f64,
-    /// Velocity at the start [m/s].
+    /// Velocity of the point `pivot` at the start [m/s].
     pub velocity: DVec3,
     /// Angular velocity at the start [rad/s] about `pivot`.
     pub angular_velocity: DVec3,
@@ -41,18 +41,18 @@ const CONTACT_PENALTY: f64 = 1.0;
 pub struct Constraint {
     /// Nodes of the mesh.
     pub nodes: Vec<u32>,
-    /// Velocity along each axis [m/s]; `None` leaves it free.
+    /// Prescribed velocity along x, y and z [m/s]; `None` leaves the component free.
     pub velocity: [Option<History<1>>; 3],
 }
 
 impl Constraint {
-    /// Upper limit of the prescribed speed over all times [m/s].
+    /// Returns an upper limit of the prescribed speed over all times [m/s].
     pub fn fastest(&self) -> f64 {
         let most = |given: &Option<History<1>>| given.as_ref().map_or(0.0, |history| history.largest()[0]);
         DVec3::from_array(self.velocity.each_ref().map(most)).length()
     }
 
-    /// Returns the velocity along each axis [m/s] at a time [s].
+    /// Returns the prescribed velocity along x, y and z [m/s] at a time [s]; `None` for a free component.
     pub fn at(&self, time: f64) -> [Option<f64>; 3] {
         self.velocity.each_ref().map(|given| given.as_ref().map(|history| history.at(time)[0]))
     }
@@ -63,7 +63,7 @@ impl Constraint {
 pub struct Setup {
     /// Initial positions of the mesh nodes [m].
     pub nodes: Vec<DVec3>,
-    /// Nodes of each tetrahedron; seen from the fourth, the first three run anticlockwise.
+    /// Nodes of each tetrahedron. Seen from the fourth node, the first three are in anticlockwise order.
     pub tets: Vec<[u32; 4]>,
     /// Bodies; their ranges are consecutive and cover all tetrahedra.
     pub bodies: Vec<Body>,
@@ -71,9 +71,9 @@ pub struct Setup {
     pub interfaces: Vec<Interface>,
     /// Numbers of the interfaces that are broken at the start (pre-cracks).
     pub cracks: Vec<u32>,
-    /// Tetrahedra on the surface and at pre-cracks, in ascending order.
+    /// Numbers of the tetrahedra on the surface and at pre-cracks, in ascending order.
     pub outer: Vec<u32>,
-    /// Friction coefficients between bodies [-], one row per body; the diagonal is for crack faces of the same body.
+    /// Friction coefficients between bodies [-], one row per body. The diagonal applies to crack faces of one body.
     pub friction: Vec<Vec<f64>>,
     /// Constraints: nodes with prescribed velocities.
     pub constraints: Vec<Constraint>,
@@ -102,13 +102,13 @@ impl Body {
 }
 
 impl Setup {
-    /// Friction coefficient between two bodies, by their numbers [-].
+    /// Returns the friction coefficient [-] between bodies number `a` and `b`.
     pub fn friction(&self, [a, b]: [usize; 2]) -> f64 {
         self.friction[a][b]
     }
 
-    /// Creates the setup of a mesh and its bodies, in the same order, without gravity, friction, constraints and loads.
-    /// The crack sets of the mesh are broken.
+    /// Creates a setup without gravity, friction, constraints and loads. `bodies` are in the order of the bodies of the
+    /// mesh. The faces of crack sets are broken at the start.
     pub fn of_mesh(prepared: &PreparedMesh, bodies: Vec<Body>) -> Self {
         let PreparedMesh { mesh, faces, .. } = prepared;
         let can_crack = |tet: u32| bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&(tet as usize)));

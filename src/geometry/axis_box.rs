@@ -9,7 +9,7 @@ pub struct AxisBox {
     pub low: DVec3,
     /// Upper corner [m].
     pub high: DVec3,
-    /// Whether the lower and the upper face of each axis are open to the water. A face on the bed or at a wall is
+    /// For each axis, true if the lower or the upper face is open to the water. A face on the bed or at a wall is
     /// closed.
     pub open: [[bool; 2]; 3],
 }
@@ -23,7 +23,7 @@ impl AxisBox {
         Self { low, high, open: [[true; 2]; 3] }
     }
 
-    /// Slice of `thickness` [m] from the middle of the box in y, with closed cut faces.
+    /// Slice with the given thickness [m] in y from the middle of the box; both cut faces are closed.
     pub fn slice(&self, thickness: f64) -> Self {
         let middle = 0.5 * (self.low.y + self.high.y);
         let mut slice = self.with_closed_sides();
@@ -53,8 +53,8 @@ impl AxisBox {
         point.clamp(self.low, self.high)
     }
 
-    /// For each open face, the depth of a point behind it and the vector from the point to it [m].
-    fn ways_out(&self, point: DVec3) -> impl Iterator<Item = (f64, DVec3)> + use<> {
+    /// For each open face: depth of the point behind the face [m], and vector from the point to the face [m].
+    fn paths_to_open_faces(&self, point: DVec3) -> impl Iterator<Item = (f64, DVec3)> + use<> {
         let (low, high, open) = (self.low, self.high, self.open);
         (0..3).flat_map(move |axis| {
             let to_face = [low[axis] - point[axis], high[axis] - point[axis]];
@@ -69,14 +69,14 @@ impl AxisBox {
 
     /// Depth of an inner point behind the nearest open face [m].
     pub fn depth(&self, point: DVec3) -> f64 {
-        self.ways_out(point).map(|(depth, _)| depth).fold(f64::INFINITY, f64::min)
+        self.paths_to_open_faces(point).map(|(depth, _)| depth).fold(f64::INFINITY, f64::min)
     }
 
-    /// Vector from an inner point to the nearest open face [m]. If two or three faces are equally near, it leads to
-    /// their common edge or corner, so that no face is preferred.
+    /// Vector from an inner point to the nearest open face [m]. If two or three faces are equally near, the vector
+    /// leads to their common edge or corner.
     pub fn vector_to_surface(&self, point: DVec3) -> DVec3 {
         let most = self.depth(point) + SAME * self.edges().max_element();
-        self.ways_out(point).filter(|(depth, _)| *depth <= most).map(|(_, way)| way).sum()
+        self.paths_to_open_faces(point).filter(|(depth, _)| *depth <= most).map(|(_, way)| way).sum()
     }
 
     /// Nearest point of the open surface [m] and signed distance to it [m], negative inside.
@@ -90,7 +90,7 @@ impl AxisBox {
         (point + way, -way.length())
     }
 
-    /// Whether a point lies strictly behind all open faces, and not beyond the closed ones.
+    /// Returns true if a point lies strictly behind all open faces, and behind or on all closed faces.
     pub fn contains(&self, point: DVec3) -> bool {
         let slack = SAME * self.edges().max_element();
         (0..3).all(|axis| {
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn box_holds_points_on_closed_faces_but_not_on_open_ones() {
+    fn box_contains_points_on_closed_faces_but_not_on_open_faces() {
         assert!(on_the_bed().contains(DVec3::new(0.5, 1.0, 0.0)));
         assert!(!on_the_bed().contains(DVec3::new(0.0, 1.0, 1.0)));
         assert!(!on_the_bed().contains(DVec3::new(0.5, 1.0, -0.1)));

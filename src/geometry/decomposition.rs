@@ -3,14 +3,14 @@
 use glam::DVec3;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
-use super::polyhedron::Polyhedron;
+use super::convex::polyhedron::Polyhedron;
 use super::solid::Solid;
 
-/// Number of sample points along the longest edge of the body, for the comparison of parts and body.
+/// Number of sample points along the longest edge of the bounding box, for the comparison of parts and body.
 const SAMPLES: f64 = 48.0;
-/// Number of voxels along the longest edge of the body, and the largest number of parts, for each attempt.
+/// For each attempt: number of voxels along the longest edge of the bounding box, and largest number of parts.
 const ATTEMPTS: [(u32, u32); 3] = [(48, 16), (96, 32), (128, 60)];
-/// Volume error below which no finer attempt is made [-].
+/// Volume error below which no further attempt is made [-].
 const ACCEPTABLE_ERROR: f64 = 0.02;
 
 /// Convex parts of a body and their volume error.
@@ -18,11 +18,11 @@ const ACCEPTABLE_ERROR: f64 = 0.02;
 pub struct Decomposition {
     /// Convex parts [m].
     pub parts: Vec<Polyhedron>,
-    /// Volume of the symmetric difference of body and parts over that of the body [-].
+    /// Volume of the symmetric difference of body and parts, divided by the volume of the body [-].
     pub volume_error: f64,
 }
 
-/// Decomposes a body into convex parts; returns the first attempt with a small volume error, or the best one.
+/// Decomposes a body into convex parts; returns the first attempt with a volume error below 2 %, or the best attempt.
 pub fn decompose(solid: &Solid) -> Decomposition {
     if let Ok(hull) = Polyhedron::hull(solid.vertices()) {
         let whole = measure(solid, vec![hull]);
@@ -47,7 +47,7 @@ pub fn decompose(solid: &Solid) -> Decomposition {
     best
 }
 
-/// Computes the volume error of parts at the points of a lattice.
+/// Computes the volume error of the parts from sample points on a lattice.
 pub fn measure(solid: &Solid, parts: Vec<Polyhedron>) -> Decomposition {
     let [low, high] = solid.bounds();
     let step = (high - low).max_element() / SAMPLES;
@@ -56,7 +56,7 @@ pub fn measure(solid: &Solid, parts: Vec<Polyhedron>) -> Decomposition {
     for i in 0..count.x {
         for j in 0..count.y {
             for k in 0..count.z {
-                // Offset, because faces often lie at round coordinates.
+                // Faces often lie at round coordinates: the offset keeps sample points off the faces.
                 let point = low + step * (DVec3::new(i.into(), j.into(), k.into()) - DVec3::new(0.47, 0.53, 0.49));
                 let in_body = solid.signed_distance(point) < 0.0;
                 let in_parts = parts.iter().any(|part| part.least_distance(point) < 0.0);
@@ -72,7 +72,7 @@ pub fn measure(solid: &Solid, parts: Vec<Polyhedron>) -> Decomposition {
 mod tests {
     use super::*;
     use crate::geometry::armour_unit::ArmourUnit;
-    use crate::geometry::{cuboid, dolos};
+    use crate::geometry::armour_unit::{cuboid, dolos};
 
     #[test]
     fn convex_body_is_a_single_part() {
@@ -95,7 +95,7 @@ mod tests {
     fn dolos_is_decomposed_with_a_bounded_volume_error() {
         let unit = ArmourUnit::dolos(1.0, 0.34, 0.03).unwrap();
         let found = decompose(unit.solid());
-        println!("{} parts, {:.2} % of the volume", found.parts.len(), 100.0 * found.volume_error);
+        println!("{} parts, volume error {:.2} %", found.parts.len(), 100.0 * found.volume_error);
         assert!(found.parts.len() > 3 && found.volume_error < 0.2);
     }
 }

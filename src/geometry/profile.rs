@@ -1,6 +1,6 @@
 //! Bed and mound as a polyline z(x), uniform across the flume.
 
-/// A bed profile: points with increasing x, linear in between, level beyond the ends.
+/// A bed profile: points with increasing x, linear between the points, level beyond the ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     points: Vec<[f64; 2]>,
@@ -10,7 +10,7 @@ impl Profile {
     /// Creates the profile through `points` [x, z] in metres.
     ///
     /// # Panics
-    /// If there are fewer than two points or x does not increase strictly; case validation has checked both.
+    /// If there are fewer than two points or x does not increase strictly. The case validation checks both before.
     pub fn new(points: Vec<[f64; 2]>) -> Self {
         assert!(points.len() >= 2, "a profile needs at least two points");
         assert!(points.windows(2).all(|w| w[1][0] > w[0][0]), "x of a profile must increase");
@@ -49,9 +49,9 @@ impl Profile {
         (z1 - z0) / (x1 - x0)
     }
 
-    /// Returns the bed with a trapezoidal mound: crest between `crest_x` [m] at level `crest_z` [m], slopes with the
-    /// given horizontal run per unit of rise. `None` if the crest lies below the bed, or a slope does not meet the bed
-    /// inside the profile.
+    /// Returns the bed with a trapezoidal mound. The crest lies between the two `crest_x` [m] at level `crest_z` [m];
+    /// `run_per_rise` is the horizontal run of each slope per unit of rise. `None` if the crest lies below the bed, or
+    /// a slope does not meet the bed inside the profile.
     pub fn with_mound(&self, crest_x: [f64; 2], crest_z: f64, run_per_rise: [f64; 2]) -> Option<Self> {
         if self.z(crest_x[0]) >= crest_z || self.z(crest_x[1]) >= crest_z {
             return None;
@@ -64,7 +64,7 @@ impl Profile {
         Some(Self::new(points))
     }
 
-    /// Point where the line from (x, z) with the signed run per unit of fall meets the bed.
+    /// First point [m] where the slope from (x, z) meets the bed; `run` is its signed run per unit of fall [-].
     fn flank_meets_bed(&self, x: f64, z: f64, run: f64) -> Option<[f64; 2]> {
         let crossing = |[xa, za]: [f64; 2], [xb, zb]: [f64; 2]| {
             // Height of the slope above the bed, linear along the segment.
@@ -83,7 +83,7 @@ impl Profile {
         hits.first().copied()
     }
 
-    /// Lowest and highest level between two x [m].
+    /// Lowest and highest bed level between two x [m].
     pub fn extremes_between(&self, [x0, x1]: [f64; 2]) -> (f64, f64) {
         let corners = self.points().iter().filter(|p| p[0] > x0 && p[0] < x1).map(|p| p[1]);
         let levels = corners.chain([self.z(x0), self.z(x1)]);

@@ -1,8 +1,8 @@
 //! A body bounded by a closed triangle surface: signed distance, volume, inertia tensor.
 //!
-//! Distances come from parry's oriented triangle mesh; its pseudo-normals give the correct sign at edges and vertices
-//! (Baerentzen & Aanaes 2005). Volume and inertia are exact: sums over the tetrahedra between a reference point and
-//! each triangle (Tonon 2004).
+//! Distances come from parry's oriented triangle mesh. Its pseudo-normals give the correct sign at edges and vertices
+//! (Baerentzen & Aanaes 2005). Volume and inertia are exact sums over the tetrahedra that each triangle forms with a
+//! reference point (Tonon 2004).
 
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ use parry3d_f64::query::{PointQuery, intersection_test};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use thiserror::Error;
 
-/// Error when a triangle surface does not bound a body.
+/// Reason why a triangle surface does not bound a body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SolidError {
     /// Fewer than four triangles.
@@ -31,8 +31,8 @@ pub enum SolidError {
     Degenerate(usize),
     /// An edge belongs to one triangle only: the surface has a hole.
     #[error(
-        "the surface is not closed: the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) belongs to one triangle \
-         only ({open} such edges in total)", a.x, a.y, a.z, b.x, b.y, b.z
+        "the surface is not closed: the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) belongs to one \
+         triangle only ({open} such edges in total)", a.x, a.y, a.z, b.x, b.y, b.z
     )]
     Open { a: DVec3, b: DVec3, open: usize },
     /// Two triangles traverse an edge in the same direction, or more than two share it.
@@ -41,15 +41,18 @@ pub enum SolidError {
          more than two share the edge", a.x, a.y, a.z, b.x, b.y, b.z
     )]
     NotOriented { a: DVec3, b: DVec3 },
-    /// The surface encloses no volume, or its triangles face inwards.
-    #[error("the surface encloses {0:.3e} m3: its triangles must be counter-clockwise seen from outside")]
-    InsideOut(f64),
+    /// The surface encloses no volume, or its triangles are clockwise seen from outside.
+    #[error(
+        "the surface encloses {0:.3e} m3, but the volume must be positive: its triangles must be counter-clockwise \
+         seen from outside"
+    )]
+    VolumeNotPositive(f64),
     /// parry rejected the mesh.
     #[error("the mesh library parry rejected the surface: {0}")]
     Mesh(String),
 }
 
-/// Volume, centroid and inertia tensor of a body of unit density.
+/// Volume, centroid and inertia tensor of a body with unit density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VolumeProperties {
     /// Volume [m3].
@@ -77,12 +80,12 @@ impl std::fmt::Debug for Solid {
 }
 
 impl Solid {
-    /// Creates the body inside the given surface [m]; triangles counter-clockwise seen from outside.
+    /// Creates the body inside the given surface [m]. The triangles must be counter-clockwise seen from outside.
     pub fn new(vertices: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, SolidError> {
         check_closed(&vertices, &triangles)?;
         let properties = volume_properties(&vertices, &triangles);
         if properties.volume.is_nan() || properties.volume <= 0.0 {
-            return Err(SolidError::InsideOut(properties.volume));
+            return Err(SolidError::VolumeNotPositive(properties.volume));
         }
         let mesh = TriMesh::with_flags(vertices, triangles, TriMeshFlags::ORIENTED)
             .map_err(|error| SolidError::Mesh(error.to_string()))?;
@@ -99,7 +102,8 @@ impl Solid {
         self.mesh.indices()
     }
 
-    /// A point [m] where the surface intersects or touches itself: two triangles without a common vertex meet there.
+    /// Centre [m] of a triangle that intersects or touches another triangle without a common vertex; `None` if no
+    /// triangles do.
     pub fn self_intersection(&self) -> Option<DVec3> {
         let triangle = |index: usize| self.mesh.triangle(index as u32);
         let boxes: Vec<Aabb> = (0..self.triangles().len()).map(|index| triangle(index).local_aabb()).collect();
@@ -148,7 +152,7 @@ impl Solid {
     }
 }
 
-/// Checks that every edge is traversed once in each direction.
+/// Returns an error unless the triangles traverse every edge once in each direction.
 fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidError> {
     if triangles.len() < 4 {
         return Err(SolidError::TooFewTriangles(triangles.len()));
@@ -170,7 +174,7 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
         }
     }
     let ends = |edge: &[u32; 2]| (vertices[edge[0] as usize], vertices[edge[1] as usize]);
-    // The smallest offending edge, so that the message is reproducible.
+    // The smallest such edge is reported, which makes the message reproducible.
     if let Some((edge, _)) = edges.iter().filter(|(_, count)| **count > 1).min() {
         let (a, b) = ends(edge);
         return Err(SolidError::NotOriented { a, b });
@@ -186,7 +190,7 @@ fn check_closed(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), SolidE
     }
 }
 
-/// Volume, centroid and inertia tensor by signed tetrahedra (o, a, b, c) from a point o near the middle.
+/// Volume, centroid and inertia tensor as sums over signed tetrahedra (o, a, b, c) with a point o near the middle.
 ///
 /// Volume of a tetrahedron V = a.(b x c)/6; second moments
 /// int x x^T dV = V/20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c, with o as the origin.
@@ -218,7 +222,7 @@ fn trace(m: DMat3) -> f64 {
 pub(crate) mod tests {
     use super::*;
 
-    /// Box with the given corners, 12 triangles.
+    /// Box with the corners `min` and `max`: vertices and 12 triangles.
     pub(crate) fn cuboid(min: DVec3, max: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let corner = |i: usize| {
             DVec3::new(
@@ -237,7 +241,7 @@ pub(crate) mod tests {
         let (vertices, triangles) = cuboid(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 4.0, 6.0));
         let solid = Solid::new(vertices, triangles).unwrap();
         let p = solid.volume_properties();
-        // Exact integration: rounding errors only.
+        // The integration is exact, so the tolerance allows only for rounding errors.
         assert!((p.volume - 6.0).abs() < 1e-12);
         assert!((p.centre - DVec3::new(1.5, 3.0, 4.5)).length() < 1e-12);
         let textbook = DVec3::new(4.0 + 9.0, 1.0 + 9.0, 1.0 + 4.0) * 6.0 / 12.0;
@@ -261,7 +265,7 @@ pub(crate) mod tests {
         let hole = Solid::new(vertices.clone(), triangles[1..].to_vec()).unwrap_err();
         assert!(hole.to_string().contains("not closed"), "{hole}");
         let reversed = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
-        assert!(matches!(Solid::new(vertices.clone(), reversed), Err(SolidError::InsideOut(_))));
+        assert!(matches!(Solid::new(vertices.clone(), reversed), Err(SolidError::VolumeNotPositive(_))));
         let mut twisted = triangles.clone();
         twisted[0].swap(0, 1);
         assert!(matches!(Solid::new(vertices.clone(), twisted), Err(SolidError::NotOriented { .. })));

@@ -17,7 +17,7 @@ pub enum StlError {
     /// The file cannot be opened, read or written.
     #[error("{path}: {source}")]
     Io { path: PathBuf, source: std::io::Error },
-    /// The file is not a complete STL file.
+    /// The file is incomplete or not an STL file.
     #[error("{path} is not a readable STL file: {reason}")]
     Format { path: PathBuf, reason: String },
     /// The surface does not bound a body.
@@ -34,7 +34,7 @@ pub fn read(path: &Path, scale: f64) -> Result<Solid, StlError> {
     parse(&bytes, path, scale)
 }
 
-/// Reads the body from the content of an STL file; `path` is its name in messages.
+/// Reads the body from the content of an STL file; error messages name the file `path`.
 ///
 /// Corner points with equal coordinates become one vertex. Triangles that use a vertex twice are left out.
 pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<Solid, StlError> {
@@ -48,7 +48,7 @@ pub fn parse_terrain(bytes: &[u8], path: &Path, scale: f64) -> Result<Terrain, S
     Terrain::new(vertices, triangles).map_err(|source| StlError::Terrain { path: path.to_owned(), source })
 }
 
-/// Corner points and triangles.
+/// Vertices [m] and triangles as vertex indices.
 type Facets = (Vec<DVec3>, Vec<[u32; 3]>);
 
 fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
@@ -60,7 +60,7 @@ fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
     for (index, facet) in facets.enumerate() {
         let facet = facet.map_err(|e| format(format!("triangle {index}: {e}")))?;
         let corners = facet.vertices.map(|v| {
-            // Adding zero changes -0 to +0, which differs in its bits.
+            // Adding zero changes -0 to +0, because their bits differ.
             let [x, y, z] = v.0.map(|c| c + 0.0);
             *known.entry([x.to_bits(), y.to_bits(), z.to_bits()]).or_insert_with(|| {
                 vertices.push(scale * DVec3::new(x.into(), y.into(), z.into()));
@@ -75,7 +75,7 @@ fn facets(bytes: &[u8], path: &Path, scale: f64) -> Result<Facets, StlError> {
     Ok((vertices, triangles))
 }
 
-/// Writes a surface as binary STL. It writes to a temporary file and renames it, so the final file is always complete.
+/// Writes a surface as a binary STL file. A temporary file is written and renamed, so the file is always complete.
 pub fn write(path: &Path, vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), StlError> {
     let io = |source| StlError::Io { path: path.to_owned(), source };
     let mut name = path.file_name().unwrap_or_default().to_owned();
@@ -88,7 +88,7 @@ pub fn write(path: &Path, vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<
     fs::rename(&temporary, path).map_err(io)
 }
 
-/// Writes 80 bytes of header, the count, then normal, corners and a two-byte attribute of each triangle.
+/// Writes 80 bytes of header and the number of triangles, then normal, corners and a two-byte attribute per triangle.
 fn write_facets(out: &mut impl Write, vertices: &[DVec3], triangles: &[[u32; 3]]) -> std::io::Result<()> {
     out.write_all(&[0; 80])?;
     let count = u32::try_from(triangles.len()).map_err(std::io::Error::other)?;
@@ -120,7 +120,7 @@ mod tests {
         write(&path, unit.solid().vertices(), unit.solid().triangles()).unwrap();
         let back = read(&path, 1.0).unwrap();
         assert_eq!(back.triangles().len(), unit.solid().triangles().len());
-        // Coordinates are stored with 24 bits, 6e-8 of their value.
+        // Coordinates are stored with 24 bits, a relative error of 6e-8.
         let ratio = back.volume_properties().volume / unit.solid().volume_properties().volume;
         assert!((ratio - 1.0).abs() < 1e-6);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file was not removed");
@@ -142,7 +142,7 @@ mod tests {
         text.push_str("endsolid box\n");
         std::fs::write(&path, text).unwrap();
         let volume = read(&path, 1e-3).unwrap().volume_properties().volume;
-        // Rounding errors of the sum only.
+        // 1e-9 allows for the rounding errors of the sum.
         assert!((volume / 6e-6 - 1.0).abs() < 1e-9);
     }
 

@@ -1,7 +1,7 @@
-//! A fixed triangle surface for contact with units: rock, a survey, a model of a mound; open or closed.
+//! A fixed open or closed triangle surface that units can touch, for example a rock, a survey or a model of a mound.
 //!
 //! The surface is a set of elements that can be nearest to a convex body: triangles, convex edges (ridges) and corners.
-//! Edges in flat or concave areas are never nearest and are left out. Border edges have one triangle only.
+//! Edges in flat or concave areas are never nearest and are left out. Border edges, with one triangle, are ridges.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use thiserror::Error;
 
-/// Error when triangles do not form a usable surface.
+/// Reason why triangles do not form a usable surface.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TerrainError {
     /// The surface is empty.
@@ -21,7 +21,7 @@ pub enum TerrainError {
     NotFinite(usize),
     /// A triangle has no area.
     #[error("triangle {triangle} near ({:.6}, {:.6}, {:.6}) m has no area", at.x, at.y, at.z)]
-    Sliver { triangle: usize, at: DVec3 },
+    NoArea { triangle: usize, at: DVec3 },
     /// Two triangles traverse an edge in the same direction, or more than two share it.
     #[error(
         "the triangles at the edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}) have opposite orientations, or \
@@ -40,7 +40,7 @@ pub struct Face {
 }
 
 impl Face {
-    /// Whether the foot point of `point` lies in the triangle, or at most `slack` [m] outside.
+    /// Returns true if the foot point of `point` lies in the triangle, or at most `slack` [m] outside.
     pub fn has_foot_of(&self, point: DVec3, slack: f64) -> bool {
         (0..3).all(|k| {
             let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
@@ -58,7 +58,7 @@ pub struct Ridge {
     pub into: Vec<DVec3>,
 }
 
-/// A corner of at least one ridge.
+/// A vertex at the end of at least one ridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Corner {
     /// Position [m].
@@ -74,7 +74,7 @@ pub enum SurfaceElement {
     Face(Face),
     /// The interior of an edge.
     Ridge(Ridge),
-    /// A corner.
+    /// A vertex at the end of a ridge.
     Corner(Corner),
 }
 
@@ -91,8 +91,8 @@ impl SurfaceElement {
 /// Sine of the angle below which two triangles count as one plane [-].
 const STRAIGHT: f64 = 1e-6;
 
-/// Square of twice the area over the fourth power of the longest edge below which a triangle counts as a line [-]. The
-/// 24 bits of a binary file resolve a coordinate to 6e-8 of its value.
+/// A triangle counts as a line if (2 area)^2 / (longest edge)^4 is at most this value [-]. The 24 bits of a binary STL
+/// file resolve a coordinate to 6e-8 of its value.
 const LINE: f64 = 1e-14;
 
 /// A fixed triangle surface.
@@ -136,7 +136,7 @@ impl Terrain {
             let across = (b - a).cross(c - a);
             let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
             if across.length_squared() <= LINE * longest * longest {
-                return Err(TerrainError::Sliver { triangle: index, at: a });
+                return Err(TerrainError::NoArea { triangle: index, at: a });
             }
             faces.push(Face { corners, normal: across.normalize() });
         }
@@ -173,7 +173,7 @@ impl Terrain {
     /// Elements whose bounding boxes are nearer than `radius` [m] to `centre`, with their numbers, unordered.
     pub fn near(&self, centre: DVec3, radius: f64) -> impl Iterator<Item = (u32, &SurfaceElement)> {
         let about = Aabb::new(centre - DVec3::splat(radius), centre + DVec3::splat(radius));
-        // Collected, because the tree's iterator borrows the local box.
+        // The result is collected, because the iterator of the tree borrows the local box.
         let found: Vec<u32> = self.tree.intersect_aabb(&about).collect();
         found.into_iter().map(|number| (number, &self.elements[number as usize]))
     }
@@ -195,7 +195,7 @@ impl Terrain {
     }
 }
 
-/// The one or two triangles of every edge, keyed and sorted by its lower and higher vertex.
+/// Every edge (lower and higher vertex index) with the indices of its one or two triangles, sorted by edge.
 type Edges = Vec<([u32; 2], Vec<usize>)>;
 
 fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainError> {
@@ -206,7 +206,7 @@ fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainErr
             let (edge, sense) = if p < q { ([p, q], 0) } else { ([q, p], 1) };
             let side = &mut sides.entry(edge).or_default()[sense];
             if side.replace(index).is_some() {
-                // The smallest one, so that the message is reproducible.
+                // The smallest such edge is reported, which makes the message reproducible.
                 wrong = Some(wrong.map_or(edge, |known| known.min(edge)));
             }
         }
@@ -220,7 +220,7 @@ fn edges(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Edges, TerrainErr
     Ok(edges)
 }
 
-/// Convex edges and border edges, with their vertices.
+/// Convex edges and border edges, with their vertex indices.
 fn ridges(vertices: &[DVec3], triangles: &[[u32; 3]], faces: &[Face], edges: &Edges) -> Vec<([u32; 2], Ridge)> {
     let ridge = |(edge, sides): &([u32; 2], Vec<usize>)| {
         let ends = edge.map(|v| vertices[v as usize]);
@@ -239,7 +239,7 @@ fn ridges(vertices: &[DVec3], triangles: &[[u32; 3]], faces: &[Face], edges: &Ed
     edges.iter().filter_map(ridge).collect()
 }
 
-/// Corners at the ends of ridges, with the directions of all their edges.
+/// Corners at the ends of ridges, with the directions of all edges at each corner.
 fn corners(vertices: &[DVec3], edges: &Edges, ridges: &[([u32; 2], Ridge)]) -> Vec<Corner> {
     let mut sharp = vec![false; vertices.len()];
     ridges.iter().flat_map(|(edge, _)| edge).for_each(|v| sharp[*v as usize] = true);
@@ -260,7 +260,7 @@ pub(crate) mod tests {
     use crate::geometry::solid::tests::cuboid;
 
     /// A profile in x, extruded from y = -1 to 1, with two triangles per strip.
-    pub(crate) fn drawn_out(points: &[[f64; 2]]) -> Terrain {
+    pub(crate) fn extruded_profile(points: &[[f64; 2]]) -> Terrain {
         let at = |i: usize, y: f64| DVec3::new(points[i][0], y, points[i][1]);
         let vertices = (0..points.len()).flat_map(|i| [at(i, -1.0), at(i, 1.0)]).collect();
         let strip = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
@@ -289,15 +289,15 @@ pub(crate) mod tests {
 
     #[test]
     fn borders_are_ridges_and_valleys_are_not() {
-        // A roof has its ridge and six border edges, a trough only the border edges.
-        assert_eq!(count(&drawn_out(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])), [4, 7, 6]);
-        assert_eq!(count(&drawn_out(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]])), [4, 6, 6]);
+        // A roof has its top ridge and six border edges; a trough has only the border edges.
+        assert_eq!(count(&extruded_profile(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])), [4, 7, 6]);
+        assert_eq!(count(&extruded_profile(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]])), [4, 6, 6]);
     }
 
     #[test]
-    fn level_is_that_of_the_highest_triangle() {
-        let roof = drawn_out(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]);
-        // Rounding errors.
+    fn level_comes_from_the_highest_triangle() {
+        let roof = extruded_profile(&[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]);
+        // 1e-15 allows for rounding errors.
         assert!((roof.level(0.25, 0.3).unwrap() - 0.75).abs() < 1e-15);
         assert_eq!(roof.level(0.25, 1.3), None);
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE);
@@ -317,7 +317,7 @@ pub(crate) mod tests {
         assert!(matches!(Terrain::new(vertices.clone(), twice), Err(TerrainError::NotOriented { .. })));
         let mut flat = vertices.clone();
         flat[1] = flat[0] + 1e-9 * DVec3::Y;
-        assert!(matches!(Terrain::new(flat, triangles.clone()), Err(TerrainError::Sliver { .. })));
+        assert!(matches!(Terrain::new(flat, triangles.clone()), Err(TerrainError::NoArea { .. })));
         let mut far = vertices;
         far[2].x = f64::INFINITY;
         assert_eq!(Terrain::new(far, triangles), Err(TerrainError::NotFinite(2)));

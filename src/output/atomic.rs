@@ -1,4 +1,4 @@
-//! Atomic writing of files.
+//! Atomic writing of files: a reader never finds a partly written file.
 
 use std::fs::{self, File};
 use std::io::Write;

@@ -1,10 +1,11 @@
 //! Column names of the tables in a run folder. The names include the units.
 //!
-//! `time_s` is flume time in every table of a flume case: 0 when the wavemaker starts.
+//! In every table of a flume case, `time_s` is flume time, which is 0 when the wavemaker starts.
 
-/// `units.csv`: one row per unit and moment. `unit` counts from 1. Position is that of the centre of mass, orientation
-/// that of the body axes (quaternion). `fluid_*` is the load of the water, `contact_*` that of bed and neighbouring
-/// units: forces [N] and torques [N m] about the centre of mass, averaged over the time since the previous row.
+/// `units.csv`: one row per unit and output time. `unit` counts from 1. `x_m` to `z_m` is the centre of mass, `qx` to
+/// `qw` the orientation of the body axes (quaternion). `fluid_*` is the load from the water, `contact_*` the load from
+/// bed and neighbouring units: forces [N] and torques [N m] about the centre of mass, averaged over the time since the
+/// previous row.
 pub const UNITS: [&str; 27] = [
     "time_s",
     "unit",
@@ -36,8 +37,8 @@ pub const UNITS: [&str; 27] = [
 ];
 
 /// `contacts.csv`: one row per contact event. `partner` is the other unit, counted from 1, or 0 for the bed. `bx_m`,
-/// `by_m`, `bz_m` is the contact position in the body axes of the unit, from its centre of mass. `rebound_m_s` is the
-/// normal velocity at the end, positive when separating.
+/// `by_m`, `bz_m` is the contact position in the body axes of the unit, relative to its centre of mass. `rebound_m_s`
+/// is the normal velocity at the end of the event, positive if the bodies separate.
 pub const CONTACTS: [&str; 15] = [
     "start_s",
     "end_s",
@@ -56,14 +57,14 @@ pub const CONTACTS: [&str; 15] = [
     "rebound_m_s",
 ];
 
-/// `energy.csv` of a dry test: slope of the bed, energy of the units and of their contacts, energy dissipated by
-/// friction and contact damping since the start.
+/// `energy.csv` of a dry test: slope of the bed, energy of the units, elastic energy of the contacts, and energy
+/// dissipated by friction and contact damping since the start.
 pub const DRY_ENERGY: [&str; 7] =
     ["time_s", "slope_deg", "kinetic_j", "potential_j", "elastic_j", "friction_j", "damping_j"];
 
-/// `energy.csv`: energy of the water and of the units. `from_*`: energy that the water received since the start from
-/// bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion, and from the damping and
-/// relaxation zones.
+/// `energy.csv`: energy of the water and of the units. `from_*` is the energy that the water received since the start:
+/// from bed, walls, wavemaker and units (by pressure), from viscosity, from density diffusion, and from the damping and
+/// relaxation zones. Negative values are energy that the water lost.
 pub const ENERGY: [&str; 10] = [
     "time_s",
     "kinetic_j",
@@ -77,8 +78,9 @@ pub const ENERGY: [&str; 10] = [
     "from_zones_j",
 ];
 
-/// `energy.csv` of a fracture run: stored energy; energy dissipated and supplied since the start (`freed_j`: energy in
-/// the springs of tied joints at their release); residual; area of failed faces; pairs of tetrahedra in contact.
+/// `energy.csv` of a fracture run: stored energy; energy dissipated and supplied since the start; residual of the
+/// energy balance; area of failed faces; pairs of tetrahedra in contact. `freed_j` is the energy that the springs of
+/// tied joints have when the joints are released.
 pub const FRACTURE_ENERGY: [&str; 14] = [
     "time_s",
     "kinetic_j",
@@ -96,22 +98,24 @@ pub const FRACTURE_ENERGY: [&str; 14] = [
     "pairs_touching",
 ];
 
-/// `bodies.csv` of a fracture run: one row per body at the times of the energy balance. It holds the stored energy, the
-/// energy dissipated in the body's joints since the start, and the current largest first principal stress. `body`
-/// counts from 0 in the order of the mesh.
+/// `bodies.csv` of a fracture run: one row per body and output time of `energy.csv`, with the stored energy, the energy
+/// dissipated in the joints of the body since the start, and the current largest first principal stress. `body` counts
+/// from 0 in the order of the mesh.
 pub const FRACTURE_BODIES: [&str; 8] =
     ["time_s", "body", "kinetic_j", "strain_j", "joints_j", "gravity_j", "fracture_j", "sigma_1_pa"];
 
-/// `cracks.csv` of a fracture run: one row per failed face, in order of time, with centre and area of the undeformed
-/// face. `mode` 1 is opening, 2 sliding. `body` counts from 0 in the order of the mesh, as in the VTKHDF files.
+/// `cracks.csv` of a fracture run: one row per failed face, in chronological order, with centre and area of the
+/// undeformed face. `mode` 1 is opening, 2 is sliding. `body` counts from 0 in the order of the mesh, as in the VTKHDF
+/// files.
 pub const CRACKS: [&str; 7] = ["time_s", "x_m", "y_m", "z_m", "area_m2", "mode", "body"];
 
-/// `fragments.csv` of a fracture run: the pieces at its end, the heaviest first; centre of mass and velocity.
+/// `fragments.csv` of a fracture run: one row per piece at the end of the run, the heaviest first. `x_m` to `z_m` is
+/// the centre of mass.
 pub const FRAGMENTS: [&str; 10] =
     ["fragment", "body", "tets", "mass_kg", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s"];
 
 /// `breakage.csv`: one row per unit with its displacement and the results of its impacts re-run at prototype scale.
-/// The results are empty if none of its impacts was re-run.
+/// The columns with results are empty if no impact of the unit was re-run.
 pub const BREAKAGE: [&str; 10] = [
     "unit",
     "displacement_m",
@@ -125,10 +129,10 @@ pub const BREAKAGE: [&str; 10] = [
     "broken",
 ];
 
-/// `diagnostics.csv`: checks of the run. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` its
-/// change since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes over all time
-/// steps since the previous row. `rms_divergence_1_s` is the root mean square of div v over the water. `steps` counts
-/// from the start, `dt_s` is the next time step. `lost_particles` must stay 0.
+/// `diagnostics.csv`: checks of the run. `volume_m3` is the sum of m / rho over the water, `volume_change_m3` the
+/// change of this volume since the first row. `largest_mach` (speed over speed of sound) and the densities are extremes
+/// over all time steps since the previous row. `rms_divergence_1_s` is the root mean square of div v over the water.
+/// `steps` counts from the start, `dt_s` is the length of the next time step. `lost_particles` must stay 0.
 pub const DIAGNOSTICS: [&str; 10] = [
     "time_s",
     "volume_m3",
@@ -145,22 +149,22 @@ pub const DIAGNOSTICS: [&str; 10] = [
 /// `profile.csv`: corner points of the bed profile with the mound.
 pub const PROFILE: [&str; 2] = ["x_m", "z_m"];
 
-/// Column of the elevation above still water level [m] at the gauge `name` (`gauges.csv`, `flume_gauges.csv`).
+/// Returns the column name of the surface elevation [m] at the gauge `name` (`gauges.csv`, `flume_gauges.csv`).
 pub fn elevation(name: &str) -> String {
     format!("{name}_eta_m")
 }
 
-/// Column of the pressure [Pa] at the gauge `name`.
+/// Returns the column name of the pressure [Pa] at the gauge `name`.
 pub fn pressure(name: &str) -> String {
     format!("{name}_p_pa")
 }
 
-/// Columns of the velocity [m/s] at the gauge `name`.
+/// Returns the column names of the three velocity components [m/s] at the gauge `name`.
 pub fn velocity(name: &str) -> [String; 3] {
     ["u", "v", "w"].map(|c| format!("{name}_{c}_m_s"))
 }
 
-/// Row of `contacts.csv`; `offset` is added to the times of the event [s].
+/// Returns the row of `contacts.csv` for an event. `offset` [s] is added to the times of the event.
 pub fn contact_row(event: &crate::rigid::ContactEvent, offset: f64) -> [f64; 15] {
     let ([x, y, z], [bx, by, bz]) = (event.point, event.point_in_body);
     [

@@ -16,7 +16,7 @@ use thiserror::Error;
 
 use super::{OutputError, progress::Progress};
 
-/// Why a run ended early.
+/// Reason why a run ended before its regular end.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// The case cannot be set up because of its input.
@@ -25,12 +25,12 @@ pub enum RunError {
     /// A file cannot be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The state became invalid. The state before the failing time step is kept.
+    /// The state became invalid. The state before the failed time step is saved in a file.
     #[error("{failure}\nThe state before the failure is in {kept}; the last regular checkpoint is unchanged.")]
     Failed {
         /// Cause of the failure.
         failure: Box<dyn Error + Send + Sync>,
-        /// File with the state before the failing time step.
+        /// File with the state before the failed time step.
         kept: String,
     },
     /// The user stopped the run.
@@ -44,13 +44,13 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Wraps a setup error, for `map_err`.
+    /// Wraps an error of the set-up, for use with `map_err`.
     pub fn setup(error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Setup(error.into())
     }
 }
 
-/// Why a time step failed.
+/// Reason why a call of [`Run::step`] failed.
 #[derive(Debug)]
 pub enum StepFailure {
     /// A file cannot be written.
@@ -60,7 +60,7 @@ pub enum StepFailure {
 }
 
 impl StepFailure {
-    /// Wraps the cause of an invalid state, for `map_err`.
+    /// Wraps the cause of an invalid state, for use with `map_err`.
     pub fn failure(failure: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Failure(failure.into())
     }
@@ -72,17 +72,17 @@ impl From<OutputError> for StepFailure {
     }
 }
 
-/// User control of a run.
+/// Control of a run by the user.
 #[derive(Debug, Clone, Default)]
 pub struct Control {
-    /// Whether progress is hidden.
+    /// True if progress is hidden.
     pub quiet: bool,
-    /// If set to true, the run writes a checkpoint and ends.
+    /// Stop signal: when set to true, the run writes a checkpoint and ends.
     pub stop: Arc<AtomicBool>,
 }
 
 impl Control {
-    /// Returns a control without progress output and without a stop signal.
+    /// Returns a `Control` that hides progress and whose stop signal is false.
     pub fn quiet() -> Self {
         Self { quiet: true, ..Self::default() }
     }
@@ -105,33 +105,33 @@ impl Control {
 pub struct Clock {
     /// Simulated time [s].
     pub time: f64,
-    /// Latest end of the run, in simulated time [s].
+    /// Simulated time at which the run ends at the latest [s].
     pub end: f64,
-    /// Number of time steps in all sessions.
+    /// Number of time steps since the start of the run, including sessions before a restart.
     pub steps: u64,
 }
 
-/// Information from the driver to a run before each time step.
+/// Information that [`drive`] passes to a run before each time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Session {
-    /// Wall-clock time since the start of this session [s].
+    /// Wall-clock time since this process started or resumed the run [s].
     pub wall: f64,
-    /// Whether the run must stop with a checkpoint.
+    /// True if the run must write a checkpoint and stop.
     pub stop: bool,
 }
 
 /// Result of a call of [`Run::step`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step<Summary> {
-    /// The run continues.
-    Made,
+    /// One time step is made, and the run continues.
+    Continues,
     /// The run has ended, and all its files are written.
     Ended(Summary),
     /// The user stopped the run, and its checkpoint is written.
     Stopped,
 }
 
-/// Interface of a run for the driver.
+/// A run that [`drive`] can execute.
 pub trait Run {
     /// Summary of the run.
     type Summary;
@@ -139,29 +139,29 @@ pub trait Run {
     /// Returns the progress of the run.
     fn clock(&self) -> Clock;
 
-    /// Evaluates the current state. Then writes the outputs that are due and makes one time step, or writes the final
-    /// outputs and the summary at the end, or writes a checkpoint if the user stops the run.
+    /// Evaluates the current state and writes the outputs that are due. Then makes one time step. At the end of the
+    /// run, writes the final outputs and the summary instead; if the user stops the run, writes a checkpoint instead.
     ///
     /// # Errors
     /// If a file cannot be written or the state became invalid.
     fn step(&mut self, session: Session) -> Result<Step<Self::Summary>, StepFailure>;
 
-    /// Writes the state before a failing time step to a separate file and returns its path.
+    /// Writes the state before a failed time step to a separate file and returns the path of this file.
     ///
     /// # Errors
     /// If the file cannot be written.
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError>;
 
-    /// Details for the progress line, after the time.
+    /// Returns details that the progress line shows after the time.
     fn details(&self) -> String;
 
-    /// Returns all warnings so far.
+    /// Returns all warnings since the start of the run.
     fn warnings(&self) -> &[String] {
         &[]
     }
 }
 
-/// Runs a simulation with the run folder `dir` to its end.
+/// Executes a run to its end and shows the progress. `dir` is the run folder.
 ///
 /// # Errors
 /// If a file cannot be written, the state becomes invalid, or the user stops the run.
@@ -176,7 +176,7 @@ pub fn drive<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Sum
         warnings_shown = run.warnings().len();
         let clock = run.clock();
         match step {
-            Step::Made => progress.update(clock.time, clock.steps, || run.details()),
+            Step::Continues => progress.update(clock.time, clock.steps, || run.details()),
             Step::Ended(summary) => {
                 progress.finish();
                 return Ok(summary);
@@ -189,7 +189,7 @@ pub fn drive<R: Run>(mut run: R, dir: &Path, control: &Control) -> Result<R::Sum
     }
 }
 
-/// Saves the state of a failed run next to its last good checkpoint.
+/// Converts the failure of a time step to an error of the run; saves the state if it became invalid.
 fn keep_failed<R: Run>(run: &mut R, error: StepFailure) -> RunError {
     match error {
         StepFailure::Output(error) => RunError::Output(error),

@@ -1,4 +1,4 @@
-//! Errors when files of a run are written or read.
+//! Errors of writing or reading the files of a run.
 
 use std::path::{Path, PathBuf};
 
@@ -7,13 +7,13 @@ use crate::sph::solver::backend::DeviceError;
 /// A file of a run folder cannot be written or read, or is invalid.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// The data to be written cannot be read from the device.
+    /// The data of an output cannot be read from the device that computes the water.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// An input or output operation failed.
+    /// An input or output operation of the operating system failed.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Error of the operating system.
         source: std::io::Error,
@@ -21,7 +21,7 @@ pub enum OutputError {
     /// An HDF5 operation failed.
     #[error("{}: HDF5: {source}", path.display())]
     Hdf5 {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Error of the HDF5 library.
         source: hdf5_metno::Error,
@@ -29,41 +29,41 @@ pub enum OutputError {
     /// A JSON file is invalid.
     #[error("{}: {source}", path.display())]
     Json {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong, with line and column.
+        /// Error of the JSON library, with line and column.
         source: serde_json::Error,
     },
     /// The content of a file is invalid.
     #[error("{}: {what}", path.display())]
     Content {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong, and what is needed.
+        /// Description of the error, and of what is required.
         what: String,
     },
-    /// The run does not match the published experiment for the comparison.
+    /// The run does not match the measurements with which it is compared.
     #[error("{}: {what}", path.display())]
     NoReference {
-        /// The run's summary.
+        /// Path of the summary of the run.
         path: PathBuf,
-        /// What does not match, and what is needed.
+        /// Description of what does not match, and of what is required.
         what: String,
     },
 }
 
 impl OutputError {
-    /// Wraps an input or output error of the file at `path`, for `map_err`.
+    /// Wraps an input or output error of the file at `path`, for use with `map_err`.
     pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
         move |source| Self::Io { path: path.to_owned(), source }
     }
 
-    /// Wraps an HDF5 error of the file at `path`, for `map_err`.
+    /// Wraps an HDF5 error of the file at `path`, for use with `map_err`.
     pub(crate) fn hdf5(path: &Path) -> impl FnOnce(hdf5_metno::Error) -> Self + '_ {
         move |source| Self::Hdf5 { path: path.to_owned(), source }
     }
 
-    /// Wraps a JSON error of the file at `path`, for `map_err`.
+    /// Wraps a JSON error of the file at `path`, for use with `map_err`.
     pub(crate) fn json(path: &Path) -> impl FnOnce(serde_json::Error) -> Self + '_ {
         move |source| Self::Json { path: path.to_owned(), source }
     }

@@ -1,27 +1,28 @@
-//! Computing time and machine of a run.
+//! Computing time of a run, and the machine that made the run.
 
 use serde::{Deserialize, Serialize};
 use sysinfo::{CpuRefreshKind, System};
 
-/// Computing time and machine: the only keys in which two runs of one case may differ.
+/// Computing time and machine. Summaries of two runs of the same case may differ only in these keys.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Execution {
-    /// Wall-clock time of all sessions [s].
+    /// Wall-clock time, summed over all sessions of the run [s].
     pub wall_s: f64,
     /// Time steps per second of wall-clock time [1/s].
     pub steps_per_s: f64,
-    /// Number of threads.
+    /// Number of threads of the solver.
     pub threads: usize,
-    /// Device that computed the water; none in runs without water.
+    /// Device that computed the water; `None` in runs without water.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<String>,
-    /// Processor on which the run ended; none if the system does not report it, or in older files.
+    /// Processor of the last session; `None` in older files, or if the system does not report the processor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub processor: Option<String>,
 }
 
 impl Execution {
-    /// Describes a run of `steps` time steps in `wall` [s] on this machine; `device` computed the water.
+    /// Creates the record of a run on this machine with `steps` time steps in `wall` seconds; `device` computed the
+    /// water.
     pub fn here(wall: f64, steps: f64, device: Option<&str>) -> Self {
         Self {
             wall_s: wall,
@@ -33,7 +34,7 @@ impl Execution {
     }
 }
 
-/// Name of the processor as the system reports it, with the number of hardware threads.
+/// Returns the name of the processor that the system reports, with the number of hardware threads in brackets.
 fn processor() -> Option<String> {
     let mut system = System::new();
     system.refresh_cpu_list(CpuRefreshKind::nothing());
@@ -50,7 +51,7 @@ mod tests {
         let execution = Execution::here(4.0, 10.0, Some("CPU"));
         assert_eq!((execution.wall_s, execution.steps_per_s, execution.device.as_deref()), (4.0, 2.5, Some("CPU")));
         assert_eq!(execution.threads, rayon::current_num_threads());
-        // Not every system reports its processor; a reported one has a thread count.
+        // Not every system reports its processor. A reported name ends with the thread count in brackets.
         assert!(execution.processor.is_none_or(|name| name.ends_with(')') && name.len() > 3));
     }
 

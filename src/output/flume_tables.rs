@@ -1,4 +1,4 @@
-//! Tables of the flume model: surface elevation at the gauges and motion of the piston.
+//! CSV tables of the flume model: surface elevation at the gauges, and motion of the piston.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use crate::{
     waves::{flume_model::record::FlumeRecord, theory::solitary::SolitaryWave},
 };
 
-/// Maximum time between rows of the piston motion [s].
+/// Maximum time between two rows in the table of the piston motion [s].
 const PISTON_INTERVAL: f64 = 0.02;
 
-/// Writes the surface elevation of the flume model at the elevation gauges of the case.
+/// Writes a CSV table with the surface elevation in the flume model at the elevation gauges of the case.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -26,7 +26,7 @@ pub fn write_flume_gauges(case: &Case, record: &FlumeRecord, path: &Path) -> Res
     series.append_rows(record.times_s().iter().enumerate().map(row))
 }
 
-/// Writes the motion of the flume's piston, from the start to the end of its stroke.
+/// Writes a CSV table with the motion of the piston in the flume model, from the start to the end of the stroke.
 ///
 /// # Errors
 /// If the file cannot be written.

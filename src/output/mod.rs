@@ -1,4 +1,4 @@
-//! Files of a run folder: writing and reading.
+//! Writing and reading of the files in a run folder.
 //!
 //! | file of a run folder | written with | content |
 //! | --- | --- | --- |
@@ -7,12 +7,12 @@
 //! | `gauges.csv`, `flume_gauges.csv` | [`CsvSeries`] | gauge series of the particles and of the flume model |
 //! | `units.csv`, `contacts.csv`, `energy.csv` | [`CsvSeries`] | unit motion and forces, contact events, energy |
 //! | `impacts.h5` | [`Impacts`] | the hardest impacts of the units with their force histories |
-//! | `diagnostics.csv` | [`CsvSeries`] | checks of the run: volume, Mach number, densities, time steps |
+//! | `diagnostics.csv` | [`CsvSeries`] | checks of the water: volume, Mach number, densities, time steps |
 //! | `unit_surface.json` | [`UnitSurface`] | surface of a unit relative to its centre of mass |
 //! | `fluid.vtkhdf`, `units.vtkhdf` | [`PolyDataSeries`] | particles and moving surfaces, for ParaView |
 //! | `report.html`, `picture.svg` | `report::run::write_report` | the report, and a picture of one moment of the run |
 //!
-//! [`columns`] has the column names of the tables. A [`Writer`] writes large files while the run continues.
+//! [`columns`] defines the column names of the tables. A [`Writer`] writes large files while the run continues.
 
 mod atomic;
 pub mod columns;
@@ -35,7 +35,7 @@ pub use atomic::write_atomically;
 pub use error::OutputError;
 pub use execution::Execution;
 pub use flume_tables::{write_flume_gauges, write_flume_piston};
-pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePlace};
+pub use impacts::{FluidAtPeak, Impact, Impacts, PressurePoint};
 pub use series::{CsvSeries, is_due};
 pub use size::OutputSize;
 pub use summary::{

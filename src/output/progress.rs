@@ -7,10 +7,10 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Interval of progress lines without a terminal.
+/// Interval between progress lines if standard error is not a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(30);
 
-/// Progress display on standard error: a bar on a terminal, otherwise a line at intervals.
+/// Progress display on standard error: a bar on a terminal, otherwise one line every 30 s.
 pub struct Progress {
     bar: Option<ProgressBar>,
     duration: f64,
@@ -21,7 +21,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Starts the display for a run from `time` to at most `duration` [s] of simulated time, after `steps` time steps.
+    /// Starts the display. `time` is the current simulated time, `duration` its value at the end of the run [s];
+    /// `steps` is the number of time steps so far.
     pub fn new(duration: f64, time: f64, steps: u64, quiet: bool) -> Self {
         let style =
             ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").unwrap_or(ProgressStyle::default_bar());
@@ -32,12 +33,12 @@ impl Progress {
             begun: Instant::now(),
             begun_at: time,
             begun_steps: steps,
-            // In quiet mode no line is ever due.
+            // In quiet mode, this time in the far future prevents all progress lines.
             last_line: if quiet { Instant::now() + Duration::from_secs(u64::from(u32::MAX)) } else { Instant::now() },
         }
     }
 
-    /// Shows the progress of the run: time [s], time steps and details.
+    /// Shows the progress of the run: simulated time [s], number of time steps, and details.
     pub fn update(&mut self, time: f64, steps: u64, details: impl FnOnce() -> String) {
         if self.bar.is_none() && self.last_line.elapsed() < LINE_INTERVAL {
             return;
@@ -69,12 +70,12 @@ impl Progress {
         }
     }
 
-    /// Wall-clock time of this session [s].
+    /// Returns the wall-clock time since this process started or resumed the run [s].
     pub fn wall(&self) -> f64 {
         self.begun.elapsed().as_secs_f64()
     }
 
-    /// Removes the bar.
+    /// Removes the progress bar.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -82,7 +83,7 @@ impl Progress {
     }
 }
 
-/// Formats simulated time and duration; short runs (impacts) in milliseconds.
+/// Formats the simulated time and its end value; in milliseconds if the run is shorter than 0.1 s, as for impacts.
 fn simulated(time: f64, duration: f64) -> String {
     if duration < 0.1 {
         format!("{:.3} of {:.3} ms", time * 1e3, duration * 1e3)
@@ -91,7 +92,7 @@ fn simulated(time: f64, duration: f64) -> String {
     }
 }
 
-/// Formats a duration in seconds, minutes, hours or days.
+/// Formats a duration [s] in seconds, minutes, hours or days, depending on its size.
 pub fn readable(seconds: f64) -> String {
     match seconds {
         s if !s.is_finite() => "unknown time".to_owned(),

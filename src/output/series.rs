@@ -1,4 +1,4 @@
-//! Tables that grow during a run.
+//! CSV files that grow during a run.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -8,9 +8,10 @@ use super::OutputError;
 
 /// A CSV file of numbers with one header line, extended row by row.
 ///
-/// Numbers have the shortest text that reads back to the same bits; `NaN` is an empty field. Every call passes its rows
-/// to the operating system, so a killed run loses no rows. Checkpoints store the length in bytes. A resumed run cuts
-/// the file at this length and then writes the same bytes as an uninterrupted run.
+/// A number is written as the shortest text that reads back to the same bits; `NaN` is an empty field. Every call
+/// passes its rows to the operating system, so that no rows are lost if the run is killed. A checkpoint stores the
+/// length of the file [bytes]. A resumed run cuts the file at this length and then writes the same bytes as an
+/// uninterrupted run.
 #[derive(Debug)]
 pub struct CsvSeries {
     path: PathBuf,
@@ -21,7 +22,7 @@ pub struct CsvSeries {
 }
 
 impl CsvSeries {
-    /// Creates a file with the given column names, units included (`time_s`). An old file is overwritten.
+    /// Creates a file with the given column names, which include the unit (`time_s`). Overwrites an existing file.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -36,14 +37,14 @@ impl CsvSeries {
         Ok(series)
     }
 
-    /// Opens the file of an interrupted run and cuts it to the length in the checkpoint.
+    /// Opens the file of an interrupted run and cuts the file to `bytes`, its length in the checkpoint [bytes].
     ///
     /// # Errors
     /// If the file cannot be opened, is shorter than `bytes`, or `bytes` is not the end of a line.
     pub fn open_truncated(path: &Path, bytes: u64) -> Result<Self, OutputError> {
         let text = std::fs::read(path).map_err(OutputError::io(path))?;
         let Some(kept) = usize::try_from(bytes).ok().and_then(|n| text.get(..n)) else {
-            let what = format!("holds {} bytes, fewer than the {bytes} at the checkpoint", text.len());
+            let what = format!("has {} bytes, fewer than the {bytes} at the checkpoint", text.len());
             return Err(OutputError::content(path, what));
         };
         let Some(header) = kept.split(|b| *b == b'\n').next().filter(|_| kept.last() == Some(&b'\n')) else {
@@ -89,12 +90,12 @@ impl CsvSeries {
         self.write_line()
     }
 
-    /// Length of the file up to the last appended row [bytes].
+    /// Returns the length of the file, including the last appended row [bytes].
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Path of the file.
+    /// Returns the path of the CSV file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -107,7 +108,8 @@ impl CsvSeries {
     }
 }
 
-/// Appends the shortest text that reads back to the same number; very large and very small numbers have an exponent.
+/// Appends a number to `text`: the shortest text that reads back to the same bits. Very large and very small numbers
+/// have an exponent, and NaN is empty.
 fn push_number(text: &mut String, value: f64) {
     use std::fmt::Write;
     let magnitude = value.abs();
@@ -121,9 +123,10 @@ fn push_number(text: &mut String, value: f64) {
     };
 }
 
-/// Returns whether an output is due that was written `count` times at an interval [s].
+/// Returns true if an output with this interval [s] is due at `time` [s]. `count` is the number of times that the
+/// output was written before. An output without an interval is never due.
 pub fn is_due(count: u64, interval: Option<f64>, time: f64) -> bool {
-    // The tolerance makes an output at 0.3 s due at 0.1 + 0.1 + 0.1 s.
+    // The tolerance covers rounding errors of `time`.
     interval.is_some_and(|interval| time >= count as f64 * interval - 1e-12)
 }
 

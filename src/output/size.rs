@@ -1,46 +1,46 @@
-//! Estimated size of the output files, before any particle is created.
+//! Estimate of the size of the output files from the case alone.
 
 use super::columns;
 use crate::case::{Case, FluidField, Quantity};
 
-/// Size of a number in a table with its comma [bytes]; measured in the tables of a run: 19.0 to 19.6.
+/// Size of a number in a CSV table, including its comma [bytes]; the tables of a run had 19.0 to 19.6.
 const BYTES_PER_NUMBER: f64 = 19.0;
-/// Number of columns per unit in `units.csv`, in `energy.csv` and in `diagnostics.csv`.
+/// Number of columns: in `units.csv` per unit, in `energy.csv` and in `diagnostics.csv`.
 const UNIT_COLUMNS: f64 = columns::UNITS.len() as f64;
 const ENERGY_COLUMNS: f64 = columns::ENERGY.len() as f64;
 const DIAGNOSTICS_COLUMNS: f64 = columns::DIAGNOSTICS.len() as f64;
-/// Size of a point in a snapshot: three f32 [bytes].
+/// Size of the position of a point in a snapshot: three f32 [bytes].
 const BYTES_PER_POINT: f64 = 12.0;
-/// Size of a cell, which a file stores once for all snapshots: its offset and one or three corners, i64 [bytes].
+/// Size of a cell [bytes]: its offset and one or three corners, as i64. A file stores the cells once for all snapshots.
 const BYTES_PER_VERTEX: f64 = 16.0;
 const BYTES_PER_TRIANGLE: f64 = 32.0;
 /// Space that a VTKHDF file reserves for short lists: five lists of 16384 i64 [bytes].
 const RESERVED: f64 = 5.0 * 16_384.0 * 8.0;
-/// Size of a vertex of a unit surface with its velocity and number [bytes].
+/// Size of a vertex of a unit surface in a snapshot [bytes]: position, velocity and number of the unit.
 const BYTES_PER_SURFACE_POINT: f64 = 28.0;
 /// Size of a particle in a checkpoint [bytes]. Water: position, velocity, density, mass, number; boundary: density.
 const BYTES_PER_WATER_STATE: f64 = 68.0;
 const BYTES_PER_BOUNDARY_STATE: f64 = 8.0;
 
-/// Size of the files of a complete run [bytes], within some ten per cent. It does not contain the list of contacts and
-/// the report, which are small.
+/// Size of the files of a complete run [bytes], accurate to some ten per cent. The list of contacts and the report are
+/// not included, because they are small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputSize {
-    /// `fluid.vtkhdf`, if the water in the box of the snapshots stays as at the start.
+    /// `fluid.vtkhdf`, if the amount of water in `output.fluid_box_m` stays the same as at the start.
     pub fluid: f64,
-    /// `units.vtkhdf`.
+    /// `units.vtkhdf`, with the surfaces of the units.
     pub units: f64,
-    /// All tables.
+    /// Sum of all CSV tables.
     pub tables: f64,
-    /// `checkpoint.h5`; a run has one.
+    /// `checkpoint.h5`; a run keeps only the last checkpoint.
     pub checkpoint: f64,
 }
 
 impl OutputSize {
-    /// Estimates the size of the files of the run.
+    /// Estimates the size of the output files of a complete run of the case.
     pub fn estimate(case: &Case) -> Self {
         let (estimate, output) = (case.estimate(), &case.output);
-        // Two more: one at the start, one at the end.
+        // There are two more outputs: one at the start and one at the end.
         let count = |interval: Option<f64>| interval.map_or(0.0, |dt| (case.stop.duration / dt).floor() + 2.0);
         let bytes_per_particle =
             BYTES_PER_POINT + output.fluid_fields.iter().map(|field| field_bytes(*field)).sum::<f64>();
@@ -55,7 +55,7 @@ impl OutputSize {
         }
     }
 
-    /// Returns the size of all files.
+    /// Returns the total size of all files [bytes].
     pub fn total(&self) -> f64 {
         self.fluid + self.units + self.tables + self.checkpoint
     }
@@ -77,7 +77,7 @@ fn table_bytes(case: &Case, rows: f64) -> f64 {
     BYTES_PER_NUMBER * rows * columns
 }
 
-/// Returns the size of a field in a snapshot per particle [bytes].
+/// Returns the size of the value of a field for one particle in one snapshot [bytes].
 fn field_bytes(field: FluidField) -> f64 {
     match field {
         FluidField::Velocity => 12.0,
@@ -105,7 +105,7 @@ mod tests {
     fn snapshot_size_is_the_sum_of_its_fields() {
         let particles = case("").estimate().fluid;
         assert_eq!(particles, 25_000.0);
-        // 12 snapshots with 9 numbers of 4 bytes per particle; cells once.
+        // 12 snapshots with 9 numbers of 4 bytes per particle; the cells are stored once.
         assert_eq!(OutputSize::estimate(&case("")).fluid, RESERVED + particles * (12.0 * 36.0 + 16.0));
         let some = OutputSize::estimate(&case(r#", "fluid_fields": ["velocity"]"#));
         assert_eq!(some.fluid, RESERVED + particles * (12.0 * 24.0 + 16.0));
@@ -119,9 +119,9 @@ mod tests {
         let water = |output: &str| OutputSize::estimate(&case(output)).fluid - RESERVED;
         let share = |corners: &str| water(&format!(r#", "fluid_box_m": {corners}"#)) / water("");
         assert!((share("[[-1, -1, -1], [9, 9, 9]]") - 1.0).abs() < 1e-12);
-        // A quarter of the length, half of the width, the upper 0.1 m of 0.25 m.
+        // This box contains a quarter of the length, half of the width, and the upper 0.1 m of 0.25 m.
         assert!((share("[[0.5, 0.2, 0.15], [1.0, 0.6, 0.5]]") - 0.25 * 0.5 * 0.4).abs() < 1e-12);
-        // Above the initial water.
+        // The box is above the initial water surface.
         assert_eq!(share("[[0.5, 0.2, 0.3], [1.0, 0.6, 0.5]]"), 0.0);
     }
 }

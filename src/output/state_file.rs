@@ -10,11 +10,11 @@ use super::OutputError;
 /// Result of the HDF5 library.
 pub(crate) type Hdf5Result<T> = hdf5_metno::Result<T>;
 
-/// Name of the attribute with all data that are not arrays.
+/// Name of the HDF5 attribute with the text: all data of the state that are not arrays.
 const TEXT: &str = "state";
 
-/// Writes a file with a text and the datasets that `fill` creates: to a temporary file, synced, then renamed. The old
-/// file remains until the new one is complete.
+/// Writes `text` and the datasets that `fill` creates to a temporary file, syncs this file, and renames it to `path`.
+/// The old file remains until the new file is complete.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -29,7 +29,7 @@ pub(crate) fn write_state(
     let write = || -> Hdf5Result<()> {
         let file = File::create(&temporary)?;
         let text: VarLenUnicode =
-            text.parse().map_err(|_| hdf5_metno::Error::from("the state holds a NUL character"))?;
+            text.parse().map_err(|_| hdf5_metno::Error::from("the state contains a NUL character"))?;
         file.new_attr::<VarLenUnicode>().create(TEXT)?.write_scalar(&text)?;
         fill(&file)?;
         file.close()
@@ -42,7 +42,7 @@ pub(crate) fn write_state(
     publish().map_err(OutputError::io(path))
 }
 
-/// Returns the text of a file and the data that `read` returns.
+/// Opens a file of [`write_state`]; returns its text and the result of `read`.
 ///
 /// # Errors
 /// If the file is missing or invalid.
@@ -63,7 +63,7 @@ pub(crate) fn write_column<T: H5Type>(group: &Group, name: &str, values: &[T]) -
     group.new_dataset::<T>().shape(values.len()).create(name)?.write_raw(values)
 }
 
-/// Writes a dataset with one row per entry.
+/// Writes a dataset of `N` columns with one row per entry of `rows`.
 pub(crate) fn write_rows<T: H5Type, const N: usize>(group: &Group, name: &str, rows: &[[T; N]]) -> Hdf5Result<()> {
     group.new_dataset::<T>().shape((rows.len(), N)).create(name)?.write_raw(rows.as_flattened())
 }

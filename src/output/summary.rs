@@ -1,4 +1,4 @@
-//! Summary of a run: results for the units and facts about the run.
+//! Summary of a run: results for the units, and data about the run.
 
 use std::{fmt, path::Path};
 
@@ -6,45 +6,45 @@ use serde::{Deserialize, Serialize};
 
 use super::{Execution, OutputError, write_atomically};
 
-/// `summary.json`: damage and displacements first, then the facts behind them.
+/// Content of `summary.json`: damage and displacements first, then details of the run.
 ///
-/// Two runs of one case differ only in the keys of [`Execution`].
+/// The summaries of two runs of the same case differ only in the keys of [`Execution`].
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Summary {
     /// Title of the case.
     pub title: String,
-    /// Version of breakwater.
+    /// Version of breakwater that made the run.
     pub breakwater_version: String,
-    /// Hash of the case as it was run, hexadecimal.
+    /// Hash of the case that was run, as a hexadecimal number.
     pub case_hash: String,
-    /// Share of the units that moved further than `damage_distance_m` [-]; none without units.
+    /// Share of the units that moved further than `damage_distance_m` [-]; `None` without units.
     pub damage_ratio: Option<f64>,
-    /// Mean of the units' displacements [m]; none without units.
+    /// Mean displacement of the units [m]; `None` without units.
     pub mean_displacement_m: Option<f64>,
-    /// A unit is damaged when it has moved further than this [m]; none without units.
+    /// Displacement above which a unit counts as damaged [m]; `None` without units.
     pub damage_distance_m: Option<f64>,
-    /// Results of the breakage analysis; none without one.
+    /// Results of the breakage analysis; `None` if no analysis was made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageSummary>,
     /// The units in order of their numbers.
     pub units: Vec<UnitSummary>,
-    /// The wave; none if the case has no wave or its height is unknown.
+    /// The wave; `None` if the case has no wave or the wave height is unknown.
     pub wave: Option<WaveSummary>,
-    /// Highest surface elevation at the elevation gauges.
+    /// Highest surface elevation at each elevation gauge.
     pub gauges: Vec<GaugeSummary>,
-    /// Contact events of the whole run.
+    /// Number and largest values of the contact events in the whole run.
     pub contacts: ContactSummary,
-    /// Energy balance.
+    /// Total energy at the start and the end; `None` if it was not recorded.
     pub energy: Option<EnergySummary>,
-    /// Assumptions where no source gives a value.
+    /// Assumptions listed in the case file: values that no source gives.
     pub assumptions: Vec<String>,
-    /// Warnings of the case file and of the run: reasons to doubt the results.
+    /// Warnings from the case file and the run: reasons why the results may be unreliable.
     #[serde(default)]
     pub warnings: Vec<String>,
-    /// Largest water speed over the speed of sound [-]; none if the run did not record it.
+    /// Largest water speed divided by the speed of sound [-]; `None` if the run did not record the speed.
     #[serde(default)]
     pub largest_mach: Option<f64>,
-    /// Number of particles of all kinds.
+    /// Total number of particles.
     pub particles: u64,
     /// Number of particles of each kind.
     pub particle_counts: ParticleCounts,
@@ -58,25 +58,25 @@ pub struct Summary {
     pub domain_x_m: [f64; 2],
     /// Width of the particle domain [m].
     pub domain_width_m: f64,
-    /// Whether the domain has solid side walls; otherwise it is periodic across the flume.
+    /// True if the domain has solid side walls, false if the domain is periodic across the flume.
     pub side_walls: bool,
-    /// Whether the run is two-dimensional, with one layer of particles.
+    /// True if the run is two-dimensional, with one layer of particles.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub two_dimensional: bool,
-    /// Lower and upper corner of each fixed obstacle [m].
+    /// Lower corner [x, y, z] and upper corner of each fixed obstacle [m].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles_m: Vec<[[f64; 3]; 2]>,
     /// Number of time steps.
     pub steps: u64,
-    /// Simulated time of the particles [s].
+    /// Duration of the particle simulation [s].
     pub simulated_s: f64,
-    /// Flume time at the start of the particles [s].
+    /// Flume time at the start of the particle simulation [s].
     pub start_s: f64,
-    /// Length of the time steps.
+    /// Shortest, mean and longest time step.
     pub time_step_s: TimeStepSummary,
     /// Why the run ended.
     pub stopped: Stopped,
-    /// Computing time and machine.
+    /// Computing time, and the machine that made the run.
     #[serde(flatten)]
     pub execution: Execution,
 }
@@ -88,9 +88,10 @@ pub struct UnitSummary {
     pub unit: u32,
     /// Horizontal distance between first and last position of the centre of mass [m].
     pub displacement_m: f64,
-    /// Whether the displacement exceeds the damage distance.
+    /// True if the displacement exceeds the damage distance.
     pub damaged: bool,
-    /// Direction of the displacement in plan view [deg]: 0 shoreward, positive towards larger y; 0 if not displaced.
+    /// Direction of the displacement in plan view [deg]: 0 is shoreward, positive is towards larger y. 0 without
+    /// displacement.
     pub direction_deg: f64,
     /// Centre of mass at the start [m].
     pub start_m: [f64; 3],
@@ -98,9 +99,10 @@ pub struct UnitSummary {
     pub end_m: [f64; 3],
     /// Angle of the rotation from first to last orientation [deg], 0 to 180.
     pub rotation_deg: f64,
-    /// Largest force of the water minus the mean force of still water, averaged over one interval of the series [N].
+    /// Largest water force after subtraction of the mean still-water force [N]; averages over
+    /// `output.series_interval_s`.
     pub peak_fluid_force_n: f64,
-    /// Largest resultant force of bed and neighbouring units, averaged over one interval of the series [N].
+    /// Largest resultant contact force from bed and neighbouring units [N]; averages over `output.series_interval_s`.
     pub peak_contact_force_n: f64,
     /// Number of contact events with the bed.
     pub bed_contacts: u64,
@@ -109,7 +111,7 @@ pub struct UnitSummary {
 }
 
 impl UnitSummary {
-    /// Computes displacement, direction and damage from first and last position [m]. Forces and contacts are zero.
+    /// Computes displacement, direction and damage from first and last position [m]. Sets forces and contacts to zero.
     pub fn moved(unit: u32, start_m: [f64; 3], end_m: [f64; 3], rotation_deg: f64, damage_distance_m: f64) -> Self {
         let (dx, dy) = (end_m[0] - start_m[0], end_m[1] - start_m[1]);
         let displacement_m = dx.hypot(dy);
@@ -126,10 +128,10 @@ impl UnitSummary {
     }
 }
 
-/// Damage by movement and by breakage, from `breakage.json`.
+/// Share of units damaged by movement and by breakage, from `breakage.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BreakageSummary {
-    /// Length scale: prototype over run [-].
+    /// Length scale: prototype length divided by length in the run [-].
     pub scale: f64,
     /// Share of the units damaged by movement [-].
     pub damaged_ratio: f64,
@@ -140,12 +142,13 @@ pub struct BreakageSummary {
 /// The wave of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct WaveSummary {
-    /// Kind as in the case file (`solitary`, `regular`, `irregular`).
+    /// Kind of the wave, as in the case file (`solitary`, `regular`, `irregular`).
     pub kind: String,
     /// Theory of the wave (`rayleigh`, `boussinesq`, `third_order`, `stream_function`), spectrum (`jonswap`), or theory
     /// of the paddle motion (`biesel`: first order; `madsen`: second order).
     pub theory: String,
-    /// Wave height H [m]; H_s of irregular waves. For a solitary wave, above still water level at the piston.
+    /// Wave height H [m], or significant wave height H_s of irregular waves [m]. For a solitary wave: height above
+    /// still water level at the piston.
     pub height_m: f64,
     /// Period of regular waves, or peak period of irregular waves [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -157,70 +160,71 @@ pub struct WaveSummary {
 pub struct GaugeSummary {
     /// Name of the gauge.
     pub name: String,
-    /// Position along the flume [m].
+    /// Position x of the gauge along the flume [m].
     pub x_m: f64,
-    /// Highest elevation of the particles above still water level [m]; none outside their domain.
+    /// Highest elevation above still water level in the particle domain [m]; `None` if the gauge is outside this
+    /// domain.
     pub crest_sph_m: Option<f64>,
-    /// Highest elevation of the flume model above still water level [m]; none without flume model.
+    /// Highest elevation above still water level in the flume model [m]; `None` without flume model.
     pub crest_flume_m: Option<f64>,
 }
 
-/// Contact events of all units.
+/// Number and largest values of the contact events of all units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactSummary {
-    /// Number of events between a unit and the bed.
+    /// Number of contact events between a unit and the bed.
     pub with_bed: u64,
-    /// Number of events between two units.
+    /// Number of contact events between two units.
     pub between_units: u64,
-    /// Largest force in one event [N].
+    /// Largest contact force of all events [N].
     pub peak_force_n: f64,
-    /// Largest approach velocity at the start of an event [m/s].
+    /// Largest normal approach velocity at the start of an event [m/s].
     pub peak_normal_velocity_m_s: f64,
 }
 
-/// Energy of water and units.
+/// Total energy of water and units at the start and the end of the run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergySummary {
-    /// Total energy at the first moment [J].
+    /// Total energy at the first output time [J].
     pub start_j: f64,
-    /// Total energy at the last moment [J].
+    /// Total energy at the last output time [J].
     pub end_j: f64,
 }
 
 /// Number of particles of each kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct ParticleCounts {
-    /// Water.
+    /// Water particles.
     pub water: u64,
-    /// Bed, mound and walls.
+    /// Boundary particles of bed, mound and walls.
     pub bed: u64,
-    /// Wavemaker.
+    /// Boundary particles of the wavemaker.
     pub wavemaker: u64,
-    /// Units.
+    /// Boundary particles of the units.
     pub units: u64,
 }
 
 /// Length of the time steps [s].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct TimeStepSummary {
-    /// Shortest [s].
+    /// Shortest time step [s].
     pub min: f64,
-    /// Mean [s].
+    /// Mean time step [s].
     pub mean: f64,
-    /// Longest [s].
+    /// Longest time step [s].
     pub max: f64,
 }
 
-/// Why a run ended.
+/// Reason why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stopped {
-    /// The duration of the case file is reached.
+    /// The run reached the duration given in the case file.
     #[default]
     Duration,
-    /// The units are at rest.
+    /// All units are at rest.
     AtRest,
-    /// End of a tilt test: all units slide, or the slope is the steepest of the test.
+    /// A tilt test ended, because all units slide or the bed reached the steepest slope of the test.
     TestOver,
 }
 
@@ -235,10 +239,10 @@ impl fmt::Display for Stopped {
 }
 
 impl Summary {
-    /// Name of the file in a run folder.
+    /// Name of the summary file in a run folder.
     pub const FILE: &str = "summary.json";
 
-    /// Sets the units and computes damage ratio and mean displacement.
+    /// Sets the results of the units, and computes damage ratio and mean displacement from them.
     pub fn set_units(&mut self, units: Vec<UnitSummary>, damage_distance_m: f64) {
         let count = units.len() as f64;
         self.damage_distance_m = (!units.is_empty()).then_some(damage_distance_m);
@@ -249,12 +253,12 @@ impl Summary {
         self.units = units;
     }
 
-    /// Number of damaged units.
+    /// Returns the number of damaged units.
     pub fn damaged(&self) -> usize {
         self.units.iter().filter(|unit| unit.damaged).count()
     }
 
-    /// Returns a copy without computing time and machine; it is the same for two runs of one case.
+    /// Returns a copy without computing time and machine. The copies of two runs of the same case are equal.
     pub fn without_execution(&self) -> Self {
         Self { execution: Execution::default(), ..self.clone() }
     }
@@ -296,7 +300,7 @@ mod tests {
     #[test]
     fn displacement_is_the_horizontal_distance() {
         let summary = two_units();
-        // 3-4-5 triangle: 0.03 m along and 0.04 m across the flume; the fall of 0.04 m does not count.
+        // 3-4-5 triangle: 0.03 m along and 0.04 m across the flume. The vertical fall of 0.04 m does not count.
         assert!((summary.units[0].displacement_m - 0.05).abs() < 1e-12);
         assert!((summary.units[0].direction_deg - (4.0_f64 / 3.0).atan().to_degrees()).abs() < 1e-9);
         assert_eq!((summary.units[0].damaged, summary.units[1].damaged), (false, true));

@@ -16,22 +16,22 @@ impl Table {
     /// Reads a CSV file. A last line without line end, left by a killed run, is ignored.
     ///
     /// # Errors
-    /// If the file cannot be read, or is not a header followed by numbers.
+    /// If the file cannot be read, has no header, or has a field that is not a number.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         let text = std::fs::read_to_string(path).map_err(OutputError::io(path))?;
         let whole = text.rfind('\n').map_or("", |end| &text[..end]);
         Self::parse(path, whole)
     }
 
-    /// Reads a CSV file; `None` if it does not exist.
+    /// Reads a CSV file; returns `None` if the file does not exist.
     ///
     /// # Errors
-    /// As [`Table::read`].
+    /// The same errors as for [`Table::read`].
     pub fn read_if_present(path: &Path) -> Result<Option<Self>, OutputError> {
         if path.exists() { Self::read(path).map(Some) } else { Ok(None) }
     }
 
-    /// Reads a table from text; `path` names it in errors.
+    /// Reads a table from CSV text; error messages name `path`.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, OutputError> {
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         let Some((_, header)) = lines.next() else {
@@ -42,7 +42,7 @@ impl Table {
         for (number, line) in lines {
             let fields: Vec<&str> = line.split(',').map(str::trim).collect();
             if fields.len() != names.len() {
-                let what = format!("line {}: {} fields for {} columns", number + 1, fields.len(), names.len());
+                let what = format!("line {}: has {} fields, but must have {}", number + 1, fields.len(), names.len());
                 return Err(OutputError::content(path, what));
             }
             for ((column, field), name) in columns.iter_mut().zip(fields).zip(&names) {
@@ -55,22 +55,22 @@ impl Table {
         Ok(Self { path: path.to_owned(), names, columns })
     }
 
-    /// Column names in the order of the file.
+    /// Returns the column names in the order of the file.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// Number of rows.
+    /// Returns the number of rows, without the header line.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// Returns a column by name; `None` if it does not exist.
+    /// Returns the column with this name; `None` if the column does not exist.
     pub fn get(&self, name: &str) -> Option<&[f64]> {
         self.names.iter().position(|n| n == name).map(|i| self.columns[i].as_slice())
     }
 
-    /// Returns a column by name.
+    /// Returns the column with this name.
     ///
     /// # Errors
     /// If the column does not exist; the message lists the existing columns.
@@ -101,7 +101,7 @@ mod tests {
     fn an_error_names_the_line_or_the_column() {
         let path = Path::new("t.csv");
         let message = |text: &str| Table::parse(path, text).unwrap_err().to_string();
-        assert_eq!(message("a,b\n1,2\n3\n"), "t.csv: line 3: 1 fields for 2 columns");
+        assert_eq!(message("a,b\n1,2\n3\n"), "t.csv: line 3: has 1 fields, but must have 2");
         assert_eq!(message("a,b\n1,wet\n"), "t.csv: line 2: b is \"wet\", not a number");
         assert!(message("").contains("is empty"));
         let table = Table::parse(path, "a,b\n1,2\n").unwrap();

@@ -1,4 +1,4 @@
-//! Surface of an armour unit, for the views in the report.
+//! Surface of an armour unit, for the drawings in the report.
 
 use std::path::Path;
 
@@ -7,20 +7,20 @@ use serde::{Deserialize, Serialize};
 use super::{OutputError, write_atomically};
 use crate::geometry::solid::Solid;
 
-/// A closed surface of triangles in the body axes of the unit, origin at the centre of mass.
+/// A closed surface of triangles in the body axes of the unit. The origin is the centre of mass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitSurface {
-    /// Corner points [m].
+    /// Corner points of the triangles [m].
     pub vertices_m: Vec<[f64; 3]>,
-    /// Indices of the three corner points of each triangle, counter-clockwise seen from outside.
+    /// Indices of the three corner points of each triangle, in counter-clockwise order for a viewer outside the unit.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl UnitSurface {
-    /// Name of the file in a run folder.
+    /// Name of the surface file in a run folder.
     pub const FILE: &str = "unit_surface.json";
 
-    /// Returns the surface of a solid.
+    /// Copies the surface of a solid.
     pub fn of(solid: &Solid) -> Self {
         let vertices_m = solid.vertices().iter().map(|v| v.to_array()).collect();
         Self { vertices_m, triangles: solid.triangles().to_vec() }

@@ -1,8 +1,8 @@
 //! Writing of files on a separate thread, so that the computation does not wait for the disk.
 //!
-//! Jobs run in the order in which they are submitted. A checkpoint submitted after its snapshots is therefore published
-//! only when the snapshots are in their files. During a run, all calls of HDF5 come from this thread, because HDF5
-//! serves one thread at a time.
+//! Jobs run in the order in which they are submitted. Snapshots are submitted before their checkpoint. Therefore the
+//! snapshots are in their files when the checkpoint replaces the old one. During a run, only this thread calls HDF5,
+//! because HDF5 serves one thread at a time.
 
 use std::{
     panic::resume_unwind,
@@ -12,22 +12,22 @@ use std::{
 
 use super::OutputError;
 
-/// Number of jobs that may wait while one job runs. It limits the memory for writing.
+/// Number of jobs that may wait while one job runs. This limits the memory that the data of the jobs need.
 const WAITING: usize = 1;
 
 type Job<F> = Box<dyn FnOnce(&mut F) -> Result<(), OutputError> + Send>;
 
 /// A thread that writes to the open files `F` and ends at the first error.
 ///
-/// If it is dropped before [`Self::drain`], it still finishes its jobs, but errors are lost. Only a run that ends with
-/// another error should do this.
+/// A writer that is dropped without a call of [`Self::drain`] still finishes its jobs, but their errors are lost. This
+/// is acceptable only if the run already ends with another error.
 pub struct Writer<F> {
     jobs: Option<SyncSender<Job<F>>>,
     thread: Option<JoinHandle<Result<(), OutputError>>>,
 }
 
 impl<F: Send + 'static> Writer<F> {
-    /// Starts a thread that owns the open files.
+    /// Starts the writer thread, which takes ownership of the open files.
     ///
     /// # Panics
     /// If the operating system cannot start a thread.
@@ -37,10 +37,11 @@ impl<F: Send + 'static> Writer<F> {
         Self { jobs: Some(jobs), thread: Some(thread.expect("the operating system starts a thread for the writer")) }
     }
 
-    /// Submits a job. Blocks while another job waits, so at most two other jobs are in memory.
+    /// Submits a job. Blocks while another job waits, so that at most two other jobs are in memory.
     ///
     /// # Errors
-    /// If an earlier job failed: its error. This job is then not run, and the writer must not be used again.
+    /// The error of an earlier job that failed. The submitted job is then not run, and the writer must not be used
+    /// again.
     pub fn give(
         &mut self,
         job: impl FnOnce(&mut F) -> Result<(), OutputError> + Send + 'static,
@@ -51,10 +52,10 @@ impl<F: Send + 'static> Writer<F> {
         }
     }
 
-    /// Checks for an error so far; the cost is negligible.
+    /// Checks without waiting whether a job has failed.
     ///
     /// # Errors
-    /// If a job failed: its error.
+    /// The error of the job that failed.
     pub fn check(&mut self) -> Result<(), OutputError> {
         if self.thread.as_ref().is_some_and(JoinHandle::is_finished) { self.end() } else { Ok(()) }
     }
@@ -62,10 +63,10 @@ impl<F: Send + 'static> Writer<F> {
     /// Waits until all submitted jobs are finished.
     ///
     /// # Errors
-    /// If a job failed: its error.
+    /// The error of the job that failed.
     pub fn drain(&mut self) -> Result<(), OutputError> {
         let (done, all_done) = sync_channel(1);
-        // The receiver exists until `recv` returns, so sending cannot fail.
+        // `send` cannot fail, because the receiver exists until `recv` returns.
         self.give(move |_| {
             let _ = done.send(());
             Ok(())
@@ -75,7 +76,7 @@ impl<F: Send + 'static> Writer<F> {
 }
 
 impl<F> Writer<F> {
-    /// Ends the thread after its remaining jobs; a panic of the thread is resumed in this thread.
+    /// Ends the writer thread after its remaining jobs. Resumes a panic of the writer thread in the calling thread.
     fn end(&mut self) -> Result<(), OutputError> {
         self.jobs = None;
         match self.thread.take().map(JoinHandle::join) {
@@ -89,7 +90,7 @@ impl<F> Writer<F> {
 impl<F> Drop for Writer<F> {
     fn drop(&mut self) {
         self.jobs = None;
-        // A second panic during a panic would end the program without a message.
+        // A panic of the thread is ignored: a second panic during a panic would end the program without a message.
         let _ = self.thread.take().map(JoinHandle::join);
     }
 }
@@ -149,7 +150,7 @@ mod tests {
             }
             writer.drain().unwrap();
         });
-        // One job runs and one waits; the third blocks however long it takes.
+        // One job runs and one job waits; the third call of `give` blocks.
         std::thread::sleep(Duration::from_millis(100));
         assert_eq!(*given.lock().unwrap(), 2);
         (0..4).for_each(|_| open.send(()).unwrap());
@@ -168,7 +169,7 @@ mod tests {
         assert_eq!(writer.check().unwrap_err().to_string(), error().to_string());
         let mut writer = Writer::spawn(seen.clone());
         writer.give(|_| Err(error())).unwrap();
-        // Submitted after the error: not run, whether or not it was still accepted.
+        // A job submitted after the error is not run, even if `give` still accepts the job.
         let result = writer.give(record(1)).and_then(|()| writer.drain());
         assert_eq!(result.unwrap_err().to_string(), error().to_string());
         assert!(seen.lock().unwrap().is_empty());

@@ -1,4 +1,4 @@
-//! Output for human readers: pages, charts, pictures, and comparison with measurements.
+//! HTML pages, charts and pictures of the results, and comparison with measurements.
 
 pub mod compare;
 pub mod fracture;

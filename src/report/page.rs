@@ -1,8 +1,8 @@
-//! Page layout shared by all reports: style sheet, sections, number formats.
+//! Layout of the HTML pages of all reports: style sheet, sections, number formats.
 
 use super::plot::{CHART_STYLE, escape, short};
 
-/// Returns a complete HTML page with its style sheet.
+/// Returns a complete HTML page with style sheet. `title` is plain text, `body` is HTML.
 pub fn page(title: &str, body: &str) -> String {
     let title = escape(title);
     let style = [CHART_STYLE, include_str!("style.css"), include_str!("shades.css")].concat();
@@ -13,7 +13,7 @@ pub fn page(title: &str, body: &str) -> String {
     )
 }
 
-/// Returns a section with its heading, or an empty string if there is no content.
+/// Returns an HTML section with its heading, or an empty string if `content` is empty.
 pub fn section(heading: &str, content: &str) -> String {
     if content.is_empty() { String::new() } else { format!("<section>\n<h2>{heading}</h2>\n{content}</section>\n") }
 }
@@ -31,7 +31,7 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
-/// Formats a duration [s] in seconds, minutes or hours, depending on its size.
+/// Formats a duration [s] in seconds, minutes or hours, depending on its length.
 pub fn clock(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{} s", short(s, 1)),

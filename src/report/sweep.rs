@@ -1,10 +1,10 @@
-//! The chart of a sweep.
+//! Chart `sweep.svg` of the results of a sweep.
 
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::plot::{Lever, Line, LineChart, TornadoChart, standalone};
+use super::plot::{Line, LineChart, TornadoChart, TornadoInput, standalone};
 use crate::{
     output::{OutputError, write_atomically},
     sweep::{
@@ -17,9 +17,9 @@ use crate::{
 /// Size of the chart [px].
 const SIZE: [f64; 2] = [720.0, 420.0];
 
-/// Writes `sweep.svg` and returns its path; nothing if no key has numeric values. The chart shows the mean displacement
-/// against the first numeric key. If keys vary one at a time, it shows the change of the mean displacement for each
-/// value.
+/// Writes `sweep.svg` and returns its path; `None` if there is nothing to show. The chart shows the mean displacement
+/// against the first key with numeric values. If the keys vary one at a time, the chart shows the change of the mean
+/// displacement from the base case for each value.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -34,7 +34,8 @@ pub fn write_sweep_chart(sweep: &Sweep, outcomes: &[Outcome], dir: &Path) -> Res
     Ok(Some(path))
 }
 
-/// Charts the mean displacement against the first key with numeric values, one line per combination of the others.
+/// Charts the mean displacement against the first key with numeric values. Each combination of the other keys is one
+/// line.
 fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
     let is_axis = |one: &Varied| one.values.len() > 1 && one.values.iter().all(Value::is_number);
     let along = sweep.varied.iter().position(is_axis)?;
@@ -64,14 +65,15 @@ fn chart(sweep: &Sweep, outcomes: &[Outcome]) -> Option<LineChart> {
     })
 }
 
-/// Charts how each value changes the mean displacement of the base case, the first run. `None` until that is finished.
+/// Charts how each value changes the mean displacement of the base case. The first run is the base case; `None` if this
+/// run is not finished.
 fn tornado(sweep: &Sweep, outcomes: &[Outcome]) -> Option<TornadoChart> {
     let mean = |outcome: &Outcome| match outcome {
         Outcome::Finished(summary) => summary.mean_displacement_m,
         Outcome::Missing | Outcome::Failed(_) => None,
     };
     let (base, base_mean) = (&sweep.members.first()?.values, mean(outcomes.first()?)?);
-    let lever = |(k, one): (usize, &Varied)| Lever {
+    let lever = |(k, one): (usize, &Varied)| TornadoInput {
         name: format!("{} {}", brief(&one.key), in_words(&base[k])).trim_end().to_owned(),
         values: (sweep.members.iter().zip(outcomes))
             .filter(|(member, _)| member.values[k] != base[k])
@@ -80,7 +82,7 @@ fn tornado(sweep: &Sweep, outcomes: &[Outcome]) -> Option<TornadoChart> {
     };
     Some(TornadoChart {
         title: sweep.title.clone(),
-        x_label: format!("change of the mean displacement [m] from {base_mean:.3} m"),
+        x_label: format!("change of the mean displacement [m]; base case {base_mean:.3} m"),
         levers: sweep.varied.iter().enumerate().map(lever).filter(|lever| !lever.values.is_empty()).collect(),
         width: SIZE[0],
     })
@@ -99,14 +101,14 @@ mod tests {
             let summary = Summary { mean_displacement_m: Some(mean), ..Summary::default() };
             Outcome::Finished(Box::new(summary))
         };
-        // The other runs are not finished.
+        // All further runs of the sweep are not finished.
         let outcomes: Vec<Outcome> = [moved(0.25), Outcome::Missing, moved(0.28)].into();
         let chart = tornado(&sweep, &outcomes).unwrap();
         let [lever] = &chart.levers[..] else { panic!("{:?}", chart.levers) };
         assert_eq!(lever.name, "mound.crest_width_m 0.32");
         let [(words, change)] = &lever.values[..] else { panic!("{lever:?}") };
         assert!(words == "0.36" && (change - 0.03).abs() < 1e-12, "{lever:?}");
-        assert!(chart.x_label.ends_with("from 0.250 m"), "{}", chart.x_label);
+        assert!(chart.x_label.ends_with("base case 0.250 m"), "{}", chart.x_label);
         assert!(tornado(&sweep, &[Outcome::Missing, moved(0.28)]).is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! Page with charts of the wave in the flume model.
+//! Page `wave.html` with charts of the wave in the flume model.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Writes `wave.html`: surface elevation at the gauges and along the flume, and motion of the multi-layer piston.
-/// `beside` holds the surface at the gauges from another program, for comparison; it may be empty.
+/// `beside` is the surface elevation at the gauges from another program, for comparison; it may be empty.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -71,7 +71,8 @@ fn gauge_chart(case: &Case, record: &FlumeRecord, beside: &[SurfaceSeries]) -> L
     chart("Surface elevation at the gauges", "flume time [s]", "elevation \u{03b7} [m]", lines)
 }
 
-/// Chart of the surface in the recorded window at five times around the highest crest.
+/// Chart of the surface in the recorded part of the flume: at the time of the highest crest, and 1 s and 2 s before and
+/// after.
 fn profile_chart(record: &FlumeRecord) -> LineChart {
     let crest = |t: f64| record.window_x_m.iter().map(|&x| record.elevation(x, t)).fold(f64::MIN, f64::max);
     let highest = record.times_s().iter().copied().max_by(|a, b| crest(*a).total_cmp(&crest(*b))).unwrap_or(0.0);
@@ -85,7 +86,7 @@ fn profile_chart(record: &FlumeRecord) -> LineChart {
     chart("Surface elevation along the flume", "x [m]", "elevation \u{03b7} [m]", lines.collect())
 }
 
-/// Chart of the displacement of the lowest, a middle and the highest piston row below the still water level.
+/// Chart of the displacement of three rows of the multi-layer piston: the first, a middle and the last row.
 fn piston_chart(piston: &MlPiston) -> LineChart {
     let heights = piston.row_heights_m();
     let samples = 200;

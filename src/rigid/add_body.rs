@@ -1,4 +1,4 @@
-//! Adding bodies to a running world: the overlap at a position, and the new body.
+//! Adds bodies during a run, and computes the overlap that a new body would have at a position.
 
 use glam::{DQuat, DVec3};
 
@@ -22,7 +22,7 @@ impl RigidWorld {
         }
     }
 
-    /// Adds a body; it moves from the next [`advance`](Self::advance) on.
+    /// Adds a body. The body starts to move at the next call of [`advance`](Self::advance).
     pub fn add(&mut self, body: BodyState) {
         let rotation = body.rotation.normalize();
         let inertia = self.inverse_inertia.inverse();
@@ -36,7 +36,7 @@ impl RigidWorld {
         self.path.push(0.0);
         self.margin.push(0.0);
         self.search_distance = NO_PAIR_LIST;
-        self.publish();
+        self.update_results();
     }
 }
 
@@ -65,13 +65,13 @@ mod tests {
 
     #[test]
     fn overlap_of_a_new_body_is_exact() {
-        for (sides, beside) in [(Sides::Open, 0.5), (Sides::Periodic { width: 0.6 }, 0.5 - 3.0 * 0.6)] {
+        for (sides, y) in [(Sides::Open, 0.5), (Sides::Periodic { width: 0.6 }, 0.5 - 3.0 * 0.6)] {
             let world = world(sides);
             let at = |x: f64, y: f64, z: f64| world.overlap_at(DVec3::new(x, y, z), DQuat::IDENTITY);
-            assert_eq!(at(0.21, beside, 0.1), 0.0);
-            assert!((at(0.19, beside, 0.1) - 0.01).abs() < 1e-12);
-            assert!((at(1.0, beside, 0.09) - 0.01).abs() < 1e-12);
-            assert_eq!(at(0.0, beside, 0.1), f64::INFINITY);
+            assert_eq!(at(0.21, y, 0.1), 0.0);
+            assert!((at(0.19, y, 0.1) - 0.01).abs() < 1e-12);
+            assert!((at(1.0, y, 0.09) - 0.01).abs() < 1e-12);
+            assert_eq!(at(0.0, y, 0.1), f64::INFINITY);
         }
     }
 

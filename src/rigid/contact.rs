@@ -1,21 +1,22 @@
-//! The data of a contact: its identity, its point and its history.
+//! Data of a contact: identity, contact point and history.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Largest number of corners plus edges of a polyhedron: they are numbered from 0, below [`WHOLE`].
-pub const MAX_FEATURES: usize = WHOLE as usize - 1;
-/// Feature number of the whole polyhedron; corners are numbered from 0, followed by the edges.
-pub const WHOLE: u16 = 1023;
+/// Largest number of corners plus edges of a polyhedron. Their feature numbers start at 0 and are less than [`WHOLE_PART`].
+pub const MAX_FEATURES: usize = WHOLE_PART as usize - 1;
+/// Feature number of a whole part. The corners of a polyhedron have the numbers from 0; its edges follow.
+pub const WHOLE_PART: u16 = 1023;
 
-/// The contact partner of a part.
+/// The contact partner of a part. `end` is the index of the touching core point in `ConvexPart::ends`; 0 at ridges and
+/// corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Feature {
-    /// A part of another body (or of the same one), shifted by `image` flume widths. `part` is 1024 times the number of
-    /// the part, plus the number of its corner or edge, or 1023 for the whole part.
+    /// A part of another body, or of an image of the same body, shifted by `image` flume widths. `part` is 1024 times
+    /// the part number plus the feature number (a corner, an edge, or 1023 for the whole part).
     Unit { body: u32, image: i32, part: u16 },
-    /// The ground: `place` is 2 k for strip k and 2 k + 1 for the convex corner after it.
+    /// The bed profile: `place` is 2 k for strip k, and 2 k + 1 for the convex corner after strip k.
     Ground { place: u32, end: u16 },
     /// A triangle surface: `place` is the number of the triangle, ridge or corner.
     Terrain { place: u32, end: u16 },
@@ -28,26 +29,26 @@ pub enum Feature {
 pub struct ContactKey {
     /// Number of the body from 0.
     pub body: u32,
-    /// Number of its part from 0; against another unit, encoded as in [`Feature::Unit`].
+    /// Number of the part of this body, from 0. For a unit as partner, the number is encoded as in [`Feature::Unit`].
     pub part: u16,
     /// Contact partner.
     pub feature: Feature,
 }
 
-/// A contact point: two surfaces overlap or are near each other.
+/// A point where two surfaces overlap or are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
     /// Identity of the contact.
     pub key: ContactKey,
-    /// Middle of the overlap [m], at the first body.
+    /// Middle of the overlap [m]. The partner is at its periodic image near the first body.
     pub position: DVec3,
     /// Normal from the partner into the first body.
     pub normal: DVec3,
     /// Overlap d [m]; negative for a gap.
     pub overlap: f64,
-    /// Shift of the partner's periodic image [m].
+    /// Shift of the partner to its periodic image [m].
     pub shift: DVec3,
-    /// Nearest point of the partner's core, in the partner's axes [m]; for a fixed surface, the foot point on it.
+    /// Nearest point of the partner's core, in the partner's body axes [m]; on the ground or a wall, the foot point.
     pub core: DVec3,
 }
 
@@ -58,7 +59,7 @@ pub struct Substep {
     pub dt: f64,
     /// Time at the end of the substep [s].
     pub time: f64,
-    /// Time for which the resulting substep length may be used [s]; contacts that may start within it count.
+    /// Longest possible next substep [s]. Contacts that may start within this time also limit the substep length.
     pub horizon: f64,
 }
 
@@ -69,15 +70,16 @@ pub struct Contact {
     pub key: ContactKey,
     /// Contact normal at the last evaluation.
     pub normal: DVec3,
-    /// Tangential spring d_t [m].
+    /// Displacement d_t of the tangential spring [m].
     pub spring: DVec3,
-    /// Rolling spring [rad].
+    /// Rotation of the rolling spring [rad].
     pub rolling_spring: DVec3,
     /// Overlap [m].
     pub overlap: f64,
-    /// Overlap at which the contact force starts [m]: the initial overlap on a triangle surface is subtracted.
+    /// Overlap at which the contact force starts [m]; above 0 only if a contact with a triangle surface started with
+    /// an overlap.
     pub initial_overlap: f64,
-    /// Nearest point of the partner's core, in the partner's axes [m]: start of the next search.
+    /// Nearest point as in [`ContactPoint::core`] [m]; the next search starts there.
     pub core: DVec3,
     /// Force on the first body [N].
     pub force: DVec3,
@@ -88,13 +90,14 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Returns the same contact with unloaded springs, for an overlap that does not exceed the initial one.
+    /// Returns the contact with unloaded springs, for an overlap that does not exceed the initial overlap.
     pub fn idle(self, point: &ContactPoint, substep: Substep) -> Self {
         let Self { key, initial_overlap, .. } = self;
         Self { key, initial_overlap, ..Self::started(point, substep) }
     }
 
-    /// Returns the contact at its new position; the effective overlap stays the same on another element of a surface.
+    /// Returns the contact with the key of `point`. If the part has moved to another element of a triangle surface,
+    /// the initial overlap changes to keep the effective overlap (overlap minus initial overlap).
     pub fn continued_as(self, point: &ContactPoint) -> Self {
         let stays = self.key == point.key || !matches!(point.key.feature, Feature::Terrain { .. });
         let initial_overlap =
@@ -105,7 +108,7 @@ impl Contact {
     /// Creates a contact that has just started.
     ///
     /// On a triangle surface, a part in contact with neighbouring elements can reach another ridge with an overlap.
-    /// This overlap is subtracted, because it would create energy. An overlap at the start of the world counts.
+    /// This overlap is subtracted, because it would create energy. An overlap at the start of a run is not subtracted.
     pub fn started(point: &ContactPoint, substep: Substep) -> Self {
         let on_terrain = matches!(point.key.feature, Feature::Terrain { .. });
         let initial_overlap = if on_terrain && substep.dt > 0.0 { point.overlap } else { 0.0 };

@@ -11,13 +11,14 @@ pub enum RigidError {
     /// The number of loads differs from the number of bodies.
     #[error("{loads} loads were passed for {bodies} bodies; pass one load per body")]
     Loads { loads: usize, bodies: usize },
-    /// The snapshot belongs to another world.
-    #[error("the snapshot has {snapshot} bodies, but this world has {world}")]
+    /// The snapshot has a different number of bodies.
+    #[error("the snapshot has {snapshot} rigid bodies, but this run has {world}")]
     Snapshot { snapshot: usize, world: usize },
-    /// The overlap of two bodies exceeds the rounding radius, so the gap can no longer be computed.
+    /// The overlap [m] of a body with `partner` exceeds the `allowed` overlap [m]. This limit depends on the
+    /// rounding radii, because the contact normal is undefined if the cores touch.
     #[error(
-        "at {time:.6} s unit {} overlaps {partner} by {:.3} mm; the rounding radius allows {:.3} mm: \
-         use a stiffer material or a smaller speed", body + 1, depth * 1e3, allowed * 1e3
+        "at {time:.6} s unit {} overlaps {partner} by {:.3} mm; the rounding radius allows at most {:.3} mm; \
+         use a stiffer material or a lower speed", body + 1, depth * 1e3, allowed * 1e3
     )]
     TooDeep { time: f64, body: usize, partner: String, depth: f64, allowed: f64 },
     /// Position, rotation or angular momentum of a body is not finite.

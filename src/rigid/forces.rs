@@ -1,4 +1,4 @@
-//! Forces of all contacts at one instant, with the tangential history and the energy balance.
+//! Computes the forces of all contacts at one instant; updates the tangential springs and the energy balance.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -10,13 +10,14 @@ use super::motion::Load;
 use super::record::{ContactRecords, ForceStep};
 use super::setup::RigidSetup;
 
-/// Energy balance of the world [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
-/// load_work is constant, except for time-stepping errors and the coupling of tangential stiffness and overlap.
+/// Energy balance of all bodies [J]. For constant gravity, kinetic + potential + elastic + friction + damping -
+/// load_work is constant. Small errors come from the time stepping, and from the tangential stiffness, because it
+/// changes with the overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy of translation and rotation.
     pub kinetic: f64,
-    /// Potential energy in gravity, zero at the origin.
+    /// Potential energy of gravity; 0 for a centre of mass at the origin.
     pub potential: f64,
     /// Elastic energy stored in contacts.
     pub elastic: f64,
@@ -46,12 +47,12 @@ pub struct Evaluation {
     pub loads: Vec<Load>,
     /// Active contacts, sorted by key.
     pub contacts: Vec<Contact>,
-    /// Square of the largest angular frequency of a body on its contacts, an upper bound [1/s2].
+    /// Upper bound of the squared angular frequency of a body on its contact springs [1/s2].
     pub frequency_squared: f64,
 }
 
 impl Laws {
-    /// Creates the contact laws of a world: effective radius R against a plane, R/2 for two equal rounding radii.
+    /// Creates the contact laws. The effective radius is the rounding radius R on ground and walls, R/2 between bodies.
     pub fn new(setup: &RigidSetup) -> Self {
         let RigidSetup { friction, model, material, wall_material, .. } = setup;
         let mass = setup.shape.mass;
@@ -78,7 +79,8 @@ impl Laws {
         }
     }
 
-    /// Computes the forces at the contact points. `before` are the previous contacts and `records` their records.
+    /// Computes the forces at the contact points. `before` lists the contacts of the last evaluation, in the order of
+    /// `records.running`.
     pub fn evaluate(
         &self,
         contact_points: &[ContactPoint],
@@ -123,7 +125,7 @@ impl Laws {
         for (old, record) in before.iter().zip(old_records).filter_map(|(old, record)| Some((old, record?))) {
             energy.friction += old.elastic[1] + old.elastic[2];
             if let Feature::Terrain { .. } = old.key.feature {
-                // A part can leave a ridge while it still overlaps it.
+                // A part can leave a ridge before its overlap is zero: the stored energy is lost.
                 energy.damping += old.elastic[0];
             }
             records.end(record, old.force, substep);
@@ -132,7 +134,8 @@ impl Laws {
         out
     }
 
-    /// Adds the stiffness [N/m] of a contact, or of one that can start within the horizon, to that of its bodies.
+    /// Adds the stiffness [N/m] of a contact to the sums of its bodies. A contact that can start within the horizon
+    /// counts too.
     fn add_stiffness(&self, pair: &ContactMotion, substep: Substep, stiffness: &mut [f64]) {
         let (point, law) = (pair.point, self.law_of(pair.point.key.feature));
         let closing = (-pair.v_n).max(0.0);
@@ -143,7 +146,7 @@ impl Laws {
         let expected = point.overlap.max(law.impact_overlap(closing));
         let s_n = law.normal_stiffness(expected);
         let stiffness_at = |arm: DVec3| s_n * (1.0 + self.mass * arm.length_squared() / self.least_inertia);
-        // Two bodies on one spring: twice the stiffness bounds the frequency (Gershgorin).
+        // Between two bodies, twice the stiffness of their spring gives a bound of the frequency (Gershgorin).
         stiffness[pair.body] += if pair.partner.is_some() { 2.0 } else { 1.0 } * stiffness_at(pair.arms[0]);
         if let Some(b) = pair.partner {
             stiffness[b] += 2.0 * stiffness_at(pair.arms[1]);
@@ -151,20 +154,20 @@ impl Laws {
     }
 }
 
-/// A contact that deforms its bodies over a substep.
+/// A contact with its relative motion over a substep.
 struct DeformedContact<'a> {
     law: &'a ContactLaw,
     pair: &'a ContactMotion<'a>,
-    /// The contact at the start of the substep, at its new position.
+    /// State of the contact at the start of the substep, with the key of the current contact point.
     old: Contact,
     is_new: bool,
-    /// Overlap beyond the initial one [m].
+    /// Overlap minus the initial overlap [m]; it determines the contact force.
     overlap: f64,
     substep: Substep,
 }
 
 impl DeformedContact<'_> {
-    /// Advances the springs, adds the force to the loads and books the energies.
+    /// Advances the springs, adds the contact force to the loads and updates the energy balance.
     fn advance(&self, energy: &mut Energy, loads: &mut [Load]) -> Contact {
         let Self { law, pair, old, overlap, .. } = self;
         let point = pair.point;
@@ -189,11 +192,11 @@ impl DeformedContact<'_> {
             elastic: [law.normal_energy(*overlap), law.tangential_energy(*overlap, forces.spring), rolling_energy],
             ..*old
         };
-        self.book_energies(&contact, forces.sliding, energy);
+        self.update_energy_balance(&contact, forces.sliding, energy);
         contact
     }
 
-    /// Adds the rolling resistance to the loads; returns its spring [rad] and the energy in it [J].
+    /// Adds the torque of the rolling resistance to the loads; returns the rolling spring [rad] and its energy [J].
     fn roll(&self, normal_force: f64, energy: &mut Energy, loads: &mut [Load]) -> (DVec3, f64) {
         let Self { law, pair, old, overlap, substep, .. } = self;
         let [omega, mean_omega] = pair.rolling_velocities();
@@ -209,10 +212,10 @@ impl DeformedContact<'_> {
         (rolling.spring, stored)
     }
 
-    /// Books what the contact stores, and what friction and dashpots dissipate over the substep.
-    fn book_energies(&self, contact: &Contact, is_sliding: bool, energy: &mut Energy) {
+    /// Adds the stored energy of the contact, and its dissipation by friction and dashpots, to the energy balance.
+    fn update_energy_balance(&self, contact: &Contact, is_sliding: bool, energy: &mut Energy) {
         let Self { pair, old, substep, .. } = self;
-        // The mean of the forces at both ends of the substep acted on the bodies.
+        // The bodies move under the mean of the forces at the start and at the end of the substep.
         let damped = -0.5 * (old.dashpot + contact.dashpot) * pair.mean_n * substep.dt;
         let gained = contact.elastic[0] + contact.elastic[1] - old.elastic[0] - old.elastic[1];
         let lost = -0.5 * (old.force + contact.force).dot(pair.mean) * substep.dt - gained;
@@ -222,8 +225,8 @@ impl DeformedContact<'_> {
     }
 }
 
-/// Index of the previous contact that continues as `point`: the same contact, or that of the same part on a
-/// neighbouring ground element that it has just left.
+/// Index in `before` of the contact that continues as `point`; `None` for a new contact. The contact has the same key,
+/// or it is a contact of the same part with a neighbouring ground element that the part has just left.
 fn find(
     before: &[Contact],
     used: &mut [bool],
@@ -239,7 +242,7 @@ fn find(
         let left = |(c, used): (&Contact, &bool)| {
             let same_part = (c.key.body, c.key.part) == (key.body, key.part);
             let next = same_part && !*used && are_neighbours(c.key.feature, key.feature) && !touching(&c.key);
-            // Ground elements join continuously, so a foot point that changes element moves only a short distance.
+            // Neighbouring ground elements have no gap, so the foot point moves only a short distance between them.
             next.then(|| c.core.distance(point.core)).filter(|path| *path < least_radius)
         };
         let paths = before.iter().zip(used.iter()).map(left).enumerate();
@@ -249,7 +252,7 @@ fn find(
     Some(index)
 }
 
-/// Whether a part can move from one ground element to the other within a substep.
+/// Returns true if a part can move from the ground element `old` to `new` within a substep.
 fn are_neighbours(old: Feature, new: Feature) -> bool {
     match (old, new) {
         (Feature::Ground { place: old, .. }, Feature::Ground { place: new, .. }) => old.abs_diff(new) <= 1,
@@ -258,7 +261,7 @@ fn are_neighbours(old: Feature, new: Feature) -> bool {
     }
 }
 
-/// Rotates a tangential spring with the contact normal and keeps its length.
+/// Rotates a tangential spring from the old to the new contact normal; its length stays the same.
 fn rotate(spring: DVec3, old_normal: DVec3, normal: DVec3) -> DVec3 {
     if old_normal == normal || spring == DVec3::ZERO {
         return spring;

@@ -1,4 +1,4 @@
-//! Motion of all bodies over a substep, and of the two sides of a contact point.
+//! Motion of all bodies over a substep, and relative motion of two bodies at a contact point.
 
 use glam::DVec3;
 
@@ -17,7 +17,7 @@ pub struct Velocities<'a> {
 }
 
 impl Velocities<'_> {
-    /// Velocity [m/s] of the material point of `body` at the lever arm r [m] from its centre of mass.
+    /// Velocity [m/s] of the material point of `body` at `arm` [m] from the centre of mass.
     fn at(&self, body: usize, arm: DVec3) -> DVec3 {
         self.linear[body] + self.angular[body].cross(arm)
     }
@@ -30,37 +30,37 @@ pub struct Motion<'a> {
     pub placements: Placements<'a>,
     /// Velocities at the end of the substep.
     pub now: Velocities<'a>,
-    /// Mean velocities of the substep: they stretch the springs and do the work.
+    /// Mean velocities over the substep, for the stretch of the springs and the work of the forces.
     pub mean: Velocities<'a>,
     /// The substep.
     pub substep: Substep,
 }
 
-/// A contact point with the motion of its two sides, relative to each other.
+/// A contact point with the velocity of the first body relative to the second body, the ground or a wall.
 pub struct ContactMotion<'a> {
     /// The contact point.
     pub point: &'a ContactPoint,
-    /// First body.
+    /// Index of the first body.
     pub body: usize,
-    /// Second body; none for ground and walls.
+    /// Index of the second body; `None` for a contact with the ground or a wall.
     pub partner: Option<usize>,
-    /// Lever arms of both sides [m].
+    /// Vectors from the centres of mass of both bodies to the contact point [m].
     pub arms: [DVec3; 2],
-    /// Normal velocity at the end of the substep [m/s], negative when approaching.
+    /// Normal component of the relative velocity at the end of the substep [m/s], negative when approaching.
     pub v_n: f64,
-    /// Tangential velocity at the end of the substep [m/s].
+    /// Tangential part of the relative velocity at the end of the substep [m/s].
     pub v_t: DVec3,
-    /// Mean velocity of the substep [m/s].
+    /// Mean relative velocity over the substep [m/s].
     pub mean: DVec3,
-    /// Normal part of the mean velocity [m/s].
+    /// Normal component of the mean relative velocity [m/s].
     pub mean_n: f64,
-    /// Tangential part of the mean velocity [m/s].
+    /// Tangential part of the mean relative velocity [m/s].
     pub mean_t: DVec3,
     motion: &'a Motion<'a>,
 }
 
 impl<'a> ContactMotion<'a> {
-    /// Relative motion at a contact point.
+    /// Computes the relative motion at a contact point.
     pub fn new(point: &'a ContactPoint, motion: &'a Motion<'a>) -> Self {
         let position = motion.placements.position;
         let body = point.key.body as usize;
@@ -76,8 +76,8 @@ impl<'a> ContactMotion<'a> {
         Self { point, body, partner, arms, v_n, v_t, mean, mean_n, mean_t, motion }
     }
 
-    /// Angular velocity of both sides relative to each other, without its part along the normal, at the end of the
-    /// substep and in its mean [rad/s].
+    /// Angular velocity of the first body relative to the second, without the component along the normal [rad/s]: at
+    /// the end of the substep, and the mean over the substep.
     pub fn rolling_velocities(&self) -> [DVec3; 2] {
         [self.motion.now, self.motion.mean].map(|v| {
             let omega = v.angular[self.body] - self.partner.map_or(DVec3::ZERO, |b| v.angular[b]);
@@ -85,7 +85,7 @@ impl<'a> ContactMotion<'a> {
         })
     }
 
-    /// State of the bodies when the contact starts; `mass` is that of a body [kg].
+    /// State of the bodies at the start of the contact; `mass` is the mass of one body [kg].
     pub fn start(&self, mass: f64) -> ContactStart {
         let Motion { placements, now, substep, .. } = self.motion;
         let state = |body: usize, shift: DVec3| BodyState {
@@ -104,7 +104,7 @@ impl<'a> ContactMotion<'a> {
         }
     }
 
-    /// Adds a force [N] on the first body, and its reaction, to the loads.
+    /// Adds a force [N] on the first body, and the opposite force on the second body, to the loads.
     pub fn add_force(&self, force: DVec3, loads: &mut [Load]) {
         loads[self.body].force += force;
         loads[self.body].torque += self.arms[0].cross(force);
@@ -114,7 +114,7 @@ impl<'a> ContactMotion<'a> {
         }
     }
 
-    /// Adds a torque [N m] on the first body, and its reaction, to the loads.
+    /// Adds a torque [N m] on the first body, and the opposite torque on the second body, to the loads.
     pub fn add_torque(&self, torque: DVec3, loads: &mut [Load]) {
         loads[self.body].torque += torque;
         if let Some(b) = self.partner {

@@ -1,19 +1,19 @@
 //! Rigid armour units and their contact.
 //!
-//! Rounded convex parts touch each other, the ground (bed profile and triangle surface) and walls. The contact law
-//! includes Coulomb friction; the default is Hertz-Mindlin (Sunday et al. 2020).
+//! A unit is a set of rounded convex parts, which touch other units, the ground (bed profile and triangle surface) and
+//! walls. The contact law includes Coulomb friction; the default is Hertz-Mindlin (Sunday et al. 2020).
 //!
 //! | part | contents |
 //! | --- | --- |
-//! | `setup` | input of a rigid world |
+//! | `setup` | input: shape and positions of the bodies, ground, walls, materials |
 //! | `world` | time stepping by substeps; the entry point of this module |
-//! | `motion` | motion of a rigid body |
+//! | `motion` | rotation of a free rigid body |
 //! | `search` | contact points of all bodies |
-//! | `contact` | the data of a contact |
+//! | `contact` | data of a contact: identity, contact point, history |
 //! | `law` | contact laws |
 //! | `forces` | contact forces and energy balance |
-//! | `kinematics` | relative motion of the two sides of a contact |
-//! | `record` | records of contacts and the hardest impacts |
+//! | `kinematics` | relative motion of two bodies at a contact point |
+//! | `record` | records of all contacts and of the hardest impacts |
 //! | `add_body` | adding bodies during a run |
 //! | `snapshot` | state for checkpoints |
 

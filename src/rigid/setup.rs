@@ -1,4 +1,4 @@
-//! Input of a rigid world.
+//! Input of the rigid-body solver.
 
 use std::sync::Arc;
 
@@ -9,17 +9,17 @@ use super::error::RigidError;
 use super::law::{ContactModel, Material, Resistance};
 use super::motion::BodyState;
 use crate::geometry::armour_unit::ArmourUnit;
-use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
 use crate::geometry::terrain::Terrain;
 
-/// Largest number of convex parts of a body: part, corner and edge numbers share 16 bits.
+/// Largest number of convex parts of a body, because part number and feature number share 16 bits.
 pub const MAX_PARTS: usize = 63;
 
-/// Shape and mass of a body, equal for all bodies of a world. Body axes have their origin at the centre of mass.
+/// Shape and mass, equal for all bodies. Body axes have their origin at the centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyShape {
-    /// Convex parts for contact.
+    /// Rounded convex parts that form the contact surface.
     pub parts: Vec<ConvexPart>,
     /// Mass [kg].
     pub mass: f64,
@@ -54,9 +54,9 @@ impl BodyShape {
 pub struct Ground {
     /// Level z(x) of bed and mound, uniform across the flume.
     pub profile: Profile,
-    /// A triangle surface on or above the profile.
+    /// Optional triangle surface on or above the profile.
     pub terrain: Option<Arc<Terrain>>,
-    /// Material of profile and triangle surface.
+    /// Material of the profile and the triangle surface.
     pub material: Material,
 }
 
@@ -65,7 +65,7 @@ pub struct Ground {
 pub enum Sides {
     /// No side boundaries.
     Open,
-    /// Periodic: a body also touches images of the others (and of itself) shifted by the width [m].
+    /// Periodic: a body also touches the images of all bodies, which are shifted by multiples of the width [m].
     Periodic { width: f64 },
     /// Walls at y = 0 and y = width [m].
     Walls { width: f64 },
@@ -73,7 +73,7 @@ pub enum Sides {
     TwoDimensional,
 }
 
-/// Resistance of the pairs of surfaces.
+/// Friction and rolling resistance of each pair of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Between two bodies.
@@ -84,7 +84,7 @@ pub struct Friction {
     pub unit_wall: Resistance,
 }
 
-/// Input of a rigid world.
+/// Input of the rigid-body solver.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidSetup {
     /// Shape and mass of every body.
@@ -93,15 +93,15 @@ pub struct RigidSetup {
     pub bodies: Vec<BodyState>,
     /// Material of the bodies.
     pub material: Material,
-    /// Bed, mound and triangle surface.
+    /// Bed, mound and triangle surface; `None` without ground.
     pub ground: Option<Ground>,
     /// Side boundaries of the flume.
     pub sides: Sides,
-    /// Positions x of the walls at the seaward and the shoreward end [m].
+    /// Positions x of the walls at the seaward and the shoreward end [m]; `None` without end walls.
     pub end_walls: Option<[f64; 2]>,
     /// Material of side and end walls.
     pub wall_material: Material,
-    /// Resistance of the pairs of surfaces.
+    /// Friction and rolling resistance of each pair of surfaces.
     pub friction: Friction,
     /// Contact law of all pairs.
     pub model: ContactModel,
@@ -110,7 +110,7 @@ pub struct RigidSetup {
 }
 
 impl RigidSetup {
-    /// Rejects values that are out of range.
+    /// Returns an error if a value is out of range.
     pub fn check(&self) -> Result<(), RigidError> {
         let reject = |what: &str, value: f64, allowed| Err(RigidError::Setup { what: what.into(), value, allowed });
         if !(self.shape.mass > 0.0 && self.shape.mass.is_finite()) {
@@ -151,7 +151,7 @@ impl RigidSetup {
                 return reject("a coefficient of friction or rolling resistance", *bad, "0 or greater");
             }
             if pair.kinetic_friction > pair.static_friction {
-                return reject("the kinetic friction coefficient", pair.kinetic_friction, "at most the static one");
+                return reject("the kinetic friction coefficient", pair.kinetic_friction, "at most the static value");
             }
             if let Some(e) = pair.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
                 return reject("the coefficient of restitution", e, "between 0 and 1");
@@ -164,11 +164,11 @@ impl RigidSetup {
         if let Sides::Periodic { width } | Sides::Walls { width } = self.sides
             && !(width > 0.0 && width.is_finite())
         {
-            return reject("the width between the sides [m]", width, "positive");
+            return reject("the width between the side boundaries [m]", width, "positive");
         }
         for (index, body) in self.bodies.iter().enumerate() {
             let length = body.rotation.length();
-            // 1e-6: tolerates quaternions written with seven digits.
+            // 1e-6 accepts quaternions that were written with seven digits.
             if (length - 1.0).abs() > 1e-6 || length.is_nan() {
                 return reject(&format!("the length of the rotation quaternion of unit {}", index + 1), length, "1");
             }

@@ -1,4 +1,4 @@
-//! State of the rigid bodies for checkpoints. A restored world continues bit-identically.
+//! State of the rigid bodies for checkpoints. A restored run gives bit-identical results.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -10,8 +10,8 @@ use super::motion::Load;
 use super::record::{ContactRecords, EventLog, ImpactLog, RecordedContact};
 use super::world::{NO_PAIR_LIST, RigidWorld};
 
-/// State of all bodies and contacts. Angular momentum and current contact forces are stored, because recomputing them
-/// would change their last bits.
+/// State of all bodies and contacts. It includes angular momentum and current contact forces, because recomputed values
+/// would differ in their last bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigidSnapshot {
     time_s: f64,
@@ -28,12 +28,13 @@ pub struct RigidSnapshot {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct BodySnapshot {
     position: [f64; 3],
-    /// x, y, z, w.
+    /// Quaternion: x, y, z, w.
     rotation: [f64; 4],
     velocity: [f64; 3],
     angular_momentum: [f64; 3],
-    /// Force and torque of the contacts now, and their mean over the last `advance`.
+    /// Current contact force and torque.
     contact_now: Load,
+    /// Mean contact force and torque over the last call of `advance`.
     contact_mean: Load,
 }
 
@@ -128,7 +129,7 @@ impl RigidWorld {
             begun: snapshot.begun,
         };
         self.search_distance = NO_PAIR_LIST;
-        self.publish();
+        self.update_results();
         Ok(())
     }
 }

@@ -1,7 +1,8 @@
 //! The rigid bodies of a run, advanced in substeps by the velocity Verlet scheme.
 //!
-//! A substep is half a kick, a drift, the contact forces at the new positions, and half a kick. Dashpots need the
-//! velocity at the end of the substep. It is extrapolated with the old acceleration, which keeps second order.
+//! A substep has four stages: half of the velocity update (kick), the position update (drift), the contact forces at
+//! the new positions, and the second half of the velocity update. The dashpot forces need the velocity at the end of
+//! the substep. It is extrapolated with the acceleration at the start, which keeps second-order accuracy.
 
 use std::f64::consts::TAU;
 
@@ -16,18 +17,19 @@ use super::record::{ContactEvent, ContactRecords, RecordedContact};
 use super::search::{PartPair, Placements, Surfaces};
 use super::setup::{RigidSetup, Sides};
 
-/// Substeps per shortest oscillation period of a body on its contacts. With 80 the restitution of an impact is accurate
-/// to 1e-3 (see the tests); an impact lasts about two thirds of this period.
+/// Number of substeps in the shortest oscillation period of a body on its contact springs [-]. With 80, the restitution
+/// of an impact is accurate to 1e-3 (see the tests). An impact lasts about two thirds of this period.
 const STEPS_PER_PERIOD: f64 = 80.0;
 
-/// Longest substep [s]. The search includes everything that a body can reach within this time at twice its speed, so no
-/// contact starts with a large overlap.
+/// Longest substep [s]. The contact search covers everything that a body can reach within this time at twice its speed.
+/// Therefore no contact starts with a large overlap.
 const LONGEST_SUBSTEP: f64 = 1e-3;
 
-/// Safety factor on the travelled distance [-], because a body may rotate slightly faster at one end of a substep.
+/// Safety factor on the distance that a surface moves in a substep [-]. A body may rotate slightly faster at one end of
+/// the substep than on average.
 const PATH_SAFETY: f64 = 1.01;
 
-/// Value of `search_distance` that forces a new search for pairs of parts.
+/// Value of `search_distance` that makes the next substep rebuild the list of part pairs.
 pub(super) const NO_PAIR_LIST: f64 = f64::NEG_INFINITY;
 
 /// Rigid bodies with their contacts.
@@ -60,18 +62,19 @@ pub struct RigidWorld {
     // Workspace.
     angular_velocity: Vec<DVec3>,
     pairs: Vec<PartPair>,
-    /// Pairs that may be near each other now.
+    /// Pairs of `pairs` whose parts can be in contact now.
     near: Vec<PartPair>,
-    /// Search distance with which the pair list was built [m].
+    /// Largest gap of the pairs of parts in `pairs`, when the list was built [m].
     pub(super) search_distance: f64,
-    /// Upper bound of the distance that each body's surface has travelled since then [m].
+    /// Upper bound of the distance that the surface of each body has moved since `pairs` was built [m].
     pub(super) path: Vec<f64>,
-    /// Distance that each body's surface can travel within the horizon at twice its speed [m].
+    /// Distance that the surface of each body can move within the horizon (`Substep::horizon`) at twice its speed [m].
     pub(super) margin: Vec<f64>,
 }
 
 impl RigidWorld {
-    /// Creates the world at time 0; rejects values out of range and bodies that start with too large an overlap.
+    /// Creates the world at time 0. Returns an error if a value is out of range or a body starts with too large an
+    /// overlap.
     pub fn new(setup: RigidSetup) -> Result<Self, RigidError> {
         setup.check()?;
         let count = setup.bodies.len();
@@ -107,11 +110,11 @@ impl RigidWorld {
             margin: vec![0.0; count],
         };
         world.update_contacts(0.0, 0.0, &vec![DVec3::ZERO; count], &vec![DVec3::ZERO; count])?;
-        world.publish();
+        world.update_results();
         Ok(world)
     }
 
-    /// Positions and motions of the bodies.
+    /// Current position and motion of each body.
     pub fn states(&self) -> &[BodyState] {
         &self.states
     }
@@ -121,12 +124,12 @@ impl RigidWorld {
         self.time
     }
 
-    /// Mean contact force and torque on each body over the last [`advance`](Self::advance).
+    /// Mean contact force [N] and torque [N m] on each body over the last call of [`advance`](Self::advance).
     pub fn contact_loads(&self) -> &[Load] {
         &self.contact_mean
     }
 
-    /// Energy balance; kinetic and potential energy are current values.
+    /// Energy balance. Kinetic, potential and elastic energy are current values; the others are sums since the start.
     pub fn energy(&self) -> Energy {
         self.energy
     }
@@ -136,7 +139,7 @@ impl RigidWorld {
         self.contacts.len()
     }
 
-    /// Largest current overlap [m].
+    /// Largest overlap of the active contacts [m]; 0 without contacts.
     pub fn deepest_overlap(&self) -> f64 {
         self.contacts.iter().map(|contact| contact.overlap).fold(0.0, f64::max)
     }
@@ -151,12 +154,12 @@ impl RigidWorld {
         std::mem::take(&mut self.records.ended.ended)
     }
 
-    /// Active contacts, as recorded so far.
+    /// Records of the active contacts up to now.
     pub fn running_events(&self) -> impl Iterator<Item = &ContactEvent> {
         self.records.running.iter().map(|contact| &contact.event)
     }
 
-    /// The hardest impacts of each unit since the start, including active contacts; hardest first.
+    /// The hardest impacts of each unit since the start, including active contacts, in descending order of peak force.
     pub fn impacts(&self) -> Vec<RecordedContact> {
         self.records.impacts_so_far().into_hardest_first()
     }
@@ -208,11 +211,11 @@ impl RigidWorld {
             self.contact_mean =
                 impulse.iter().map(|sum| Load { force: sum.force / dt, torque: sum.torque / dt }).collect();
         }
-        self.publish();
+        self.update_results();
         Ok(())
     }
 
-    /// Substep length [s]: divides the remaining time into equal substeps, short enough for the stiffest contact.
+    /// Returns a substep length [s] that divides the remaining time `left` [s] evenly and suits the stiffest contact.
     fn substep_length(&self, left: f64) -> f64 {
         let longest = (TAU / self.frequency_squared.sqrt() / STEPS_PER_PERIOD).min(LONGEST_SUBSTEP);
         left / (left / longest).ceil().max(1.0)
@@ -229,7 +232,7 @@ impl RigidWorld {
         self.time += h;
         self.check_finite()?;
         self.update_contacts(h, left.min(LONGEST_SUBSTEP), &linear_mid, &angular_mid)?;
-        // Undo the extrapolation, then apply the second half kick with the new acceleration.
+        // Replace the extrapolated velocity: the second half of the update uses the new acceleration.
         self.velocity.copy_from_slice(&linear_mid);
         let new = self.accelerations(loads);
         for body in 0..self.position.len() {
@@ -240,7 +243,7 @@ impl RigidWorld {
         Ok(())
     }
 
-    /// Checks that all states are finite, as the contact search requires.
+    /// Returns an error if the state of a body is not finite, because the contact search needs finite values.
     fn check_finite(&self) -> Result<(), RigidError> {
         let finite = |b: &usize| (self.position[*b] + self.angular_momentum[*b]).is_finite();
         match (0..self.position.len()).find(|b| !finite(b) || !self.rotation[*b].is_finite()) {
@@ -307,12 +310,12 @@ impl RigidWorld {
         Ok(())
     }
 
-    /// Updates the pairs of parts that can be near each other after a substep `h` [s] at the given velocities.
+    /// Updates the list of part pairs that can be in contact after a substep `h` [s] with the given mean velocities.
     fn update_near_pairs(&mut self, h: f64, horizon: f64, linear: &[DVec3], angular: &[DVec3]) {
         let reach = self.surfaces.reach();
         for body in 0..self.position.len() {
             self.path[body] += PATH_SAFETY * h * (linear[body].length() + angular[body].length() * reach);
-            // The substep length needs all contacts that may start within the horizon at twice the current speeds.
+            // The next substep length depends on all contacts that may start within the horizon at twice this speed.
             let speed = self.velocity[body].length() + self.angular_velocity[body].length() * reach;
             self.margin[body] = 2.0 * speed * horizon;
         }
@@ -329,8 +332,8 @@ impl RigidWorld {
         self.near.extend(self.pairs.iter().filter(|pair| pair.can_be_near(&within)));
     }
 
-    /// Updates the results for callers.
-    pub(super) fn publish(&mut self) {
+    /// Updates the results that callers read: body states, kinetic and potential energy.
+    pub(super) fn update_results(&mut self) {
         self.energy.kinetic = 0.0;
         self.energy.potential = 0.0;
         for body in 0..self.position.len() {

@@ -7,7 +7,7 @@ use crate::{
     rigid::{self, BodyShape, BodyState, ContactModel, Friction, Ground, RigidSetup},
 };
 
-/// Returns the set-up of the rigid world: units, bed, walls, materials and contact law.
+/// Returns the set-up of the rigid-body solver: units, bed, walls, materials and contact law.
 pub fn rigid_setup(
     units: &Units,
     site: &Site,

@@ -1,14 +1,14 @@
-//! Runs: what breakwater computes for each kind of input file.
+//! The computation that breakwater runs for each kind of input file.
 //!
 //! | folder | run |
 //! | --- | --- |
 //! | [`flume`] | flume runs: water, units and their contact |
-//! | [`dry_test`] | dry tests: units tilted, dropped or settling without water |
+//! | [`dry_test`] | dry tests: units tilted, dropped or settling, without water |
 //! | [`armour_layer`] | armour layers: units lowered one by one onto a slope |
 //! | [`fracture`] | fracture runs: deformable bodies that crack |
 //! | [`breakage`] | breakage analyses: the hardest impacts of a run, re-run at prototype scale with breakable units |
 //!
-//! A run writes data into its folder; [`crate::report`] writes the pages.
+//! A run writes data files into its folder. [`crate::report`] writes the HTML pages from these files.
 
 pub mod armour_layer;
 pub mod bodies;

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use glam::DVec3;
 
 #[cfg(feature = "gpu")]
-use super::gpu::{card::Card, memory::most_particles, solver::GpuSolver};
+use super::gpu::{card::Card, memory::max_particles, solver::GpuSolver};
 use super::parameters::Parameters;
 use super::solver::backend::{Backend, DeviceError, PROCESSOR};
 use super::solver::step::Solver;
@@ -13,12 +13,12 @@ use super::solver::step::Solver;
 /// Device that the user requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DeviceChoice {
-    /// A graphics card if there is one that supports the case, otherwise the processor.
+    /// The first hardware graphics card if it can compute the case, otherwise the processor.
     Auto,
     /// The processor.
     #[default]
     Cpu,
-    /// The graphics card with this number in `breakwater devices`.
+    /// The graphics card with this number in the list of `breakwater devices`.
     Gpu(usize),
 }
 
@@ -36,7 +36,9 @@ impl FromStr for DeviceChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let parse_number = |text: &str| text.parse().map_err(|_| format!("{text:?} is not a device number"));
+        let parse_number = |text: &str| {
+            text.parse().map_err(|_| format!("{text:?} is not a device number; breakwater devices lists the numbers"))
+        };
         match text.split_once(':') {
             None if text == "auto" => Ok(Self::Auto),
             None if text == "cpu" => Ok(Self::Cpu),
@@ -48,7 +50,7 @@ impl FromStr for DeviceChoice {
 }
 
 impl DeviceChoice {
-    /// Returns the device with this name, as stored in checkpoints, or `Auto` if it is not available.
+    /// Returns the device with this name, as stored in checkpoints, or `Auto` if the device is not available.
     pub fn named(name: &str) -> Self {
         if name == PROCESSOR {
             return Self::Cpu;
@@ -73,11 +75,11 @@ pub enum Device {
 }
 
 impl Device {
-    /// Opens the requested device. With `Auto` it falls back to the processor and returns the reason. `scheme` names
+    /// Opens the requested device. If `Auto` has to use the processor, the second result is the reason. `scheme` names
     /// the part of the numerical scheme that graphics cards do not support, if any.
     ///
     /// # Errors
-    /// If there is no such card, or it cannot be used.
+    /// If a graphics card is requested that does not exist or cannot be used.
     pub fn open(choice: DeviceChoice, scheme: Option<&'static str>) -> Result<(Self, Option<String>), DeviceError> {
         match choice {
             DeviceChoice::Cpu => Ok((Self::Cpu, None)),
@@ -119,19 +121,19 @@ impl Device {
 
     #[cfg(not(feature = "gpu"))]
     fn card(_: usize) -> Result<Self, DeviceError> {
-        Err(DeviceError::Missing("this breakwater was built without the feature `gpu`".to_owned()))
+        Err(DeviceError::Missing("breakwater was built without the feature `gpu`".to_owned()))
     }
 
-    /// Returns whether this number of particles fits into its memory.
+    /// Returns true if this number of particles fits into the memory of a graphics card; always true for the processor.
     pub fn fits(&self, #[cfg_attr(not(feature = "gpu"), allow(unused_variables))] particles: f64) -> bool {
         match self {
             Self::Cpu => true,
             #[cfg(feature = "gpu")]
-            Self::Gpu(card) => particles <= most_particles(card.info()) as f64,
+            Self::Gpu(card) => particles <= max_particles(card.info()) as f64,
         }
     }
 
-    /// Returns its name.
+    /// Returns the name of the device.
     pub fn name(&self) -> String {
         match self {
             Self::Cpu => PROCESSOR.to_owned(),
@@ -143,7 +145,7 @@ impl Device {
     /// Creates the solver with bins in the box from `low` to `high`; no particle may leave the box `bounds` [m].
     ///
     /// # Errors
-    /// If the device does not support the scheme.
+    /// If the device does not support the numerical scheme.
     pub fn solver(
         &self,
         parameters: Parameters,
@@ -164,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn unsupported_schemes_are_named() {
+    fn gpu_refuses_unsupported_schemes_and_names_their_key() {
         use crate::sph::parameters::BoundaryCondition;
         use crate::sph::solver::backend::unsupported_on_gpu;
         use crate::sph::terms::density_diffusion::DensityDiffusion;

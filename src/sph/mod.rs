@@ -1,22 +1,22 @@
 //! Weakly compressible smoothed particle hydrodynamics (Mitsui et al. 2023, sections 2.1 and 2.2).
 //!
-//! | module | contents; each uses only those below it |
+//! | module | contents (a module uses only the modules below it) |
 //! | --- | --- |
-//! | [`device`] | choice of the processor (CPU) or a graphics card (GPU) |
+//! | [`device`] | choice between the processor (CPU) and a graphics card (GPU) |
 //! | [`gpu`] | the time step on a graphics card |
 //! | [`solver`] | the time step on the processor, time step limits, powers, sampling |
 //! | [`pairs`] | sums over pairs of neighbours: rates and gradients |
-//! | [`boundary`] | boundary particles from ghost nodes: density and velocity |
+//! | [`boundary`] | density and velocity of boundary particles, from ghost nodes |
 //! | [`neighbours`] | cell list, neighbour lists, particle records |
 //! | [`particles`] | water, bed, walls and units as particles |
 //! | [`parameters`] | constants of the scheme |
 //! | [`terms`] | the equations, one per file |
 //! | [`lanes`] | SIMD lanes |
 //!
-//! Each time step sorts the particles into the bins of a cell list. A cluster holds as many particles as there are SIMD
-//! lanes and has one neighbour list; the pair sums add a neighbour to all members at once. Each particle gathers its
-//! own sums in a fixed order, so results are bit-identical for any number of threads. A shader (`.wgsl`) lies beside
-//! the Rust file of its stage.
+//! In each time step the solver sorts the particles into the bins of a cell list. A cluster has at most as many
+//! particles as there are SIMD lanes. Its members share one neighbour list, and the pair sums add a neighbour to all
+//! members at once. Each particle sums over its own neighbours in a fixed order, so results are bit-identical for any
+//! number of threads. A shader (`.wgsl`) is in the folder of the Rust file with the same equations.
 
 pub mod boundary;
 pub mod device;

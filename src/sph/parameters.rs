@@ -16,7 +16,7 @@ pub enum BoundaryCondition {
     ModifiedDynamic,
 }
 
-/// Constants of the solver during a run.
+/// Constants of the numerical scheme during a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Parameters {
     /// Particle spacing [m].
@@ -37,17 +37,18 @@ pub struct Parameters {
     pub boundary: BoundaryCondition,
     /// Wall slip condition under mDBC.
     pub slip: WallSlip,
-    /// Whether pressure acts on units through gaps without water particles, under mDBC.
+    /// True if, under mDBC, pressure acts on units through gaps that are too narrow for water particles.
     pub gap_pressure: bool,
     /// Particle shifting, if any.
     pub shifting: Option<Shifting>,
-    /// Width of the flume if it is periodic across [m].
+    /// Width of the flume [m] if it is periodic across its width.
     pub periodic_width: Option<f64>,
 }
 
 impl Parameters {
     /// Returns the scheme of Mitsui et al. (2023) for particle spacing `dp` [m], smoothing length `h` [m], speed of
-    /// sound `c0` [m/s] and gravity [m/s2]. `periodic_width` is the width of a flume that is periodic across [m].
+    /// sound `c0` [m/s] and gravitational acceleration `gravity` [m/s2]. For a flume that is periodic across its width,
+    /// `periodic_width` is this width [m].
     pub fn published(dp: f64, h: f64, c0: f64, gravity: f64, periodic_width: Option<f64>) -> Self {
         let tait = Tait { rho0: 1000.0, c0, gamma: 7.0 };
         Self {

@@ -3,13 +3,13 @@
 struct Parameters {
     // Number of bins along x, y, z.
     count: vec3<i32>,
-    // Number of water particles; in the records the boundary follows them.
+    // Number of water particles; in `records` the boundary particles follow the water.
     water: u32,
     // Size of a bin [m].
     size: vec3<f32>,
     // Number of boundary particles.
     boundary: u32,
-    // Number of bed, wall and wavemaker particles among them; the others belong to units.
+    // Number of boundary particles of bed, walls and wavemaker; the other boundary particles belong to units.
     walls: u32,
     // Width of a periodic domain [m].
     width: f32,
@@ -35,19 +35,20 @@ struct Parameters {
     // -rho0 g / c0^2 [kg/m4], the hydrostatic gradient with which mDBC extrapolates densities.
     density_slope: f32,
     padding: f32,
-    // Limits of the trust in a fitted gradient, for the position and the spread of the water (mdbc.rs).
+    // Limits between which the trust in a fitted gradient changes, for centroid and spread of the water (mdbc.rs).
     centroid_limits: vec2<f32>,
     spread_limits: vec2<f32>,
-    // Smallest scaled determinant for which a gradient is fitted.
+    // Smallest scaled determinant for which a gradient is fitted [-].
     least_determinant: f32,
-    // Sum of W V below which a node is dry.
+    // Sum of W V below which a ghost node is dry [-].
     dry: f32,
     // Box that no particle may leave, relative to the low corner of the grid [m].
     bounds_low: vec3<f32>,
     padding_low: f32,
     bounds_high: vec3<f32>,
     padding_high: f32,
-    // Binomial series of p in (rho - rho0) / rho0 from the first power on [Pa], and of c from the zeroth [m/s].
+    // Coefficients of binomial series in (rho - rho0) / rho0: of p from the first power on [Pa], of c from the zeroth
+    // [m/s].
     pressure: array<vec4<f32>, 2>,
     sound: array<vec4<f32>, 2>,
 }
@@ -62,7 +63,7 @@ struct Step {
 
 // Data of a particle that its neighbours need (records.rs).
 struct Record {
-    // Bin along x; offset from its low end, y and z from the middle of the grid [m].
+    // Bin along x; offset from the low end of this bin, y and z relative to the middle of the grid [m].
     place: vec4<f32>,
     // Velocity [m/s] and volume [m3].
     motion: vec4<f32>,
@@ -70,8 +71,8 @@ struct Record {
     state: vec4<f32>,
 }
 
-// Whether the flume is periodic across its width. This is a compile-time constant: with branches on uniform values,
-// Mesa's software driver compiles a shader again at every dispatch and never frees it.
+// True if the flume is periodic across its width. This is a compile-time constant because, with branches on uniform
+// values, Mesa's software driver compiles a shader again at every dispatch and never frees the compiled shader.
 override PERIODIC: bool = false;
 
 const WATER = 0.0;
@@ -80,7 +81,7 @@ const UNIT = 2.0;
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 
-// Returns the index of a thread in a one- or two-dimensional dispatch of groups of 64.
+// Returns the index of a thread in a one- or two-dimensional dispatch of workgroups of 64 threads.
 fn thread_number(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
     return (group.y * groups.x + group.x) * 64u + local;
 }
@@ -91,7 +92,7 @@ fn bin_of_cell(cell: vec3<i32>) -> u32 {
     return u32((c.z * parameters.count.y + c.y) * parameters.count.x + c.x);
 }
 
-// Returns the position in the form of Record.place from a cell and the offset in it.
+// Returns the position in the form of Record.place, from a cell and the offset in this cell [m].
 fn split(cell: vec3<i32>, offset: vec3<f32>) -> vec4<f32> {
     let across = (vec2<f32>(cell.yz) - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz + offset.yz;
     return vec4<f32>(f32(cell.x), offset.x, across);

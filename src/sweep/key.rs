@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-/// Returns the last part of a key's path.
+/// Returns the last part of a key's path: `coefficient`.
 pub fn short(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
@@ -12,16 +12,16 @@ pub fn brief(key: &str) -> &str {
     key.rmatch_indices('.').nth(1).map_or(key, |(dot, _)| &key[dot + 1..])
 }
 
-/// Returns the value at a path as in [`set`]; null if there is none.
+/// Returns the value at a path such as `friction[1].coefficient`; null if the path has no value.
 pub fn get(root: &Value, path: &str) -> Value {
     let pointer = path.replace(['.', '['], "/").replace(']', "");
     root.pointer(&format!("/{pointer}")).cloned().unwrap_or_default()
 }
 
-/// Sets the value at a path such as `friction[1].coefficient`; creates missing objects on the way.
+/// Sets the value at a path such as `friction[1].coefficient`; creates missing objects along the path.
 ///
 /// # Errors
-/// If the path leads through a value that is not an object, or to an entry that a list does not have.
+/// If a part of the path is not an object, or a list has no entry with the given index.
 pub fn set(root: &mut Value, path: &str, value: Value) -> Result<(), String> {
     let mut target = root;
     for part in path.split('.') {
@@ -38,7 +38,7 @@ pub fn set(root: &mut Value, path: &str, value: Value) -> Result<(), String> {
             let number: Option<usize> = index.strip_suffix(']').and_then(|number| number.parse().ok());
             let number = number.ok_or_else(|| format!("[{index} is not an index"))?;
             let length = target.as_array().map_or(0, Vec::len);
-            target = target.get_mut(number).ok_or_else(|| format!("{key} has {length} entries, starting with [0]"))?;
+            target = target.get_mut(number).ok_or_else(|| format!("{key} has {length} entries; the first is [0]"))?;
         }
     }
     *target = value;

@@ -1,4 +1,4 @@
-//! The folder of one run of a sweep, and whether it is finished.
+//! Folder, log and state of one run of a sweep.
 
 use std::path::{Path, PathBuf};
 
@@ -17,17 +17,17 @@ pub enum Outcome {
 }
 
 impl Member {
-    /// Returns the folder of the run in that of the sweep.
+    /// Returns the folder of the run, inside the folder of the sweep.
     pub fn dir(&self, sweep_dir: &Path) -> PathBuf {
         sweep_dir.join(&self.name)
     }
 
-    /// Returns the path of the log of the run.
+    /// Returns the path of the log file of the run.
     pub fn log(&self, sweep_dir: &Path) -> PathBuf {
         sweep_dir.join(format!("{}.log", self.name))
     }
 
-    /// Determines the state of the run from its summary, which must be of the same case, and its log.
+    /// Determines the state of the run from its summary and its log. The summary of a different case does not count.
     pub fn outcome(&self, sweep_dir: &Path) -> Outcome {
         match Summary::read(&self.dir(sweep_dir)) {
             Ok(summary) if summary.case_hash == self.hash => return Outcome::Finished(Box::new(summary)),

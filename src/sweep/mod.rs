@@ -1,16 +1,16 @@
-//! Sweeps: many runs of one case with keys that vary.
+//! Sweeps: many runs of one case in which the values of some keys vary.
 //!
-//! | file | what it holds |
+//! | module | contents |
 //! | --- | --- |
-//! | [`plan`] | the sweep file and the runs that follow from it |
+//! | [`plan`] | reads the sweep file and creates the cases of its runs |
 //! | [`key`] | paths of the keys that vary |
-//! | [`member`] | the folder of one run, and whether it is finished |
+//! | [`member`] | the folder, the log and the state of one run |
 //! | [`queue`] | runs in parallel on this machine |
 //! | [`slurm`] | runs as a job array of the Slurm workload manager |
 //! | [`table`] | the results of all runs as a table |
 //!
-//! Each run is a separate process, so a crash does not affect the others. Finished runs are kept, interrupted runs
-//! resume from their checkpoint, failed runs are tried once more.
+//! Each run is a separate process, so a crash does not affect the other runs. Finished runs are kept, interrupted runs
+//! resume from their checkpoint, and failed runs get a second attempt.
 
 pub mod key;
 pub mod member;

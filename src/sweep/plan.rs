@@ -1,4 +1,4 @@
-//! The runs that follow from a sweep file.
+//! Reads a sweep file and creates the cases of its runs.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use crate::{
 /// Largest number of runs in one sweep.
 const MOST_RUNS: usize = 10_000;
 
-/// Why a sweep is refused.
+/// Reasons why a sweep is refused.
 #[derive(Debug, Error)]
 pub enum SweepError {
     /// The sweep file or its case cannot be read, or has wrong keys.
@@ -39,7 +39,7 @@ pub enum SweepError {
         number: usize,
         /// Varied keys and their values.
         label: String,
-        /// Errors in its case.
+        /// Errors in the case of the run.
         errors: CaseErrors,
     },
 }
@@ -49,26 +49,26 @@ pub enum SweepError {
 pub struct Varied {
     /// Path of the key, as in `friction[1].coefficient`.
     pub key: String,
-    /// Its values.
+    /// Values of the key.
     pub values: Vec<Value>,
 }
 
 /// One run of a sweep.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// Number, from 1; 0 is the common start.
+    /// Number of the run, from 1; 0 is the common start of all runs.
     pub number: usize,
-    /// Name of its folder.
+    /// Name of the folder of the run.
     pub name: String,
-    /// Values of the varied keys, in their order; null for keys that the case does not have.
+    /// Values of the varied keys, in the order of the keys; null for keys that the case does not have.
     pub values: Vec<Value>,
-    /// Text of the case file.
+    /// Text of the case file of the run.
     pub text: String,
-    /// Fingerprint of the case, as in summaries.
+    /// Fingerprint of the case, as in `summary.json`.
     pub hash: String,
-    /// Fingerprint of what determines the run before its units move, see [`Case::start_hash`].
+    /// Fingerprint of all inputs that affect the run before its units move; see [`Case::start_hash`].
     start_hash: String,
-    /// Simulated time at which the common start ends [s].
+    /// Simulated time at which the common start ends [s]; `None` for all other runs.
     pub until: Option<f64>,
 }
 
@@ -77,15 +77,15 @@ pub struct Member {
 pub struct Sweep {
     /// Title.
     pub title: String,
-    /// The case that is varied; its paths are relative to it.
+    /// File of the base case. Relative paths in the case start from the folder of this file.
     pub case: PathBuf,
     /// The varied keys.
     pub varied: Vec<Varied>,
     /// How the values are combined.
     pub combine: Combine,
-    /// The runs; the last key varies fastest.
+    /// The runs. With [`Combine::All`], the last key varies fastest.
     pub members: Vec<Member>,
-    /// The run from whose checkpoint the others start, if any.
+    /// The common start: the run from whose checkpoint all other runs start, if any.
     pub start: Option<Member>,
 }
 
@@ -107,13 +107,13 @@ impl Sweep {
         let case = path.parent().unwrap_or(Path::new("")).join(&file.case);
         let document = Document::read(&case)?;
         if document.kind() != InputKind::Flume {
-            return Err(content(format!("case: {} is not a flume case; sweeps vary flume cases", case.display())));
+            return Err(content(format!("case: {} is not a flume case; a sweep needs a flume case", case.display())));
         }
         let mut base = Value::Object(document.parse::<Map<String, Value>>()?);
         let varied = file.vary.iter().enumerate().map(|(k, vary)| vary.values(k)).collect::<Result<Vec<_>, _>>();
         let varied = varied.map_err(&content)?;
         if varied.is_empty() {
-            return Err(content("vary: must hold at least one key".to_owned()));
+            return Err(content("vary: must contain at least one key".to_owned()));
         }
         let given = base.clone();
         let set_alone = file.set.keys().filter(|key| varied.iter().all(|one| one.key != **key));
@@ -164,7 +164,7 @@ impl Sweep {
     }
 }
 
-/// Returns the common start: the first run, ended at the time `until` [s]. `duration` is that of all runs [s].
+/// Returns the common start: a copy of the first run that ends at the time `until` [s]. Every run lasts `duration` [s].
 fn start(members: &[Member], until: f64, duration: f64) -> Result<Member, String> {
     let first = &members[0];
     if let Some(other) = members.iter().find(|other| other.start_hash != first.start_hash) {
@@ -183,7 +183,7 @@ impl VaryFile {
             (Some(values), None, None, None) if !values.is_empty() => values.clone(),
             (None, Some(from), Some(to), Some(count)) if (2..=MOST_RUNS).contains(&count) => {
                 let step = (to - from) / (count - 1) as f64;
-                // Round to twelve digits, so that 0.1 + 2 * 0.11 reads 0.32.
+                // Round to twelve decimals, so that 0.1 + 2 * 0.11 is written as 0.32.
                 let value = |k: usize| (1e12 * (from + k as f64 * step)).round() / 1e12;
                 (0..count).map(|k| json!(value(k))).collect()
             }
@@ -207,7 +207,8 @@ impl Combine {
         }
     }
 
-    /// Returns the values that a run (numbered from 0) changes; `None` for keys that keep the value of the case.
+    /// Returns the value of each varied key in run `number` (from 0); `None` for keys that keep the value of the base
+    /// case.
     fn changes(self, varied: &[Varied], number: usize) -> Vec<Option<Value>> {
         if self == Self::All {
             return combination(varied, number).into_iter().map(Some).collect();
@@ -222,7 +223,7 @@ impl Combine {
     }
 }
 
-/// Returns the values of a run (numbered from 0).
+/// Returns the combination of values in run `number` (from 0); the last key varies fastest.
 fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     let mut values: Vec<Value> = varied
         .iter()
@@ -237,8 +238,8 @@ fn combination(varied: &[Varied], mut number: usize) -> Vec<Value> {
     values
 }
 
-/// Adds the changed keys to the assumptions of a run. The assumptions of the base case describe its own values, and
-/// reports repeat them.
+/// Adds the changed keys to the assumptions of a run. Reason: reports print the assumptions, and those of the base case
+/// describe only the values of the base case.
 fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
     let differs = |key: &&str| {
         let (now, before) = (get(run, key), get(given, key));
@@ -257,7 +258,7 @@ fn note_differences(run: &mut Value, given: &Value, keys: &[&str]) {
     }
 }
 
-/// Describes what a run changes: `coefficient=0.32 height_m=0.045`.
+/// Returns the changed keys of a run and their values, as in `coefficient=0.32 height_m=0.045`.
 fn label(varied: &[Varied], changes: &[Option<Value>]) -> String {
     let one =
         |(one, value): (&Varied, &Option<Value>)| Some(format!("{}={}", short(&one.key), in_words(value.as_ref()?)));
@@ -274,7 +275,7 @@ pub fn in_words(value: &Value) -> String {
     }
 }
 
-/// Turns a text into the name of a folder.
+/// Converts a text to a folder name: special characters become `_`, and at most 80 characters are kept.
 fn file_name(text: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || "._-=".contains(c) { c } else { '_' };
     text.chars().map(plain).take(80).collect()

@@ -16,7 +16,7 @@ use super::{member::Outcome, plan::Member};
 /// Largest number of attempts per run.
 const TRIES: usize = 2;
 
-/// Arguments of the runs of a sweep.
+/// Arguments that all runs of a sweep have in common.
 #[derive(Debug, Clone)]
 pub struct Work<'a> {
     /// The sweep file.
@@ -39,7 +39,7 @@ impl Work<'_> {
         command
     }
 
-    /// Executes a run with at most [`TRIES`] attempts; its output goes to its log.
+    /// Executes a run with at most [`TRIES`] attempts; appends the output of the run to its log file.
     fn execute(&self, program: &Path, member: &Member) -> io::Result<Outcome> {
         for attempt in 1..=TRIES {
             let log = File::options().create(true).append(true).open(member.log(self.dir))?;
@@ -49,8 +49,8 @@ impl Work<'_> {
             if status.success() && matches!(member.outcome(self.dir), Outcome::Finished(_)) {
                 break;
             }
-            writeln!(&log, "{}try {attempt} of {TRIES}, {status}", Member::FAILED)?;
-            // A second attempt would refuse the same input.
+            writeln!(&log, "{}attempt {attempt} of {TRIES}, {status}", Member::FAILED)?;
+            // Status 2: the program refused its input, so a second attempt would fail too.
             if status.code() == Some(2) {
                 break;
             }
@@ -58,12 +58,12 @@ impl Work<'_> {
         Ok(member.outcome(self.dir))
     }
 
-    /// Executes all runs that are not finished, `jobs` at a time; `report` receives each run that ended, its state and
-    /// the number of runs left.
+    /// Executes all runs that are not finished, at most `jobs` in parallel. When a run ends, `report` receives the run,
+    /// its state and the number of remaining runs.
     ///
     /// # Errors
     /// If a process cannot be started or a log cannot be written.
-    pub fn make_all(
+    pub fn execute_all(
         &self,
         program: &Path,
         members: &[Member],

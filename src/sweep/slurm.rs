@@ -8,12 +8,12 @@ use crate::output::{OutputError, write_atomically};
 /// Name of the script in the folder of the sweep.
 pub const SCRIPT: &str = "sweep.sbatch";
 
-/// Time between two queries of the queue.
+/// Time between two queries of the Slurm queue.
 const POLL_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Writes the script of a job array for the runs that are not finished; `options` are added as `#SBATCH` lines.
-/// If a node fails, Slurm queues its job again, and the run resumes from its checkpoint. Returns `None` if all runs are
-/// finished.
+/// Writes the script of a job array with one task per run that is not finished; `options` are added as `#SBATCH` lines.
+/// If a node fails, Slurm queues its task again, and the run resumes from its checkpoint. Returns `None` if all runs
+/// are finished.
 ///
 /// # Errors
 /// If the script cannot be written.
@@ -36,7 +36,7 @@ pub fn write_script(
         .chain(command.get_args())
         .map(|word| quoted(&word.to_string_lossy()))
         .collect();
-    // The array provides the number after --member.
+    // Slurm sets the number of the run in this variable.
     let line = words.join(" ").replacen("--member 0", "--member \"$SLURM_ARRAY_TASK_ID\"", 1);
     let options: String = options.iter().map(|option| format!("#SBATCH {option}\n")).collect();
     let script = format!(
@@ -57,7 +57,7 @@ fn quoted(word: &str) -> String {
     if plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
-/// Submits the script; returns the job number.
+/// Submits the script to Slurm; returns the job number.
 ///
 /// # Errors
 /// If `sbatch` is missing or fails.
@@ -77,7 +77,7 @@ pub fn submit(script: &Path) -> io::Result<String> {
 pub fn wait(job: &str, mut report: impl FnMut(usize)) -> io::Result<()> {
     loop {
         let output = Command::new("squeue").args(["--noheader", "--array", "--job", job]).output()?;
-        // For a job that ended, squeue may report an error and no tasks.
+        // After a job has ended, `squeue` may print an error and no tasks.
         let tasks = String::from_utf8_lossy(&output.stdout).lines().filter(|line| !line.trim().is_empty()).count();
         if tasks == 0 {
             return Ok(());

@@ -3,7 +3,7 @@
 //! | module | contents |
 //! | --- | --- |
 //! | [`theory`] | solitary, regular and irregular waves |
-//! | [`flume_model`] | layered non-hydrostatic model of the whole flume, and what it records |
+//! | [`flume_model`] | layered non-hydrostatic model of the whole flume, and its record |
 //! | [`generation`] | wavemakers of the particle domain: multi-layer piston, paddle, active absorption |
 //! | [`external`] | velocities and surface levels from files of other programs |
 //!

@@ -1,8 +1,8 @@
 //! Three-dimensional dam break in a tank with a building, compared with a DualSPHysics v5.4 calculation.
 //!
-//! Both programs solve the same equations with the same constants on the same lattice, so this compares programs and
-//! not nature. The walls of DualSPHysics are one layer of particles under the dynamic boundary condition. Its tip is
-//! the largest x of a water particle, measured from half a particle spacing outside the wall surface.
+//! Both programs solve the same equations with the same constants on the same lattice, so the test compares two
+//! programs and not a program with an experiment. The walls of DualSPHysics are one layer of particles with the dynamic
+//! boundary condition. The tip is the largest x of a water particle, in the axes of the DualSPHysics calculation.
 
 use std::{path::Path, sync::Arc};
 
@@ -30,8 +30,8 @@ struct Moment {
 
 /// Returns the DualSPHysics results up to a time [s] in order of time, each with its source.
 ///
-/// Both sources have the same tolerance: each time in the table differs by less than 0.3 ms from a time at which
-/// DualSPHysics wrote its results, and the tip moves by less than 1 mm in 0.3 ms.
+/// The same tolerance applies to both sources: each time in the table differs by less than 0.3 ms from an output time
+/// of DualSPHysics, and the tip moves by less than 1 mm in 0.3 ms.
 fn reference(end: f64) -> Vec<(&'static str, Moment)> {
     let table = data::table_of(TABLE).into_iter().map(|[time, tip, kinetic]| Moment { time, tip, kinetic }).collect();
     let series = data::series_of(SERIES).map(|rows: Vec<[f64; 6]>| {
@@ -45,7 +45,7 @@ fn reference(end: f64) -> Vec<(&'static str, Moment)> {
     moments
 }
 
-/// Loads the case file with some values changed.
+/// Loads the case file and sets the value at each given JSON pointer.
 fn case(changes: &[(&str, Value)]) -> Case {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/verification/dam-break-3d.json");
     let mut case: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
@@ -84,7 +84,7 @@ struct Deviations {
     kinetic: f64,
 }
 
-/// Time from which kinetic energies are compared [s]; before it they are too small for a relative deviation.
+/// Time from which kinetic energies are compared [s]. Earlier energies are too small for a relative deviation.
 const COMPARE_ENERGY_FROM: f64 = 0.1;
 
 /// Compares one run with all sources and returns the largest deviations.
@@ -111,7 +111,7 @@ fn compare(name: &str, changes: &[(&str, Value)], end: f64) -> Deviations {
     largest
 }
 
-/// Returns the changes for mDBC walls, with the boundary layers that they need.
+/// Returns the changes that select mDBC and the three boundary layers that mDBC needs.
 fn with_mdbc() -> [(&'static str, Value); 2] {
     [("/numerics/boundary", json!("mdbc")), ("/numerics/boundary_layers", json!(3))]
 }
@@ -119,9 +119,9 @@ fn with_mdbc() -> [(&'static str, Value); 2] {
 /// Asserts that the unchanged case agrees with DualSPHysics up to a time [s].
 fn assert_equals_dualsphysics(end: f64) {
     let deviations = compare("unchanged", &[], end);
-    // Tip: the lattice resolves one particle spacing. Energy: 2 %; reached are 0.5 % at 0.6 s and 1.2 % at 0.8 s. If
-    // the density of walls diffuses, too, it is 3 % at 0.12 s and 12 % at 0.6 s. A building one particle narrower
-    // gives 7 %.
+    // Tip: one particle spacing, the resolution of the lattice. Energy: 2 %; reached: 0.5 % at 0.6 s, 1.2 % at 0.8 s.
+    // If density diffusion also acts on wall particles, the energy deviates by 3 % at 0.12 s and 12 % at 0.6 s. With a
+    // building one particle narrower, it deviates by 7 %.
     assert!(deviations.tip < DP && deviations.kinetic < 0.02);
 }
 

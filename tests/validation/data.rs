@@ -1,4 +1,4 @@
-//! Measurements: short tables in the repository, and the full series where `../shared/data` lies next to it.
+//! Measurements: short tables in the repository, and the full series if the folder `../shared/data` exists.
 
 use std::ffi::c_int;
 use std::io::{Write, stdout};
@@ -19,7 +19,7 @@ pub fn table_of<const N: usize>(name: &str) -> Vec<[f64; N]> {
     table(name).into_iter().map(whole).collect()
 }
 
-/// Returns the rows of numbers of a file in `../shared/data`. The error states why there are none.
+/// Returns the rows of numbers of a file in `../shared/data`. The error names the missing folder or file.
 pub fn series(name: &str) -> Result<Vec<Vec<f64>>, String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(FULL_SERIES);
     if !folder.is_dir() {
@@ -35,7 +35,7 @@ pub fn series_of<const N: usize>(name: &str) -> Result<Vec<[f64; N]>, String> {
     Ok(rows)
 }
 
-/// Returns the measurements to compare with, each with its name: always the table, and the full series where it exists.
+/// Returns the measurements to compare with, each with its name: always the table, and the full series if it exists.
 /// A missing full series is counted and reported at the end of the test run.
 pub fn table_and_series<T>(table: T, series: Result<T, String>) -> Vec<(&'static str, T)> {
     let mut measurements = vec![("table", table)];
@@ -43,7 +43,7 @@ pub fn table_and_series<T>(table: T, series: Result<T, String>) -> Vec<(&'static
     measurements
 }
 
-/// Returns the full series for a test without a table. A missing one is counted and reported at the end of the run.
+/// Returns the full series for a test without a table. A missing series is counted and reported at the end of the run.
 pub fn series_or_left_out<T>(series: Result<T, String>) -> Option<T> {
     series.map_err(leave_out).ok()
 }
@@ -52,7 +52,7 @@ pub fn series_or_left_out<T>(series: Result<T, String>) -> Option<T> {
 static LEFT_OUT: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 unsafe extern "C" {
-    /// Calls a function when the program ends; from the C standard library.
+    /// Registers a function that runs when the program ends (C standard library).
     safe fn atexit(at_end: extern "C" fn()) -> c_int;
 }
 
@@ -64,7 +64,7 @@ fn leave_out(reason: String) {
     left_out.push(reason);
 }
 
-/// Writes the line on left-out comparisons below the result of the test run, when the test harness captures no output.
+/// Prints the number of left-out comparisons after the last test, when the test harness no longer captures output.
 extern "C" fn report_left_out() {
     let Ok(left_out) = LEFT_OUT.lock() else { return };
     let count = match left_out.len() {
@@ -75,14 +75,14 @@ extern "C" fn report_left_out() {
     reasons.sort();
     reasons.dedup();
     let line = format!("*** {count} with full series left out: {} ***", reasons.join("; "));
-    // This function must not panic, so a closed output is no error.
+    // This function must not panic, so the error of a closed output is ignored.
     let _ = writeln!(stdout(), "{line}\n");
 }
 
 /// Returns the rows of numbers of a file, without headings and citations; `None` if it cannot be read.
 fn read(path: &Path) -> Option<Vec<Vec<f64>>> {
     let bytes = fs::read(path).ok()?;
-    // Citations are not all in UTF-8.
+    // Some citations are not valid UTF-8.
     let text = String::from_utf8_lossy(&bytes);
     let rows: Vec<Vec<f64>> = text.lines().filter_map(numbers).collect();
     assert!(!rows.is_empty(), "{}: the file contains no numbers", path.display());

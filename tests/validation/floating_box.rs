@@ -1,10 +1,10 @@
 //! A box that floats freely in regular waves: Ren, He, Dong & Wen (2015), 0.30 m long, 0.20 m high, half the density of
 //! water, in 0.40 m of water, H = 0.10 m, T = 1.2 s.
 //!
-//! The test aligns the first full heave crests, as measurement and computation have no common zero of time. It fits
-//! a + b t + C cos(omega t) + S sin(omega t) to the five periods after that crest, and compares amplitude and phase of
-//! heave and roll, and the drift of surge. A drifting box meets waves less often, so omega is the frequency that fits
-//! heave best.
+//! The test aligns the first full heave crests, because measurement and computation start at different times. It fits
+//! a + b t + C cos(omega t) + S sin(omega t) to the five periods after this crest. It compares amplitude and phase of
+//! heave and roll, and the drift of surge. A drifting box encounters fewer waves per second than a fixed box, so omega
+//! is the frequency that fits heave best.
 
 use std::{f64::consts::TAU, path::Path, sync::Arc};
 
@@ -21,7 +21,7 @@ const CASE: &str = "cases/verification/floating-box.json";
 const PERIOD: f64 = 1.2;
 /// Number of compared periods; the measurement has five and a half after its first crest.
 const PERIODS: f64 = 5.0;
-/// Least height of a full heave crest [m]; the measured crests are 0.047 to 0.054 m.
+/// Smallest height of a full heave crest [m]; the measured crests are 0.047 to 0.054 m high.
 const FULL_CREST: f64 = 0.035;
 
 /// Time [s], surge [m], heave [m], roll [degrees].
@@ -32,7 +32,7 @@ type Fits = ([Fit; 3], f64);
 
 /// Returns the fits of the measured motions from each source.
 ///
-/// Both sources have the same tolerance, as the table consists of the fits of the full series.
+/// The same tolerance applies to both sources, because the table contains the fits of the full series.
 fn measured() -> Vec<(&'static str, Fits)> {
     data::table_and_series(fits_of_table(), data::series_of(SERIES).map(|rows| fits(&rows)))
 }
@@ -49,14 +49,14 @@ fn fits_of_table() -> Fits {
 /// The part of the flume that is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Part {
-    /// A slice ten particles wide with periodic sides. The gap between the box and its own periodic image is a fiftieth
-    /// of a particle spacing: the contact search separates the faces, and water does not enter.
+    /// A slice ten particles wide with periodic sides. The gap between the box and its periodic image is a fiftieth of
+    /// a particle spacing: enough for the contact search to separate the faces, and too narrow for water.
     Slice,
     /// A two-dimensional layer.
     Layer,
 }
 
-/// Creates the simulation with another particle spacing [m].
+/// Creates the simulation of the case file with the particle spacing `dp` [m].
 fn tank(dp: f64, part: Part) -> Simulation {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(CASE);
     let mut case: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
@@ -93,7 +93,8 @@ fn computed(dp: f64, part: Part) -> Vec<Row> {
     rows
 }
 
-/// Returns the time of the first heave maximum above [`FULL_CREST`] [s]; `None` until half a period after it began.
+/// Returns the time of the first heave maximum above [`FULL_CREST`] [s]. `None` if the rows end less than half a period
+/// after heave first exceeds [`FULL_CREST`].
 fn first_full_crest(rows: &[Row]) -> Option<f64> {
     let first = rows.iter().position(|row| row[2] > FULL_CREST)?;
     let end = rows[first][0] + 0.5 * PERIOD;
@@ -143,13 +144,13 @@ fn fits(rows: &[Row]) -> Fits {
     ([1, 2, 3].map(|column| fit(rows, column, crest, period).0), period)
 }
 
-/// Returns the same angle between -180 and 180 degrees.
+/// Returns the equivalent angle between -180 and 180 degrees.
 fn wrap(degrees: f64) -> f64 {
     degrees - 360.0 * (degrees / 360.0).round()
 }
 
-/// Runs and compares. Returns amplitude ratios and phase differences [degrees] of heave and roll, and the ratio of the
-/// drifts, for each source of the measurement.
+/// Runs the case and compares it with each source of the measurement. Returns, for each source: amplitude ratio and
+/// phase difference [degrees] of heave, the same of roll, and the ratio of the surge drifts.
 fn compare(dp: f64, part: Part) -> Vec<[f64; 5]> {
     let (motions, period) = fits(&computed(dp, part));
     let [surge, heave, roll] = motions;
@@ -205,8 +206,9 @@ fn a_fit_finds_amplitude_phase_and_drift() {
     assert!((found.amplitude - 0.05).abs() < 1e-9 && (found.phase - 0.5_f64.to_degrees()).abs() < 1e-6);
 }
 
-/// Asserts heave and roll amplitudes as measured, and a drift ratio in a range that depends on the resolution. Ranges
-/// are 0.15 to either side, as a fit over half of the periods changes the drift by a quarter.
+/// Asserts that heave and roll amplitudes agree with the measurement, and that the drift ratio is in the range `drift`,
+/// which depends on the resolution. Each range is 0.15 to either side of the computed ratio, because a fit over half of
+/// the periods changes the drift by a quarter.
 fn assert_as_measured(results: Vec<[f64; 5]>, roll: f64, drift: [f64; 2]) {
     for [heave, _, roll_ratio, _, drift_ratio] in results {
         assert!((heave - 1.0).abs() < 0.1 && (roll_ratio - 1.0).abs() < roll, "heave {heave}, roll {roll_ratio}");

@@ -25,8 +25,8 @@ type Gauges = Vec<Vec<[f64; 2]>>;
 
 /// Returns the measured elevations from each source.
 ///
-/// Both sources have the same tolerance. Waves that follow the full series with a skill of 0.4 to 0.8 follow the table
-/// with the same skill within 0.03, and within 0.01 on average: the six harmonics leave out scatter only.
+/// The same tolerance applies to both sources. For skills of 0.4 to 0.8, the skills with the table and with the full
+/// series differ by at most 0.03, and by 0.01 on average, because the six harmonics leave out only scatter.
 fn measured() -> Vec<(&'static str, Gauges)> {
     data::table_and_series(gauges_of_table(), (4..12).map(gauge_of_series).collect())
 }
@@ -78,7 +78,7 @@ fn flume(layers: usize, cell_m: f64) -> FlumeRecord {
     .unwrap()
 }
 
-/// Returns 1 - rmse / standard deviation of the measurement.
+/// Returns the skill of the model [-]: 1 - root mean square error / standard deviation of the measurement.
 fn skill(points: &[[f64; 2]], model: impl Fn(f64) -> f64) -> f64 {
     let n = points.len() as f64;
     let mean = points.iter().map(|p| p[1]).sum::<f64>() / n;
@@ -87,20 +87,21 @@ fn skill(points: &[[f64; 2]], model: impl Fn(f64) -> f64) -> f64 {
     1.0 - (error / variance).sqrt()
 }
 
-/// Period of the measured series [s], with which six harmonics fit all gauges best. The time axis of the files is 1 %
-/// too short; the time lags between gauges are those of waves of [`PERIOD_S`].
+/// Period of the measured series [s]: six harmonics of this period fit all gauges best. The time lags between gauges
+/// agree with waves of the period [`PERIOD_S`], so the time axis of the files is 1 % too short.
 const MEASURED_PERIOD_S: f64 = 2.0;
 /// Middle of the measured series [s].
 const MIDDLE_S: f64 = 36.0;
 
-/// The series of a model run and the measured ones.
+/// Results of a model run and the measured series.
 struct Comparison<'a> {
     record: &'a FlumeRecord,
     gauges: Gauges,
 }
 
 impl Comparison<'_> {
-    /// Returns the skill at a gauge; the model is read `shift` [s] later, with its time scaled by `clock`.
+    /// Returns the skill at a gauge. The time axis of the measurement is scaled by `clock`, then shifted by `shift`
+    /// [s].
     fn skill(&self, gauge: usize, shift: f64, clock: f64) -> f64 {
         let series = &self.record.gauge_elevations_m[gauge];
         let at = |t: f64| {
@@ -111,13 +112,13 @@ impl Comparison<'_> {
         skill(&self.gauges[gauge], at)
     }
 
-    /// Returns the skill at every gauge with the common shift that is best on average.
+    /// Returns the skill at every gauge, with the time shift for all gauges that gives the best mean skill.
     fn skills(&self, clock: f64) -> Vec<f64> {
         let skills_with = |shift| -> Vec<f64> { (0..8).map(|gauge| self.skill(gauge, shift, clock)).collect() };
         shifts().map(skills_with).max_by(|a, b| mean(a).total_cmp(&mean(b))).unwrap()
     }
 
-    /// Returns the best shift [s] and the skill of each gauge separately.
+    /// Returns, for each gauge separately, the best time shift [s] and the skill with this shift.
     fn own_shifts(&self, clock: f64) -> Vec<[f64; 2]> {
         let best = |gauge| {
             let candidates = shifts().map(|shift| [shift, self.skill(gauge, shift, clock)]);
@@ -127,7 +128,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Iterates over time shifts of one period [s].
+/// Iterates over the time shifts [s] from 0 to minus one period.
 fn shifts() -> impl Iterator<Item = f64> {
     (0..202).map(|i| -0.01 * f64::from(i))
 }
@@ -136,7 +137,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Returns the skills with the time axis of the files, and with the corrected one, for each source.
+/// Returns, for each source, the skills with the time axis of the files and with the corrected time axis.
 fn compare(layers: usize, cell_m: f64) -> Vec<[Vec<f64>; 2]> {
     let record = flume(layers, cell_m);
     let compare = |(source, gauges)| {
@@ -155,10 +156,11 @@ fn compare(layers: usize, cell_m: f64) -> Vec<[Vec<f64>; 2]> {
 }
 
 #[test]
-fn waves_over_the_bar_are_those_measured() {
-    // Target: 0.8 at every gauge. The limits are the reached skills, rounded down, so that a regression shows. The rest
-    // comes from the clocks of the files: they repeat after 2.00 s, not 2.02 s. The best shifts of neighbouring gauges
-    // scatter by 0.05 s, which no error of the wave speed explains.
+fn waves_over_the_bar_agree_with_the_measurement() {
+    // Target: a skill of 0.8 at every gauge. The limits are the reached skills, rounded down, to detect a regression.
+    // The target is missed because of the time axes of the files: the waves repeat after 2.00 s instead of 2.02 s.
+    // Also, the best time shifts of neighbouring gauges scatter by 0.05 s, which an error of the wave speed cannot
+    // explain.
     for [uncorrected, corrected] in compare(2, 0.025) {
         assert!(mean(&uncorrected) > 0.77 && uncorrected.iter().all(|skill| *skill > 0.57));
         assert!(mean(&corrected) > 0.79 && corrected.iter().all(|skill| *skill > 0.62));
@@ -167,7 +169,7 @@ fn waves_over_the_bar_are_those_measured() {
 
 #[test]
 #[ignore = "1 minute: cargo test --release --test validation -- --ignored --nocapture flume_bar"]
-fn waves_over_the_bar_are_those_measured_with_three_layers() {
+fn waves_over_the_bar_agree_with_the_measurement_for_three_layers() {
     // Reached skills, rounded down, as with two layers.
     for [uncorrected, corrected] in compare(3, 0.0125) {
         assert!(mean(&uncorrected) > 0.78 && uncorrected.iter().all(|skill| *skill > 0.6));

@@ -1,8 +1,8 @@
-//! The program compared with published measurements. Run with `--release`.
+//! Tests that compare breakwater with published results. Run them with `--release`.
 //!
-//! Every test compares with a short table of figures in `tests/validation/measured`. Where `../shared/data` lies next to
-//! the repository, the tests also compare with the full series. The last line of a run counts the comparisons with full
-//! series that were left out.
+//! The tests compare with short tables of numbers in `tests/validation/measured`. If the folder `../shared/data` exists
+//! next to the repository, the tests also compare with the full series. The last line of a test run states how many
+//! comparisons with full series were left out.
 
 mod dam_break;
 mod dam_break_3d;

@@ -22,13 +22,13 @@ struct Measured {
     error: f64,
 }
 
-/// Measured series: file, number of the cube from the bottom, axis.
+/// Measured series: file name, number of the cube (0: lowest, 2: highest), axis (0: x, 2: z).
 const SERIES: [(&str, usize, usize); 3] = [("x_bottom", 0, 0), ("x_top", 2, 0), ("z_top", 2, 2)];
 
-/// Returns each of [`SERIES`] from the opening of the gate on, from each source.
+/// Returns each of [`SERIES`] after the opening of the gate, from each source.
 ///
-/// Both sources have the same tolerance: the times of the table are within 0.03 s of the published points, and its
-/// error bars are interpolated, too. Only z at 0.25 and 0.5 s is farther from them, when the stack is at rest.
+/// The same tolerance applies to both sources. The times of the table are within 0.03 s of published points, except for
+/// z at 0.25 and 0.5 s, when the stack is at rest. The error bars of the table are interpolated like the positions.
 fn measured() -> Vec<(&'static str, Vec<Vec<Measured>>)> {
     let after_opening = |rows: Vec<[f64; 3]>| {
         let measured = rows.into_iter().map(|[time, position, error]| Measured { time, position, error });
@@ -69,7 +69,8 @@ impl Paths {
     }
 }
 
-/// Runs until `end` [s] and returns, for each source, the deviations from each of [`SERIES`] with the error bars [m].
+/// Runs until `end` [s]. Returns, for each source and each of [`SERIES`], the deviation and the error bar of each point
+/// [m].
 fn deviations(dp: f64, end: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
     let paths = Paths::deviation(dp, end);
     measured().iter().map(|(source, series)| deviations_from(source, series, &paths, dp, end)).collect()
@@ -93,22 +94,23 @@ fn deviations_from(source: &str, series: &[Vec<Measured>], paths: &Paths, dp: f6
     compared.collect()
 }
 
-/// Scatter of the first measured points around the position at rest [m]: 1.7742 to 1.7775 and 0.3749, for 1.775 and
-/// 0.375.
+/// Scatter of the first measured points around the position at rest [m]: x is 1.7742 to 1.7775 instead of 1.775, and z
+/// is 0.3749 instead of 0.375.
 const READING_ERROR: f64 = 0.0033;
 
 #[test]
 fn stack_is_at_rest_until_the_water_arrives() {
-    // Without the lowest cube: its measured position moves 43 mm within 0.25 s of the opening of the gate. No water can
-    // be there: the fastest possible tip, 2 sqrt(g H) t, has travelled 0.98 m of the 1.7 m by then.
+    // The lowest cube is left out, because its measured position moves 43 mm within 0.25 s of the opening of the gate.
+    // No water can have reached it: by then, the fastest possible tip, 2 sqrt(g H) t, has travelled 0.98 m of the 1.7
+    // m.
     let sources = deviations(0.05, 0.53);
     for [deviation, error] in sources.iter().flat_map(|series| series[1..].iter().flatten()) {
         assert!(deviation.abs() <= error + READING_ERROR, "{deviation}");
     }
 }
 
-/// Returns depth [m] and velocity [m/s] of the dam-break wave of a depth `dam` [m] on a dry frictionless bed, `x` [m]
-/// from the gate: Ritter (1892), an upper bound of the velocity.
+/// Returns depth [m] and velocity [m/s] of a dam-break wave on a dry frictionless bed at the distance `x` [m] from the
+/// gate (Ritter 1892). `dam` is the water depth behind the gate [m]. The velocity is an upper bound.
 fn bore(dam: f64, x: f64, time: f64) -> [f64; 2] {
     let c = (9.81 * dam).sqrt();
     let behind_tip = 2.0 * c - x / time;
@@ -118,8 +120,9 @@ fn bore(dam: f64, x: f64, time: f64) -> [f64; 2] {
     [behind_tip.powi(2) / (9.0 * 9.81), 2.0 / 3.0 * (c + x / time)]
 }
 
-/// Returns the positions [m] at increasing times [s] of three cubes that slide on each other and on the bed with one
-/// friction coefficient. The lowest takes all momentum of the bore on its front, and the hydrostatic pressure.
+/// Returns the displacements [m] at increasing times [s] of three cubes that slide on each other and on the bed with
+/// the same friction coefficient. The front of the lowest cube receives all momentum of the bore and its hydrostatic
+/// pressure.
 fn sliding(friction: f64, times: &[f64]) -> Vec<[f64; 3]> {
     let (edge, mass, dt) = (0.15, 2.7, 5e-4);
     let load = [3.0, 2.0, 1.0].map(|cubes| friction * cubes * mass * 9.81 * dt);
@@ -130,7 +133,7 @@ fn sliding(friction: f64, times: &[f64]) -> Vec<[f64; 3]> {
         let [depth, speed] = bore(0.4, 1.7 + position[0], time);
         let force = 1000.0 * edge * depth * ((speed - velocity[0]).max(0.0).powi(2) + 0.5 * 9.81 * depth);
         velocity[0] += force / mass * dt;
-        // Friction impulses are at most those of Coulomb's law; smaller ones prevent sliding.
+        // A friction impulse prevents sliding as long as it is below the limit of Coulomb's law.
         let mut impulse = [0.0_f64; 3];
         for _ in 0..25 {
             for k in 0..3 {
@@ -152,8 +155,9 @@ fn sliding(friction: f64, times: &[f64]) -> Vec<[f64; 3]> {
     positions
 }
 
-/// With a friction coefficient of 0.45, even Ritter's wave cannot move the lowest cube from under the others. That
-/// takes six times the friction of one cube's weight, 72 N; the wave has 59 N. With 0.1 it can.
+/// With a friction coefficient of 0.45, even Ritter's wave cannot move the lowest cube from under the other cubes. The
+/// necessary force is 72 N, six times the friction of one cube's weight, but the wave exerts only 59 N. With a friction
+/// coefficient of 0.1, the wave can move the cube.
 #[test]
 fn bore_separates_a_stack_only_with_little_friction() {
     let times = [0.7602, 1.0046, 1.2524, 1.4967];
@@ -166,13 +170,13 @@ fn bore_separates_a_stack_only_with_little_friction() {
         let [depth, speed] = bore(0.4, 1.7, time);
         1000.0 * 0.15 * depth * speed * speed
     };
-    println!("momentum of the wave [N]: {:.1?}", [0.6, 0.7, 0.8, 1.0, 1.25, 1.5].map(momentum));
-    // Accelerating the lowest cube faster than friction accelerates the two on it takes 6 mu m g.
+    println!("momentum flux of the wave [N]: {:.1?}", [0.6, 0.7, 0.8, 1.0, 1.25, 1.5].map(momentum));
+    // A force of 6 mu m g is needed to accelerate the lowest cube faster than friction accelerates the two cubes on it.
     assert!(momentum(1.5) < 6.0 * 0.45 * 2.7 * 9.81);
 }
 
-/// This test fails: at dp = 0.03 m the water arrives late and is too weak to move the lowest cube from under the
-/// others; see docs/validation/floating-bodies.md.
+/// This test fails: at dp = 0.03 m the water arrives late, and its force is too small to move the lowest cube from
+/// under the other cubes; see docs/validation/floating-bodies.md.
 #[test]
 #[ignore = "20 minutes on 2 cores, known to fail: \
     cargo test --release --test validation -- --ignored --nocapture cubes_move_as_measured"]

@@ -1,7 +1,7 @@
-//! Noise of the pressure on a wall that a dam break hits, as a series and as a spectrum.
+//! Noise of the pressure on a wall that a dam-break wave hits, as a time series and as a spectrum.
 //!
-//! The physical pressure changes over tenths of a second. Parts above [`NOISE_HZ`] are sound in the weakly compressible
-//! water and particle noise. Density diffusion must damp them.
+//! The physical pressure changes over tenths of a second. Pressure above [`NOISE_HZ`] is sound in the weakly
+//! compressible water and particle noise. Density diffusion must damp this noise.
 
 use std::{f64::consts::TAU, sync::Arc};
 
@@ -15,10 +15,10 @@ use serde_json::json;
 const DP: f64 = 0.05;
 /// Interval of the series [s].
 const INTERVAL: f64 = 1e-3;
-/// Time span of the series [s], from after the impact (0.8 s) until the water falls back.
+/// Start and end of the series [s]: it starts after the impact (0.8 s) and ends when the water falls back.
 const WINDOW: [f64; 2] = [0.9, 1.4];
-/// Lower limit of noise [Hz]. The physical pressure has frequencies up to about 10 Hz. Sound takes 0.2 s through the
-/// tank and 20 ms across the depth at the wall, so its frequencies there are above 25 Hz.
+/// Lowest frequency of noise [Hz]. The physical pressure has frequencies up to about 10 Hz. Sound needs 0.2 s to cross
+/// the tank and 20 ms to cross the water depth at the wall, so sound at the wall has frequencies above 25 Hz.
 const NOISE_HZ: f64 = 25.0;
 
 /// Runs the dam break of Koshizuka & Oka (1996) and returns the pressure [Pa] at the end wall, 0.1 m above the bed,
@@ -67,7 +67,7 @@ fn spectrum(series: &[f64]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Returns the rms pressure above [`NOISE_HZ`] over the mean pressure [-], infinite if the run stopped; prints series
+/// Returns the rms pressure above [`NOISE_HZ`] over the mean pressure [-], or infinity if the run failed. Prints series
 /// and spectrum.
 fn noise(diffusion: &str, sound_speed_factor: f64) -> f64 {
     let series = match wall_pressure(diffusion, sound_speed_factor) {
@@ -98,8 +98,8 @@ fn density_diffusion_smooths_the_wall_pressure() {
     let default_noise = noise("fourtakas", 10.0);
     let without_diffusion = wall_pressure("none", 10.0);
     noise("fourtakas", 20.0);
-    // Without diffusion the run stops at the impact, 0.8 s after the start.
-    let Err(Failure::Density { time, .. }) = without_diffusion else { panic!("the run without diffusion should stop") };
+    // Without diffusion the run fails at the impact, 0.8 s after the start.
+    let Err(Failure::Density { time, .. }) = without_diffusion else { panic!("the run without diffusion should fail") };
     assert!((0.75..1.0).contains(&time), "{time}");
     // Reached: 23 %, nearly all of it below 50 Hz.
     assert!(default_noise < 0.3);

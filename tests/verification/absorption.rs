@@ -8,7 +8,7 @@ use super::tanks::{GRAVITY, run_until, simulation};
 const DEPTH: f64 = 0.3;
 const LENGTH: f64 = 4.0;
 
-/// Case of a tank with a piston that generates a solitary wave, and a wall.
+/// Returns the case of a tank with a piston that generates a solitary wave, and a wall.
 fn tank(dp: f64, height: f64, absorbs: bool) -> Value {
     let mut wavemaker = json!({ "kind": "piston" });
     if absorbs {
@@ -31,11 +31,12 @@ fn tank(dp: f64, height: f64, absorbs: bool) -> Value {
 fn crests(dp: f64, height: f64, absorbs: bool) -> [f64; 2] {
     let mut tank = simulation(&tank(dp, height, absorbs));
     let celerity = (GRAVITY * (DEPTH + height)).sqrt();
-    // The crest leaves the piston at half of its stroke.
+    // The crest leaves the piston after half of the stroke time.
     let outskirt = (0.75 * height / (DEPTH * DEPTH * (DEPTH + height))).sqrt();
     let leaves = (3.8 + height / DEPTH) / (outskirt * celerity);
     let [first, reflected, rereflected] = [0.5, 1.5, 2.5].map(|lengths| leaves + lengths * LENGTH / celerity);
-    // Readings stop and start half way between passages, when the wave is far from the middle.
+    // The readings stop after the first passage of the crest and start again before the third, when the wave is far
+    // from the middle.
     let (until, from) = (0.5 * (first + reflected), reflected + 0.75 * (rereflected - reflected));
     let mut crests = [0.0_f64; 2];
     run_until(&mut tank, rereflected + 0.2 * LENGTH / celerity, |now| {

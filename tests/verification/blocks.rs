@@ -61,23 +61,23 @@ pub fn block(jitter: f64, density: impl Fn(DVec3) -> f64, velocity: impl Fn(DVec
     water(points(DP, [EDGE; 3], corner, jitter), DP, density, velocity)
 }
 
-/// Returns the number of axes along which the kernel lies within the block.
+/// Returns the number of axes along which the kernel support around a point is within the block.
 pub fn whole_axes(point: DVec3) -> usize {
     let reach = 2.0 * USUAL * DP + 2.0 * JITTER * DP;
     point.to_array().iter().filter(|place| place.abs() + reach < 0.5 * DP * (EDGE - 1) as f64).count()
 }
 
-/// Whether the whole kernel lies within the block.
+/// Returns true if the whole kernel support around a point is within the block.
 pub fn inside(point: DVec3) -> bool {
     whole_axes(point) == 3
 }
 
-/// Returns the rates of the solver, and the water in the same order.
+/// Returns the water as sorted by the solver, and the rates of its particles in the same order.
 pub fn rates(parameters: Parameters, water: Water, low: DVec3, high: DVec3) -> (Water, Vec<Rate>) {
     rates_beside(parameters, water, Boundary::new(&[], &[], &[], 0, RHO0), [low, high])
 }
 
-/// Returns the rates next to boundary particles, and the water in the same order.
+/// Returns the same as [`rates`], for water next to boundary particles.
 pub fn rates_beside(
     parameters: Parameters,
     mut water: Water,
@@ -97,7 +97,7 @@ pub fn rates_of_block(water: Water) -> (Water, Vec<Rate>) {
     rates(ideal(DP, None), water, DVec3::splat(-0.15), DVec3::splat(0.15))
 }
 
-/// Returns the gradients that some schemes use, and the particle numbers in the order of the gradients.
+/// Returns the gradients that some schemes use, and the indices of the particles in the order of the gradients.
 pub fn gradients(parameters: Parameters, water: &Water, low: DVec3, high: DVec3) -> (Gradients, Vec<usize>) {
     let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
     let mut bins = Bins::default();
@@ -130,7 +130,8 @@ pub fn rms(values: impl Iterator<Item = f64>) -> f64 {
     (sum / f64::from(count)).sqrt()
 }
 
-/// Returns the lattice error of the first moment of the gradient, which is 1 in theory.
+/// Returns the error of the first moment of the kernel gradient, summed over a lattice [-]. The exact moment is 1.
+/// `factor` is h / dp.
 pub fn lattice_error_of_gradient(factor: f64) -> f64 {
     let kernel = Wendland::new(factor);
     lattice_sum(&kernel, |r| -gradient_factor(&kernel, r.length()) * r.x * r.x) - 1.0

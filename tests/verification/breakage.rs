@@ -38,14 +38,14 @@ fn impact_by(breakage: &Breakage, way: RerunMethod) -> &Outcome {
 }
 
 #[test]
-fn a_dropped_tetrapod_keeps_momentum_energy_and_impulse() {
+fn a_rerun_impact_keeps_momentum_energy_and_impulse() {
     let folder = tempfile::tempdir().unwrap();
     let mut case = drop_case();
     case["breakage"]["joints"] = json!("unbreakable");
     case["breakage"]["duration_s"] = json!(0.02);
     let breakage = rerun_impacts(&case, folder.path());
     let impacts = Impacts::read(&folder.path().join(Impacts::FILE)).unwrap().impacts;
-    // Momentum and energy of the nodes in the solver, compared with those of the rigid unit by Froude's law.
+    // Momentum and energy of the nodes must equal momentum and energy of the rigid unit, scaled by Froude's law.
     let file = folder.path().join(FOLDER).join(format!("{}.json", impact_by(&breakage, RerunMethod::ReEnact).name));
     let mut start = world(&FractureCase::load(&file).unwrap()).unwrap();
     let nodes = start.setup().bodies[0].tets.clone().flat_map(|tet| start.tets.nodes[tet]);
@@ -57,21 +57,22 @@ fn a_dropped_tetrapod_keeps_momentum_energy_and_impulse() {
     assert!((momentum - expected).length() < 1e-6 * expected.length(), "{momentum} {expected}");
     let (_, bodies) = start.step_with_body_energies().unwrap();
     let energy = 0.5 * 0.3 * before.velocity.length_squared() * 50f64.powi(4);
-    // Target: 1e-6. The energy balance is half a time step later, and gravity acts meanwhile.
+    // Target: 1e-6. The energy is computed half a time step later, and gravity acts during this time.
     let fallen = expected.z.abs() * 9.81 * start.dt;
     assert!((bodies[0].kinetic - energy).abs() < 1e-6 * energy + fallen, "{} {energy}", bodies[0].kinetic);
 
-    // The impulse of the collision compared with the rigid one on three feet, without the impulse of gravity.
+    // The impulse of the collision must equal the sum of the impulses on the three feet of the rigid unit. The impulse
+    // of gravity is removed.
     let rigid: f64 = impacts.iter().map(|impact| impact.event.impulse[2]).sum::<f64>() * 50f64.powf(3.5);
     let weight = 37_500.0 * 9.81 * 0.02;
     let [reenacted, by_loads] =
         [RerunMethod::ReEnact, RerunMethod::LoadHistory].map(|way| impact_by(&breakage, way).found[0].impulse_n_s[2]);
     println!(
-        "impulse over that of the rigid unit: re-enacted {:.4}, by load history {:.4}",
+        "impulse over the impulse of the rigid unit: re-enacted {:.4}, by load history {:.4}",
         (reenacted + weight) / rigid,
         (by_loads + weight) / rigid
     );
-    // Target: 10 %. The load history keeps the recorded impulse except for the ramps between its rows.
+    // Target: 10 %. The load history keeps the recorded impulse, except for the ramps between the rows of the history.
     assert!(((reenacted + weight) / rigid - 1.0).abs() < 0.1);
     assert!(((by_loads + weight) / rigid - 1.0).abs() < 1e-3);
 }
@@ -87,7 +88,7 @@ fn stress_grows_with_the_scale_by_the_law_of_hertz() {
         case["breakage"]["joints"] = json!("unbreakable");
         case["breakage"]["way"] = json!("re_enact");
         case["breakage"]["duration_s"] = json!(4e-4 * scale);
-        // Scaled, so that viscosity takes the same share of a wave's energy at any scale.
+        // The viscosity is scaled to dissipate the same share of the energy of an elastic wave at any scale.
         case["breakage"]["material"]["viscosity_pa_s"] = json!(4e3 * scale);
         rerun_impacts(&case, &dir).impacts[0].found[0].sigma_1_pa
     };
@@ -95,8 +96,8 @@ fn stress_grows_with_the_scale_by_the_law_of_hertz() {
     let exponent = (fifty / one).ln() / 50f64.ln();
     println!("scale 50: {:.2} MPa, scale 1: {:.2} MPa, exponent {exponent:.3}", fifty * 1e-6, one * 1e-6);
     // By Hertz the force is proportional to R^(1/5) m^(3/5) v^(6/5), with v proportional to the square root of the
-    // scale, so the exponent of the stress is 0.6. 0.05: the contact is one or two elements wide. A bar, with the
-    // stress sqrt(E rho) v, has 0.5.
+    // scale, so the exponent of the stress is 0.6. 0.05 is allowed, because the contact is one or two elements wide.
+    // For a bar, with the stress sqrt(E rho) v, the exponent is 0.5.
     assert!((exponent - 0.6).abs() < 0.05);
 }
 
@@ -122,5 +123,5 @@ fn the_prototype_cracks_and_the_model_does_not() {
     }
 }
 
-/// Drop height of the model [m]: 0.2 m of the prototype, whose foot cracks 4.2 ms after the start.
+/// Drop height of the model [m]. The prototype falls by 0.2 m, and its foot cracks 4.2 ms after the start.
 const DROP: f64 = 0.004;

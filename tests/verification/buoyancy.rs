@@ -13,8 +13,8 @@ const LENGTH: f64 = 0.24;
 /// Simulated time [s]; the water settles in the first half.
 const DURATION: f64 = 0.3;
 
-/// Mean force on a unit over the second half of a run, over Archimedes' force [-]: the vertical part minus 1, and the
-/// horizontal part.
+/// Mean force on a unit in the second half of a run, divided by Archimedes' force [-]. 1 is subtracted from the
+/// vertical part.
 #[derive(Debug, Clone, Copy)]
 struct Deviation {
     vertical: f64,
@@ -77,7 +77,7 @@ fn above_bed(centre_z: f64, depth: f64, dp: f64) -> Deviation {
 fn volume_below_a_level_is_between_zero_and_the_whole() {
     let unit = ArmourUnit::tetrapod(UNIT_HEIGHT, 0.05).unwrap();
     let (solid, whole) = (unit.solid(), unit.solid().volume_properties().volume);
-    // 1e-12: rounding.
+    // Limit 1e-12: rounding.
     assert!((volume_below(solid, 1.0) / whole - 1.0).abs() < 1e-12);
     assert_eq!(volume_below(solid, -1.0), 0.0);
     let half = volume_below(solid, 0.0) / whole;
@@ -91,9 +91,9 @@ impl Deviation {
     }
 }
 
-// The limits are the values reached with 8 particles in the height of a unit, rounded up, so that a regression shows.
-// An error of dp / 30 in the position of the surface is 3 % of the volume of a ball as large as the unit, and more of a
-// Tetrapod.
+// The limits are the values reached with 8 particles per unit height, rounded up, to detect a regression.
+// An error of dp / 30 in the position of the surface changes the volume of a ball as large as the unit by 3 %, and the
+// volume of a Tetrapod by more.
 
 #[test]
 fn a_submerged_unit_on_the_bed_has_its_buoyancy() {
@@ -102,12 +102,12 @@ fn a_submerged_unit_on_the_bed_has_its_buoyancy() {
 
 /// Without the pressure through gaps between unit and bed, the water presses on a foot from above only.
 #[test]
-fn without_gap_pressure_the_water_holds_a_unit_down() {
+fn without_gap_pressure_the_water_presses_a_unit_down() {
     let mut case = tank_with_held_unit(LENGTH, 0.16, 0.01, DURATION);
     case["numerics"]["gap_pressure"] = json!(false);
     let held_down = on_bed_in(&case, 0.16, 0.01);
-    // The water presses the unit down with more than its buoyancy, 1.7 times in a tank with closed sides. The unit
-    // stands in the middle, so the horizontal force is small, 0.01.
+    // The downward force of the water is larger than the buoyancy: 1.7 times in a tank with closed sides. The unit
+    // stands in the middle, so the horizontal force is small: 0.01 of the buoyancy.
     assert!(held_down.vertical < -2.0 && held_down.horizontal < 0.05, "{held_down:?}");
 }
 

@@ -1,6 +1,6 @@
 //! Conservation of mass, energy, momentum and angular momentum.
 
-use breakwater::simulation::flume::balance::Balance;
+use breakwater::simulation::flume::measures::balance::Balance;
 use breakwater::sph::particles::{boundary::Boundary, water::Water};
 use breakwater::sph::{
     parameters::Parameters,
@@ -19,9 +19,9 @@ use super::two_dimensional::in_two_dimensions;
 
 #[test]
 fn a_dam_break_keeps_its_mass_and_gains_no_energy() {
-    // Reached: 5e-5 and 3.4e-4, in the first 50 ms. The pressure wave of the release travels through the column; it
-    // does work on bed and wall and gets it back. Free-slip walls, which mirror the velocity of the water, return 0.3 %
-    // of the energy in that time, and nothing afterwards.
+    // Reached: 5e-5 and 3.4e-4, in the first 50 ms. After the release, a pressure wave travels through the column. The
+    // wave does work on bed and wall, and bed and wall return this work. Free-slip walls, which mirror the velocity of
+    // the water, return 0.03 % of the energy in the first 50 ms, and nothing afterwards.
     for (slip, limit) in [("original", 3e-4), ("free_slip", 6e-4)] {
         let mut case = in_two_dimensions(dam_break(0.025, 0.5));
         case["numerics"] = serde_json::json!({ "wall_slip": slip });
@@ -44,12 +44,12 @@ fn a_dam_break_keeps_its_mass_and_gains_no_energy() {
         assert!(end.kinetic > 0.1 * start.potential);
         assert!(rise < limit * start.potential);
         assert!(last < start.total());
-        // 1e-12: rounding; the same masses are summed in another order.
+        // Limit 1e-12: rounding, because the same masses are summed in another order.
         assert!((dam.water.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-12);
     }
 }
 
-/// Creates a ball of water of a radius [m] with translation, rotation and a wave; no two particles are alike.
+/// Creates a ball of water of a radius [m] with translation, rotation and a wave. No two particles have the same state.
 fn drop_of_water(radius: f64, dp: f64, rho: impl Fn(f64) -> f64) -> Water {
     let mut water = Water::default();
     let count = (radius / dp) as i32 + 1;
@@ -82,11 +82,11 @@ const RADIUS: f64 = 0.1;
 
 /// Largest errors of the conserved quantities of a drop during a run.
 struct Drift {
-    /// |momentum - that at the start| / sum |m v|.
+    /// |momentum - momentum at the start| / sum |m v| [-].
     momentum: f64,
-    /// |angular momentum - that at the start| / sum |m r x v|.
+    /// |angular momentum - angular momentum at the start| / sum |m r x v| [-].
     angular: f64,
-    /// Mean change of a particle's momentum in a time step over its momentum [-].
+    /// Mean change of a particle's momentum in a time step, over the mean momentum of a particle [-].
     impulse: f64,
 }
 
@@ -131,11 +131,11 @@ fn drift(dp: f64, steps: u32, squeezed: f64, adjust: impl FnOnce(&mut Parameters
     drift
 }
 
-/// The time integration conserves momentum and angular momentum, so only asymmetric pair forces could change them.
-/// Those of pressure and artificial viscosity are V_a V_b (p_a + p_b + ...) G r_ab in both directions; they differ by
-/// rounding in single precision. Rounding affects the sum of some 280 pair forces and the positions. The rounding
-/// errors are random, so the relative error falls with the number of particles. With 1,600, 4,200, 12,000 and 34,000 of
-/// them, the angular momentum changes by 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 in 1,000 steps.
+/// The time integration conserves momentum and angular momentum, so only asymmetric pair forces could change them. The
+/// pair forces of pressure and artificial viscosity are V_a V_b (p_a + p_b + ...) G r_ab in both directions and differ
+/// only by rounding in single precision. Rounding affects the sum of some 280 pair forces and the positions. The
+/// rounding errors are random, so the relative error falls with the number of particles. With 1,600, 4,200, 12,000 and
+/// 34,000 particles, the angular momentum changes by 4.7e-10, 1.9e-10, 1.4e-10 and 0.5e-10 in 1,000 steps.
 #[test]
 fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
     let drift = drift(RADIUS / 20.0, 1000, 0.0, |_| ());
@@ -154,7 +154,7 @@ fn a_drop_without_gravity_keeps_momentum_and_angular_momentum() {
 #[test]
 fn only_pair_forces_along_r_keep_angular_momentum() {
     let dp = RADIUS / 10.0;
-    // The forces in the squeezed drop are ten times larger than above. Reached: 1e-10 to 3e-10.
+    // The forces in the squeezed drop are ten times larger than in the test above. Reached: 1e-10 to 3e-10.
     let rounding = 1e-9;
     let run = |name: &str, adjust: &dyn Fn(&mut Parameters)| {
         println!("{name}:");
@@ -216,6 +216,6 @@ fn the_energy_balance_closes() {
         balance.boundary, balance.viscosity, balance.diffusion
     );
     assert!(balance.viscosity < 0.0 && change < 0.0);
-    // 1 %: the time step is of second order, and the powers are computed at its start.
+    // Limit 1 %: the time step is of second order, and the powers are computed at the start of each time step.
     assert!(unexplained.abs() < 0.01 * balance.viscosity.abs());
 }

@@ -16,7 +16,8 @@ use super::lattice::{gradient_factor, lattice_sum, points, transform, value};
 use super::tanks::RHO0;
 
 /// Density diffusion damps a wave at the rate 2 delta h c0 sum V |G| (1 - cos k.r), which is delta h c0 k^2 for long
-/// waves. As |G| integrates to 7 / (2 h^2), the rate is at most 7 delta c0 / h; this limits delta in case files.
+/// waves. The integral of |G| is 7 / (2 h^2), so the rate is at most 7 delta c0 / h. This rate limits delta in case
+/// files.
 #[test]
 fn density_diffusion_damps_waves_at_the_rate_of_theory() {
     let mut parameters = ideal(DP, None);
@@ -38,18 +39,18 @@ fn density_diffusion_damps_waves_at_the_rate_of_theory() {
         let theory = USUAL * USUAL * lattice_sum(&kernel, term);
         let long = 0.5 * (USUAL * wave.length()).powi(2);
         println!("diffusion of k dp = {wave:.2}: {found:.4}, theory {theory:.4}, of long waves {long:.4}");
-        // 1e-5: the excess over rho0 is stored in single precision, with differences of 1 kg/m3.
+        // Limit 1e-5: the excess over rho0 is stored in single precision, with differences of 1 kg/m3.
         assert!((found / theory - 1.0).abs() < 1e-5, "{wave}");
-        // The moments of |G| give 1 - (h k)^2 / 15 + (h k)^4 / 371. 1e-3: the error of the lattice is 4e-4.
+        // The moments of |G| give 1 - (h k)^2 / 15 + (h k)^4 / 371. 1e-3 is allowed, because the lattice error is 4e-4.
         let series = 1.0 - 2.0 / 15.0 * long;
         assert!(long > 1.0 || (found / long - series).abs() < 0.015 * long * long + 1e-3, "{wave}");
         assert!(found < 3.5, "{wave}");
     }
 }
 
-/// Gradient and divergence of a wave with the wave number |k| on a lattice, over the exact ones. In theory the ratio is
-/// W^(|k|), the Fourier transform of the kernel, 1 - (2/15) (h |k|)^2 + ..., as the second moment of the kernel is
-/// 4 h^2 / 5. The lattice error adds to it, except for renormalised gradients.
+/// Computes gradient and divergence of a wave with the wave number |k| on a lattice, divided by the exact values. In
+/// theory the ratio is W^(|k|), the Fourier transform of the kernel: 1 - (2/15) (h |k|)^2 + ..., because the second
+/// moment of the kernel is 4 h^2 / 5. The lattice error adds to this ratio, except for renormalised gradients.
 #[test]
 fn operators_converge_with_second_order() {
     let (length, amplitude) = (1.0, 1000.0);
@@ -71,8 +72,9 @@ fn operators_converge_with_second_order() {
             -lattice_error,
             2.0 / 15.0 * (h * wave_number).powi(2)
         );
-        // 2e-5: single precision, 6e-8 of 1000 Pa, compared with pressure gradients of k 1000 Pa over 2h. The second
-        // term allows for the lattice error of waves, which differs from that of linear fields by the share (h k)^2.
+        // Limit 2e-5: single precision, 6e-8 of 1000 Pa, compared with pressure gradients of k 1000 Pa over 2h. The
+        // second term: the lattice error of a wave differs from the lattice error of a linear field by the share (h
+        // k)^2.
         let allowed = 2e-5 + 2.0 * (h * wave_number).powi(2) * lattice_error;
         assert!((found[0] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
         assert!((found[1] - (1.0 - smoothed - lattice_error)).abs() < allowed, "{cells}");
@@ -83,11 +85,11 @@ fn operators_converge_with_second_order() {
     for (number, kind) in ["gradient", "divergence", "renormalised"].iter().enumerate() {
         let order = [0, 1, 2].map(|step| (errors[step][number] / errors[step + 1][number]).log2());
         println!("orders of {kind}: {order:.2?}");
-        // In theory 2. The next term of the series, (h k)^4 / 124, lowers the order of the coarsest pair by 0.08. The
-        // lattice error has the opposite sign and raises that of the finest pair by 0.15.
+        // In theory, the order is 2. The next term of the series, (h k)^4 / 124, lowers the order of the coarsest pair
+        // by 0.08. The lattice error has the opposite sign and raises the order of the finest pair by 0.15.
         assert!(order.iter().all(|&order| order > 1.9), "{kind}");
     }
-    // 0.02: renormalised gradients have no lattice error, and the next term lowers the order by 0.01.
+    // Limit 0.02: renormalised gradients have no lattice error, and the next term lowers the order by 0.01.
     assert!(((errors[2][2] / errors[3][2]).log2() - 2.0).abs() < 0.02);
 }
 

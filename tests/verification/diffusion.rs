@@ -1,4 +1,4 @@
-//! The water on which density diffusion acts, and its effect on a linear density field.
+//! Particles on which density diffusion acts, and the effect of density diffusion on a linear density field.
 
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::{
@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::blocks::{DP, JITTER, block, ideal, rates_beside, whole_axes};
 use super::tanks::RHO0;
 
-/// Height of a wall of one layer of particles, one particle spacing below the block [m].
+/// z of a wall [m]: one layer of particles, one particle spacing below the lowest layer of the block.
 const WALL: f64 = -10.5 * DP;
 
 /// Returns position and density rate of each particle in a block of varying density above the wall.
@@ -45,7 +45,8 @@ fn diffused(boundary: BoundaryCondition) -> [f64; 2] {
         let pairs = || with_diffusion.iter().zip(&without_diffusion).filter(|((p, _), _)| is_included(p.z - WALL));
         pairs().filter(|((_, a), (_, b))| a != b).count() as f64 / pairs().count() as f64
     };
-    // Particles within half a particle spacing of the wall's reach are excluded; there the jitter decides.
+    // Particles within half a particle spacing of the limit of the wall's reach are excluded, because there the jitter
+    // decides if a particle is in reach.
     [share_where(&|height| height < support - 0.5 * DP), share_where(&|height| height > support + 0.5 * DP)]
 }
 
@@ -76,8 +77,8 @@ fn largest_rate(diffusion: DensityDiffusion, slope: f64, ripple: f64) -> f64 {
     not_at_edges.map(|(_, rate)| f64::from(rate.density.abs())).fold(0.0, f64::max)
 }
 
-/// Renormalised gradients are exact for a linear field, at the free surface, too. There, diffusion of the whole density
-/// transports mass from the dense side to the other.
+/// Renormalised gradients are exact for a linear field, also at the free surface. The diffusion of Molteni &
+/// Colagrossi, which acts on the whole density difference, transports mass from the denser side to the less dense side.
 #[test]
 fn diffusion_of_antuono_does_not_change_a_linear_density() {
     let [whole, rest] = [DensityDiffusion::MolteniColagrossi, DensityDiffusion::Antuono]

@@ -1,4 +1,4 @@
-//! Dry tests and armour layers from end to end.
+//! Complete runs of dry tests and armour layers.
 
 use std::{path::Path, sync::Arc};
 
@@ -32,7 +32,7 @@ fn the_tilt_test_returns_the_given_friction_coefficient() {
         for unit in &summary.units {
             let found = unit.friction.unwrap();
             println!("{name}: unit {}: {found:.4} ({:+.2} %)", unit.unit, 100.0 * (found / friction - 1.0));
-            // Target: 0.5 %; the published runs have 1.8 and 1.9 %.
+            // Target: 0.5 %. The errors of the published runs are 1.8 and 1.9 %.
             assert!((found / friction - 1.0).abs() < 0.005);
         }
     }
@@ -56,13 +56,13 @@ fn an_interrupted_dry_test_resumes_with_the_same_bits() {
         assert_eq!(whole, interrupted, "{file}");
     }
     let [whole, interrupted] = dirs.map(|dir| Impacts::read(&dir.join(Impacts::FILE)).unwrap());
-    // A run keeps up to 16 impacts of its only unit, and the dropped unit has fast ones.
+    // A run keeps up to 16 impacts per unit. This run has one unit, and some of its impacts are fast.
     assert!((4..=16).contains(&whole.impacts.len()) && whole.places.is_empty());
     assert!(whole.impacts.iter().any(|impact| impact.event.approach_normal > 0.1 && impact.history.len() > 10));
     assert_eq!(whole, interrupted);
 }
 
-/// Case of a small armour layer of Tetrapods on a slope.
+/// Returns the case of a small armour layer of Tetrapods on a slope.
 fn small_layer() -> Value {
     let mut case = case_file("armour-layer.json");
     case["domain"]["width_m"] = json!(0.25);
@@ -87,8 +87,8 @@ fn a_placed_layer_rests_and_can_be_run() {
     assert_eq!(placed.units.len(), job.count());
     // Targets: 1 % of the height, and 1e-6 of the potential energy.
     assert!(placed.deepest_overlap < 0.01 && placed.unrest < 1e-6);
-    // The layer from the placement file stays at rest. Units move while the tangential springs form again, by about the
-    // overlap of the contacts, at most some thousandths of the height: half of the allowed overlap.
+    // The layer from the placement file stays at rest. While the tangential springs form again, units move by about the
+    // overlap of the contacts, at most some thousandths of the height. The limit is half of the allowed overlap.
     let mut case = small_layer();
     let file = placed.file("layer");
     case["units"]["poses"] = serde_json::to_value(&file.poses).unwrap();

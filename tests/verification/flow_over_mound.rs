@@ -1,6 +1,7 @@
 //! Flow of the Fudo waves over the bare mound, compared with the inviscid flume model. The drag on the units is
 //! proportional to the square of the velocity at their height. In the flume of the experiment, friction slows only a
-//! layer of some millimetres at the bed, sqrt(nu t) = 2 mm. In the particles, nu = alpha h c0 / 8 decides how much.
+//! layer of some millimetres at the bed, sqrt(nu t) = 2 mm. In the particle domain, the numerical viscosity
+//! nu = alpha h c0 / 8 determines the thickness of this layer.
 
 use serde_json::json;
 
@@ -16,15 +17,15 @@ const MIDDLE_X: f64 = 39.0;
 struct Scheme {
     slip: &'static str,
     alpha: f64,
-    /// c0 over sqrt(g d) [-].
+    /// Speed of sound over sqrt(g d) [-].
     sound: f64,
     /// Ends of the particle domain [m].
     domain: [f64; 2],
 }
 
-/// No slip as in the published cases; the reflection from the end of the domain arrives after the reading.
+/// No slip as in the published cases. The reflection from the end of the domain arrives after the compared time.
 const NO_SLIP: Scheme = Scheme { slip: "original", alpha: 0.04, sound: 10.0, domain: [36.5, 42.0] };
-/// Free slip, with a quarter of that viscosity.
+/// Free slip, with a quarter of the viscosity of [`NO_SLIP`].
 const FREE_SLIP: Scheme = Scheme { slip: "free_slip", alpha: 0.01, ..NO_SLIP };
 
 /// Creates the simulation of a wave of a height [m] over the mound without units.
@@ -53,8 +54,8 @@ fn mean_u_abs_u(velocity: impl Fn(f64) -> f64) -> f64 {
     (0..points).map(|k| velocity(height(k))).map(|u| u * u.abs()).sum::<f64>() / f64::from(points)
 }
 
-/// Returns the impulse of u |u| on the middle of the crest over that of the flume model [-], while the velocity exceeds
-/// half of its maximum: the share of the drag that the particles keep.
+/// Returns the ratio of the drag impulses in the particle domain and in the flume model [-]. The drag impulse is the
+/// time integral of u |u| above the middle of the crest, while the velocity exceeds half of its maximum.
 fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
     let mut flow = over_the_mound(scheme, height, dp);
     let record = flow.flume.clone().unwrap();
@@ -89,7 +90,7 @@ fn drag_share(scheme: Scheme, height: f64, dp: f64) -> f64 {
 #[test]
 fn drag_over_the_mound_needs_free_slip() {
     let [no_slip, free_slip] = [NO_SLIP, FREE_SLIP].map(|scheme| drag_share(scheme, 0.045, 0.014));
-    // Reached: 0.61 and 0.91. The drag of a unit is known to 10 %; a run that loses 40 % of it predicts little.
+    // Reached: 0.61 and 0.91. The drag of a unit is known to 10 %, so a run that loses 40 % of the drag is not useful.
     assert!(free_slip > 0.87 && free_slip < 1.03 && no_slip < 0.7);
 }
 
@@ -109,8 +110,8 @@ fn drag_over_the_mound_grows_with_slip_and_lower_viscosity() {
     }
 }
 
-/// Computes the published scheme with the speed of sound that it may have had, 36 m/s: 20 sqrt(g d) for the depth of
-/// 0.333 m in its domain.
+/// Computes the published scheme with a speed of sound that the published runs may have had: 36 m/s, 20 sqrt(g d) for
+/// the depth of 0.333 m in the published domain.
 #[test]
 #[ignore = "10 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture drag_over_the_mound_grows_with_res"]

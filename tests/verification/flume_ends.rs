@@ -58,16 +58,17 @@ fn solitary_wave_enters_with_its_height_and_leaves() {
             100.0 * residual / wave.height_m,
             record.volume_error
         );
-        // Two layers are 0.2 % too fast (2e-3 of 7 s), and the third-order wave is not an exact solution of the model.
+        // With two layers the wave is 0.2 % too fast (2e-3 of 7 s). The third-order wave is not an exact solution of
+        // the model.
         assert!((crest / wave.height_m - 1.0).abs() < tolerance && (time - expected).abs() < 0.02);
-        // The radiating end and the inflow absorb waves exactly to first order in H/d only.
+        // The absorption by radiating end and inflow is exact only to first order in H/d.
         assert!(residual < 0.02 * wave.height_m);
-        // 1e-12: rounding; the balance uses the same fluxes as the depths.
+        // Limit 1e-12: rounding; the volume balance uses the same fluxes as the water depths.
         assert!(record.volume_error < 1e-12);
     }
 }
 
-/// Returns the smallest and largest wave height along one wave length [m], over the last four periods.
+/// Returns the smallest and largest wave height among the gauges [m], over the last four periods.
 fn envelope(record: &FlumeRecord, period_s: f64) -> [f64; 2] {
     let steps = (4.0 * period_s / record.interval_s) as usize;
     let height = |series: &Vec<f64>| {
@@ -80,7 +81,8 @@ fn envelope(record: &FlumeRecord, period_s: f64) -> [f64; 2] {
 
 #[test]
 fn sponge_and_radiating_end_absorb_regular_waves() {
-    // Waves of k d = 1.1 with a sponge of two wave lengths, and with the radiating end; long waves with the latter.
+    // Waves of k d = 1.1 with a sponge of two wave lengths and with the radiating end; long waves with the radiating
+    // end.
     for (period_s, sponge_lengths, most) in [(1.5, Some(2.0), 0.01), (1.5, None, 0.1), (4.0, None, 0.02)] {
         let parameters = RegularWave { height_m: 0.02, period_s, depth_m: DEPTH, gravity: GRAVITY };
         let wave = StreamFunctionWave::new(parameters, MeanFlow::NoTransport).unwrap();
@@ -100,7 +102,7 @@ fn sponge_and_radiating_end_absorb_regular_waves() {
             100.0 * reflection
         );
         // A radiating end reflects the share (1 - c/c_0) / (1 + c/c_0): 8 % for k d = 1.1, where c / c_0 = 0.85. The
-        // sponge is designed for 0.25 %; the rest is the error of the envelope.
+        // sponge is designed for 0.25 %; the remaining 0.75 % allow for the error of the envelope.
         assert!(reflection < most);
         assert!((0.5 * (largest + smallest) / parameters.height_m - 1.0).abs() < 0.03);
     }
@@ -125,6 +127,6 @@ fn irregular_waves_enter_with_their_significant_height() {
     let mean = tail.iter().sum::<f64>() / tail.len() as f64;
     let variance = tail.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / tail.len() as f64;
     println!("H_s = {:.4} m, mean level {:+.5} m", 4.0 * variance.sqrt(), mean);
-    // 6 %: the sea is a superposition of linear waves, and the flume is not linear.
+    // Limit 6 %: the incoming sea is a superposition of linear waves, but the flume model is nonlinear.
     assert!((4.0 * variance.sqrt() / 0.02 - 1.0).abs() < 0.06);
 }

@@ -48,7 +48,7 @@ fn flume(profile: Profile, layers: usize, friction: Friction) -> LayeredFlume {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A hump of water on any bed gives no negative depth and no value that is not finite, and keeps its volume.
+    /// A hump of water on any bed keeps its volume and gives only finite values and no negative depth.
     #[test]
     fn a_hump_stays_finite_and_keeps_its_volume_on_any_bed(
         profile in beds(),
@@ -63,7 +63,7 @@ proptest! {
         let (centre, width) = (relative_position * length, 0.2 * length);
         let mut flume = flume(profile, layers, Friction::Manning { n_s_m13 });
         let hump = |x: f64| height * (-((x - centre) / width).powi(2)).exp();
-        // The velocity ranges from that of a long wave to the left, u = - eta sqrt(g / d), to one to the right.
+        // The hump moves between the limits of a long wave to the left, u = - eta sqrt(g / d), and to the right.
         let at_rest_at_walls = |x: f64| (std::f64::consts::PI * x / length).sin();
         flume.set_flow(hump, |x, _| froude * GRAVITY.sqrt() * hump(x) * at_rest_at_walls(x));
         let volume = flume.volume_m2();
@@ -74,7 +74,7 @@ proptest! {
             }
             prop_assert!(flume.first_unstable_x_m().is_none(), "unstable at time step {step}, x = {:?}", flume.first_unstable_x_m());
         }
-        // 1e-12: rounding; a flux leaves one cell and enters the next.
+        // Limit 1e-12: rounding; a flux leaves one cell and enters the next.
         prop_assert!((flume.volume_m2() - volume).abs() <= 1e-12 * volume.max(1e-3), "{} {volume}", flume.volume_m2());
     }
 
@@ -83,7 +83,7 @@ proptest! {
     fn lake_at_rest_stays_at_rest_on_any_bed(profile in beds(), layers in 1..4usize) {
         let mut flume = flume(profile, layers, Friction::None);
         (0..100).for_each(|_| flume.step());
-        // 1e-12: levels are sums of bed and depth with a rounding of 1e-16 m, which is not amplified.
+        // Limit 1e-12: levels are sums of bed and depth with a rounding of 1e-16 m, which is not amplified.
         prop_assert!(flume.largest_velocity_m_s() < 1e-12, "{}", flume.largest_velocity_m_s());
         prop_assert!(flume.largest_elevation_m() < 1e-12, "{}", flume.largest_elevation_m());
     }

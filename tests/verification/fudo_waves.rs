@@ -1,5 +1,5 @@
-//! The three waves of the Fudo experiment from the multi-layer piston at x = 33 m over the bare slope up to the shore.
-//! The flume model is the reference 0.5, 1, 2 and 4 m from the piston.
+//! The three waves of the Fudo experiment run from the multi-layer piston at x = 33 m over the bare slope. The tests
+//! compare the crests 0.5, 1, 2 and 4 m from the piston with the flume model.
 
 use std::{fs, sync::Arc};
 
@@ -17,8 +17,8 @@ const STILL_LEVEL: f64 = 0.8;
 const PISTON_X: f64 = 33.0;
 const DISTANCES: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
-/// Case of a wave height [m] and a particle spacing [m]. The particles start when the surface elevation of the flume
-/// model at the piston is 2 % of the wave height.
+/// Returns the case of a wave height [m] and a particle spacing [m]. The particles start when the surface elevation of
+/// the flume model at the piston is 2 % of the wave height.
 fn case(height: f64, dp: f64, slip: &str) -> Value {
     json!({
         "title": "A wave of the Fudo experiment over the bare slope",
@@ -61,7 +61,7 @@ fn crest(series: &[[f64; 2]]) -> [f64; 2] {
     [c - 0.25 * b * b / a, time - 0.5 * b / a]
 }
 
-/// Returns the largest deviations of the four crests in height [-] and time [s].
+/// Returns the largest deviations of the four crests from the flume model in height [-] and time [s].
 fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
     let mut tank: Simulation = simulation(&case(height, dp, slip));
     let (mut particles, mut flume) = (vec![Vec::new(); 4], vec![Vec::new(); 4]);
@@ -81,7 +81,7 @@ fn deviations(height: f64, dp: f64, slip: &str) -> [f64; 2] {
         let time = now.flume_time();
         for (k, distance) in DISTANCES.iter().enumerate() {
             let x = PISTON_X + distance;
-            // The piston passes the nearest gauge after the crest, as its stroke is 0.76 m.
+            // The stroke of the piston is 0.76 m, so the piston passes the nearest gauge, but after the crest.
             let level = now.sampler().unwrap().surface(DVec2::new(x, 0.0), 0.45, 1.1);
             if let (Some(level), Some(record)) = (level, &now.flume) {
                 particles[k].push([time, level - STILL_LEVEL]);
@@ -138,7 +138,7 @@ fn the_rest_criterion_waits_for_the_wave_crest() {
     let options = RunOptions { control: Control::quiet(), device: Device::Cpu, until: None };
     let summary = run(Arc::new(case), folder.path(), &options).unwrap();
     assert!(summary.stopped == Stopped::AtRest && summary.mean_displacement_m.unwrap() < 0.01, "{summary:?}");
-    // The unit is always at rest, so the run stops as the surface over the mound falls, within 0.5 s of the crest.
+    // The unit is always at rest, so the run stops when the surface over the mound falls, within 0.5 s after the crest.
     let gauge = fs::read_to_string(folder.path().join("gauges.csv")).unwrap();
     let level = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap();
     let levels: Vec<f64> = gauge.lines().skip(1).map(level).collect();

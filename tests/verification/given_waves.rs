@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use breakwater::case::{Case, ROWS_FILE, Wave};
-use breakwater::simulation::flume::{Simulation, incoming::run_flume};
+use breakwater::simulation::flume::{Simulation, wave::incoming::run_flume};
 use breakwater::waves::external::openfoam::{Frame, Up, probes};
 use breakwater::waves::external::swash::{self, Heading};
 use breakwater::waves::external::table::{Layers, Place, VelocityTable};
@@ -25,7 +25,7 @@ fn case(wave: &Value) -> Value {
     })
 }
 
-/// Returns a solitary wave of the flume model at x = 4 m with the depth-averaged velocity, equal at all heights.
+/// Returns a solitary wave of the flume model at x = 4 m. The velocity at all heights is the depth-averaged velocity.
 fn table() -> VelocityTable {
     let text = case(&json!({ "kind": "solitary", "height_m": 0.06 })).to_string();
     let record = run_flume(&Case::from_str(&text, "test").unwrap()).unwrap().unwrap();
@@ -64,7 +64,7 @@ fn write(table: &VelocityTable, folder: &Path) -> [Value; 3] {
     ]
 }
 
-/// Creates the simulation of the case in this folder.
+/// Writes the case to the folder and creates its simulation.
 fn simulation(folder: &Path, wave: &Value) -> Simulation {
     fs::write(folder.join("case.json"), case(wave).to_string()).unwrap();
     let case = Case::load(folder.join("case.json")).unwrap_or_else(|errors| panic!("{errors}"));
@@ -91,19 +91,19 @@ fn files_of_three_programs_move_the_wavemaker_identically() {
         sources.map(|source| motion(&simulation(folder.path(), &json!({ "kind": "file", "source": source }))));
     let stroke = motions[0].iter().map(|row| row[0]).fold(0.0, f64::max);
     println!("stroke {stroke:.4} m");
-    // The stroke is the volume of the wave over the depth, less a third for velocities at a fixed position.
+    // The stroke is the volume of the wave over the depth, less a third because the velocities are at a fixed position.
     assert!(stroke > 0.2);
     for motion in &motions[1..] {
         let difference = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
         let largest = motion.iter().zip(&motions[0]).map(difference).fold(0.0, f64::max);
         println!("largest difference {largest:.1e} m or m/s");
-        // Target: 1e-6; the files hold all digits, so the motions differ by rounding.
+        // Target: 1e-6. The files contain all digits, so the motions differ only by rounding.
         assert!(largest < 1e-6);
     }
 }
 
 #[test]
-fn with_its_celerity_a_wave_has_the_stroke_of_the_flume_model() {
+fn a_wave_from_files_with_celerity_has_the_stroke_of_the_flume_model() {
     let folder = tempfile::tempdir().unwrap();
     let [source, ..] = write(&table(), folder.path());
     let celerity = (9.81 * (DEPTH + 0.06)).sqrt();
@@ -112,7 +112,7 @@ fn with_its_celerity_a_wave_has_the_stroke_of_the_flume_model() {
     let moving = stroke(&json!({ "kind": "file", "source": source, "celerity_m_s": celerity }));
     let flume = stroke(&json!({ "kind": "solitary", "height_m": 0.06 }));
     println!("stroke without celerity {fixed:.4} m, with celerity {moving:.4} m, in the flume model {flume:.4} m");
-    // 6 %: in the flume model, the strokes of the rows of this wave differ by 6 % between bed and surface.
+    // Limit 6 %: in the flume model, the strokes of the rows of this wave differ by 6 % between bed and surface.
     assert!((moving / flume - 1.0).abs() < 0.06 && fixed < 0.95 * moving);
 }
 
@@ -132,7 +132,7 @@ fn a_run_keeps_the_wave_that_it_read() {
 }
 
 #[test]
-fn a_run_longer_than_its_files_is_refused() {
+fn a_run_longer_than_its_wave_files_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let [source, ..] = write(&table(), folder.path());
     let mut case = case(&json!({ "kind": "file", "source": source }));

@@ -1,7 +1,7 @@
-//! Waves of the flume model as a case requests them, and the rows of the multi-layer piston that follow them.
+//! The flume model makes the waves that a case requests, and the rows of the multi-layer piston follow these waves.
 
 use breakwater::case::{Case, Wave};
-use breakwater::simulation::flume::incoming::{ml_piston, particle_start, run_flume};
+use breakwater::simulation::flume::wave::incoming::{ml_piston, particle_start, run_flume};
 use breakwater::waves::flume_model::record::FlumeRecord;
 use serde_json::{Value, json};
 
@@ -46,10 +46,10 @@ fn piston_rows_follow_regular_waves_without_drift() {
         let [low, high] = displacement_range(row);
         let (theory, mean) = (wave.height_m * (k * height).cosh() / (k * DEPTH).sinh(), 0.5 * (low + high));
         println!("row at {height:.2} m: stroke {:.4} m, theory {theory:.4} m, mean {mean:+.4} m", high - low);
-        // 5 %: the wave is nonlinear (H/d = 0.075), and the sponge reflects a little.
+        // Limit 5 %: the wave is nonlinear (H/d = 0.075), and the sponge reflects a little.
         assert!(((high - low) / theory - 1.0).abs() < 0.05);
-        // 5 mm; reached: 0.7 mm. The return flow below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would move the
-        // rows by 70 mm in the run, and by 10 mm within the six seconds in which drift is removed.
+        // Limit 5 mm; reached: 0.7 mm. The return flow below the waves, g H^2 / (8 c d) = 1.5 mm/s on average, would
+        // move the rows by 70 mm during the run, and by 10 mm within the six seconds over which the drift is removed.
         assert!(mean.abs() < 0.005);
     }
     assert!(piston.max_shoreward_displacement_m() > 0.015);
@@ -70,7 +70,8 @@ fn irregular_waves_have_their_significant_height_and_seed() {
     };
     let (case, record) = run_wave(&sea(1), 70.0);
     println!("H_s = {:.4} m at 4 m", significant(&record));
-    // The sea repeats once. 10 %: the shortest waves, which a cell of 0.05 m does not resolve, have 4 % of the height.
+    // The sea repeats once. Limit 10 %: the shortest waves, which a cell of 0.05 m does not resolve, have 4 % of the
+    // height.
     assert!((significant(&record) / 0.03 - 1.0).abs() < 0.1);
     let (other, _) = run_wave(&sea(2), 1.0);
     assert_ne!(case.hash, other.hash);
@@ -81,7 +82,7 @@ fn a_third_order_solitary_wave_has_its_height() {
     let (_, record) = run_wave(&json!({ "kind": "solitary", "height_m": 0.04, "theory": "third_order" }), 8.0);
     let (crest, time) = record.crest(0);
     println!("crest {crest:.4} m at {time:.2} s");
-    // The tolerance is that of the inflow in `flume_ends`.
+    // The tolerance is the same as for the inflow in `flume_ends`.
     assert!((crest / 0.04 - 1.0).abs() < 0.005);
     assert!(time > 4.0 / (9.81 * DEPTH * 1.1).sqrt());
 }

@@ -1,8 +1,8 @@
 //! Points on a regular or jittered cubic lattice, and the theory of kernel sums on it.
 //!
 //! Poisson's summation formula: on a lattice of spacing dp, dp^3 sum_b f(r_b) = sum_n F(2 pi n / dp), where F is the
-//! Fourier transform of f and n runs over all integer triples. The term n = 0 is the integral; the others are the
-//! error.
+//! Fourier transform of f and n runs over all integer triples. The term n = 0 is the integral; the sum of the other
+//! terms is the lattice error.
 
 use std::f64::consts::PI;
 
@@ -28,12 +28,12 @@ pub fn lattice_sum(kernel: &Wendland, term: impl Fn(DVec3) -> f64) -> f64 {
     axis().flat_map(|x| axis().flat_map(move |y| axis().map(move |z| DVec3::new(x, y, z)))).map(term).sum()
 }
 
-/// W [1/m3] at a distance [m].
+/// Returns the kernel W [1/m3] at a distance [m].
 pub fn value(kernel: &Wendland, r: f64) -> f64 {
     kernel.value(kernel.closeness(r))
 }
 
-/// G [1/m5] at a distance [m]: grad W = G r.
+/// Returns the gradient factor G [1/m5] at a distance [m]: grad W = G r.
 pub fn gradient_factor(kernel: &Wendland, r: f64) -> f64 {
     kernel.gradient_factor(kernel.closeness(r))
 }
@@ -54,7 +54,7 @@ pub fn transform(kernel: &Wendland, k: f64, f: impl Fn(f64) -> f64) -> f64 {
 /// Returns the error of the sum of f over a lattice of spacing 1 by Poisson's formula.
 pub fn aliasing(kernel: &Wendland, f: impl Fn(f64) -> f64) -> f64 {
     // Transforms of kernels with two continuous derivatives fall with n^-6: terms beyond n = 20 are
-    // 4 pi / 3 / 20^3 / 6 = 1e-4 of the first ones.
+    // 4 pi / 3 / 20^3 / 6 = 1e-4 of the first terms.
     let reach = 20_i32;
     let mut counts = vec![0_u32; (reach * reach + 1) as usize];
     for (i, j, k) in
@@ -68,8 +68,8 @@ pub fn aliasing(kernel: &Wendland, f: impl Fn(f64) -> f64) -> f64 {
     waves.map(|(square, &counts)| f64::from(counts) * transform(kernel, 2.0 * PI * (square as f64).sqrt(), &f)).sum()
 }
 
-/// Returns the mean of f over the difference of two uniform jitters of up to `jitter`: a triangular distribution along
-/// each axis.
+/// Returns the mean of f over the relative shift of two jittered points. Along each axis, the shift is the difference
+/// of two uniform jitters of up to `jitter`, with a triangular distribution.
 pub fn mean_over_jitter(jitter: f64, f: impl Fn(DVec3) -> f64) -> f64 {
     let n = 24;
     let nodes: Vec<(f64, f64)> = (0..n)

@@ -1,4 +1,4 @@
-//! The program and its parts compared with exact answers from mechanics. Run with `--release`.
+//! Tests that compare breakwater and its parts with exact solutions of mechanics. Run them with `--release`.
 
 mod absorption;
 mod blocks;

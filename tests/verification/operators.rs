@@ -21,16 +21,17 @@ fn kernel_moments_on_a_lattice_have_the_error_of_theory() {
         let zeroth = lattice_sum(&kernel, w) - 1.0;
         let of_gradient = lattice_error_of_gradient(factor);
         let expected = aliasing(&kernel, |r| value(&kernel, r));
-        // A third of the trace, -G r^2 / 3.
+        // By symmetry, the moment along one axis is a third of the trace: -G r^2 / 3.
         let expected_of_gradient = aliasing(&kernel, |r| -gradient_factor(&kernel, r) * r * r / 3.0);
         println!(
             "h = {factor:.3} dp: sum V W = 1 {zeroth:+.2e} (theory {expected:+.2e}), first moment of grad W = \
              1 {of_gradient:+.2e} (theory {expected_of_gradient:+.2e})"
         );
-        // 3e-6: the kernel constants are in single precision, 1e-7, and the series omits 1e-4 of an error of 1e-2.
+        // Limit 3e-6: the kernel constants are in single precision, 1e-7, and the series omits 1e-4 of an error of
+        // 1e-2.
         assert!((zeroth - expected).abs() < 3e-6, "{factor}");
         assert!((of_gradient - expected_of_gradient).abs() < 3e-6, "{factor}");
-        // 1e-14: rounding; odd moments vanish by symmetry.
+        // Limit 1e-14: rounding; odd moments vanish by symmetry.
         assert!(lattice_sum(&kernel, |r| w(r) * r.x).abs() < 1e-14);
         assert!(lattice_sum(&kernel, |r| g(r) * r.y).abs() < 1e-14);
         assert!(lattice_sum(&kernel, |r| g(r) * r.x * r.z).abs() < 1e-14);
@@ -41,8 +42,9 @@ fn kernel_moments_on_a_lattice_have_the_error_of_theory() {
 
 /// Theory for a jittered lattice with the variance s^2 = (jitter dp)^2 / 3 along each axis:
 /// - sum V W and the first moment of the gradient have the error V (f(0) - mean of f over the jitter), where f is the
-///   summand: the distance of a particle to itself does not vary;
-/// - to first order the variance is V^2 s^2 sum |grad f|^2 over the neighbours, plus that of the particle's own jitter.
+///   summand, because the distance of a particle to itself does not vary;
+/// - to first order the variance is V^2 s^2 sum |grad f|^2 over the neighbours, plus the variance from the particle's own
+///   jitter.
 #[test]
 fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
     let kernel = Wendland::new(USUAL);
@@ -68,10 +70,10 @@ fn kernel_moments_on_a_jittered_lattice_scatter_as_in_theory() {
         let deviation = rms(values.iter().map(|value| value - mean));
         let (expected, expected_deviation) = (on_a_lattice + self_term(f), spread(f));
         println!("{name} = {mean:.2e} +- {deviation:.2e}, theory {expected:.2e} +- {expected_deviation:.2e}");
-        // A tenth: to first order a particle's jitter cancels in the mean if all its neighbours are included, so only
-        // particles near the faces contribute.
+        // A tenth of the scatter: to first order, a particle's jitter cancels in the mean if all its neighbours are
+        // included, so only particles near the faces contribute.
         assert!((mean - expected).abs() < 0.1 * expected_deviation, "{name}");
-        // 15 %: second order in the jitter, and the finite sample.
+        // Limit 15 %: effects of second order in the jitter, and the finite sample.
         assert!((deviation / expected_deviation - 1.0).abs() < 0.15, "{name}");
     };
     check("sum V W - 1", &zeroth, aliasing(&kernel, w), &w);
@@ -96,8 +98,8 @@ fn scatter(kernel: &Wendland, r: DVec3) -> f64 {
     g * g + r.x * r.x * (2.0 * g * slope / distance + slope * slope)
 }
 
-/// Returns |grad (G x)|^2 of the particle itself: the second derivatives of its neighbours' kernels sum to minus its
-/// own.
+/// Returns |grad (G x)|^2 of the particle itself. The second derivatives of its neighbours' kernels sum to minus the
+/// second derivative of its own kernel.
 fn own_scatter(kernel: &Wendland) -> f64 {
     gradient_factor(kernel, 0.0).powi(2)
 }
@@ -128,10 +130,10 @@ fn renormalised_gradients_of_linear_fields_are_exact() {
             "renormalised gradient, jitter {jitter} dp: error {worst_inside:.1e} inside, {worst:.1e} at faces; \
              turbulent stress of a shear flow {worst_stress:.1e}"
         );
-        // Positions in single precision have errors of 1e-8 m for h = 0.02 m, 5e-7, averaged over some 280 neighbours;
-        // sums have 1e-7 of terms that cancel.
+        // Positions in single precision have errors of 1e-8 m, 5e-7 of h = 0.02 m, averaged over some 280 neighbours.
+        // Sums have errors of 1e-7 of the terms that cancel.
         assert!(worst_inside < 2e-6 && worst_stress < 4e-6);
-        // Twice that at faces, where half of the neighbourhood is empty along the normal.
+        // The limit is twice as large at faces, where half of the neighbourhood is empty along the normal.
         assert!(worst < 4e-6);
     }
 }
@@ -147,13 +149,13 @@ fn pressure_gradient_of_a_linear_field_has_the_lattice_error() {
         let found = -water.density[i] * DVec3::from_array(rate.acceleration.map(f64::from));
         worst = worst.max((found - (1.0 + error) * slope).length() / slope.length());
     }
-    println!("pressure gradient on a lattice: deviation {worst:.1e} from (1 {error:+.2e}) times the exact one");
+    println!("pressure gradient on a lattice: deviation {worst:.1e} from (1 {error:+.2e}) times the exact value");
     // 2 p_a sum V grad W cancels except for the rounding of some 280 terms, 6e-8 sqrt(280) = 1e-6 of 2 p / h = 8e4
     // Pa/m, which is 22 times the slope.
     assert!(worst < 2e-5, "{worst}");
 }
 
-/// A constant pressure accelerates unevenly spaced particles, dv/dt = -2 p / rho grad C; this does not vanish with dp.
+/// A constant pressure accelerates unevenly spaced particles: dv/dt = -2 p / rho grad C does not vanish with dp.
 #[test]
 fn constant_pressure_accelerates_jittered_particles() {
     let tait = ideal(DP, None).tait;
@@ -169,7 +171,7 @@ fn constant_pressure_accelerates_jittered_particles() {
         worst = worst.max((found - expected).length() * sorted.density[i] * DP / pressure);
     }
     println!("acceleration by a constant pressure: deviation {worst:.1e} p / (rho dp) from theory");
-    // 2e-6: sums of some 280 terms of up to 0.02 p / dp in single precision.
+    // Limit 2e-6: sums of some 280 terms of up to 0.02 p / dp in single precision.
     assert!(worst < 2e-6, "{worst}");
 }
 
@@ -190,7 +192,7 @@ fn density_rate_of_a_linear_velocity_has_the_lattice_error() {
     let (_, rates) = rates_of_block(block(JITTER, |_| RHO0, rotation));
     let rotating = rates.iter().map(|rate| f64::from(rate.density).abs() / RHO0).fold(0.0, f64::max) / 3.7;
     println!(
-        "divergence of a linear velocity: deviation {worst:.1e} from (1 {error:+.2e}) times the exact one; in rigid \
+        "divergence of a linear velocity: deviation {worst:.1e} from (1 {error:+.2e}) times the exact value; in rigid \
          rotation {rotating:.1e}"
     );
     // Single precision has errors of 1.2e-7 m/s for 2 m/s and 7e-9 m for 0.1 m; differences are 0.1 m/s and 0.02 m.

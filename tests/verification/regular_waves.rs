@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use breakwater::simulation::flume::{Simulation, balance::Balance};
+use breakwater::simulation::flume::{Simulation, measures::balance::Balance};
 use breakwater::waves::theory::regular::RegularWave;
 use breakwater::waves::theory::solitary::SolitaryWave;
 use glam::DVec2;
@@ -17,14 +17,15 @@ struct Tank {
     length: f64,
     /// Seaward end of the damping zone [m].
     zone_from: f64,
-    /// Wave gauges [m]: beyond the near field of the piston (three depths), not half a wavelength apart.
+    /// Positions of the wave gauges [m]; no two gauges are half a wavelength apart. Except in [`COARSE`], the gauges
+    /// are beyond the near field of the piston, three depths.
     gauges: [f64; 3],
     /// Start and duration of the gauge readings, in periods; the ramp takes one period.
     from: f64,
     periods: f64,
 }
 
-/// Short test: 8 particles in the depth, 1.7 in the wave height.
+/// Tank of the short test: 8 particles in the depth and 1.7 particles in the wave height.
 const COARSE: Tank = Tank {
     wave: RegularWave { height_m: 0.05, period_s: 0.71, depth_m: 0.24, gravity: GRAVITY },
     dp: 0.03,
@@ -73,12 +74,13 @@ struct Results {
     incident: f64,
     /// Phase lag of the incident wave at the piston compared with theory [rad].
     phase: f64,
-    /// Height of the reflected wave over that of the incident wave [-].
+    /// Height of the reflected wave over the height of the incident wave [-].
     reflection: f64,
-    /// Energy given by the piston, and the unexplained part of the change of energy [J].
+    /// Energy that the piston adds to the water [J].
     given: f64,
+    /// Unexplained part of the change of energy [J].
     left: f64,
-    /// Energy that the damping zone received [J].
+    /// Energy that the damping zone removes [J].
     damped: f64,
 }
 
@@ -126,8 +128,8 @@ fn first_harmonic(series: &[[f64; 2]], omega: f64) -> DVec2 {
     2.0 * integral / (series[series.len() - 1][0] - series[0][0])
 }
 
-/// Separates incident and reflected amplitudes at x = 0 from those at gauges by least squares (Mansard & Funke 1980):
-/// A_j = a_i exp(i k x_j) + a_r exp(-i k x_j).
+/// Returns the incident and reflected amplitudes at x = 0, computed from the amplitudes at three gauges by least
+/// squares (Mansard & Funke 1980): A_j = a_i exp(i k x_j) + a_r exp(-i k x_j).
 fn separate(k: f64, x: [f64; 3], amplitudes: [DVec2; 3]) -> [DVec2; 2] {
     let phase_factor = |x: f64| DVec2::from_angle(k * x);
     let conjugate = |z: DVec2| DVec2::new(z.x, -z.y);
@@ -143,7 +145,7 @@ fn report(tank: &Tank, results: &Results) {
     let per_height = tank.wave.height_m / tank.dp;
     println!(
         "regular waves, dp = {} m, {per_height:.1} particles in H: incident height {:.4} m of {} m ({:+.1} %), phase lag \
-         {:+.3} rad; reflected {:.1} %; energy given {:.3} J, damped {:.3} J, unexplained {:+.4} J",
+         {:+.3} rad; reflected {:.1} %; energy from the piston {:.3} J, damped {:.3} J, unexplained {:+.4} J",
         tank.dp,
         results.incident,
         tank.wave.height_m,
@@ -182,7 +184,7 @@ fn regular_waves_have_their_height_and_are_damped_coarse() {
     assert!(results.phase.abs() < 0.5);
     // Reached: 5.6 %, including remains of the near field and of the ramp.
     assert!(results.reflection < 0.1);
-    // Reached: 0.7 % of the energy given by the piston, as powers are read every twentieth time step.
+    // Reached: 0.7 % of the energy from the piston, because powers are read only every twentieth time step.
     assert!(results.damped > 0.0 && results.left.abs() < 0.02 * results.given);
 }
 

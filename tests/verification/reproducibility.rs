@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::tanks::{BareTank, run_steps, simulation};
 
-/// Case with all parts of a flume case: wave, wavemaker, mound and two free units.
+/// Returns the case with all parts of a flume case: wave, wavemaker, mound and two free units.
 fn small_flume() -> Value {
     json!({
         "title": "Everything at once",

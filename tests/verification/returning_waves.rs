@@ -1,5 +1,5 @@
-//! A wall reflects a wave back to a multi-layer piston: without absorption, with a relaxation zone, with active
-//! absorption by the piston.
+//! A wall reflects a wave back to a multi-layer piston. The tests measure the height after reflection by the piston:
+//! without absorption, with a relaxation zone, and with active absorption.
 
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -10,12 +10,12 @@ const DEPTH: f64 = 0.3;
 const HEIGHT: f64 = 0.09;
 /// Seaward and shoreward end of the particle domain [m].
 const TANK: [f64; 2] = [4.0, 7.5];
-/// End of the relaxation zone [m], which is a third as long as the wave between 1 % of its height.
+/// End of the relaxation zone [m]. The zone is a third as long as the part of the wave above 1 % of the wave height.
 const ZONE_END: f64 = 6.0;
 /// Position of the gauge [m].
 const GAUGE: f64 = 6.4;
 
-/// Case of a solitary wave in a tank that ends at a wall; the flume model has no such wall.
+/// Returns the case of a solitary wave in a tank that ends at a wall; the flume model has no such wall.
 fn tank(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> Value {
     let mut case = json!({
         "title": "A solitary wave between a multi-layer piston and a wall",
@@ -33,8 +33,8 @@ fn tank(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> Value {
     case
 }
 
-/// Returns crests at the gauge [m]: of the flume model, and of the particles for the incident wave and after reflection
-/// by wall and piston.
+/// Returns three crest levels at the gauge [m]: in the flume model, in the particle domain for the incident wave, and
+/// in the particle domain after reflection by wall and piston.
 fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
     let mut tank = simulation(&tank(dp, zone, gauge));
     let celerity = (GRAVITY * (DEPTH + HEIGHT)).sqrt();
@@ -69,7 +69,8 @@ fn crests(dp: f64, zone: Option<f64>, gauge: Option<f64>) -> [f64; 3] {
 #[test]
 fn an_absorbing_multi_layer_piston_does_not_reflect_the_wave() {
     let [flume, first, rereflected] = crests(0.025, None, Some(0.2));
-    // Reached: 0.3 %. Without absorption it is more, as the reading includes the start of the reflection.
+    // Reached: 0.3 %. Without absorption the difference is larger, because the reading includes the start of the
+    // reflected wave.
     assert!((first / flume - 1.0).abs() < 0.08);
     // Target: 10 % after one reflection; reached: 5.2 %, a fifth of a particle spacing.
     assert!((-first..0.1 * first).contains(&rereflected));
@@ -81,7 +82,8 @@ fn an_absorbing_multi_layer_piston_does_not_reflect_the_wave() {
 fn a_relaxation_zone_weakens_the_reflected_wave() {
     let [_, first, rereflected] = crests(0.05, None, None);
     assert!(rereflected > 0.8 * first);
-    // The re-reflected wave has 73 and 63 % of the height with a zone of a third of the wave length, 93 % without.
+    // With a zone of a third of the wave length, the re-reflected wave has 73 and 63 % of the height of the incident
+    // wave. Without a zone it has 93 %.
     let [weak, strong] = [3.0, 10.0].map(|coefficient| {
         let [_, first, rereflected] = crests(0.05, Some(coefficient), None);
         rereflected / first

@@ -5,32 +5,33 @@ use serde_json::{Value, json};
 
 use super::tanks::{run_until, simulation};
 
-/// Still depth d [m].
+/// Still water depth d [m].
 const DEPTH: f64 = 0.5;
 /// First position at which the wave is measured [m], four depths from the wavemaker.
 const FIRST: f64 = 14.0;
-/// Half width w of the hat function that averages the surface [m]. It lowers a crest of H/d = 0.1 by
+/// Half width w of the hat function that averages the surface [m]. The averaging lowers a crest of H/d = 0.1 by
 /// (w^2/12) eta''/eta = 0.3 % at both positions.
 const HAT: f64 = 0.25;
 
 /// A wave and the settings of the particle scheme.
 struct Wave {
-    /// H/d [-].
+    /// Wave height over depth, H/d [-].
     height: f64,
     /// Distance between the two measurements, in depths [-].
     travel: f64,
     dp: f64,
     alpha: f64,
-    /// c0 over sqrt(g d) [-].
+    /// Speed of sound over sqrt(g d) [-].
     sound: f64,
     slip: &'static str,
-    /// Whether the flume is a slice ten particles wide; otherwise it is two-dimensional.
+    /// True for a slice ten particles wide, false for a two-dimensional flume.
     slice: bool,
 }
 
 impl Wave {
-    /// Case with particles from two depths before the first position to eight depths beyond the last, where the wave is
-    /// only H sech^2(4.2) = 0.001 H. The particles start when the crest is one depth before the first position.
+    /// Returns the case with particles from two depths before the first position to eight depths beyond the last, where
+    /// the wave is only H sech^2(4.2) = 0.001 H. The particles start when the crest is one depth before the first
+    /// position.
     fn case(&self) -> Value {
         let last = FIRST + self.travel * DEPTH;
         let (width, sides) = if self.slice { (Some(10.0 * self.dp), "periodic") } else { (None, "two_dimensional") };
@@ -52,7 +53,7 @@ impl Wave {
     /// Returns the approximate time at which the crest passes x [m] in [s].
     fn passing(&self, x: f64) -> f64 {
         let celerity = (9.81 * DEPTH * (1.0 + self.height)).sqrt();
-        // The crest leaves the piston at half of its stroke; 3.8 is where the motion is cut off.
+        // The crest leaves the piston after half of the stroke time. 3.8 is the argument where the motion is cut off.
         let half_stroke = 3.8 / ((0.75 * self.height / (1.0 + self.height)).sqrt() / DEPTH * celerity);
         half_stroke + x / celerity
     }
@@ -78,7 +79,8 @@ impl Wave {
         })
     }
 
-    /// Runs and returns the share of the height lost over a number of depths, assuming the same share per depth.
+    /// Runs the wave. Returns the share of the height that is lost over a number of depths [-], assuming the same share
+    /// for each depth.
     fn loss_over(&self, depths: f64) -> f64 {
         let [first, last] = self.run();
         let loss = 1.0 - (last / first).powf(depths / self.travel);
@@ -123,7 +125,7 @@ fn a_slice_loses_as_much_height_as_two_dimensions() {
     let [slice, plane] = [true, false].map(|slice| {
         Wave { height: 0.1, travel: 4.0, dp: 0.025, alpha: 0.04, sound: 10.0, slip: "original", slice }.loss_over(4.0)
     });
-    // 0.01: a hundredth of the height is 0.5 mm, a fiftieth of a particle spacing.
+    // Limit 0.01: a hundredth of the height is 0.5 mm, a fiftieth of a particle spacing.
     assert!((slice - plane).abs() < 0.01);
 }
 
@@ -143,8 +145,8 @@ fn loss_of_height_falls_with_resolution_slip_and_lower_viscosity() {
     );
 }
 
-/// Uses all defaults: free slip and a speed of sound of 15 sqrt(g d), to which the viscosity of equation 3 is
-/// proportional.
+/// Uses all defaults: free slip and a speed of sound of 15 sqrt(g d). The viscosity of equation 3 is proportional to
+/// the speed of sound.
 #[test]
 #[ignore = "40 minutes on one core: \
     cargo test --release --test verification -- --ignored --nocapture keeps_its_height_by_default"]

@@ -37,9 +37,9 @@ fn frequency() -> f64 {
 /// (n + 2 nu k^2)^2 + sigma^2 = 4 nu^2 k^3 m tanh(kd) / tanh(md),
 ///
 /// which is the equation of Lamb (1932, article 349) for infinite depth. The function uses the first two terms of n in
-/// sqrt(nu k^2 / sigma): -2 nu k^2 + i sigma, since the power 2 mu S : S of the irrotational flow is the same share of
-/// its energy at all depths, and the term of the vortical layer below the surface. The next term changes the decay by
-/// less than 1 %.
+/// sqrt(nu k^2 / sigma). The first term is -2 nu k^2 + i sigma, because the power 2 mu S : S of the irrotational flow
+/// is the same share of its energy at all depths. The second term is from the vortical layer below the surface. The
+/// next term changes the decay by less than 1 %.
 fn theory() -> Sloshing {
     let layer_term = 2f64.sqrt() * NU.powf(1.5) * K.powi(3) * (K * DEPTH).tanh() / frequency().sqrt();
     Sloshing { period: 2.0 * PI / (frequency() - layer_term), decay: 2.0 * NU * K * K - layer_term }
@@ -47,7 +47,7 @@ fn theory() -> Sloshing {
 
 /// Runs the wave for a number of periods with a particle spacing [m].
 fn slosh(dp: f64, viscosity: Viscosity, periods: f64) -> Sloshing {
-    // The least width that the kernel support allows.
+    // The smallest width that the kernel support allows.
     let width = 10.0 * dp;
     let mut scheme = parameters(dp, DEPTH, GRAVITY, Some(width));
     scheme.viscosity = viscosity;
@@ -99,18 +99,19 @@ fn errors(particles: f64, viscosity: Viscosity) -> [f64; 2] {
 #[test]
 fn a_standing_wave_has_the_period_and_decay_of_theory() {
     let [period, decay] = errors(14.0, Viscosity::MonaghanGingold { nu: NU });
-    // 1 %: the particle spacing is a fourteenth of the depth.
+    // Limit 1 %: the particle spacing is a fourteenth of the depth.
     assert!(period.abs() < 0.01, "{period}");
-    // 10 %: particles at the surface lack half of their neighbours and their friction, over a layer of about dp / 2. As
-    // the power 2 mu S : S falls with e^(2kz), the share k dp = 11 % is missing; particle noise adds some dissipation.
+    // Limit 10 %: particles at the surface lack half of their neighbours, so friction is missing in a layer of about dp
+    // / 2. The power 2 mu S : S falls with e^(2kz), so the share k dp = 11 % is missing. Particle noise adds some
+    // dissipation.
     assert!(decay.abs() < 0.1, "{decay}");
 }
 
 #[test]
 fn a_standing_wave_decays_too_slowly_with_lo_and_shao() {
     let [_, decay] = errors(10.0, Viscosity::Laminar { nu: NU, turbulence: None });
-    // In irrotational flow the power mu grad v : grad v is half of 2 mu S : S (Colagrossi et al. 2011). With the part
-    // missing at the surface, a third of theory is reached. A decay outside 40 to 80 % too little means another
-    // viscosity.
+    // In irrotational flow the power mu grad v : grad v is half of 2 mu S : S (Colagrossi et al. 2011). Friction is
+    // also missing at the surface, so the decay is a third of the theoretical decay. If the decay is not 40 to 80 % too
+    // slow, the viscosity is wrong.
     assert!((-0.8..-0.4).contains(&decay), "{decay}");
 }

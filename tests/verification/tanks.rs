@@ -10,7 +10,7 @@ use breakwater::simulation::flume::{Simulation, step::PreparedStep};
 use breakwater::sph::particles::bed::{Across, Outline, outline_particles};
 use breakwater::sph::particles::boundary::{Boundary, BoundaryParticle};
 use breakwater::sph::particles::fill::{Basin, clear_solid};
-use breakwater::sph::particles::unit::LEAST_DEPTH;
+use breakwater::sph::particles::unit::MIN_DEPTH;
 use breakwater::sph::particles::water::Water;
 use breakwater::sph::{
     lanes::InstructionSet,
@@ -49,7 +49,7 @@ pub fn run_steps(simulation: &mut Simulation, steps: u32) {
     }
 }
 
-/// Case of a flat tank of still water with end walls and periodic sides.
+/// Returns the case of a flat tank of still water with end walls and periodic sides.
 pub fn still_tank(length: f64, width: f64, depth: f64, dp: f64, duration: f64) -> Value {
     json!({
         "title": "Still water",
@@ -63,7 +63,7 @@ pub fn still_tank(length: f64, width: f64, depth: f64, dp: f64, duration: f64) -
     })
 }
 
-/// Case of a square tank with a Tetrapod in its middle that is held all the time.
+/// Returns the case of a square tank with a Tetrapod in its middle that is held all the time.
 pub fn tank_with_held_unit(length: f64, depth: f64, dp: f64, duration: f64) -> Value {
     let mut case = still_tank(length, length, depth, dp, duration);
     case["units"] = json!({
@@ -74,7 +74,7 @@ pub fn tank_with_held_unit(length: f64, depth: f64, dp: f64, duration: f64) -> V
     case
 }
 
-/// Case of a dam break of 1 m x 2 m in a tank of 4 m (Koshizuka & Oka 1996), 10 particles wide.
+/// Returns the case of a dam break of 1 m x 2 m in a tank of 4 m (Koshizuka & Oka 1996), 10 particles wide.
 pub fn dam_break(dp: f64, duration: f64) -> Value {
     json!({
         "title": "Dam break",
@@ -106,7 +106,7 @@ impl BareTank {
         Self::with_instructions(InstructionSet::best(), length, depth, dp, unit)
     }
 
-    /// Creates such a tank for an instruction set.
+    /// Creates the tank of [`Self::new`] for an instruction set.
     pub fn with_instructions(
         instructions: InstructionSet,
         length: f64,
@@ -169,17 +169,17 @@ impl BareTank {
         }
     }
 
-    /// Moves the unit to `centre` [m], its centre of mass, and removes the water inside it.
+    /// Moves the centre of mass of the unit to `centre` [m] and removes the water inside the unit.
     pub fn hold(&mut self, unit: &ArmourUnit, centre: DVec3, rotation: DQuat) {
         let (solid, back) = (unit.solid(), rotation.inverse());
-        clear_solid(&mut self.water, LEAST_DEPTH * self.solver.parameters.dp, |point| {
+        clear_solid(&mut self.water, MIN_DEPTH * self.solver.parameters.dp, |point| {
             let (nearest, distance) = solid.project(back * (point - centre));
             (rotation * nearest + centre, distance)
         });
         self.boundary.move_unit(0, &BodyState::at_rest(centre, rotation));
     }
 
-    /// Advances by one time step and returns its length [s]; `observe` gets the state between its halves.
+    /// Advances by one time step and returns the time step [s]. `observe` gets the state before the predictor.
     pub fn step(&mut self, observe: impl FnOnce(&mut Self)) -> f64 {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.build_neighbour_lists(&self.water, &self.boundary);
@@ -195,7 +195,7 @@ impl BareTank {
 }
 
 /// Returns the volume of a solid below a level z [m3]: the flux of the field (0, 0, z - level) through the surface
-/// below the level. Its divergence is 1, and it vanishes on the plane of the level.
+/// below the level. The divergence of this field is 1, and the field is zero on the plane of the level.
 pub fn volume_below(solid: &Solid, level: f64) -> f64 {
     let vertices = solid.vertices();
     solid.triangles().iter().map(|corners| flux_below(corners.map(|c| vertices[c as usize]), level)).sum()

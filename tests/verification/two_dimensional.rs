@@ -23,7 +23,7 @@ fn tip_and_energy(simulation: &Simulation) -> [f64; 2] {
 }
 
 #[test]
-fn a_dam_break_in_a_layer_equals_that_in_a_slice() {
+fn dam_breaks_in_a_layer_and_in_a_slice_agree() {
     let (dp, end) = (0.08, 0.6);
     let [slice, layer] = [dam_break(dp, 1.0), in_two_dimensions(dam_break(dp, 1.0))].map(|case| {
         let mut tank = simulation(&case);
@@ -31,7 +31,7 @@ fn a_dam_break_in_a_layer_equals_that_in_a_slice() {
         tip_and_energy(&tank)
     });
     println!("tip {:.3} and {:.3} m, energy {:.1} and {:.1} J/m", slice[0], layer[0], slice[1], layer[1]);
-    // Half a particle spacing and 2 %: the particles start at other positions.
+    // Half a particle spacing and 2 %, because the particles of layer and slice start at different positions.
     assert!((slice[0] - layer[0]).abs() < 0.5 * dp && (slice[1] / layer[1] - 1.0).abs() < 0.02);
 }
 
@@ -77,6 +77,6 @@ fn still_water_stays_still_on_a_beach() {
         }
     });
     println!("fastest {fastest:.3} m/s");
-    // 0.25 m/s: a quarter of sqrt(g d) for five particles in the depth. Attractive walls would cause 1.6 m/s.
+    // Limit 0.25 m/s: a quarter of sqrt(g d) for five particles in the depth. Attractive walls would cause 1.6 m/s.
     assert!(fastest < 0.25);
 }

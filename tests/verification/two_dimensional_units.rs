@@ -8,12 +8,13 @@ use super::{
     two_dimensional::in_two_dimensions,
 };
 
-/// Length and height of the box of Ren et al. (2015) [m]; it is half as heavy as water.
+/// Length and height of the box of Ren et al. (2015) [m]. The box has half the density of water.
 const BOX: [f64; 2] = [0.3, 0.2];
 const DEPTH: f64 = 0.4;
 const DP: f64 = 0.025;
 
-/// Case of a floating box in the middle of a tank, of a width [m] and turned about y [rad].
+/// Returns the case of a floating box in the middle of a tank. The box has a width [m] and is rotated about y by an
+/// angle [rad].
 fn afloat(length: f64, width: f64, turned: f64, duration: f64) -> Value {
     let mut case = in_two_dimensions(still_tank(length, 1.0, DEPTH, DP, duration));
     let half = 0.5 * turned;
@@ -47,7 +48,7 @@ fn a_box_floats_in_a_layer_and_stays_in_its_plane() {
     let state = tank.units.as_ref().unwrap().states()[0];
     assert_eq!((state.position.y, state.velocity.y), (0.5 * DP, 0.0));
     let out_of_plane = [state.rotation.x, state.rotation.z, state.angular_velocity.x, state.angular_velocity.z];
-    // 1e-15: the products of inertia are zero to rounding.
+    // Limit 1e-15: the products of inertia are zero to rounding.
     assert!(out_of_plane.iter().all(|turn| turn.abs() < 1e-15), "{out_of_plane:?}");
     let weight = 0.5 * RHO0 * BOX[0] * width * BOX[1] * GRAVITY;
     let [heave, roll] = heave_and_roll(&tank);
@@ -56,13 +57,13 @@ fn a_box_floats_in_a_layer_and_stays_in_its_plane() {
         100.0 * (force / count / weight - 1.0),
         1e3 * heave
     );
-    // 1 %: the mean over one second includes a small oscillation.
+    // Limit 1 %: the mean over one second includes a small oscillation.
     assert!((force / count / weight - 1.0).abs() < 0.01);
     // A quarter of a particle spacing is 6 % of the draught.
     assert!(heave.abs() < 0.25 * DP && roll.abs() < 2e-3);
 }
 
-/// The width does not change the motion, as mass and force are proportional to it.
+/// The width does not change the motion, because mass and force are proportional to the width.
 #[test]
 fn a_wider_box_moves_equally() {
     let [narrow, wide] = [0.2, 0.4].map(|width| {
@@ -70,7 +71,7 @@ fn a_wider_box_moves_equally() {
         run_until(&mut tank, 0.6, |_| ());
         heave_and_roll(&tank)
     });
-    // 1e-9: rounding.
+    // Limit 1e-9: rounding.
     assert!((narrow[0] - wide[0]).abs() < 1e-9 && (narrow[1] - wide[1]).abs() < 1e-9, "{narrow:?} {wide:?}");
     assert!(narrow[1].abs() < 0.099, "the box does not roll");
 }

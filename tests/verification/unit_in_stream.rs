@@ -1,4 +1,4 @@
-//! Hydrodynamic force on a fixed Tetrapod against the number of particles in its height. The tests compare the added
+//! Hydrodynamic force on a fixed Tetrapod for different numbers of particles in its height. The tests compare the added
 //! mass with potential flow, and check the drag in a steady stream, and drag and lift on the bed.
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -13,19 +13,22 @@ use glam::{DQuat, DVec3};
 
 use super::tanks::{BareTank, RHO0, UNIT_HEIGHT};
 
-/// Speed of the stream [m/s]; its acceleration [m/s2] and the time in which the acceleration is reached [s].
+/// Speed of the steady stream [m/s].
 const SPEED: f64 = 0.5;
+/// Acceleration of the stream [m/s2].
 const ACCELERATION: f64 = 2.0;
+/// Time in which the stream reaches this acceleration [s].
 const RISE: f64 = 0.02;
 
-/// Speed of sound [m/s]; with alpha = 0.05 the viscosity, relative to the stream, is that of the Fudo runs.
+/// Speed of sound [m/s]. With alpha = 0.05, the ratio of viscosity to stream speed is the same as in the Fudo runs.
 const C0: f64 = 10.0;
 
-/// Pressure of the water at rest [Pa], that under 0.1 m of water; it exceeds the underpressure of the wake.
+/// Pressure of the water at rest [Pa], equal to 0.1 m of water. The pressure drop in the wake is smaller.
 const PRESSURE: f64 = 1000.0;
 
-/// Added mass over the mass of the displaced water, by finite elements (tools/potential-flow/tetrapod): 0.583, 0.612
-/// and 0.618 with elements of 0.06, 0.03 and 0.02 heights at the unit, 0.622 by their squares.
+/// Added mass over the mass of the displaced water [-], by finite elements (tools/potential-flow/tetrapod). Elements of
+/// 0.06, 0.03 and 0.02 heights at the unit give 0.583, 0.612 and 0.618. 0.622 is the extrapolation with the square of
+/// the element size.
 const BY_POTENTIAL_FLOW: f64 = 0.622;
 
 /// Position of the fixed unit.
@@ -35,12 +38,13 @@ enum Position {
     Middle,
     /// On the bed, with one of its three lower legs pointing downstream.
     OneLegForward,
-    /// On the bed, with two of them pointing downstream.
+    /// On the bed, with two of its three lower legs pointing downstream.
     TwoLegsForward,
 }
 
 impl Position {
-    /// Returns side and periodic length of the box in heights of the unit; it models a row of units in the stream.
+    /// Returns side and periodic length of the box in heights of the unit. The periodic box models a row of units in
+    /// the stream.
     fn box_size(self) -> [f64; 2] {
         match self {
             Self::Middle => [4.0, 5.0],
@@ -73,7 +77,7 @@ impl Stream {
         let density = tank.solver.parameters.tait.density(PRESSURE);
         tank.water.density.fill(density);
         tank.boundary.density.fill(density);
-        // The centre lies off the lattice of the water.
+        // The centre is not on the lattice of the water.
         let mut centre = 0.5 * DVec3::new(size[0], size[1], size[0]) + dp * DVec3::new(0.3, 0.0, 0.1);
         let rotation = match position {
             Position::Middle => DQuat::IDENTITY,
@@ -87,7 +91,7 @@ impl Stream {
         Self { tank, centre, volume: unit.solid().volume_properties().volume, time: 0.0 }
     }
 
-    /// Lets the particles settle for a time [s].
+    /// Lets the particles settle until a time [s].
     fn settle(&mut self, duration: f64) {
         while self.time < duration {
             self.time += self.tank.step(|_| ());
@@ -115,8 +119,8 @@ impl Stream {
     }
 }
 
-/// Returns the added mass without viscosity over the mass of the displaced water: when sound has just crossed the box,
-/// and when a layer of slow water has grown along the unit. It does not depend on the acceleration.
+/// Returns the added mass without viscosity over the mass of the displaced water [-]: when sound has just crossed the
+/// box, and when a layer of slow water has grown along the unit. The ratio does not depend on the acceleration.
 fn added_mass(particles: f64, boundary: BoundaryCondition) -> [f64; 2] {
     let mut stream = Stream::new(particles, boundary, 0.0, Position::Middle);
     stream.settle(0.2);
@@ -129,7 +133,8 @@ fn added_mass(particles: f64, boundary: BoundaryCondition) -> [f64; 2] {
     shares
 }
 
-/// Returns the force in the steady stream over rho / 2 U^2 V^(2/3), averaged over a distance of three heights.
+/// Returns the force in the steady stream over rho / 2 U^2 V^(2/3) [-]. It is the mean while the water moves by three
+/// unit heights.
 fn steady_force(particles: f64, boundary: BoundaryCondition, alpha: f64, position: Position) -> DVec3 {
     force_over_pressure(
         Stream::new(particles, boundary, alpha, position),
@@ -137,7 +142,7 @@ fn steady_force(particles: f64, boundary: BoundaryCondition, alpha: f64, positio
     )
 }
 
-/// Returns the same for a given stream; the name appears in the output.
+/// Returns the result of [`steady_force`] for a given stream. The name appears in the output.
 fn force_over_pressure(mut stream: Stream, name: &str) -> DVec3 {
     let start = SPEED / ACCELERATION;
     let acceleration = |time: f64, mean: f64, dt: f64| if time < start { ACCELERATION } else { (SPEED - mean) / dt };
@@ -148,10 +153,10 @@ fn force_over_pressure(mut stream: Stream, name: &str) -> DVec3 {
 }
 
 #[test]
-fn added_mass_of_a_tetrapod_is_that_of_potential_flow() {
+fn added_mass_of_a_tetrapod_agrees_with_potential_flow() {
     let [first, later] = added_mass(8.0, ModifiedDynamic).map(|share| share / BY_POTENTIAL_FLOW);
-    // Reached: 1.2, with 11 particles as well, because the particles of the unit slow down the adjacent water.
-    // Extrapolating with the square root of time to a vanishing layer gives about 1.
+    // Reached: 1.2 with 8 and with 11 particles, because the particles of the unit slow down the adjacent water.
+    // Extrapolation with the square root of time to zero thickness of this slow layer gives about 1.
     assert!((1.0..1.25).contains(&first) && later > first, "{first} {later}");
 }
 

@@ -18,7 +18,7 @@ use super::tanks::BareTank;
 /// Side of the box [m].
 const SIDE: f64 = 1.0;
 
-/// Particles across the periodic box, the least number that the kernel support allows.
+/// Particles across the periodic box, the smallest number that the kernel support allows.
 const ACROSS: f64 = 10.0;
 
 fn lo_shao(nu: f64) -> Viscosity {
@@ -43,7 +43,7 @@ fn monaghan_gingold_stress_resists_compression_and_expansion_and_ignores_rotatio
     let (nu, h, r2, rho_a, rho_b) = (0.01_f32, 0.02_f32, 1e-4_f64, 1000.0, 1010.0);
     // K = 10 in three dimensions.
     let stress = |v_dot_r: f64| monaghan_gingold_stress(10.0 * nu, approach_rate(h, v_dot_r, r2), rho_a, rho_b);
-    // rho_a rho_b 4 (D + 2) nu / (rho_a + rho_b) (v . r) / (r^2 + 0.01 h^2); 1e-6: constants in single precision.
+    // rho_a rho_b 4 (D + 2) nu / (rho_a + rho_b) (v . r) / (r^2 + 0.01 h^2). Limit 1e-6: single precision.
     let exact = rho_a * rho_b * 20.0 * 0.01 / (rho_a + rho_b) * 1e-3 / (r2 + 0.01 * 0.02 * 0.02);
     assert!((stress(-1e-3) / exact - 1.0).abs() < 1e-6 && (stress(1e-3) / exact + 1.0).abs() < 1e-6);
     assert_eq!(stress(0.0), 0.0);
@@ -96,15 +96,16 @@ fn error_in_the_duct(particles: f64, form: fn(f64) -> Viscosity) -> f64 {
 
 #[test]
 fn duct_flow_with_lo_and_shao_equals_the_exact_solution() {
-    // 2 %: the particle spacing is a twentieth of the side.
+    // Limit 2 %: the particle spacing is a twentieth of the side.
     assert!(error_in_the_duct(20.0, lo_shao) < 0.02);
 }
 
 #[test]
 fn duct_flow_with_monaghan_and_gingold_equals_the_exact_solution() {
     // Reached: 2.8 % with 20 particles per side and 2.4 % with 28. The walls make the flow too slow by about 2.7 and
-    // 1.9 %. The sum over the particles adds 0.1 and 0.5 %, and 1.1 % in the limit of small dp at this h / dp. The sum
-    // of Lo & Shao has -1.4 % with 20 particles per side, so there the errors partly cancel.
+    // 1.9 %. The viscosity sum over the particles adds 0.1 and 0.5 %, or 1.1 % in the limit of small dp at this h / dp.
+    // For Lo & Shao, the error of this sum is -1.4 % with 20 particles per side and partly cancels the error of the
+    // walls.
     assert!(error_in_the_duct(20.0, monaghan_gingold) < 0.035);
 }
 
@@ -119,7 +120,7 @@ enum Start {
 /// A Taylor-Green vortex that fills the box with a largest velocity of 1 m/s.
 struct Vortex {
     tank: BareTank,
-    /// Exact decay rate of its energy, 4 nu (pi / side)^2 [1/s].
+    /// Exact decay rate of the kinetic energy, 4 nu (pi / side)^2 [1/s].
     rate: f64,
 }
 
@@ -150,7 +151,7 @@ impl Vortex {
         water.velocity.iter().zip(&water.mass).map(|(v, m)| 0.5 * m * v.length_squared()).sum()
     }
 
-    /// Returns the power of viscosity at the start over that of theory, minus 1 [-].
+    /// Returns the power of viscosity at the start over the theoretical power, minus 1 [-].
     fn excess_of_power(mut self) -> f64 {
         let exact = self.rate * self.energy();
         let mut powers = Powers::default();
@@ -158,7 +159,8 @@ impl Vortex {
         -powers.viscosity / exact - 1.0
     }
 
-    /// Returns the decay rate over 2 s, to e^-0.8, over that of theory, minus 1 [-].
+    /// Returns the decay rate of the energy over the theoretical rate, minus 1 [-]. The run of 2 s reduces the energy
+    /// to about e^-0.8.
     fn excess_of_decay(mut self) -> f64 {
         let (start, mut time) = (self.energy(), 0.0);
         while time < 2.0 {
@@ -184,21 +186,22 @@ fn settle(tank: &mut BareTank, most: f64, pressure: f64) {
         *density = compressed;
     }
     let mut time = 0.0;
-    // 0.3 s: sound crosses the box three times, and viscosity reduces the velocities to a fiftieth of that of the
-    // vortex.
+    // In 0.3 s, sound crosses the box three times, and viscosity reduces the velocities to a fiftieth of the velocity
+    // of the vortex.
     while time < 0.3 {
         time += tank.step(|_| ());
     }
 }
 
 #[test]
-fn power_of_viscosity_in_a_taylor_green_vortex_is_that_of_theory() {
+fn power_of_viscosity_in_a_taylor_green_vortex_agrees_with_theory() {
     for (form, name) in [(lo_shao as fn(f64) -> _, "Lo & Shao"), (monaghan_gingold, "Monaghan & Gingold")] {
         let excess = Vortex::new(40.0, form, Start::Lattice).excess_of_power();
         println!("Taylor-Green, {name}: power of viscosity at the start {:+.2} %", 100.0 * excess);
-        // 2 %: without walls the lattice sum of nu laplace v has errors of -0.3 % (Lo & Shao) and +0.9 % (Monaghan &
-        // Gingold). One part falls with (kh)^2; the other, +0.2 and +1.1 %, depends on h / dp only. The walls, whose
-        // velocities are interpolated over the kernel, add 0.7 %, and three times that with half as many particles.
+        // Limit 2 %: without walls the lattice sum of nu laplace v has errors of -0.3 % (Lo & Shao) and +0.9 %
+        // (Monaghan & Gingold). One part of the error falls with (kh)^2; the other part, +0.2 and +1.1 %, depends only
+        // on h / dp. The wall velocities are interpolated over the kernel and add 0.7 %, or 2.1 % with half as many
+        // particles per side.
         assert!(excess.abs() < 0.02, "{name}: {excess}");
     }
 }
@@ -208,14 +211,15 @@ fn a_taylor_green_vortex_decays_at_the_rate_of_theory() {
     for (form, name) in [(lo_shao as fn(f64) -> _, "Lo & Shao"), (monaghan_gingold, "Monaghan & Gingold")] {
         let excess = Vortex::new(20.0, form, Start::Settled).excess_of_decay();
         println!("Taylor-Green, {name}, 20 particles per side: decay rate {:+.1} %", 100.0 * excess);
-        // 8 %. The viscosity sum and the walls cause 1.4 % (test above, settled particles). The strain of the vortex
-        // pushes particles together and sideways; viscosity dissipates this noise, 4 %, and the pressure response to
-        // the noise takes 1 %. All of it falls with dp to the power 0.8: over the first second 5.7 and 4.2 % with 20
-        // and 30 particles per side. From a lattice the vortex decays 23 and 21 % too fast with 20 and 40 particles per
-        // side. Its strain deforms the lattice until it collapses at once, between 0.3 and 0.6 s, while viscosity
-        // dissipates twice its share. Density diffusion of Antuono et al. (2010) or a velocity correction for the
-        // shifting (Lind et al. 2012) change that by 2 % at most. Three times the shifting, with the largest speed
-        // instead of the local one, halves it.
+        // Limit 8 %. The viscosity sum and the walls cause 1.4 % (test above, settled particles). The strain of the
+        // vortex pushes particles together and sideways. Viscosity dissipates this noise (4 %), and the pressure
+        // response to the noise takes 1 %. The total falls with dp to the power 0.8: over the first second it is 5.7
+        // and 4.2 % with 20 and 30 particles per side. If the particles start on a lattice, the vortex decays 23 and 21
+        // % too fast with 20 and 40 particles per side. The strain deforms the lattice, which collapses suddenly
+        // between 0.3 and 0.6 s. Meanwhile viscosity dissipates twice the theoretical power. Density diffusion of
+        // Antuono et al. (2010) or a velocity correction for the shifting (Lind et al. 2012) changes the decay error of
+        // the lattice start by at most 2 %. Three times the shifting, with the largest speed instead of the local
+        // speed, halves this error.
         assert!(excess.abs() < 0.08, "{name}: {excess}");
     }
 }

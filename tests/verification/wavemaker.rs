@@ -1,6 +1,7 @@
-//! Coupling of the flume model with the particles: the rows of the wavemaker, and the water at a start within a wave.
+//! Coupling of the flume model with the particles: motion of the wavemaker rows, and the water when the particles start
+//! within a wave.
 
-use breakwater::simulation::flume::{incoming::ml_piston, step::PreparedStep};
+use breakwater::simulation::flume::{step::PreparedStep, wave::incoming::ml_piston};
 use glam::DVec2;
 use serde_json::{Value, json};
 
@@ -8,7 +9,8 @@ use super::tanks::{run_until, simulation};
 
 const STILL_LEVEL: f64 = 0.4;
 
-/// Case of a flat flume with 0.4 m of water and a wave of 8 cm; particles from 6 to 8 m start at a flume time [s].
+/// Returns the case of a flat flume with 0.4 m of water and a wave of 8 cm; particles from 6 to 8 m start at a flume
+/// time [s].
 fn flume(start_s: f64, dp: f64) -> Value {
     json!({
         "title": "A solitary wave in a flat flume",
@@ -37,7 +39,7 @@ fn rows_of_the_wavemaker_follow_the_multi_layer_piston() {
         let row = piston.row_heights_m().iter().position(|z| (z - anchor.z).abs() < 1e-9).unwrap();
         let time = simulation.flume_time();
         let moved = simulation.boundary.position[particle] - *anchor;
-        // 1e-12 m: rounding of a position some metres from the origin.
+        // Limit 1e-12 m: rounding of a position some metres from the origin.
         assert!((moved.x - piston.displacement_m(row, time)).abs() < 1e-12 && moved.y == 0.0 && moved.z == 0.0);
         assert_eq!(simulation.boundary.velocity[particle].x, piston.velocity_m_s(row, time));
         furthest = furthest.max(moved.x);
@@ -74,8 +76,8 @@ fn water_starts_with_elevation_and_velocity_of_the_flume_model() {
     now.finish().unwrap();
 }
 
-/// Case of the 4.5 cm wave of the Fudo experiment over the bare slope. The flume model and the particles end at a wall
-/// 1.4 m from the wavemaker. The run lasts from a flume time [s] until after the crest.
+/// Returns the case of the 4.5 cm wave of the Fudo experiment over the bare slope. The flume model and the particles
+/// end at a wall 1.4 m from the wavemaker. The run lasts from a flume time [s] until after the crest.
 fn bare_slope(start_s: f64, dp: f64, sound_speed_factor: f64) -> Value {
     json!({
         "title": "The 4.5 cm wave against a wall",
@@ -89,7 +91,7 @@ fn bare_slope(start_s: f64, dp: f64, sound_speed_factor: f64) -> Value {
     })
 }
 
-/// Compares the crest of the particles with that of the flume model 0.5 m from the wavemaker.
+/// Asserts that the crests of particles and flume model agree 0.5 m from the wavemaker.
 fn assert_crest_follows_the_flume_model(start_s: f64, dp: f64, sound_speed_factor: f64) {
     let (height, x, level) = (0.045, 37.0, 0.8);
     let mut simulation = simulation(&bare_slope(start_s, dp, sound_speed_factor));

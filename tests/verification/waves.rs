@@ -86,7 +86,7 @@ fn stroke(record: &FlumeRecord, x: f64) -> f64 {
     largest_displacement(&piston, 3)
 }
 
-/// Returns the largest displacement of a row [m]; the wave reflected by the shore reverses it later.
+/// Returns the largest displacement of a row [m]. Later, the wave reflected by the shore reverses the motion.
 fn largest_displacement(piston: &MlPiston, row: usize) -> f64 {
     (0..1500).map(|i| piston.displacement_m(row, 0.02 * f64::from(i))).fold(0.0, f64::max)
 }
@@ -102,18 +102,19 @@ fn fudo_waves_have_the_crests_velocities_and_strokes_of_another_model() {
             clock.elapsed().as_secs_f64(),
             record.volume_error
         );
-        // 1e-10: rounding over 5,000 time steps; a flux leaves one cell and enters the next, and none crosses a wall.
+        // Limit 1e-10: rounding over 5,000 time steps. Each flux leaves one cell and enters the next; no flux crosses a
+        // wall.
         assert!(record.volume_error < 1e-10);
         for (gauge, crest_m) in expected.crests_m.iter().enumerate() {
             let (crest, time) = record.crest(gauge);
             let error = crest / crest_m - 1.0;
             println!("  x = {:5.1} m: crest {:.5} m at {time:.3} s, {:+.2} %", GAUGES_X_M[gauge], crest, 100.0 * error);
-            // 2 %: the expected values come from another layered calculation and are rounded to 0.1 mm.
+            // Limit 2 %: the expected values come from another layered calculation and are rounded to 0.1 mm.
             assert!(error.abs() < 0.02, "x = {}: {error}", GAUGES_X_M[gauge]);
         }
         let (velocity, stroke) = (largest_velocity(&record, 33.0), stroke(&record, 33.0));
         println!("  u at 33 m {velocity:.4} m/s, stroke {stroke:.4} m");
-        // 3 and 4 %: as above, and the stroke has only two digits.
+        // Limits 3 and 4 %: the same reason; the expected stroke has only two digits.
         assert!((velocity / expected.velocity_m_s - 1.0).abs() < 0.03);
         assert!((stroke / expected.stroke_m - 1.0).abs() < 0.04);
     }
@@ -130,7 +131,7 @@ fn finer_cells_and_more_layers_change_the_crests_little() {
         for (gauge, x) in GAUGES_X_M.iter().enumerate() {
             let change = coarse.crest(gauge).0 / other.crest(gauge).0 - 1.0;
             println!("  x = {x:5.1} m: {:+.2} %", 100.0 * change);
-            // 2 %: the 6.4 cm wave is close to breaking at 39 m, where its crest is sharpest.
+            // Limit 2 %: the 6.4 cm wave is close to breaking at 39 m, where its crest is sharpest.
             assert!(change.abs() < 0.02);
         }
     }
@@ -145,9 +146,9 @@ fn waves_over_the_mound_agree_on_two_grids() {
         let crests = [coarse.crest(7).0, fine.crest(7).0];
         let speeds = [largest_velocity(&coarse, 39.0), largest_velocity(&fine, 39.0)];
         println!("H = {} m: crests over the mound {crests:.4?} m, u {speeds:.3?} m/s", expected.height_m);
-        // 5 %: the flanks of the mound are two cells long on the coarse grid.
+        // Limit 5 %: the flanks of the mound are two cells long on the coarse grid.
         assert!((crests[0] / crests[1] - 1.0).abs() < 0.05 && (speeds[0] / speeds[1] - 1.0).abs() < 0.05);
-        // The mound reflects and shoals the wave a little, so the crest stays near that without a mound.
+        // The mound reflects and shoals the wave only a little, so the crest level is near the level without a mound.
         assert!((crests[1] / expected.crests_m[7] - 1.0).abs() < 0.2);
     }
 }
@@ -164,7 +165,7 @@ fn piston_near_the_mound_has_similar_strokes_over_the_depth() {
     println!("80 rows from t = {start:.2} s: {:.2} s", clock.elapsed().as_secs_f64());
     let strokes: Vec<f64> = [0, 20, 79].iter().map(|&row| largest_displacement(&piston, row)).collect();
     println!("strokes at the bed, in the water, above the water {strokes:.4?} m");
-    // 10 %: the velocity of a long wave varies by a few per cent over the depth, and so do the strokes.
+    // Limit 10 %: the velocity of a long wave varies by a few per cent over the depth, and so do the strokes.
     assert!(strokes.iter().all(|stroke| (stroke / strokes[1] - 1.0).abs() < 0.1));
     let fixed_point_stroke: f64 = (0..1400)
         .map(|i| 0.02 * f64::from(i))
@@ -194,7 +195,7 @@ fn lake_at_rest_stays_at_rest_over_mound_island_and_shore() {
             breaking: Breaking::default(),
         });
         (0..1000).for_each(|_| flume.step());
-        // 1e-12: levels are sums of bed and depth with a rounding of 1e-16 m, which is not amplified.
+        // Limit 1e-12: levels are sums of bed and depth with a rounding of 1e-16 m, which is not amplified.
         assert!(flume.largest_elevation_m() < 1e-12, "{}", flume.largest_elevation_m());
         assert!(flume.largest_velocity_m_s() < 1e-12, "{}", flume.largest_velocity_m_s());
     }
@@ -235,7 +236,8 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
         let phase = (place - start) / (celerity * flume.time_s()) - 1.0;
         println!("K = {layers}: amplitude {:+.3} %, phase {:+.3} %", 100.0 * amplitude, 100.0 * phase);
         assert!((flume.volume_m2() / volume - 1.0).abs() < 1e-12);
-        // K = 2: the target. K = 1 and 3: the reached values, rounded up, so that a regression shows.
+        // For K = 2, the limits are the target. For K = 1 and 3, they are the reached values, rounded up, to detect a
+        // regression.
         let (most_amplitude, most_phase) = [(0.025, 0.01), (0.005, 0.002), (0.0025, 0.001)][layers - 1];
         assert!(amplitude.abs() < most_amplitude && phase.abs() < most_phase);
     }
@@ -243,7 +245,7 @@ fn solitary_wave_keeps_its_height_and_speed_over_40_m() {
 
 /// Synolakis (1987): a non-breaking wave of H/d = 0.0185 on a beach of 1:19.85 has a run-up of R/d = 0.074 to 0.078.
 #[test]
-fn run_up_on_a_plane_beach_is_that_of_synolakis() {
+fn run_up_on_a_plane_beach_agrees_with_synolakis() {
     let shore_x = 20.0 + 0.8 * 19.85;
     let profile = Profile::new(vec![[0.0, 0.0], [20.0, 0.0], [20.0 + 1.2 * 19.85, 1.2]]);
     let theory = PistonTheory::Rayleigh;
@@ -267,7 +269,8 @@ fn run_up_on_a_plane_beach_is_that_of_synolakis() {
     .unwrap();
     let run_up = record.times_s().iter().map(|&t| highest_water_m(&record, t)).fold(0.0, f64::max) - STILL_LEVEL_M;
     println!("R/d = {:.4}", run_up / 0.8);
-    // The scatter of the laboratory, plus 2.5 mm (0.003 d) on either side, the rise of the beach in a cell.
+    // The limits are the scatter of the laboratory, plus the rise of the beach in a cell, 2.5 mm (0.003 d), on either
+    // side.
     assert!((0.071..0.081).contains(&(run_up / 0.8)));
 }
 
@@ -313,7 +316,7 @@ fn extreme_flumes_stay_stable() {
         println!("{name}: {:.2} s, volume error {:.1e}", clock.elapsed().as_secs_f64(), record.volume_error);
         assert!(record.volume_error < 1e-10);
         let highest = highest_water_m(&record, 25.0);
-        // 3.5 wave heights only detect an unstable run-up; no law gives this limit.
+        // The limit of 3.5 wave heights only detects an unstable run-up; it does not come from a run-up law.
         println!("  highest water at the end {:+.2} H", (highest - STILL_LEVEL_M) / height_m);
         assert!(highest < STILL_LEVEL_M + 3.5 * height_m, "{name}: {highest}");
     }

@@ -1,4 +1,4 @@
-//! Still water over a wedge: English et al. (2022), 0.5 m of water over a wedge 0.25 m high, for seconds.
+//! Still water over a wedge after English et al. (2022): 0.5 m of water over a wedge 0.25 m high.
 
 use breakwater::simulation::flume::step::PreparedStep;
 use glam::{DVec2, DVec3};
@@ -11,7 +11,7 @@ const DEPTH: f64 = 0.5;
 /// Ends of the particle domain [m]; its walls are 0.35 m from the wedge, seven tenths of the depth.
 const TANK: [f64; 2] = [0.5, 1.7];
 
-/// Case of the tank with a boundary condition, particle spacing [m] and duration [s].
+/// Returns the case of the tank with a boundary condition, particle spacing [m] and duration [s].
 fn wedge(boundary: &str, dp: f64, duration: f64) -> Value {
     json!({
         "title": "Still water over a wedge",
@@ -82,11 +82,11 @@ fn errors_of(boundary: &str, dp: f64, duration: f64) -> Errors {
 #[test]
 fn water_over_a_wedge_stays_still() {
     let errors_found = errors_of("mdbc", 0.02, 2.0);
-    // 2 %: half of the hydrostatic pressure of a particle spacing; over five seconds the error is half of that. With dp
-    // = 0.025 m, ten particles in the height of the wedge, the toes have 3 %. Boundary layers with too much volume at
-    // the apex and too little at the toes have -7 % and +6 % there.
+    // Limit 2 %: half of the hydrostatic pressure rise over a particle spacing; after five seconds the error is half as
+    // large. With dp = 0.025 m, ten particles in the height of the wedge, the error at the toes is 3 %. If boundary
+    // layers have too much volume at the apex and too little at the toes, the errors there are -7 % and +6 %.
     assert!(errors_found.pressure < 0.02, "{errors_found:?}");
-    // 0.5 %: the target for five seconds.
+    // Limit 0.5 %: the target for five seconds.
     assert!(errors_found.velocity < 0.005, "{errors_found:?}");
 }
 
@@ -97,7 +97,7 @@ fn water_over_a_wedge_stays_still_for_five_seconds() {
     let modified = errors_of("mdbc", 0.02, 5.0);
     // Printed for comparison only.
     errors_of("dbc", 0.02, 5.0);
-    // 1 %: a quarter of the hydrostatic pressure of a particle spacing. 0.5 %: a thirteenth of the allowed Mach number,
-    // 1/15.
+    // Limit 1 %: a quarter of the hydrostatic pressure rise over a particle spacing. Limit 0.5 %: a thirteenth of the
+    // allowed Mach number, 1/15.
     assert!(modified.pressure < 0.01 && modified.velocity < 0.005, "{modified:?}");
 }

@@ -77,7 +77,8 @@ def beam(size):
 def disc(size):
     """Disc of 40 mm, 15 mm thick, compressed along z until it splits: Brazilian test of Guo (2014).
 
-    The load acts on strips of 10 degrees, the contact width of curved jaws. Under a line load concrete crushes first.
+    The load acts on strips of 10 degrees, the contact width of curved jaws. Under a line load the concrete would crush
+    before it splits.
     """
     radius, width, half_strip = 0.020, 0.015, math.radians(5)
     occ = gmsh.model.occ

@@ -12,24 +12,24 @@ import tetrapods
 
 @dataclass(frozen=True)
 class Entry:
-    """A mesh."""
+    """How to build a mesh."""
 
     # Function that returns the scene for the given mesh sizes [m].
     build: Callable
     # Mesh size [m] of the fine mesh, for results, and of the coarse mesh, for a first run and for tests.
     size: float
     coarse: float
-    # Mesh size of the base over that of the unit, in both meshes; None: the scene has no base.
+    # Mesh size of the base over mesh size of the unit, for the fine and the coarse mesh; None: the scene has no base.
     base: tuple = None
 
     def scene(self, coarse, size=None, height=None):
-        """Scene with mesh size `size` [m] and unit height `height` [m]; the defaults are those of the entry."""
+        """Scene with mesh size `size` [m] and unit height `height` [m]; None selects the default of the entry."""
         size = size or (self.coarse if coarse else self.size)
         sizes = [size] if self.base is None else [size, size * self.base[coarse]]
         return self.build(*sizes, height) if height else self.build(*sizes)
 
     def has_height(self):
-        """Whether the height of the unit is a parameter."""
+        """Returns True if the height of the unit is a parameter."""
         return "height" in inspect.signature(self.build).parameters
 
 

@@ -65,7 +65,7 @@ SETS = {
 }
 # Largest relative volume error, due to flat triangles on round surfaces.
 VOLUME_TOLERANCE = 0.01
-# Smallest dihedral angle [degrees]: flatter tetrahedra would limit the time step.
+# Smallest allowed dihedral angle [degrees]. Flatter tetrahedra would make the time step too small.
 LEAST_ANGLE = 8.0
 
 
@@ -148,7 +148,7 @@ def check_set(name, cells, faces_of_bodies):
 
 
 def faces_of(tets):
-    """Number of tetrahedra of each face, a sorted triple of nodes."""
+    """For each face (a sorted triple of nodes), the number of tetrahedra to which the face belongs."""
     tets = np.sort(tets, axis=1)
     triples = np.concatenate([np.delete(tets, corner, axis=1) for corner in range(4)])
     return Counter(map(tuple, triples.tolist()))

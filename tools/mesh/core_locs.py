@@ -3,7 +3,7 @@
 The units of section 4.1 are lifted by about 16 mm, are about 32 mm from their nearest neighbours, and fall. Figure 25
 shows their positions without coordinates; the positions here are assumed. `breakwater place` lowered five Core-Locs
 onto a level foot and a slope of 3:4. Then they were moved apart to about the distances of the paper. As in section 4.3,
-unit 4 touches nothing within 0.1 s, in which it falls by 49 mm. Unit 5 is the first to hit the base, after 21 ms.
+unit 4 falls by 49 mm within 0.1 s without touching anything. Unit 5 is the first to hit the base, after 21 ms.
 """
 
 import gmsh
@@ -23,8 +23,8 @@ POSES = [
     ((3.005, -1.668, 5.0014), (-0.860, -0.430, -0.095, 0.258)),
     ((1.297, 1.844, 3.1191), (0.485, -0.714, -0.491, -0.120)),
 ]
-# Side view of the base [m], (x, z): a level foot, then a slope of 3:4. The thickness is assumed, such that elements of
-# 1.5 m give about the paper's number, 2079.
+# Side view of the base [m], (x, z): a level foot, then a slope of 3:4. The assumed thickness gives about as many elements
+# of 1.5 m as in the paper, 2079.
 BASE = [(-5.5, -5.0), (6.5, -5.0), (6.5, 4.875), (0.0, 0.0), (-5.5, 0.0)]
 BASE_Y = (-5.0, 5.5)
 

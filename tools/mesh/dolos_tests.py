@@ -14,13 +14,13 @@ from units import Dolos
 
 # Length of the Dolos [m] (section 3.1.1).
 HEIGHT = 1.0
-# Depth of the pre-existing cracks over the mesh size: "approximately one element length" (section 3.1.3).
+# Depth of the pre-existing cracks over the mesh size [-]: "approximately one element length" (section 3.1.3).
 CRACK_DEPTH = 1.0
 
 # The base is a slab with a step. The upright fluke hits the slab. Stem and horizontal fluke rest on the flat top of the
-# step, which the stem touches (section 3.1.2, second stress concentration). The height of the step is therefore that of
-# the stem's underside above the fluke's end. The other dimensions are assumed, such that the volumes of unit, base and
-# block are proportional to the paper's numbers of elements (67,240, 103,042 and about 10,500).
+# step, which the stem touches (section 3.1.2, second stress concentration). The step is therefore as high as the distance
+# from the lower end of the upright fluke to the underside of the stem. The other dimensions are assumed: with them the
+# volumes of unit, base and block are proportional to the paper's numbers of elements (67,240, 103,042 and about 10,500).
 STEP_END = 0.05  # [m] under the middle of the stem, clear of the fluke and its haunch
 BASE_X = (-0.60, 0.85)  # [m]
 BASE_Y = (-0.40, 0.40)  # [m]
@@ -30,11 +30,11 @@ SLAB = 0.10  # thickness [m]
 # part of the base, stands on the side of +x, towards which the foot moves, and extends to the end of the base.
 BLOCK = HEIGHT / 12
 
-# Mass of the cylinder over that of the Dolos (section 3.2.1).
+# Mass of the cylinder over the mass of the Dolos [-] (section 3.2.1).
 CYLINDER_MASS = 1 / 5
 # Densities of concrete and steel [kg/m3] (Table 3).
 CONCRETE, STEEL = 2340.0, 7850.0
-# Distance of the struck point from the end of the fluke (section 3.2.1).
+# Distance from the impact point of the cylinder to the end of the fluke [m] (section 3.2.1).
 STRUCK = HEIGHT / 12
 
 
@@ -95,15 +95,15 @@ def _unit(dolos, size, cracked, pose):
 def _wedge(dolos, side, depth):
     """Prism inside the stem at its upper (side 1) or lower (-1) corner with the upright fluke.
 
-    The prism touches the surface only with one edge, that between stem and haunch. Its side towards the fluke is the
-    crack. A solid is needed because Gmsh optimises meshes only if faces inside a body separate two solids.
+    The prism touches the surface only along the edge between stem and haunch. The side of the prism towards the fluke is
+    the crack. A solid is needed because Gmsh optimises meshes only if faces inside a body separate two solids.
 
     The crack starts at "the inner side of the chamfer, which is attached to the stem" and leans "more towards the
     fluke" (section 3.3.2). Assumed: an inclination of 45 degrees, normal to the haunch, and the full flat width of the
     stem between its chamfers.
     """
     x, z = dolos.haunch_on_stem, side * dolos.half_stem
-    # An equilateral triangle gives well-shaped tetrahedra on both sides. Angles are downwards from the x axis.
+    # An equilateral triangle gives well-shaped tetrahedra on both sides. Angles are measured downwards from the x axis.
     ways = [math.radians(45), math.radians(105)]
     section = [(x, z), *((x + depth * math.cos(way), z - side * depth * math.sin(way)) for way in ways)]
     return Polyhedron([(x, y, z) for x, z in section for y in (-dolos.half_flat, dolos.half_flat)]).solid()
@@ -142,13 +142,13 @@ def cylinder_diameter(dolos):
 def _cylinder(dolos, size):
     """Steel cylinder at the head of the upright fluke.
 
-    Assumed: the cylinder lies along y and hits with its side. Its end would hit the inclined side of the fluke with its
-    lower rim first, half a diameter below its own axis.
+    Assumed: the cylinder lies along y and hits with its curved side. If the cylinder hit with an end face, the lower rim
+    of that face would hit the inclined side of the fluke first, half a diameter below the axis of the cylinder.
     """
     diameter = cylinder_diameter(dolos)
     struck = dolos.height / 2 - STRUCK
     x = dolos.crossing + dolos.half_fluke(struck)
-    # Inclination of the fluke's side; the cylinder touches it along the line through the impact point.
+    # Inclination of the fluke's side. The cylinder touches this side along the line through the impact point.
     lean = math.atan((dolos.half_stem - dolos.half_fluke(dolos.height / 2)) / (dolos.height / 2))
     # A prism of the same mass with about one side per element. One of its edges is the contact line.
     sides = max(12, round(math.pi * diameter / size))

@@ -5,7 +5,8 @@ import math
 import gmsh
 import numpy as np
 
-# Corners with a smaller angle are narrow [degrees]: the opposite side is about half as long as the others.
+# A corner with a smaller angle is narrow [degrees]. At this angle, the opposite side is about half as long as the other
+# two sides.
 NARROW = 30.0
 # Faces are joined only if the angle between them is smaller than this [degrees].
 FLAT = 25.0

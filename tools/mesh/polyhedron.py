@@ -46,7 +46,8 @@ class Polyhedron:
 
 
 def _hull_faces(points):
-    """Rings of the faces of the convex hull. It tries the plane of every three points; there are few points."""
+    """Rings of corner indices of the faces of the convex hull. The search tries the plane of every three points, because
+    there are few points."""
     tolerance = IN_PLANE * np.ptp(points, axis=0).max()
     rings = {}
     for a, b, c in combinations(range(len(points)), 3):

@@ -26,7 +26,7 @@ class Body:
     volume: float
     # Mesh size [m].
     size: float
-    # Pre-cracks by name: tags of faces between two of the solids.
+    # Pre-existing cracks by name: tags of faces between two of the solids.
     cracks: dict = field(default_factory=dict)
 
     def faces(self):

@@ -6,7 +6,7 @@ from bars import box
 from scene import IMPACT_GAP, Body, Scene, sides_of
 from units import Tetrapod
 
-# Height of the Tetrapod [m], equal to that of the Dolos in the drop test.
+# Height of the Tetrapod [m], equal to the height of the Dolos in the drop test.
 HEIGHT = 1.0
 # Assumed: the base extends 0.2 H beyond the feet and is 0.3 H thick.
 BASE_HALF_WIDTH = 0.85

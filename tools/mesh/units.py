@@ -43,7 +43,7 @@ class Dolos:
         self.half_stem = self.STEM / 2 * height
         # Distance of a fluke's axis from the middle of the unit.
         self.crossing = height / 2 - self.half_stem
-        # Distances of the start of the haunch on the stem and of its end on the fluke from their middles.
+        # The haunch starts on the stem and ends on the fluke. Distances of both points from the middle of stem and fluke.
         self.haunch_on_stem = self.crossing - self.half_fluke(self.half_stem) - self.CHAMFER * height
         self.haunch_on_fluke = self.half_stem + self.CHAMFER * height
         # Half of the flat width between the chamfers of the stem.
@@ -54,7 +54,7 @@ class Dolos:
         self.volume = sum(block.volume() for block in self.blocks)
 
     def half_fluke(self, along):
-        """Half of a fluke's width [m] at a distance from its middle [m]."""
+        """Half of a fluke's width [m] at the distance `along` [m] from the middle of the fluke."""
         return self.half_stem + (self.END / 2 * self.height - self.half_stem) * abs(along) / (self.height / 2)
 
     def solid(self):
@@ -68,7 +68,7 @@ class Dolos:
         section = self._fluke_section
         hub = stem + [p for along in (-h, 0.0, h) for p in section(along)]
         arms = [section(side * h) + section(side * self.height / 2) for side in (-1, 1)]
-        # The other end is this one rotated by 180 degrees about z and by 90 degrees about x.
+        # The other end of the Dolos is this end, rotated by 180 degrees about z and by 90 degrees about x.
         other = np.array([[-1, 0, 0], [0, 0, 1], [0, 1, 0]])
         ends = [np.array(part) for part in (hub, *arms)]
         return [
@@ -85,17 +85,16 @@ class Dolos:
 class CoreLoc:
     """Core-Loc of size C: members 0.354 C wide in the middle, 0.189 C at the ends, chamfers of 0.1146 of the width.
 
-    Two members stand upright on both sides in y; the third lies along x between them. The dimensions are assumed, such
-    that the unit of 3.31 m has the 8 m3 of section 4.1. breakwater's own Core-Loc, with 0.362 C and 0.181 C, has the
-    same volume but edges of 0.014 C where its chamfers meet. Here the shortest edges are 0.030 C, the chamfers at the
-    ends.
+    Two members stand upright on both sides in y; the third lies along x between them. The dimensions are assumed: with
+    them a unit of 3.31 m has the 8 m3 of section 4.1. breakwater's own Core-Loc, with 0.362 C and 0.181 C, has the same
+    volume but edges of 0.014 C where its chamfers meet. Here the shortest edges, of the chamfers at the ends, are 0.030 C.
     """
 
     MIDDLE, END, CHAMFER = 0.354, 0.189, 0.1146
 
     def __init__(self, size):
         self.size = size
-        # 0.2206 C^3, for which the dimensions were chosen.
+        # The dimensions were chosen for the volume 0.2206 C^3.
         self.volume = 0.2206 * size**3
 
     def solid(self):

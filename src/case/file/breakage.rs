@@ -1,4 +1,4 @@
-//! The breakage analysis as the user writes it.
+//! Settings of the breakage analysis, as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,35 +9,35 @@ use super::{Joints, StrengthFile};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BreakageFile {
-    /// Length scale, prototype over case [-]; 1 keeps the size of the units. Velocities and times scale with its square
-    /// root, masses with its cube (Froude).
+    /// Length scale: prototype length over length in the case [-]. Velocities and times grow with the square root of
+    /// this scale, masses with its cube (Froude scaling). 1 keeps the size of the units.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Path of a mesh (MSH 4.1) of one unit, relative to the folder of the case file. The mesh is in the unit's body
-    /// axes and may have any size.
+    /// Path of a mesh file (Gmsh format MSH 4.1) of one unit, relative to the folder of the case file. The mesh must be
+    /// in the body axes of the unit and may have any size.
     pub mesh: String,
-    /// Concrete of the prototype units. Their density follows from the mass in `units`.
+    /// Concrete of the prototype units. Its density follows from `units.mass_kg` and the volume of a unit.
     pub material: BreakageMaterialFile,
-    /// Material of bed and mound, modelled as an elastic block; by default the concrete of the units.
+    /// Material of bed and mound, which are modelled as an elastic block. Default: the concrete of the units.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<BaseFile>,
-    /// Coulomb friction coefficient of units on the bed, on other units and of crack faces [-].
+    /// Coulomb friction coefficient between unit and bed, between two units, and between crack faces [-].
     #[serde(default = "default_friction")]
     pub friction: f64,
-    /// How an impact is re-run.
+    /// Method by which impacts are re-run.
     #[serde(default)]
     pub way: RerunMethod,
-    /// Which impacts are re-run.
+    /// Selection of the impacts that are re-run.
     #[serde(default)]
     pub select: ImpactSelectionFile,
-    /// Joints between the tetrahedra before they crack.
+    /// Kind of the joints between tetrahedra before the concrete cracks.
     #[serde(default)]
     pub joints: Joints,
-    /// Simulated time from the start of the impact, at prototype scale [s]. Default: 1.5 times the duration of the
-    /// impact after Hertz, and at least 10 times the unit's height over the speed of sound.
+    /// Simulated time after first contact, at prototype scale [s]. Default: 1.5 times the duration of the impact by
+    /// Hertz's law, and at least 10 times the unit's height over the speed of sound in the concrete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
-    /// Number of impacts that are computed at the same time; by default the number of threads.
+    /// Number of impacts that are computed at the same time. Default: the number of threads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cores: Option<usize>,
 }
@@ -69,30 +69,31 @@ pub struct BaseFile {
     pub poisson_ratio: f64,
 }
 
-/// How an impact is re-run.
+/// Method by which an impact is re-run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RerunMethod {
-    /// Both bodies collide again, with the poses and velocities just before the impact.
+    /// The two bodies collide again, from their poses and velocities just before the impact.
     #[default]
     ReEnact,
-    /// The recorded contact forces load the unit on its own.
+    /// Only the unit is computed, loaded by the recorded contact forces.
     LoadHistory,
     /// Both methods, one after the other.
     Both,
 }
 
-/// Which impacts are re-run.
+/// Selection of the impacts that are re-run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactSelectionFile {
-    /// Measure of hardness.
+    /// Quantity by which the impacts are ranked.
     #[serde(default)]
     pub by: ImpactMeasure,
-    /// Largest number of impacts, the hardest first. Without it, all recorded impacts are re-run.
+    /// Largest number of impacts, the hardest first. Without this key, all recorded impacts are re-run. Without the
+    /// whole entry `select`, the 3 hardest impacts are re-run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<usize>,
-    /// Smallest hardness, at the scale of the case: a force [N], a velocity [m/s] or an energy [J], as `by` says.
+    /// Smallest value of the quantity `by` at the scale of the case: force [N], velocity [m/s] or energy [J].
     #[serde(default)]
     pub at_least: f64,
 }
@@ -103,16 +104,16 @@ impl Default for ImpactSelectionFile {
     }
 }
 
-/// Measure of the hardness of an impact.
+/// Quantity by which impacts are ranked, the hardest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ImpactMeasure {
     /// Largest contact force.
     #[default]
     PeakForce,
-    /// Velocity at which the surfaces approach each other.
+    /// Normal velocity at which the surfaces approach each other.
     ApproachVelocity,
-    /// Kinetic energy of the approach.
+    /// Kinetic energy of the approach: half the effective mass times the square of the approach velocity.
     KineticEnergy,
 }
 

@@ -9,15 +9,15 @@ use super::{BreakageFile, ContactFile, FrictionFile, MaterialFile, MoundFile, Si
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryFile {
-    /// Path of the JSON schema, for editors (`breakwater schema --dry` prints it). The solver ignores it.
+    /// Path of the JSON schema, for editors (`breakwater schema --dry-test` prints it). The solver ignores it.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// Name of the case in reports, one line.
+    /// Title of the case in reports, one line.
     pub title: String,
-    /// Assumptions: values that no source gives. The report lists them.
+    /// Assumptions: values that the user had to assume because no source gives them. The report lists the assumptions.
     #[serde(default)]
     pub assumptions: Vec<String>,
-    /// The test.
+    /// Kind of test: settling, drop or tilt test.
     #[serde(alias = "dry")]
     pub dry_test: DryTestFile,
     /// Bed, mound and terrain.
@@ -27,23 +27,23 @@ pub struct DryFile {
     /// Gravitational acceleration [m/s2].
     #[serde(default = "default_gravity_m_s2")]
     pub gravity_m_s2: f64,
-    /// The units.
+    /// The armour units.
     pub units: UnitsFile,
     /// Materials of units and bed, with their elastic constants.
     pub materials: Vec<MaterialFile>,
-    /// Friction for each pair of materials that can touch.
+    /// Friction coefficients for each pair of materials that can touch.
     pub friction: Vec<FrictionFile>,
     /// Contact between units, and between units and the bed.
     #[serde(default)]
     pub contact: ContactFile,
-    /// Breakage analysis: re-runs the hardest impacts at prototype scale with breakable units.
+    /// Breakage analysis: re-runs the hardest impacts of the run at prototype scale with breakable units.
     // Not written at its default, so that the hash of cases without this key does not change.
     #[serde(alias = "fracture", default, skip_serializing_if = "Option::is_none")]
     pub breakage: Option<BreakageFile>,
     /// Output files and their intervals.
     #[serde(default)]
     pub output: DryOutputFile,
-    /// When the run ends.
+    /// Criteria that end the run: duration and rest of the units.
     pub stop: StopFile,
 }
 
@@ -57,9 +57,9 @@ fn default_gravity_m_s2() -> f64 {
 pub enum DryTestFile {
     /// Settling test: the units are released from their initial poses.
     Settle {},
-    /// Drop test: the units are lifted and released.
+    /// Drop test: the units are lifted from their initial poses and released.
     Drop(DropFile),
-    /// Tilt test: the bed is tilted slowly, its shoreward end down, until the units slide.
+    /// Tilt test: the bed tilts slowly until the units slide. The shoreward end moves downwards.
     Tilt(TiltFile),
 }
 
@@ -67,7 +67,7 @@ pub enum DryTestFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DropFile {
-    /// Height by which every unit is lifted [m].
+    /// Height by which every unit is lifted above its initial pose [m].
     pub height_m: f64,
 }
 
@@ -75,10 +75,10 @@ pub struct DropFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TiltFile {
-    /// Rate at which the slope grows [degrees/s]; a slower tilt resolves the sliding angle better.
+    /// Rate at which the tilt angle grows [degrees/s]. A lower rate gives a more accurate sliding angle.
     #[serde(default = "default_rate_deg_s")]
     pub rate_deg_s: f64,
-    /// Largest slope; the test ends there [degrees].
+    /// Largest tilt angle, at which the test ends [degrees].
     #[serde(default = "default_to_deg")]
     pub to_deg: f64,
     /// Speed above which a unit counts as sliding [m/s].
@@ -107,21 +107,21 @@ pub struct DryFlumeFile {
     /// A trapezoidal mound on the bed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mound: Option<MoundFile>,
-    /// A triangulated surface on or above the bed: rubble, a survey, a model of a mound.
+    /// A triangulated surface on or above the bed, for example rubble, a surveyed terrain or a detailed mound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub terrain: Option<TerrainFile>,
-    /// Material of bed, mound, terrain and walls, one of `materials`.
+    /// Material of bed, mound, terrain and walls: a name in `materials`.
     pub material: String,
 }
 
-/// An STL file of a surface that carries units, ASCII or binary, open or closed. Seen from the units, its triangles
-/// must run counter-clockwise.
+/// An STL file (ASCII or binary) of an open or closed surface on which units stand. The corners of each triangle must
+/// be in counter-clockwise order, seen from the side of the units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TerrainFile {
-    /// Path of the file, relative to the folder of the case file.
+    /// Path of the STL file, relative to the folder of the case file.
     pub path: String,
-    /// Length unit of the file in metres: 1, or 0.001 for millimetres.
+    /// Length unit of the file in metres: 1 for metres, 0.001 for millimetres.
     #[serde(default = "default_scale")]
     pub scale: f64,
 }
@@ -130,17 +130,17 @@ fn default_scale() -> f64 {
     1.0
 }
 
-/// Test area of a dry test. Walls stand at both ends.
+/// Test area of a dry test. Walls stand at its seaward and at its shoreward end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DryDomainFile {
     /// x of the seaward and of the shoreward end [m].
     pub x_m: [f64; 2],
-    /// Width of the area in y [m].
+    /// Width of the test area in y [m].
     pub width_m: f64,
     /// Boundaries at the two sides: `periodic` or `walls`.
     pub sides: Sides,
-    /// Top of the walls [m]; no unit may be higher at the start.
+    /// Level of the top of the walls [m]. At the start, no unit may be higher.
     pub top_z_m: f64,
 }
 
@@ -148,11 +148,11 @@ pub struct DryDomainFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DryOutputFile {
-    /// Interval of the unit surfaces [s]; 0 for none.
+    /// Interval between outputs of the unit surfaces [s]; 0 for no output.
     pub units_interval_s: f64,
-    /// Interval of the tables of motion and energy [s].
+    /// Interval between rows of the tables with unit motion and energy [s].
     pub series_interval_s: f64,
-    /// Interval of the checkpoints in simulated time [s]; 0 for none.
+    /// Interval between checkpoints in simulated time [s]; 0 for no checkpoints.
     pub checkpoint_interval_s: f64,
 }
 

@@ -1,26 +1,27 @@
-//! Landmarks and the section of a fracture case as the user writes them.
+//! Landmarks and the cut plane (section) of a fracture case, as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A landmark: a named box in the undeformed mesh. The report uses it to say where cracks begin.
+/// A landmark: a box with a name, in the undeformed mesh. The report names the landmark nearest to the start of a
+/// crack.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LandmarkFile {
-    /// Name in words, such as "upper stem-fluke corner".
+    /// Name of the landmark in the report, for example "upper stem-fluke corner".
     pub name: String,
-    /// Lower corner of the box [m].
+    /// Corner of the box with the smallest x, y and z [m].
     pub low_m: [f64; 3],
-    /// Upper corner of the box [m]; equal to `low_m` for a point.
+    /// Corner of the box with the largest x, y and z [m]; equal to `low_m` for a point.
     pub high_m: [f64; 3],
 }
 
-/// A section: a plane that cuts the bodies.
+/// A section: a plane that cuts the bodies. The report shows the stresses in this plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SectionFile {
-    /// A point in the plane [m], in the undeformed mesh.
+    /// A point of the undeformed mesh through which the plane passes [m].
     pub point_m: [f64; 3],
-    /// Normal of the plane, of any length. The pictures look along it.
+    /// Normal vector of the plane, of any length. The report views the plane along this vector.
     pub normal: [f64; 3],
 }

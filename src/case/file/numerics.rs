@@ -1,44 +1,46 @@
-//! The SPH scheme as the user writes it.
+//! The settings of the SPH scheme as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Options and constants of the SPH scheme. Defaults and equation numbers follow Mitsui et al. (2023), unless noted.
+/// Options and constants of the SPH scheme. Defaults and equation numbers are those of Mitsui et al. (2023), except
+/// where noted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct NumericsFile {
-    /// Smoothing factor h / (sqrt(3) dp) [-], with smoothing length h.
+    /// Smoothing factor h / (sqrt(3) dp) [-], with the smoothing length h and the particle spacing dp.
     pub smoothing_factor: f64,
     /// Viscosity model.
     pub viscosity: Viscosity,
-    /// Coefficient alpha of artificial viscosity [-] (equation 3); the other models ignore it.
+    /// Coefficient alpha of artificial viscosity [-] (equation 3). The other viscosity models ignore this key.
     pub viscosity_alpha: f64,
-    /// Kinematic viscosity nu [m2/s]; artificial viscosity ignores it.
+    /// Kinematic viscosity nu of the laminar models [m2/s]. Artificial viscosity ignores this key.
     pub kinematic_viscosity_m2_s: f64,
-    /// Density diffusion, which smooths noise in the density.
+    /// Form of the density diffusion, which smooths numerical noise in the density.
     pub density_diffusion: DensityDiffusion,
     /// Coefficient delta of density diffusion [-] (equation 4).
     pub diffusion_delta: f64,
-    /// Coefficient A of particle shifting [-]; 0 for none, usually 1 to 6.
+    /// Coefficient A of particle shifting [-]: 0 for no shifting. A usual value is 2.
     pub shifting_coefficient: f64,
-    /// Courant number [-].
+    /// Courant number C of the time step [-].
     pub cfl: f64,
-    /// Boundary condition of walls, wavemaker and units.
+    /// Boundary condition at bed, walls, wavemaker and units.
     pub boundary: Boundary,
-    /// Velocity condition at walls. Default: `free_slip` with `mdbc`, `original` (as in the published runs) with `dbc`.
+    /// Velocity condition at bed and walls. Default: `free_slip` with `mdbc`, and `original` with `dbc`, as in the
+    /// published runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_slip: Option<WallSlip>,
-    // This key and the next are not written at their defaults, so that the hash of older cases does not change.
-    /// Whether `free_slip` holds for units, too; false: no slip on units. Only with `wall_slip` `free_slip`.
+    // This key and the next key are not written at their defaults, so that the hash of older cases does not change.
+    /// true: free slip at the units, too; false: no slip at the units. Only used if `wall_slip` is `free_slip`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub slip_on_units: bool,
-    /// Whether the water pressure acts on a unit through gaps that are too narrow for water particles. false: only
-    /// water particles act on units, as in the published runs (as far as described). Only with `mdbc`.
+    /// true: water pressure also acts on a unit in gaps that are too narrow for water particles. false: only water
+    /// particles act on units, probably as in the published runs. Has an effect only with `mdbc`.
     #[serde(skip_serializing_if = "Clone::clone")]
     pub gap_pressure: bool,
     /// Number of particle layers in walls and bed.
     pub boundary_layers: u32,
-    /// Time at the start for which the units are held while the water around them settles [s].
+    /// Time at the start of the run during which the units are fixed, so that the water around them comes to rest [s].
     pub hold_units_s: f64,
 }
 
@@ -69,15 +71,15 @@ impl Default for NumericsFile {
 pub enum Viscosity {
     /// Artificial viscosity (Monaghan 1992), equation 3.
     Artificial,
-    /// Laminar viscosity (Lo & Shao 2002); gives too little friction in waves.
+    /// Laminar viscosity (Lo & Shao 2002). Near a free surface, it dissipates too little energy of waves.
     Laminar,
     /// Laminar viscosity with sub-particle-scale turbulence (Dalrymple & Rogers 2006).
     LaminarSps,
-    /// Laminar viscosity (Monaghan & Gingold 1983); also correct at the free surface.
+    /// Laminar viscosity (Monaghan & Gingold 1983). Its dissipation is also correct near a free surface.
     LaminarMonaghanGingold,
 }
 
-/// Density diffusion.
+/// Form of the density diffusion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DensityDiffusion {
@@ -91,19 +93,19 @@ pub enum DensityDiffusion {
     Antuono,
 }
 
-/// Velocity condition at walls: the velocity that boundary particles take in the equations of the water.
+/// Velocity condition at bed and walls: the velocity of boundary particles in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WallSlip {
-    /// Velocity of the wall (English et al. 2022).
+    /// Boundary particles have the velocity of the wall (English et al. 2022).
     Original,
-    /// No slip: the water sticks to the wall.
+    /// No slip: the water at the wall has the velocity of the wall.
     NoSlip,
-    /// Free slip: the water slides along the wall.
+    /// Free slip: the water slides along the wall without friction.
     FreeSlip,
 }
 
-/// Boundary condition of walls, wavemaker and units.
+/// Boundary condition at bed, walls, wavemaker and units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Boundary {

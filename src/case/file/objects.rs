@@ -1,61 +1,62 @@
-//! Armour units, materials, contact and gauges as the user writes them.
+//! Armour units, materials, contact and gauges, as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Armour units, all of the same shape and mass: a row across the flume, given centres or poses, or armour layers.
+/// Armour units, all of the same shape and mass. They form a row across the flume or armour layers, or the case lists
+/// their centres or poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsFile {
     /// Shape of a unit.
     pub shape: Shape,
-    /// Height H of a Tetrapod on three legs, of a Dolos or of a grooved cube; size C of a Core-Loc [m].
+    /// Height H of a Tetrapod that stands on three legs, of a Dolos or of a grooved cube, or size C of a Core-Loc [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
     /// Edge lengths of a cuboid along x, y and z [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_m: Option<[f64; 3]>,
-    /// Waist ratio of a Dolos: width of the stem over the height [-]. Default: 0.34.
+    /// Waist ratio of a Dolos [-]: width of the stem over the height of the unit. Default: 0.34.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waist_ratio: Option<f64>,
-    /// STL files of a unit, for the shape `stl`.
+    /// STL files of a unit. Required for the shape `stl`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stl: Option<StlFile>,
     /// Mass of a unit [kg].
     pub mass_kg: f64,
-    /// Material of the units, one of `materials`.
+    /// Material of the units: a name in `materials`.
     pub material: String,
     /// Number of units in the row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
-    /// Pose of each unit, instead of a row.
+    /// Pose of each unit. Replaces the row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<Vec<PoseFile>>,
-    /// Placement file from `breakwater place`, which lists the poses. Its path is relative to the folder of the case
-    /// file.
+    /// Path of a placement file, relative to the folder of the case file. `breakwater place` writes this file, which
+    /// lists the poses of the units.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement_file: Option<String>,
-    /// Armour layers on a slope. `breakwater place` lowers their units onto the slope one by one and writes the
-    /// `placement_file`, which a run needs.
+    /// Armour layers on a slope. `breakwater place` lowers the units onto the slope one by one and writes a placement
+    /// file. A run then needs the key `placement_file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armour: Option<ArmourFile>,
-    /// Distance between the axes of neighbouring units in the row [m].
+    /// Distance between the vertical axes of neighbouring units in the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_m: Option<f64>,
-    /// x of the row [m].
+    /// x of the axes of the units in the row [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_m: Option<f64>,
-    /// Centre [x, y, z] of each unit [m], instead of `count`, `pitch_m`, `x_m` and `first_y_m`. Units may stand on each
-    /// other.
+    /// Centre of mass [x, y, z] of each unit [m]. Replaces `count`, `pitch_m`, `x_m` and `first_y_m`. Units may stand
+    /// on other units.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centres_m: Option<Vec<[f64; 3]>>,
-    /// y of the first unit of the row [m]; by default the row is centred.
+    /// y of the first unit of the row [m]. By default, the row is in the middle of the flume width.
     #[serde(default)]
     pub first_y_m: Option<f64>,
     /// Rotation of the units of the row about the vertical axis.
     #[serde(default)]
     pub orientation: Orientation,
-    /// Displacement above which a unit counts as damaged [m]. Default: the height of the unit.
+    /// A unit counts as damaged if its displacement is larger than this distance [m]. Default: the height of the unit.
     #[serde(default)]
     pub damage_distance_m: Option<f64>,
 }
@@ -66,16 +67,16 @@ pub struct UnitsFile {
 pub struct ArmourFile {
     /// x of the seaward and of the shoreward end of the layers [m].
     pub x_m: [f64; 2],
-    /// Number of layers.
+    /// Number of armour layers.
     #[serde(default = "default_armour_layers")]
     pub layers: u32,
-    /// Packing density: units of all layers per area D_n^2 of the slope [-]. Two layers of Tetrapods 1.04, of Dolosse
-    /// 0.83, of cubes 1.17 (Shore Protection Manual 1984).
+    /// Packing density [-]: number of units in all layers per slope area of D_n^2. For two layers: 1.04 for Tetrapods,
+    /// 0.83 for Dolosse, 1.17 for cubes (Shore Protection Manual 1984).
     pub packing_density: f64,
-    /// Rotation of the units.
+    /// Rotation of the units before they are lowered onto the slope.
     #[serde(default)]
     pub orientation: ArmourOrientation,
-    /// Seed of the random rotations.
+    /// Seed of the random numbers. The same seed gives the same rotations.
     #[serde(default)]
     pub seed: u64,
 }
@@ -84,14 +85,14 @@ fn default_armour_layers() -> u32 {
     2
 }
 
-/// Rotation of the units of an armour layer before they are lowered.
+/// Rotation of the units of an armour layer before they are lowered onto the slope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArmourOrientation {
-    /// Random; all rotations are equally likely.
+    /// Random rotation about any axis. All rotations are equally likely.
     #[default]
     Random,
-    /// Upright; neighbours differ by 180 degrees about the vertical axis.
+    /// Upright units. Neighbours differ by 180 degrees about the vertical axis.
     Alternating,
 }
 
@@ -101,7 +102,7 @@ pub enum ArmourOrientation {
 pub struct PoseFile {
     /// Centre of mass [x, y, z] [m].
     pub centre_m: [f64; 3],
-    /// Rotation from the unit's own axes, a unit quaternion [x, y, z, w]. Default: no rotation.
+    /// Rotation from body axes to space axes, as a quaternion [x, y, z, w] of length 1. Default: no rotation.
     #[serde(default = "no_rotation")]
     pub quaternion_xyzw: [f64; 4],
 }
@@ -114,12 +115,12 @@ fn no_rotation() -> [f64; 4] {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlacementFile {
-    /// Title of the case.
+    /// Title of the case whose units were placed.
     pub title: String,
-    /// Packing density reached: units per area D_n^2 of the slope [-], for armour layers.
+    /// Packing density that was reached [-]: number of units in all layers per slope area of D_n^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packing_density: Option<f64>,
-    /// The poses.
+    /// Pose of each unit.
     pub poses: Vec<PoseFile>,
 }
 
@@ -129,20 +130,20 @@ pub struct PlacementFile {
 pub enum Shape {
     /// Tetrapod (Danel & Greslou 1962).
     Tetrapod,
-    /// Cuboid.
+    /// Cuboid (rectangular block).
     Cuboid,
     /// Dolos (Merrifield 1974).
     Dolos,
     /// Core-Loc (Melby & Turk 1997).
     CoreLoc,
-    /// Cube with a groove in each side: Antifer block.
+    /// Cube with a groove in each side face (Antifer block).
     GroovedCube,
-    /// Any shape, from STL files.
+    /// Any shape, given by STL files.
     Stl,
 }
 
 impl Shape {
-    /// Returns the name in case files.
+    /// Returns the name of the shape in case files.
     pub fn key(self) -> &'static str {
         match self {
             Self::Tetrapod => "tetrapod",
@@ -155,17 +156,18 @@ impl Shape {
     }
 }
 
-/// STL files of a unit, ASCII or binary. Paths are relative to the folder of the case file. The files show the upright
-/// unit, z upwards.
+/// STL files of a unit, ASCII or binary. Paths are relative to the folder of the case file. In the files, the
+/// unit stands upright and z points upwards.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StlFile {
-    /// Closed surface of the unit.
+    /// Path of the STL file with the closed surface of the unit.
     pub path: String,
-    /// Length unit of the files in metres: 1, or 0.001 for millimetres.
+    /// Length unit of the files in metres: 1 for metres, 0.001 for millimetres.
     #[serde(default = "default_scale")]
     pub scale: f64,
-    /// Surfaces of convex parts that together fill the unit. Default: the program decomposes the unit itself.
+    /// Paths of STL files with convex parts that together fill the unit. By default, the program divides the unit into
+    /// convex parts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
 }
@@ -178,26 +180,28 @@ fn default_scale() -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Orientation {
-    /// Neighbours differ by 180 degrees; the first unit has a leg pointing seaward (SPH1 of Mitsui et al.).
+    /// Neighbours differ by 180 degrees. The first unit has a leg that points seaward (SPH1 of Mitsui et al. 2023).
     #[default]
     Alternating,
-    /// Neighbours differ by 180 degrees; the first unit has a leg pointing shoreward (SPH2).
+    /// Neighbours differ by 180 degrees. The first unit has a leg that points shoreward (SPH2 of Mitsui et al. 2023).
     AlternatingReversed,
-    /// Every unit has a leg pointing seaward.
+    /// Every unit has a leg that points seaward.
     Seaward,
-    /// Every unit has a leg pointing shoreward.
+    /// Every unit has a leg that points shoreward.
     Shoreward,
 }
 
-/// A material of units or bed: its constants in contact.
+/// A material of units or bed, with the constants that its contacts need.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
-    /// Name used by `units.material`, `flume.material` and `friction`.
+    /// Name of the material. `units.material`, `flume.material` and `friction` refer to this name.
     pub name: String,
-    /// Young's modulus in contact [Pa]. A smaller value than the real one makes contacts and time steps longer.
+    /// Young's modulus of the contacts [Pa]. A value below the real one makes contacts last longer and allows longer
+    /// time steps.
     pub young_modulus_pa: f64,
-    /// Measured stiffness of a contact between two bodies of this material [N/m], for the contact law `linear`.
+    /// Measured stiffness of a contact between two bodies of this material [N/m]. Required for the contact law
+    /// `linear`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_stiffness_n_m: Option<f64>,
     /// Poisson's ratio [-].
@@ -206,21 +210,22 @@ pub struct MaterialFile {
     pub restitution: f64,
 }
 
-/// Friction between two materials.
+/// Friction, rolling resistance and restitution between two materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionFile {
-    /// Names of the two materials; the same name twice for contacts between units.
+    /// Names of the two materials. For contacts between units, write the material of the units twice.
     pub between: [String; 2],
-    /// Coulomb friction coefficient [-]; the static one if `kinetic_coefficient` is given.
+    /// Coulomb friction coefficient [-]. If `kinetic_coefficient` is given, this is the static friction coefficient.
     pub coefficient: f64,
-    /// Coulomb friction coefficient of sliding contacts [-]. Default: `coefficient`.
+    /// Kinetic friction coefficient, for sliding contacts [-]. Default: `coefficient`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinetic_coefficient: Option<f64>,
-    /// Rolling resistance coefficient [-]: moment over normal force and rounding radius.
+    /// Rolling resistance coefficient [-]: largest resisting moment, divided by normal force times rounding radius.
+    /// Default: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_coefficient: Option<f64>,
-    /// Coefficient of restitution of the pair [-]. Default: the smaller value of the two materials.
+    /// Coefficient of restitution of this pair of materials [-]. Default: the smaller of the two materials' values.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
 }
@@ -229,7 +234,7 @@ pub struct FrictionFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContactFile {
-    /// Rounding radius of a unit's edges over its height [-]; it is also the radius in Hertz's law.
+    /// Rounding radius of the edges of a unit over the height of the unit [-]. Hertz's law uses the same radius.
     pub rounding_share: f64,
     /// Contact law.
     // Not written at its default, so that the hash of cases without this key does not change.
@@ -247,13 +252,13 @@ impl Default for ContactFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ContactLawName {
-    /// Hertz in the normal direction; Mindlin's spring with history in the tangential direction.
+    /// Hertz's law for the normal force; Mindlin's spring with history for the tangential force.
     #[default]
     HertzMindlin,
-    /// Linear springs with the measured stiffness `contact_stiffness_n_m` of the materials.
+    /// Linear springs whose stiffness follows from the key `contact_stiffness_n_m` of the materials.
     Linear,
-    /// Law of the published runs (Chrono 4.0): every contact has a radius of 0.1 m, and its tangential spring lasts
-    /// only one time step, so that units creep.
+    /// Law of the published runs (Chrono 4.0). Every contact has a radius of 0.1 m. The tangential spring is reset in
+    /// each time step; therefore units creep.
     Chrono4,
 }
 
@@ -263,19 +268,19 @@ impl ContactLawName {
     }
 }
 
-/// A gauge: a point at which the water is measured.
+/// A gauge: a point at which elevation, pressure or velocity of the water is measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum GaugeFile {
-    /// Elevation of the free surface above the still water level [m]. The flume model writes it, too.
+    /// Elevation of the free surface above the still water level [m]. The flume model also writes this elevation.
     Elevation(ElevationFile),
-    /// Pressure [Pa].
+    /// Pressure of the water [Pa].
     Pressure(PointFile),
-    /// Velocity [m/s].
+    /// Velocity of the water [m/s].
     Velocity(PointFile),
 }
 
-/// A gauge for the elevation of the free surface.
+/// A gauge that measures the elevation of the free surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ElevationFile {
@@ -283,12 +288,12 @@ pub struct ElevationFile {
     pub name: String,
     /// x of the gauge, along the flume [m].
     pub x_m: f64,
-    /// y of the gauge, across the flume [m]. Default: the middle.
+    /// y of the gauge, across the flume [m]. Default: the middle of the flume width.
     #[serde(default)]
     pub y_m: Option<f64>,
 }
 
-/// A gauge at a point in the water.
+/// A gauge that measures pressure or velocity at a point in the water.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointFile {
@@ -296,11 +301,11 @@ pub struct PointFile {
     pub name: String,
     /// Initial position [x, y, z] [m].
     pub at_m: [f64; 3],
-    /// Number of the unit that the gauge moves with, from 1.
+    /// Number of the unit with which the gauge moves, counted from 1. By default, the gauge moves with no unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_unit: Option<u32>,
-    /// Path of a moving gauge: rows [t, x, y, z] of the time from the start of the particles [s] and the displacement
-    /// [m]. The gauge moves linearly between rows and stays at the last one.
+    /// Path of a moving gauge. Each row [t, x, y, z] has the time from the start of the particle simulation [s] and the
+    /// displacement [m]. The gauge moves linearly between rows, and stays at the displacement of the last row.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub way: Vec<[f64; 4]>,
 }

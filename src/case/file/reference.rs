@@ -1,50 +1,50 @@
-//! `reference.json`: measured and published displacements of armour units.
+//! `reference.json` as the user writes it: measured and published displacements of armour units.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A reference folder: this file, `reference.json`, and the CSV files that it names, in the same folder. Runs are
-/// compared with it.
+/// Contents of `reference.json`, which describes the measured and published displacements in a reference folder. The
+/// CSV files that `reference.json` names are in the same folder. Runs are compared with these displacements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceFile {
     /// Path of the JSON schema, for editors (`breakwater schema --reference` prints it). Not used by the program.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// What was measured, in one line.
+    /// Title of the measurements, one line.
     pub title: String,
-    /// Where it was published.
+    /// Publication of the measurements.
     pub source: String,
-    /// Remarks on the data; every comparison shows them.
+    /// Remarks on the data. Every comparison page shows the remarks.
     #[serde(default)]
     pub notes: Vec<String>,
-    /// Number of units; every displacement file has one row for each.
+    /// Number of units. Every displacement file has one row per unit.
     pub units: u32,
-    /// First and last unit, counted from 1, that do not stand at a side wall; all units if left out.
+    /// First and last of the units that do not stand at a side wall, counted from 1. Default: all units.
     #[serde(default)]
     pub inner_units: Option<[u32; 2]>,
-    /// A unit is damaged when it has moved further than this [m].
+    /// A unit counts as damaged if its displacement is larger than this distance [m].
     pub damage_distance_m: f64,
-    /// The series of displacements; every displacement file has one column for each.
+    /// Series of displacements. Every displacement file has one column per series.
     pub series: Vec<SeriesFile>,
-    /// The waves.
+    /// Waves of the experiment.
     pub waves: Vec<ReferenceWaveFile>,
 }
 
-/// A series of displacements.
+/// A series of displacements: one repetition of the experiment, or one published simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SeriesFile {
-    /// Name of its column in the displacement files.
+    /// Name of the series, which is its column name in the displacement files.
     pub name: String,
-    /// Where its numbers come from.
+    /// Origin of the displacements: experiment or published simulation.
     pub role: SeriesRole,
-    /// Particle spacing of a published simulation [m].
+    /// Particle spacing of a published simulation [m]. Leave this key out for measurements.
     #[serde(default)]
     pub dp_m: Option<f64>,
 }
 
-/// Where the numbers of a series come from.
+/// Origin of the displacements in a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SeriesRole {
@@ -54,7 +54,7 @@ pub enum SeriesRole {
     PublishedSimulation,
 }
 
-/// A wave of the experiment. A run belongs to it that has the same kind, height and, if given, period.
+/// A wave of the experiment. A run is compared with this wave if kind, height and, if given, period are the same.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceWaveFile {
@@ -62,14 +62,14 @@ pub struct ReferenceWaveFile {
     pub kind: ReferenceWaveKind,
     /// Wave height as in a case file [m].
     pub height_m: f64,
-    /// Period of a regular wave or peak period of an irregular one, as in a case file [s].
+    /// Period of regular waves or peak period of irregular waves, as in a case file [s].
     #[serde(default)]
     pub period_s: Option<f64>,
-    /// CSV file with the displacement of each unit seen from above [m]: one row per unit, from the unit with the
-    /// smallest y; columns by the names of the series. Lines that begin with `#` are comments.
+    /// CSV file with the horizontal displacement of each unit [m]: one row per unit, in order of increasing y, and one
+    /// column per series, with the name of the series. Lines that begin with `#` are comments.
     pub displacements: String,
-    /// CSV file with a published resolution study: `dp_m` [m] and `deviation_percent`, the deviation of the mean
-    /// displacement from the measured mean [%]; optional columns `particles` and `runtime_h` [h].
+    /// CSV file with a published resolution study. Its columns are `dp_m` [m] and `deviation_percent`, the deviation of
+    /// the mean displacement from the measured mean [%]. The columns `particles` and `runtime_h` [h] are optional.
     #[serde(default)]
     pub convergence: Option<String>,
 }
@@ -82,12 +82,12 @@ pub enum ReferenceWaveKind {
     Solitary,
     /// A regular wave.
     Regular,
-    /// Irregular waves; height and period are those of the spectrum.
+    /// Irregular waves. The height is the significant wave height, the period the peak period.
     Irregular,
 }
 
 impl ReferenceWaveKind {
-    /// The name in case files and summaries.
+    /// Returns the name of the wave kind in case files and summaries.
     pub fn name(self) -> &'static str {
         match self {
             Self::Solitary => "solitary",

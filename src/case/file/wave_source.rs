@@ -1,35 +1,35 @@
-//! A wave from another program as the user writes it.
+//! Settings for a wave from another program, as the user writes them.
 
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A wave from another program: the velocity of its water at the wavemaker, over height and time.
+/// A wave from another program, given by the water velocity at the wavemaker as a function of height and time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExternalWaveFile {
-    /// The files of the other program.
+    /// Files that the other program has written.
     pub source: WaveSourceFile,
-    /// Celerity of the wave [m/s]. With it, the rows of the wavemaker follow the moving water. Without it, they move
-    /// with the velocity at a fixed position, and their stroke is too short.
+    /// Celerity of the wave [m/s]. If given, each row of the wavemaker moves with the velocity at its current position.
+    /// If not given, each row moves with the velocity at its start position, and the stroke is too short.
     #[serde(default)]
     pub celerity_m_s: Option<f64>,
 }
 
-/// Files with velocities. Paths are relative to the folder of the case file.
+/// Files with water velocities. Paths are relative to the folder of the case file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "format", deny_unknown_fields)]
 pub enum WaveSourceFile {
-    /// A `_velx` file of DualSPHysics' multi-layer piston. `breakwater wave` writes such files, too.
+    /// A `_velx` file for the multi-layer piston of DualSPHysics. `breakwater wave` also writes such files.
     Dualsphysics(VelxFile),
     /// Tables from SWASH.
     Swash(SwashFile),
-    /// Probes or a sampled line from OpenFOAM.
+    /// Probes or a sampled vertical line from OpenFOAM.
     Openfoam(OpenfoamFile),
 }
 
-/// A `_velx` file.
+/// A `_velx` file for the multi-layer piston of DualSPHysics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VelxFile {
@@ -37,15 +37,15 @@ pub struct VelxFile {
     pub path: PathBuf,
 }
 
-/// Tables from SWASH for one point.
+/// Tables that SWASH has written for one point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SwashFile {
-    /// Table with the columns `TSEC` and `WATL`.
+    /// Table of the water level, with the columns `TSEC` and `WATL`.
     pub level: SwashTableFile,
-    /// Table with the columns `TSEC` and `VELK`; it may be the same file.
+    /// Table of the velocities, with the columns `TSEC` and `VELK`. It may be the same file as for `level`.
     pub velocity: SwashTableFile,
-    /// Layer thicknesses over the depth [-], from the surface downwards. Default: equal layers.
+    /// Thickness of each layer over the depth [-], from the surface downwards. Default: all layers are equally thick.
     #[serde(default)]
     pub layer_shares: Vec<f64>,
 }
@@ -56,8 +56,8 @@ pub struct SwashFile {
 pub struct SwashTableFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Columns in order, required if the file has no header: `tsec`, `watl`, `velk1`, `velk2` (x velocity of a layer,
-    /// layer 1 at the surface), `velx` (depth-averaged), `-` for any other column.
+    /// Names of the columns in order, required if the file has no header: `tsec`, `watl`, `velk1`, `velk2` and so on
+    /// (x velocity of a layer, layer 1 at the surface), `velx` (depth-averaged x velocity), `-` for any other column.
     #[serde(default)]
     pub columns: Vec<String>,
 }
@@ -73,26 +73,27 @@ pub enum UpFile {
     Z,
 }
 
-/// Probes over the height at one position, or a vertical line that was sampled at each time.
+/// OpenFOAM output at one position: probes at several heights, or a vertical line that was sampled at each output time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpenfoamFile {
-    /// Folder of the function object, e.g. `postProcessing/probes`. It has one subfolder per start of the run for
-    /// probes, one per time for a line.
+    /// Folder of the function object, e.g. `postProcessing/probes`. For probes, it has one subfolder per start of the
+    /// OpenFOAM run; for a line, one subfolder per output time.
     pub folder: PathBuf,
-    /// Name of the line; leave it out for probes.
+    /// Name of the sampled line. Leave this key out for probes.
     #[serde(default)]
     pub line: Option<String>,
-    /// Name of the velocity field.
+    /// Name of OpenFOAM's velocity field.
     #[serde(default = "default_velocity")]
     pub velocity: String,
-    /// Name of the field with the water fraction, sampled at the same points; samples in air are ignored.
+    /// Name of the field with the water fraction, sampled at the same points as the velocity. If given, velocities in
+    /// air are ignored.
     #[serde(default)]
     pub water: Option<String>,
-    /// Vertical axis.
+    /// Vertical axis of OpenFOAM's mesh.
     #[serde(default)]
     pub up: UpFile,
-    /// Level of the origin of OpenFOAM's mesh [m], in the z of `flume.bed_m`.
+    /// Level of the origin of OpenFOAM's mesh [m], as a z coordinate like those of `flume.bed_m`.
     #[serde(default)]
     pub origin_z_m: f64,
 }

@@ -1,15 +1,15 @@
-//! The wave and the wavemaker as the user writes them.
+//! Settings of the wave and the wavemaker, as the user writes them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::wave_source::ExternalWaveFile;
 
-/// The wave.
+/// Kind of wave, with its parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WaveFile {
-    /// No wave: still water, or a dam break.
+    /// No wave, for still water or a dam break.
     None {},
     /// A solitary wave.
     Solitary(SolitaryFile),
@@ -27,24 +27,24 @@ impl Default for WaveFile {
     }
 }
 
-/// A solitary wave. The flume model carries it from the seaward end of the flume to the domain, or a piston at the
-/// seaward end of the domain generates it.
+/// A solitary wave. Either the flume model carries the wave from the seaward end of the flume to the domain, or a
+/// piston at the seaward end of the domain generates the wave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolitaryFile {
     /// Wave height above the still water level, at the depth where the wave is generated [m].
     pub height_m: f64,
-    /// Theory of the wave, which also decides how it is generated.
+    /// Theory of the solitary wave. It also determines how the wave is generated.
     #[serde(default)]
     pub theory: SolitaryTheory,
 }
 
-/// Regular waves, which grow from still water. The flume model carries waves of permanent form from the seaward end of
-/// the flume to the domain, or a piston or a flap at the seaward end of the domain generates them.
+/// Regular waves, which grow from still water. Either the flume model carries waves of permanent form from the seaward
+/// end of the flume to the domain, or a piston or flap at the seaward end of the domain generates the waves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegularFile {
-    /// Wave height, trough to crest [m].
+    /// Wave height from trough to crest [m].
     pub height_m: f64,
     /// Wave period [s].
     pub period_s: f64,
@@ -53,7 +53,7 @@ pub struct RegularFile {
     pub ramp_periods: f64,
 }
 
-/// Irregular waves with a JONSWAP spectrum. The flume model carries them from the seaward end of the flume to the
+/// Irregular waves with a JONSWAP spectrum. The flume model carries the waves from the seaward end of the flume to the
 /// domain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -62,10 +62,11 @@ pub struct IrregularFile {
     pub significant_height_m: f64,
     /// Peak period T_p of the spectrum [s].
     pub peak_period_s: f64,
-    /// Peak enhancement factor gamma [-]: 3.3 on average, 1 for the Pierson-Moskowitz spectrum.
+    /// Peak enhancement factor gamma of the spectrum [-]: 3.3 for the mean JONSWAP spectrum, 1 for the
+    /// Pierson-Moskowitz spectrum.
     #[serde(default = "default_peak_enhancement")]
     pub peak_enhancement: f64,
-    /// Seed of the random phases; the same seed gives the same waves.
+    /// Seed of the random phases. The same seed gives the same waves.
     #[serde(default = "default_seed")]
     pub seed: u64,
     /// Time after which the waves repeat, in peak periods [-].
@@ -98,10 +99,10 @@ fn default_repeat_periods() -> f64 {
 pub enum SolitaryTheory {
     /// Piston motion with k = sqrt(3H / 4d^3) (Goring & Raichlen 1980).
     Boussinesq,
-    /// Piston motion with k = sqrt(3H / 4d^2(d+H)), closer to the exact wave (Guizien & Barthelemy 2002).
+    /// Piston motion with k = sqrt(3H / 4d^2(d+H)), more accurate than `boussinesq` (Guizien & Barthelemy 2002).
     #[default]
     Rayleigh,
-    /// Third-order wave (Grimshaw 1971), which flows into the flume at its seaward end.
+    /// Third-order wave (Grimshaw 1971), which enters the flume model through its seaward end.
     ThirdOrder,
 }
 
@@ -109,11 +110,11 @@ pub enum SolitaryTheory {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum WavemakerFile {
-    /// Multi-layer piston: its rows follow the water of the flume model or of the wave files; for all waves.
+    /// Multi-layer piston, for all waves. Its rows move with the water of the flume model or of the wave files.
     MlPiston(PistonFile),
-    /// Rigid piston that follows wave theory for the depth at its position; for solitary and regular waves.
+    /// Rigid piston, for solitary and regular waves. Its motion follows from wave theory for the depth at the piston.
     Piston(PistonFile),
-    /// Flap that rotates about a hinge, after first-order theory; for regular waves.
+    /// Flap that rotates about a hinge, for regular waves. Its motion follows from first-order wave theory.
     Flap(FlapFile),
 }
 
@@ -124,7 +125,7 @@ impl Default for WavemakerFile {
 }
 
 impl WavemakerFile {
-    /// Whether it is the default.
+    /// Returns true for the default wavemaker.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -134,8 +135,9 @@ impl WavemakerFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PistonFile {
-    /// Distance from the piston to an absorption gauge, which moves with it [m]. The piston absorbs reflected waves:
-    /// the measured elevation minus the generated wave. By default it reflects them.
+    /// Distance between the piston and an absorption gauge, which moves with the piston [m]. With this key, the piston
+    /// absorbs reflected waves: the elevation at the gauge minus the generated wave. By default, there is no
+    /// absorption.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absorption_gauge_m: Option<f64>,
 }
@@ -144,7 +146,7 @@ pub struct PistonFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlapFile {
-    /// Level of the hinge [m], in the z of `flume.bed_m`. It may lie below the bed. If it lies above the bed, a wall
-    /// closes the gap.
+    /// Level of the hinge [m], as a z coordinate like those of `flume.bed_m`. The hinge may be below the bed. If it is
+    /// above the bed, a wall closes the gap below the hinge.
     pub hinge_z_m: f64,
 }

@@ -5,14 +5,14 @@ use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::profile::Profile;
 use crate::waves::flume_model::layered::{Friction, RightEnd};
 
-/// Largest coordinate [m]; larger values are typing errors.
+/// Largest coordinate [m]. Larger values are probably typing errors.
 const LARGEST_COORDINATE: f64 = 1e5;
 /// Largest number of cells in the flume model.
 const MOST_CELLS: f64 = 200_000.0;
 /// Largest number of corner points of a bed.
 const MOST_BED_POINTS: usize = 100_000;
 
-/// The whole flume; SI units.
+/// Bed, mound and still water of the whole flume; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flume {
     /// Ground: the bed with the mound.
@@ -27,7 +27,7 @@ pub struct Flume {
     pub material: Option<usize>,
     /// Number of layers of the flume model.
     pub layers: usize,
-    /// Cell size of the flume model [m].
+    /// Cell length of the flume model along the flume [m].
     pub cell: f64,
     /// Friction of the bed in the flume model.
     pub friction: Friction,
@@ -51,18 +51,18 @@ impl Flume {
         [points[0][0], points[points.len() - 1][0]]
     }
 
-    /// Returns the still water depth at x above bed and mound [m]; 0 where the ground is dry.
+    /// Returns the still water depth at x [m], above the mound where there is one; 0 where the ground is dry.
     pub fn still_depth(&self, x: f64) -> f64 {
         (self.still_water_level - self.profile.z(x)).max(0.0)
     }
 
-    /// Returns the still water depth at the seaward end [m].
+    /// Returns the still water depth at the seaward end of the flume [m].
     pub fn offshore_depth(&self) -> f64 {
         self.still_water_level - self.bed.points()[0][1]
     }
 }
 
-/// Validates the flume; `material` is the index of its material.
+/// Validates the flume; `material` is the index of the material of bed and mound.
 pub fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) -> Option<Flume> {
     let before = check.count();
     validate_bed(&file.bed_m, check);
@@ -71,13 +71,13 @@ pub fn validate(file: &FlumeFile, material: Option<usize>, check: &mut Checker) 
         file.still_water_level_m,
         at_least(-LARGEST_COORDINATE).up_to(LARGEST_COORDINATE),
         "m",
-        "write the level in the z of `flume.bed_m`",
+        "write the level as a z coordinate like those of `flume.bed_m`",
     );
     if let Some(mound) = &file.mound {
         validate_mound_numbers(mound, check);
     }
     if let Some(n) = file.manning_s_m13 {
-        let advice = "glass has 0.010, smooth concrete 0.013, gravel 0.03; leave it out for no friction";
+        let advice = "glass has 0.010, smooth concrete 0.013, gravel 0.03; leave the key out for no friction";
         check.number("flume.manning_s_m13", n, at_least(0.0).up_to(0.2), "s m^(-1/3)", advice);
     }
     validate_model(file, check);
@@ -116,7 +116,7 @@ fn validate_model(file: &FlumeFile, check: &mut Checker) {
                 "flume.cell_m",
                 as_text(file.cell_m),
                 format!("at least {} m, for at most {MOST_CELLS} cells in the flume", as_text(length / MOST_CELLS)),
-                "write a larger cell or shorten `flume.bed_m`",
+                "write a larger cell length or shorten `flume.bed_m`",
             );
         }
     }
@@ -161,7 +161,7 @@ fn validate_bed(points: &[[f64; 2]], check: &mut Checker) {
         check.number(&format!("flume.bed_m[{index}][1]"), *z, allowed, "m", "write z in metres");
     }
     for (index, pair) in points.windows(2).enumerate() {
-        // A segment shorter than a micrometre is a vertical step, whose slope is not defined.
+        // A segment shorter than a micrometre is a vertical step, which has no defined slope.
         if pair[1][0] - pair[0][0] < 1e-6 {
             check.reject(
                 &format!("flume.bed_m[{}][0]", index + 1),
@@ -218,7 +218,7 @@ fn place_mound(mound: &MoundFile, bed: &Profile, check: &mut Checker) -> Option<
             "flume.mound.crest_z_m",
             as_text(mound.crest_z_m),
             format!("above the bed under the crest, {} m", as_text(highest)),
-            "write the level in the z of `flume.bed_m`, not the height above the bed",
+            "write the level as a z coordinate like those of `flume.bed_m`, not as a height above the bed",
         );
         return None;
     }

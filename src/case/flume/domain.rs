@@ -20,7 +20,7 @@ pub struct Domain {
     pub width: f64,
     /// Boundaries at the two sides of the flume.
     pub sides: Sides,
-    /// Top of the walls [m].
+    /// Level of the top of the walls [m].
     pub top_z: f64,
     /// Lowest ground level in the domain [m].
     pub bottom_z: f64,
@@ -28,51 +28,51 @@ pub struct Domain {
     pub dp: f64,
     /// Particle spacing across the flume [m]: `width` / `ny`, close to `dp`.
     pub dy: f64,
-    /// Number of particles along the flume, rounded.
+    /// Number of particles along the flume, rounded to the nearest integer.
     pub nx: usize,
     /// Number of particles across the flume.
     pub ny: usize,
     /// Number of particles from the lowest ground to the top of the walls, rounded up.
     pub nz: usize,
-    /// Initial water.
+    /// Region that is filled with water at the start.
     pub water: Water,
     /// Largest initial water depth [m].
     pub depth: f64,
-    /// Start of the particles, if the flume model runs.
+    /// Time at which the particle simulation starts, if the flume model runs.
     pub start: Start,
-    /// Zone in which the water is slowed down, if any.
+    /// Damping zone, which slows the water down, if any.
     pub damping_zone: Option<DampingZone>,
-    /// Zone in which the water is driven to the velocity of the flume model, if any.
+    /// Relaxation zone, which forces the water towards the velocity of the flume model, if any.
     pub relaxation_zone: Option<RelaxationZone>,
     /// Fixed boxes in the water.
     pub obstacles: Vec<AxisBox>,
 }
 
-/// Flume time at which the particles start.
+/// Time of the flume model at which the particle simulation starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Start {
-    /// At this flume time [s].
+    /// At this time of the flume model [s].
     At(f64),
-    /// When the velocity at the wavemaker reaches this share of its maximum [-].
+    /// When the velocity at the wavemaker reaches this value times its maximum [-].
     AtShare(f64),
 }
 
-/// Initial water; SI units.
+/// Region that is filled with water at the start; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Water {
-    /// Up to the still water level.
+    /// Water up to the still water level.
     StillLevel,
-    /// A block from the bed to a level.
+    /// A block of water from the bed up to a level.
     Block {
-        /// x of the seaward and of the shoreward face [m].
+        /// x of the seaward and of the shoreward face of the block [m].
         x: [f64; 2],
-        /// Level of the top [m].
+        /// Level of the top of the block [m].
         top_z: f64,
     },
 }
 
 impl Domain {
-    /// Returns the ground and the limits of the area where units stand.
+    /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self, flume: &Flume) -> Site {
         let (x, width, sides, top_z) = (self.x, self.width, self.sides, self.top_z);
         Site { profile: flume.profile.clone(), terrain: None, x, width, sides, top_z }
@@ -85,7 +85,7 @@ impl Domain {
     }
 }
 
-/// Validates the domain; `smoothing_factor` is `numerics.smoothing_factor`, not yet validated.
+/// Validates the domain. `smoothing_factor` is the value of `numerics.smoothing_factor`, which is not yet validated.
 pub fn validate(
     file: &DomainFile,
     flume: Option<&Flume>,
@@ -226,7 +226,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
             "domain.width_m",
             as_text(width),
             format!(
-                "at least 4h + dp = {} m with periodic sides; else a particle acts on its own image",
+                "at least 4h + dp = {} m with periodic sides; otherwise a particle acts on its own image",
                 as_text(least)
             ),
             "widen the domain or write a smaller `domain.dp_m`",
@@ -242,7 +242,7 @@ fn validate_width(file: &DomainFile, smoothing_factor: f64, check: &mut Checker)
     }
     let layers = (width / file.dp_m).round().max(1.0);
     let stretch = width / layers / file.dp_m;
-    // Beyond a few per cent the lattice is no longer cubic enough, and the density at rest drifts.
+    // If the two spacings differ by more than a few per cent, the density of water at rest drifts.
     if (stretch - 1.0).abs() > 0.03 {
         check.warn(format!(
             "domain.width_m = {} is {:.2} particle spacings: the spacing across the flume becomes {:.3} dp",

@@ -1,13 +1,13 @@
-//! Ground, water level and particle domain.
+//! Bed, still water level and particle domain.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
 //! | [`bed`] | bed, mound and still water level of the whole flume |
 //! | [`domain`] | the part of the flume that is filled with particles |
 //! | [`zones`] | damping zone and relaxation zone |
 //! | [`obstacles`] | fixed boxes in the water |
-//! | [`terrain`] | a triangulated ground of dry tests |
-//! | [`site`] | ground and limits of the area where units stand |
+//! | [`terrain`] | triangulated terrain of dry tests |
+//! | [`site`] | ground and boundaries of the area in which units stand |
 
 pub mod bed;
 pub mod domain;

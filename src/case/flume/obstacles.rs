@@ -10,26 +10,27 @@ use crate::geometry::axis_box::AxisBox;
 /// Largest number of obstacles in one case.
 const MOST_OBSTACLES: usize = 1000;
 
-/// Smallest thickness of an obstacle over dp [-]; through a thinner one, particles on both sides interact.
+/// Smallest thickness of an obstacle over dp [-]. Through a thinner obstacle, particles on opposite sides interact.
 const THINNEST: f64 = 3.0;
 
-/// Narrowest gap that water can enter, over dp [-].
+/// Width of the narrowest gap that water can enter, over dp [-].
 const NARROWEST: f64 = 2.0;
 
-/// Faces closer than this coincide, over dp [-].
+/// Distance below which two faces count as touching, over dp [-].
 const FLUSH: f64 = 1e-6;
 
 /// Names of the axes in messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Validates the obstacles. A face on the ground or against a wall is not open. `width` is the domain width [m].
+/// Validates the obstacles. Faces that touch the ground or a wall are not open to the water. `width` is the width of
+/// the domain [m].
 pub fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checker) -> Vec<AxisBox> {
     if file.obstacles.len() > MOST_OBSTACLES {
         check.reject(
             "domain.obstacles",
             file.obstacles.len(),
             format!("at most {MOST_OBSTACLES} obstacles"),
-            "leave out some",
+            "remove some obstacles",
         );
         return Vec::new();
     }
@@ -43,7 +44,7 @@ pub fn validate(file: &DomainFile, width: f64, flume: &Flume, check: &mut Checke
                 &path,
                 corners(&obstacle),
                 format!("at least {} m from domain.obstacles[{other}]", as_text(NARROWEST * file.dp_m)),
-                "no water fits between them: merge them into one box, or move one",
+                "the gap is too narrow for water: merge the two obstacles, or move one of them",
             ),
             None => found.push(obstacle),
         }
@@ -71,7 +72,7 @@ fn validate_one(
     }
     let (mut low, mut high) = (DVec3::from_array(file.low_m), DVec3::from_array(file.high_m));
     if planar {
-        // In two dimensions an obstacle crosses the whole layer, whatever its y.
+        // In two dimensions, an obstacle crosses the whole particle layer, whatever its y coordinates are in the file.
         (low.y, high.y) = (0.0, width);
     }
     let open_ends = [domain.x_m, [0.0, width]];
@@ -86,7 +87,7 @@ fn validate_one(
             path,
             corners(&AxisBox::free(low, high)),
             "across the whole width, or clear of both periodic sides",
-            "an obstacle at one periodic side continues at the other: move it to the middle of the width",
+            "an obstacle at one periodic side continues at the opposite side: move it to the middle of the width",
         );
     }
     let (lowest, highest) = flume.profile.extremes_between([low.x, high.x]);
@@ -104,14 +105,14 @@ fn validate_one(
             &format!("{path}.high_m[2]"),
             as_text(high.z),
             format!("at least {THINNEST} particle spacings above the ground, {} m", as_text(highest + THINNEST * dp)),
-            "raise the obstacle, or write it as part of `flume.bed_m`",
+            "raise the top of the obstacle, or write the obstacle as part of `flume.bed_m`",
         );
     }
     let low = DVec3 { z: low.z.max(lowest), ..low };
     (check.count() == before).then_some(AxisBox { low, high, open })
 }
 
-/// Checks one axis of an obstacle: finite numbers, order, thickness, position inside the domain.
+/// Checks the extent of an obstacle along one axis: finite numbers, their order, thickness, position inside the domain.
 fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2], dp: f64, check: &mut Checker) {
     let name = AXES[axis];
     if !(low.is_finite() && high - low >= (THINNEST - FLUSH) * dp) {
@@ -140,7 +141,7 @@ fn validate_extent(path: &str, axis: usize, [low, high]: [f64; 2], ends: [f64; 2
     }
 }
 
-/// Checks that an obstacle touches the ends of the domain or leaves room for water.
+/// Checks along one axis that an obstacle touches the ends of the domain or leaves enough room for water.
 fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut Checker) {
     for (gap, key) in gaps.into_iter().zip(["low_m", "high_m"]) {
         if gap > FLUSH * dp && gap < (NARROWEST - FLUSH) * dp {
@@ -148,7 +149,7 @@ fn validate_gaps(path: &str, axis: usize, gaps: [f64; 2], dp: f64, check: &mut C
                 &format!("{path}.{key}[{axis}]"),
                 format!("{} m from the end of the domain", as_text(gap)),
                 format!("0, or at least {} m", as_text(NARROWEST * dp)),
-                "let the obstacle touch the end of the domain, or leave room for the water between them",
+                "let the obstacle touch the end of the domain, or leave room for the water in the gap",
             );
         }
     }

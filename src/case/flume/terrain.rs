@@ -8,32 +8,32 @@ use crate::case::reading::check::{Checker, more_than};
 use crate::geometry::stl;
 use crate::geometry::terrain::Terrain;
 
-/// Largest number of triangles; a run needs about a kilobyte of memory for each.
+/// Largest number of triangles. A run needs about one kilobyte of memory per triangle.
 const MOST_TRIANGLES: usize = 2_000_000;
 
-/// A triangle surface with the content of its file, which a run saves next to its case.
+/// A triangle surface and the content of its STL file. A run saves this content next to its case file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteTerrain {
     /// The surface [m].
     pub surface: Arc<Terrain>,
-    /// Content of the file.
+    /// Content of the STL file.
     pub content: Arc<Vec<u8>>,
     scale: f64,
 }
 
 impl SiteTerrain {
-    /// Name of the file in the run folder.
+    /// Name of the STL file in the run folder.
     pub const FILE: &str = "terrain.stl";
 
-    /// Returns the `terrain` entry of a case file that is in the same folder as the file [`Self::FILE`].
+    /// Returns the `terrain` entry for the case file in the run folder. The entry refers to the file [`Self::FILE`].
     pub(in crate::case) fn entry(&self) -> TerrainFile {
         TerrainFile { path: Self::FILE.to_owned(), scale: self.scale }
     }
 }
 
-/// Reads the file. Its path is relative to the case file `case_name`.
+/// Reads and validates the STL file. Its path is relative to the folder of the case file `case_name`.
 pub fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Option<SiteTerrain> {
-    let advice = "1 for a file in metres, 0.001 for one in millimetres";
+    let advice = "1 for a file in metres, 0.001 for a file in millimetres";
     if !check.number("flume.terrain.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
         return None;
     }
@@ -45,7 +45,9 @@ pub fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Opt
     };
     let content = match std::fs::read(&path) {
         Ok(content) => content,
-        Err(error) => return refuse(format!("a file that can be read ({error})"), "paths start at the case file"),
+        Err(error) => {
+            return refuse(format!("a file that can be read ({error})"), "paths are relative to the case file");
+        }
     };
     let surface = match stl::parse_terrain(&content, &path, file.scale) {
         Ok(surface) => surface,
@@ -56,7 +58,10 @@ pub fn validate(file: &TerrainFile, case_name: &str, check: &mut Checker) -> Opt
         }
     };
     if surface.triangles().len() > MOST_TRIANGLES {
-        return refuse(format!("at most {MOST_TRIANGLES} triangles"), "use triangles of the size of a leg");
+        return refuse(
+            format!("at most {MOST_TRIANGLES} triangles"),
+            "use triangles about as large as a leg of a unit",
+        );
     }
     Some(SiteTerrain { surface: Arc::new(surface), content: Arc::new(content), scale: file.scale })
 }

@@ -3,8 +3,8 @@
 use crate::case::file::{DampingZoneFile, RelaxationZoneFile};
 use crate::case::reading::check::{Checker, as_text, more_than};
 
-/// Largest rate at the end of a zone [1/s]. With it the water stops within a millimetre, which reflects waves like a
-/// wall.
+/// Largest rate f at the end of a zone [1/s]. At this rate, the water stops within a millimetre; therefore the zone
+/// reflects waves like a wall.
 const LARGEST_COEFFICIENT: f64 = 1000.0;
 
 /// Zone in which the velocity v of the water decays, dv/dt = -f(x) v; SI units.
@@ -17,8 +17,8 @@ pub struct DampingZone {
 }
 
 impl DampingZone {
-    /// Returns the rate f at x [1/s]: the coefficient times the square of the share of the zone seaward of x; 0 before
-    /// the zone and the coefficient beyond it.
+    /// Returns the rate f at x [1/s]. In the zone, f = coefficient times ((x - x0) / (x1 - x0))^2 with the ends x0, x1
+    /// of the zone. Seaward of the zone f = 0, shoreward of it f = coefficient.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((x - self.x[0]) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
@@ -36,15 +36,15 @@ pub struct RelaxationZone {
 }
 
 impl RelaxationZone {
-    /// Returns the rate f at x [1/s]: the coefficient times the square of the share of the zone shoreward of x; 0
-    /// beyond.
+    /// Returns the rate f at x [1/s]. In the zone, f = coefficient times ((x1 - x) / (x1 - x0))^2 with the ends x0, x1
+    /// of the zone. Shoreward of the zone f = 0.
     pub fn rate(&self, x: f64) -> f64 {
         let share = ((self.x[1] - x) / (self.x[1] - self.x[0])).clamp(0.0, 1.0);
         self.coefficient * share * share
     }
 }
 
-/// Validates a relaxation zone. It begins at the seaward end of the domain and must end before the damping zone.
+/// Validates a relaxation zone. It begins at the seaward end of the domain and must end seaward of the damping zone.
 pub fn validate_relaxation(
     file: &RelaxationZoneFile,
     domain_x: [f64; 2],
@@ -69,7 +69,7 @@ pub fn validate_relaxation(
     RelaxationZone { x: [seaward, file.end_x_m], coefficient: file.coefficient_per_s }
 }
 
-/// Validates a damping zone in a domain between two x [m].
+/// Validates a damping zone. `domain_x` are x of the seaward and of the shoreward end of the domain [m].
 pub fn validate_damping(file: &DampingZoneFile, domain_x: [f64; 2], check: &mut Checker) -> DampingZone {
     let [from, to] = file.x_m;
     if !(from >= domain_x[0] && to <= domain_x[1] && to - from > 0.0) {
@@ -77,7 +77,7 @@ pub fn validate_damping(file: &DampingZoneFile, domain_x: [f64; 2], check: &mut 
             "domain.damping_zone.x_m",
             format!("[{}, {}]", as_text(from), as_text(to)),
             format!("increasing and within the domain, {} to {} m", as_text(domain_x[0]), as_text(domain_x[1])),
-            "write the seaward end first; usually the last wavelength of the domain is the zone",
+            "write the seaward end first; usually the zone covers the last wavelength of the domain",
         );
     }
     check.number(

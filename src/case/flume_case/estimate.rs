@@ -1,4 +1,4 @@
-//! Estimated size of a run, before any particle is created.
+//! Estimates the size of a run before any particle is created.
 
 use glam::DVec3;
 
@@ -9,10 +9,10 @@ use crate::case::flume::domain::Water;
 use crate::geometry::{axis_box::AxisBox, profile::Profile};
 use crate::sph::solver::time_step::viscous_limit;
 
-/// Memory per particle, with its neighbour lists [bytes].
+/// Memory per particle, including its neighbour list [bytes].
 const BYTES_PER_PARTICLE: f64 = 600.0;
 
-/// Size of a run, estimated from areas and volumes; within some ten per cent.
+/// Size of a run, estimated from areas and volumes with an error of about 10 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Number of water particles.
@@ -21,9 +21,9 @@ pub struct Estimate {
     pub boundary: f64,
     /// Number of particles in the armour units.
     pub units: f64,
-    /// Memory [bytes].
+    /// Memory that the run needs [bytes].
     pub bytes: f64,
-    /// Time step [s]: cfl h / c0 from the speed of sound, or the limit from the viscosity if that is smaller.
+    /// Time step [s]: the smaller of cfl h / c0 (speed of sound) and, for laminar models, the limit of the viscosity.
     pub dt: f64,
     /// Number of time steps of the whole run.
     pub steps: f64,
@@ -37,7 +37,7 @@ impl Estimate {
 }
 
 impl Case {
-    /// Returns the two ends and the level of the initial water [m].
+    /// Returns x of the two ends of the initial water, and its level z [m].
     fn water_at_start(&self) -> ([f64; 2], f64) {
         match self.domain.water {
             Water::StillLevel => (self.domain.x, self.flume.still_water_level),
@@ -45,7 +45,8 @@ impl Case {
         }
     }
 
-    /// Returns the share of the initial water inside a box, given by its lower and upper corner [-].
+    /// Returns the volume of the initial water inside a box over the volume of all initial water [-]. The argument has
+    /// the lower and the upper corner of the box.
     pub fn share_of_water_in(&self, [low, high]: [[f64; 3]; 2]) -> f64 {
         let (profile, (x, top)) = (&self.flume.profile, self.water_at_start());
         let overlap = |[a0, a1]: [f64; 2], [b0, b1]: [f64; 2]| [a0.max(b0), a1.min(b1).max(a0.max(b0))];
@@ -56,7 +57,7 @@ impl Case {
         if all > 0.0 { in_box / all * (y1 - y0) / self.domain.width } else { 0.0 }
     }
 
-    /// Estimates the size of the run.
+    /// Estimates number of particles, memory and number of time steps of the run.
     pub fn estimate(&self) -> Estimate {
         let domain = &self.domain;
         let profile = &self.flume.profile;
@@ -93,13 +94,13 @@ impl Case {
     }
 }
 
-/// Returns the corner points of the ground between two x, with both ends.
+/// Returns the points (x, z) of the ground between two x coordinates: both ends and the corner points between them [m].
 fn ground_points(profile: &Profile, [x0, x1]: [f64; 2]) -> Vec<[f64; 2]> {
     let inner = profile.points().iter().copied().filter(|p| p[0] > x0 && p[0] < x1);
     [[x0, profile.z(x0)]].into_iter().chain(inner).chain([[x1, profile.z(x1)]]).collect()
 }
 
-/// Returns the area between the ground and a level where the ground is below the level [m2].
+/// Returns the area below `level` and above the ground, between two x coordinates [m2].
 fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
     let wet_area = |pair: &[[f64; 2]]| {
         let (a, b) = (level - pair[0][1], level - pair[1][1]);
@@ -115,7 +116,7 @@ fn area_under(profile: &Profile, x: [f64; 2], level: f64) -> f64 {
     ground_points(profile, x).windows(2).map(wet_area).sum()
 }
 
-/// Returns the length of the ground surface between two x [m].
+/// Returns the length of the ground surface between two x coordinates [m].
 fn length_along(profile: &Profile, x: [f64; 2]) -> f64 {
     ground_points(profile, x).windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
 }
@@ -125,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn areas_and_lengths_follow_the_ground() {
+    fn area_above_the_ground_and_length_of_the_ground_are_exact() {
         let bed = Profile::new(vec![[0.0, 0.0], [2.0, 0.0], [4.0, 2.0]]);
         assert!((area_under(&bed, [0.0, 4.0], 1.0) - 2.5).abs() < 1e-12);
         assert!((area_under(&bed, [1.0, 4.0], 3.0) - 7.0).abs() < 1e-12);

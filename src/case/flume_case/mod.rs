@@ -1,12 +1,12 @@
 //! A flume case: the validated form that the solvers read.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | [`validate`] | the sections in order |
-//! | [`numerics`] | water, and options of the SPH scheme |
-//! | [`self_contained`] | the case as a run stores it |
-//! | [`estimate`] | number of particles, memory, time step |
-//! | [`reynolds`] | warning of over-viscous water |
+//! | [`validate`] | validates the sections of the file in order |
+//! | [`numerics`] | properties of the water and options of the SPH scheme |
+//! | [`self_contained`] | the case file that a run stores in its folder |
+//! | [`estimate`] | estimated number of particles, memory and time step |
+//! | [`reynolds`] | warning about over-viscous water |
 
 pub(super) mod estimate;
 pub(super) mod numerics;
@@ -32,25 +32,26 @@ use super::wave::{Wave, wavemaker::Wavemaker};
 /// A validated flume case: its values are valid and consistent; SI units throughout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
-    /// Name of the case in reports, one line.
+    /// Title of the case in reports, one line.
     pub title: String,
-    /// Assumptions; the report lists them.
+    /// Assumptions of the case, which the report lists.
     pub assumptions: Vec<String>,
     /// Warnings about values that are allowed but probably not intended.
     pub warnings: Vec<String>,
-    /// Name of the file, as passed by the user.
+    /// Path of the case file, as the user passed it.
     pub name: String,
     /// Hash of the case, 32 hexadecimal digits, independent of the layout of the file.
     pub hash: String,
-    /// Hash of all keys but [`Self::KEYS_FREE_AT_START`]: they decide the state of a run until its units move.
+    /// Hash of all keys except [`Self::KEYS_FREE_AT_START`]. Two runs with the same hash have the same state until
+    /// their units move.
     pub start_hash: String,
-    /// Text of the case file, to copy into the run folder.
+    /// Text of the case file that the run writes into its folder.
     pub text: String,
     /// Bed, mound and still water level of the whole flume.
     pub flume: Flume,
     /// Particle domain: the part of the flume that is filled with particles.
     pub domain: Domain,
-    /// Water.
+    /// Properties of the water.
     pub fluid: Fluid,
     /// Options and constants of the SPH scheme.
     pub numerics: Numerics,
@@ -70,17 +71,17 @@ pub struct Case {
     pub breakage: Option<BreakageSettings>,
     /// Measured displacements to compare the run with, if any.
     pub reference: Option<Reference>,
-    /// Gauges: points at which the water is measured.
+    /// Gauges: points at which elevation, pressure or velocity of the water is measured.
     pub gauges: Vec<Gauge>,
     /// Output files and their intervals.
     pub output: Output,
-    /// When the run ends.
+    /// Criteria that end the run.
     pub stop: Stop,
 }
 
 impl Case {
-    /// Keys that may differ between a run and the run whose checkpoint it starts from: they do not affect units at
-    /// rest. The duration must not differ, because the wavemaker's motion is prepared for it.
+    /// Keys that may differ between a run and the other run from whose checkpoint it starts. These keys do not affect
+    /// units at rest. The duration must be the same, because the wavemaker's motion is prepared for this duration.
     pub const KEYS_FREE_AT_START: [&str; 5] = ["title", "assumptions", "reference", "friction", "stop.at_rest"];
 
     /// Reads and validates a case file.
@@ -99,7 +100,7 @@ impl Case {
         Ok(Self { warnings, ..case })
     }
 
-    /// Returns the ground and the limits of the area where units stand.
+    /// Returns the ground and the boundaries of the area in which units stand.
     pub fn site(&self) -> Site {
         self.domain.site(&self.flume)
     }

@@ -1,9 +1,9 @@
-//! The validated water and SPH scheme.
+//! Validates the properties of the water and the settings of the SPH scheme.
 
 use crate::case::file::{Boundary, DensityDiffusion, FluidFile, NumericsFile, Viscosity, WallSlip};
 use crate::case::reading::check::{Checker, as_text, at_least};
 
-/// Water; SI units.
+/// Properties of the water; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fluid {
     /// Reference density [kg/m3].
@@ -12,44 +12,44 @@ pub struct Fluid {
     pub gravity: f64,
     /// Exponent of Tait's equation of state [-].
     pub gamma: f64,
-    /// Speed of sound c0 = factor sqrt(g d), with the largest water depth d in the domain [m/s].
+    /// Speed of sound c0 = factor sqrt(g d) [m/s], where d is the largest initial water depth in the domain.
     pub sound_speed: f64,
 }
 
-/// Options and constants of the SPH scheme; SI units.
+/// Settings of the SPH scheme; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numerics {
     /// Smoothing length h = factor sqrt(3) dp [m]; the kernel radius is 2h.
     pub h: f64,
     /// Viscosity model.
     pub viscosity: Viscosity,
-    /// Coefficient of artificial viscosity [-].
+    /// Coefficient alpha of artificial viscosity [-].
     pub alpha: f64,
-    /// Kinematic viscosity [m2/s].
+    /// Kinematic viscosity nu of the laminar models [m2/s].
     pub nu: f64,
-    /// Kind of density diffusion.
+    /// Form of the density diffusion.
     pub density_diffusion: DensityDiffusion,
-    /// Coefficient of density diffusion [-].
+    /// Coefficient delta of density diffusion [-].
     pub delta: f64,
-    /// Coefficient of particle shifting [-], 0 for none.
+    /// Coefficient A of particle shifting [-]; 0 for no shifting.
     pub shifting: f64,
-    /// Courant number [-].
+    /// Courant number C of the time step [-].
     pub cfl: f64,
-    /// Boundary condition of walls, wavemaker and units.
+    /// Boundary condition at bed, walls, wavemaker and units.
     pub boundary: Boundary,
-    /// Velocity condition at walls.
+    /// Velocity condition at bed and walls.
     pub wall_slip: WallSlip,
-    /// Whether free slip holds for units, too.
+    /// true: free slip at the units, too; false: no slip at the units.
     pub slip_on_units: bool,
-    /// Whether the water pressure acts on units through gaps without water particles.
+    /// true if water pressure also acts on units in gaps that are too narrow for water particles.
     pub gap_pressure: bool,
     /// Number of particle layers in walls and bed.
     pub boundary_layers: usize,
-    /// Time for which the units are held at the start [s].
+    /// Time at the start of the run during which the units are fixed [s].
     pub hold_units: f64,
 }
 
-/// Validates the constants of the water; `depth` [m] gives the speed of sound.
+/// Validates the constants of the water. The speed of sound follows from `depth`, the largest initial depth [m].
 pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker) -> Option<Fluid> {
     let before = check.count();
     check.number(
@@ -81,8 +81,8 @@ pub fn validate_fluid(file: &FluidFile, depth: Option<f64>, check: &mut Checker)
     Some(Fluid { rho0: file.density_kg_m3, gravity: file.gravity_m_s2, gamma: file.tait_exponent, sound_speed })
 }
 
-/// Validates the scheme; `dp` is the particle spacing [m], `longest_hold` the longest time for which this run can hold
-/// the units [s].
+/// Validates the settings of the SPH scheme. `dp` is the particle spacing [m], `longest_hold` the largest allowed value
+/// of `hold_units_s` [s].
 pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check: &mut Checker) -> Option<Numerics> {
     let before = check.count();
     check.number(
@@ -126,7 +126,7 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
         file.hold_units_s,
         at_least(0.0).up_to(longest_hold),
         "s",
-        "hold the units only at the start of the run, e.g. 0.2",
+        "fix the units only at the start of the run, e.g. for 0.2 s",
     );
     if check.count() > before {
         return None;
@@ -158,8 +158,8 @@ pub fn validate_numerics(file: &NumericsFile, dp: f64, longest_hold: f64, check:
     })
 }
 
-/// Returns the velocity condition at walls. The default with mDBC is free slip: the viscosity of the scheme makes a
-/// boundary layer much thicker than in real water, which takes height and speed from long waves.
+/// Returns the velocity condition at walls. The default with mDBC is free slip, because the viscosity of the scheme
+/// makes boundary layers much thicker than in real water. With such layers, long waves lose height and speed.
 fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     match (file.boundary, file.wall_slip) {
         (Boundary::Mdbc, slip) => slip.unwrap_or(WallSlip::FreeSlip),
@@ -173,9 +173,9 @@ fn validate_slip(file: &NumericsFile, check: &mut Checker) -> WallSlip {
     }
 }
 
-/// Refuses unstable density diffusion. The shortest wave of the particles decays at the rate lambda = 2 delta h c0
-/// sum_b V_b |G_ab|, at most 7 delta c0 / h, because the kernel's |G| integrates to 7 / (2 h^2). One time step,
-/// dt = cfl h / c0, multiplies it by 1 - z + z^2 / 2 with z = lambda dt, which is unstable if z > 2.
+/// Refuses unstable density diffusion. The shortest density wave decays at the rate lambda = 2 delta h c0
+/// sum_b V_b |G_ab|. It is at most 7 delta c0 / h, because the kernel's |G| integrates to 7 / (2 h^2). One time step
+/// dt = cfl h / c0 multiplies the wave by 1 - z + z^2 / 2 with z = lambda dt. This is unstable if z > 2.
 fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
     let limit = 2.0 / (7.0 * file.cfl);
     if file.density_diffusion != DensityDiffusion::None && file.diffusion_delta <= 1.0 && file.diffusion_delta > limit {
@@ -188,7 +188,7 @@ fn refuse_unstable_diffusion(file: &NumericsFile, check: &mut Checker) {
     }
 }
 
-/// Warns of constants that differ from their defaults but that the chosen scheme ignores.
+/// Warns of constants that the user has changed from their defaults but that the chosen scheme ignores.
 fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
     let defaults = NumericsFile::default();
     let artificial = file.viscosity == Viscosity::Artificial;
@@ -221,7 +221,7 @@ fn warn_of_ignored_constants(file: &NumericsFile, check: &mut Checker) {
 mod tests {
     use super::*;
 
-    /// Validates the changed defaults. Returns whether they are accepted, and the warnings.
+    /// Changes the default settings and validates them. Returns true if they are accepted, and the warnings.
     fn warnings(change: impl FnOnce(&mut NumericsFile)) -> (bool, Vec<String>) {
         let mut file = NumericsFile::default();
         change(&mut file);
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn diffusion_is_limited_by_the_time_step() {
+    fn density_diffusion_that_is_unstable_at_the_time_step_is_refused() {
         assert!(warnings(|file| (file.diffusion_delta, file.cfl) = (0.57, 0.5)).0);
         assert!(!warnings(|file| (file.diffusion_delta, file.cfl) = (0.58, 0.5)).0);
         let no_diffusion = |file: &mut NumericsFile| {

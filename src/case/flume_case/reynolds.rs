@@ -1,17 +1,17 @@
-//! Warning of over-viscous water: the Reynolds number of the units under artificial viscosity.
+//! Warns of over-viscous water if the Reynolds number of the units is too small with artificial viscosity.
 
 use super::Case;
 use crate::case::file::{Sides, Viscosity};
 use crate::case::reading::check::{Checker, as_text};
 
-/// Reynolds number below which `check` warns [-]. At 20 to 35 the force on a standing unit is proportional to the
-/// velocity, at 80 no longer (docs/validation/fudo-notes.md). In real flumes it is 1e4 and more.
+/// Reynolds number of a unit below which `check` warns [-]. At 20 to 35, the force on a unit at rest is proportional to
+/// the velocity; at 80, it is not (docs/validation/fudo-notes.md). In real flumes the Reynolds number is 1e4 and more.
 const LEAST_REYNOLDS: f64 = 50.0;
 /// Kinematic viscosity of water at 20 degrees [m2/s].
 const WATER_VISCOSITY: f64 = 1e-6;
 
-/// Returns the kinematic viscosity that artificial viscosity gives the water [m2/s]: alpha h c0 / 10 in three
-/// dimensions, alpha h c0 / 8 in two (Monaghan 2005). `None` with other viscosity models.
+/// Returns the kinematic viscosity to which artificial viscosity is equivalent [m2/s]: alpha h c0 / 10 in three
+/// dimensions, alpha h c0 / 8 in two (Monaghan 2005). Returns `None` with the other viscosity models.
 fn artificial_viscosity(case: &Case) -> Option<f64> {
     let numerics = &case.numerics;
     let divisor = if case.domain.sides == Sides::TwoDimensional { 8.0 } else { 10.0 };
@@ -19,14 +19,14 @@ fn artificial_viscosity(case: &Case) -> Option<f64> {
     is_artificial.then_some(numerics.alpha * numerics.h * case.fluid.sound_speed / divisor)
 }
 
-/// Returns the velocity of the water in a long wave at x, H sqrt(g / d) [m/s]; `None` if the wave height is not known
-/// or the ground is dry.
+/// Returns the water velocity in a long wave at x, H sqrt(g / d) [m/s]. Returns `None` if the wave height is not known
+/// or the ground at x is dry.
 fn long_wave_velocity(case: &Case, x: f64) -> Option<f64> {
     let depth = Some(case.flume.still_depth(x)).filter(|depth| *depth > 0.0)?;
     Some(case.wave.height()? * (case.fluid.gravity / depth).sqrt())
 }
 
-/// Returns the largest Reynolds number of a unit, with its height as the length [-].
+/// Returns the largest Reynolds number of all units [-]; the length scale is the height of a unit.
 fn reynolds_number(case: &Case) -> Option<f64> {
     let units = case.units.as_ref()?;
     let fastest =
@@ -41,8 +41,9 @@ pub fn warn(case: &Case, check: &mut Checker) {
     {
         check.warn(format!(
             "numerics.viscosity_alpha = {}: makes the water {:.0} times as viscous as real water (Reynolds number \
-             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS} the drag grows with the velocity, not its square, so \
-             strong waves exert too little force compared with weak ones. Lower it or `domain.dp_m`",
+             of a unit {reynolds:.0}). Below {LEAST_REYNOLDS}, the drag grows with the velocity instead of its \
+             square, so strong waves exert too little force compared with weak waves. Lower viscosity_alpha or \
+             `domain.dp_m`",
             as_text(case.numerics.alpha),
             nu / WATER_VISCOSITY,
         ));
@@ -73,7 +74,7 @@ mod tests {
         let nu = 0.004 * 1.2 * 3.0_f64.sqrt() * 0.007 * 10.0 * (9.81 * depth).sqrt();
         let expected = 0.026 * (9.81_f64 / 0.083).sqrt() * 0.077 / nu;
         let found = reynolds_number(&slice(0.04)).unwrap();
-        // The depth comes from the corner points of the bed: rounding errors.
+        // The tolerance allows for rounding errors in the depth, which comes from the corner points of the bed.
         assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
     }
 }

@@ -1,4 +1,4 @@
-//! The case as a run stores it.
+//! Makes the case file that a run stores: it refers only to files in the run folder.
 
 use crate::case::breakage::BreakageSettings;
 use crate::case::file::{CaseFile, ExternalWaveFile, StopFile, VelxFile, WaveFile, WaveSourceFile};
@@ -7,9 +7,9 @@ use crate::case::units::Units;
 use crate::case::wave::Wave;
 use crate::case::wave::external_wave::ROWS_FILE;
 
-/// Returns the case as a run stores it, and the bytes read from other files. The case refers only to files in the run
-/// folder, so that the folder can be moved and resumed: wave files become one file that the run writes, STL files
-/// and the reference folder become copies, and a placement file becomes poses in the case.
+/// Returns the case as a run stores it, and the bytes read from other files. The stored case refers only to files in
+/// the run folder, so that a run can resume after its folder was moved. Wave files become one file that the run writes.
+/// STL files, mesh and reference folder become copies. A placement file becomes poses in the case.
 pub(super) fn self_contained(
     file: &CaseFile,
     wave: &Wave,
@@ -33,7 +33,7 @@ pub(super) fn self_contained(
     (kept, read)
 }
 
-/// Returns the case file without its schema and without [`KEYS_FREE_AT_START`](super::Case::KEYS_FREE_AT_START).
+/// Returns the case file without the key `$schema` and without [`KEYS_FREE_AT_START`](super::Case::KEYS_FREE_AT_START).
 pub(super) fn without_keys_free_at_start(file: &CaseFile) -> CaseFile {
     let stop = StopFile { at_rest: None, ..file.stop.clone() };
     let (title, assumptions, friction) = (String::new(), Vec::new(), Vec::new());

@@ -24,7 +24,8 @@ const MANY_PARTICLES: f64 = 50e6;
 /// Largest number of particles.
 const MOST_PARTICLES: f64 = 1e9;
 
-/// Validates section by section. A section that depends on an invalid one checks what it can and returns `None`.
+/// Validates the case section by section. If a section depends on an invalid section, its validation checks what it can
+/// and returns `None`.
 pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker) -> Option<Case> {
     check.title(&file.title);
     let materials = materials::validate(&file.materials, &file.friction, file.flume.material.as_deref(), check);
@@ -54,7 +55,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
         name: document.name.clone(),
         hash: fingerprint(&CaseFile { schema: None, reference: None, ..kept.clone() }, &read),
         start_hash: fingerprint(&without_keys_free_at_start(&kept), &read),
-        text: document.text_of(file, &kept),
+        text: document.stored_text(file, &kept),
         flume: flume?,
         domain,
         fluid: fluid?,
@@ -76,7 +77,7 @@ pub(super) fn validate(file: &CaseFile, document: &Document, check: &mut Checker
     Some(case)
 }
 
-/// Sections on which later ones depend.
+/// Validated sections on which later sections depend.
 struct Sections<'a> {
     file: &'a CaseFile,
     /// Name of the case file.
@@ -85,7 +86,7 @@ struct Sections<'a> {
     domain: Option<Domain>,
 }
 
-/// An optional section is in the file but invalid.
+/// Error: an optional section is present in the file but invalid.
 struct Invalid;
 
 impl Sections<'_> {
@@ -133,7 +134,7 @@ impl Sections<'_> {
     }
 }
 
-/// Returns what the units of a flume case depend on.
+/// Returns the parts of a flume case on which its units depend.
 pub fn surroundings<'a>(
     file: &CaseFile,
     name: &'a str,
@@ -147,7 +148,7 @@ pub fn surroundings<'a>(
 }
 
 fn validate_numerics(file: &CaseFile, stop: &Stop, check: &mut Checker) -> Option<Numerics> {
-    // The hold time has a default, so compare it with the duration only if there are units.
+    // `hold_units_s` has a default. Therefore it is compared with the duration only if the case has units.
     let longest_hold = if file.units.is_some() && stop.duration > 0.0 { stop.duration } else { f64::MAX };
     numerics::validate_numerics(&file.numerics, file.domain.dp_m, longest_hold, check)
 }

@@ -13,20 +13,20 @@ use crate::femdem::material::{Elastic, Strength};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Body;
 
-/// Default joint penalty p_0 / E of intrinsic and of tied joints [-]. The first is published practice.
-/// Tied joints need less, because only released joints are soft. But the body gains the energy of their springs on
-/// release: 54 J of 680 J with 2, 11 J with 10, 4 J with 30 in the drop test of a Dolos (50 mm). From 10 on the cracks
-/// are the same.
+/// Default joint penalty p_0 / E of intrinsic joints and of tied joints [-]. The value for intrinsic joints is
+/// published practice. Tied joints need a smaller value, because only released joints are soft. But at release, the
+/// body gains the energy of the joint springs. In the drop test of a Dolos (50 mm), it gains 54 J of 680 J with penalty
+/// 2, 11 J with 10, 4 J with 30. With 10 and more, the cracks do not change.
 const PENALTY: [f64; 2] = [50.0, 10.0];
 
-/// Returns the bodies in the order of the mesh.
+/// Returns the bodies in the order of the mesh. Returns `None` if there are errors.
 pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Body>> {
     let before = check.count();
     let names: Vec<&str> = mesh.mesh.bodies.iter().map(|body| body.name.as_str()).collect();
     for (index, material) in file.materials.iter().enumerate() {
         if file.materials[..index].iter().any(|other| other.name == material.name) {
             let path = format!("materials[{index}].name");
-            check.reject(&path, format!("{:?}", material.name), "different from the others", "rename one");
+            check.reject(&path, format!("{:?}", material.name), "different from the others", "rename one of them");
         }
         validate_material(&format!("materials[{index}]"), material, check);
     }
@@ -38,7 +38,7 @@ pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -
         }
         if file.bodies[..index].iter().any(|other| other.name == body.name) {
             let path = format!("bodies[{index}].name");
-            check.reject(&path, format!("{:?}", body.name), "different from the others", "leave one out");
+            check.reject(&path, format!("{:?}", body.name), "different from the others", "remove one of them");
         }
     }
     let mut bodies = Vec::new();
@@ -49,7 +49,7 @@ pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -
                 bodies.extend(validate_body(index, body, file, mesh_body.tets.clone(), check));
             }
             None => {
-                let advice = "every physical volume of the mesh needs its entry";
+                let advice = "every physical volume of the mesh needs an entry";
                 check.reject("bodies", "(missing)", format!("an entry named {:?}", mesh_body.name), advice);
             }
         }
@@ -57,11 +57,11 @@ pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -
     (check.count() == before).then_some(bodies)
 }
 
-/// Validates concrete of units whose density follows from their mass.
+/// Validates the concrete of the breakage analysis. It has no density, which follows from the mass of the units.
 pub(in crate::case) fn validate_concrete(path: &str, material: &BreakageMaterialFile, check: &mut Checker) {
     let material = FractureMaterialFile {
         name: String::new(),
-        // A valid placeholder: this entry has no density.
+        // A valid placeholder, because the entry has no density.
         density_kg_m3: 1.0,
         young_modulus_pa: material.young_modulus_pa,
         poisson_ratio: material.poisson_ratio,
@@ -150,7 +150,7 @@ fn validate_body(
     };
     if body.rigid && body.cracks {
         let path = format!("bodies[{index}].rigid");
-        check.reject(&path, "true", "false for a body that cracks", "a rigid body cannot crack: leave one out");
+        check.reject(&path, "true", "false for a body that cracks", "a rigid body cannot crack: remove one key");
     }
     let cracks = body.cracks && file.fracture.joints != Joints::Unbreakable;
     let cohesion = match &material.strength {
@@ -178,7 +178,7 @@ fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> 
     let tied = file.fracture.joints == Joints::Tied;
     let penalty = file.fracture.joint_penalty.unwrap_or(PENALTY[usize::from(tied)]);
     Cohesion {
-        strength: strength.of_material(),
+        strength: strength.to_strength(),
         penalty: penalty * elastic.young_modulus,
         range: match file.fracture.softening {
             Softening::Exact => Range::Exact,
@@ -189,8 +189,8 @@ fn cohesion(file: &FractureFile, elastic: &Elastic, strength: &StrengthFile) -> 
 }
 
 impl StrengthFile {
-    /// Returns the strength as the solver uses it.
-    pub(in super::super) fn of_material(&self) -> Strength {
+    /// Returns the strength in the form that the solver uses, with the tangent of the friction angle.
+    pub(in super::super) fn to_strength(&self) -> Strength {
         Strength {
             tensile: self.tensile_pa,
             cohesion: self.cohesion_pa,

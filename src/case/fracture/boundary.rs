@@ -1,4 +1,4 @@
-//! Validates friction between the bodies of a fracture case, and their constraints.
+//! Validates the friction between the bodies of a fracture case, and the constraints.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,8 @@ use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::FaceSet;
 use crate::femdem::setup::Constraint;
 
-/// Returns the friction coefficients between the bodies, in the order of the mesh.
+/// Returns the friction coefficients [-] as a symmetric table: row and column are body indices in the order of the
+/// mesh.
 pub fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Vec<f64>> {
     let count = mesh.mesh.bodies.len();
     let mut table = vec![vec![0.0; count]; count];
@@ -27,7 +28,7 @@ pub fn friction(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -
                 &format!("friction[{index}].between"),
                 format!("{between:?}"),
                 "names of two bodies of the mesh",
-                "the same name twice stands for the crack faces of a body",
+                "for the crack faces of one body, write its name twice",
             ),
         }
     }
@@ -48,10 +49,11 @@ fn nodes_of(name: &str, mesh: &PreparedMesh) -> Option<Vec<u32>> {
     Some(nodes.into_iter().collect())
 }
 
-/// Returns the constraints of the sets. A node of several sets takes each component from the last set that gives it.
+/// Returns the constraints. If a node belongs to several sets, the last set that gives a velocity component determines
+/// this component.
 pub fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Constraint> {
     let mut histories: Vec<History<1>> = Vec::new();
-    // Indices into `histories` for each node.
+    // For each node and direction, the index into `histories`.
     let mut histories_of_node: Vec<[Option<u32>; 3]> = vec![[None; 3]; mesh.mesh.nodes.len()];
     for (index, constraint) in file.constraints.iter().enumerate() {
         let Some(nodes) = nodes_of(&constraint.set, mesh) else {
@@ -91,11 +93,13 @@ pub fn constraints(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker
 fn velocity(given: &VelocityFile, path: &str, check: &mut Checker) -> Option<History<1>> {
     let range = || at_least(-1e4).up_to(1e4);
     match given {
-        VelocityFile::Constant(v) => check.number(path, *v, range(), "m/s", "0 fixes it").then(|| History::from(*v)),
+        VelocityFile::Constant(v) => {
+            check.number(path, *v, range(), "m/s", "0 fixes the nodes").then(|| History::from(*v))
+        }
         VelocityFile::History(rows) => {
             let mut good = true;
             for (row, [_, v]) in rows.iter().enumerate() {
-                good &= check.number(&format!("{path}[{row}][1]"), *v, range(), "m/s", "0 fixes it");
+                good &= check.number(&format!("{path}[{row}][1]"), *v, range(), "m/s", "0 fixes the nodes");
             }
             factor(rows, path, check).filter(|_| good)
         }

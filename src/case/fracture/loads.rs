@@ -11,9 +11,9 @@ use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::Exterior;
 
 /// Largest stress [Pa], force [N] and moment [N m] of a load.
-const MOST: f64 = 1e12;
+const MAX_MAGNITUDE: f64 = 1e12;
 
-/// Returns the loads without errors.
+/// Returns the valid loads and adds an error for each invalid load.
 pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -> Vec<Load> {
     let each = file.loads.iter().enumerate();
     each.filter_map(|(index, load)| {
@@ -50,7 +50,7 @@ pub fn validate(file: &FractureFile, mesh: &PreparedMesh, check: &mut Checker) -
     .collect()
 }
 
-/// Returns the faces of a named boundary.
+/// Returns the faces of the physical surface with this name.
 fn faces_of(name: &str, path: &str, mesh: &PreparedMesh, check: &mut Checker) -> Option<Vec<Exterior>> {
     let found = mesh.faces.boundaries.iter().find(|set| set.name == name);
     if found.is_none() {
@@ -62,7 +62,7 @@ fn faces_of(name: &str, path: &str, mesh: &PreparedMesh, check: &mut Checker) ->
     found.map(|set| set.faces.iter().map(|face| mesh.faces.exteriors[*face as usize]).collect())
 }
 
-/// Returns the faces of a body around a position.
+/// Returns the faces of the body `name` on which a force at `place_m` acts.
 fn loaded_faces(
     name: &str,
     place_m: [f64; 3],
@@ -79,8 +79,7 @@ fn loaded_faces(
     }
     let mut good = true;
     for (axis, x) in place_m.iter().enumerate() {
-        good &=
-            check.number(&format!("{path}.place_m[{axis}]"), *x, at_least(-1e4).up_to(1e4), "m", "write it in metres");
+        good &= check.number(&format!("{path}.place_m[{axis}]"), *x, at_least(-1e4).up_to(1e4), "m", "write metres");
     }
     let advice = "0 loads the nearest face";
     good &= check.number(&format!("{path}.radius_m"), radius_m, at_least(0.0).up_to(1e3), "m", advice);
@@ -103,7 +102,7 @@ fn loaded_faces(
     Some(near.faces)
 }
 
-/// Returns the factor of a load: 1 without a history.
+/// Returns the load factor as a function of time; it is 1 if the load has no history.
 fn given_factor(rows: Option<&[[f64; 2]]>, path: &str, check: &mut Checker) -> Option<History<1>> {
     let Some(rows) = rows else { return Some(History::from(1.0)) };
     let path = format!("{path}.history");
@@ -112,20 +111,20 @@ fn given_factor(rows: Option<&[[f64; 2]]>, path: &str, check: &mut Checker) -> O
     factor(rows, &path, check).filter(|_| good)
 }
 
-/// Returns the history of one value; its times must rise.
+/// Returns the history of one value from rows [time, value]. The times must increase.
 pub fn factor(rows: &[[f64; 2]], path: &str, check: &mut Checker) -> Option<History<1>> {
     rising(rows.iter().map(|[t, value]| (*t, [*value])).collect(), path, check)
 }
 
-/// Returns the history of force and moment.
+/// Returns the history of force and moment from rows with 4 or 7 numbers.
 fn forces(rows: &[Vec<f64>], path: &str, check: &mut Checker) -> Option<History<6>> {
     let path = format!("{path}.history");
     let mut all = Vec::with_capacity(rows.len());
     for (index, row) in rows.iter().enumerate() {
         let path = format!("{path}[{index}]");
         if !matches!(row.len(), 4 | 7) {
-            let allowed = "t, F_x, F_y, F_z, or these and M_x, M_y, M_z";
-            check.reject(&path, format!("{row:?}"), allowed, "seconds, newtons, newton metres");
+            let allowed = "t, F_x, F_y, F_z, or t, F_x, F_y, F_z, M_x, M_y, M_z";
+            check.reject(&path, format!("{row:?}"), allowed, "write seconds, newtons and newton metres");
             return None;
         }
         if !numbers(&row[1..], &path, "", check) {
@@ -152,12 +151,18 @@ fn rising<const N: usize>(rows: Vec<(f64, [f64; N])>, path: &str, check: &mut Ch
     history
 }
 
-/// Checks that all numbers have a size that a load can have.
+/// Checks that the magnitude of each number is at most [`MAX_MAGNITUDE`].
 fn numbers(values: &[f64], path: &str, unit: &str, check: &mut Checker) -> bool {
     let mut good = true;
     for (index, value) in values.iter().enumerate() {
         let path = if values.len() == 1 { path.to_owned() } else { format!("{path}[{index}]") };
-        good &= check.number(&path, *value, at_least(-MOST).up_to(MOST), unit, "check the number and its unit");
+        good &= check.number(
+            &path,
+            *value,
+            at_least(-MAX_MAGNITUDE).up_to(MAX_MAGNITUDE),
+            unit,
+            "check the number and its unit",
+        );
     }
     good
 }
@@ -169,7 +174,7 @@ mod tests {
     use super::super::super::file::FractureFile;
     use super::super::FractureCase;
 
-    /// Returns a case with one bar and the given boundary conditions.
+    /// Returns a case with one bar and the given constraints and loads, or the error messages.
     fn case(rigid: bool, constraints: Value, loads: Value) -> Result<FractureCase, String> {
         let file = json!({
             "title": "bar",
@@ -204,7 +209,7 @@ mod tests {
         let found = case(false, constraints.clone(), loads.clone()).unwrap();
         assert_eq!((found.setup.loads.len(), found.setup.constraints.len()), (3, 1));
         assert_eq!(found.setup.constraints[0].at(5e-4), [Some(0.0), None, Some(-0.05)]);
-        // The saved case has the same loads.
+        // The case text that the run stores has the same loads.
         let kept: FractureFile = serde_json::from_str(&found.text).unwrap();
         assert_eq!(kept.loads.len(), 3);
         assert!(case(true, constraints, loads).unwrap().setup.bodies[0].rigid);

@@ -20,47 +20,47 @@ use crate::femdem::setup::Setup;
 pub(super) use bodies::validate_concrete;
 pub use places::{Landmark, Plane};
 
-/// Largest number of time steps of a run [-]; more would take years.
+/// Largest number of time steps of a run [-]. A run with more time steps would take years.
 const MOST_STEPS: f64 = 1e10;
 
 /// A validated fracture case; SI units.
 #[derive(Debug, Clone)]
 pub struct FractureCase {
-    /// One line that names the case.
+    /// Title of the case in reports, one line.
     pub title: String,
-    /// Assumptions listed in the case file.
+    /// Assumptions of the case, which the report lists.
     pub assumptions: Vec<String>,
-    /// Values that are allowed but probably not intended.
+    /// Warnings about values that are allowed but probably not intended.
     pub warnings: Vec<String>,
     /// Fingerprint of case and mesh: 32 hexadecimal digits.
     pub hash: String,
-    /// Case text that is saved with the run, next to [`Self::MESH`].
+    /// Text of the case file that the run writes into its folder, next to the file [`Self::MESH`].
     pub text: String,
     /// Content of the mesh file.
     pub mesh_file: Vec<u8>,
-    /// Names of the bodies, in the order of the setup.
+    /// Names of the bodies, in the same order as in `setup`.
     pub names: Vec<String>,
-    /// The mesh.
+    /// The mesh, prepared for the solver.
     pub mesh: PreparedMesh,
     /// Bodies, constraints, loads and friction, as the solver uses them.
     pub setup: Setup,
     /// Time step over the longest stable time step [-].
     pub step_share: f64,
-    /// Time step [s], if the case gives it.
+    /// Upper limit of the time step [s], if the case has one.
     pub dt: Option<f64>,
-    /// Named positions.
+    /// Landmarks: boxes with names, for the report.
     pub landmarks: Vec<Landmark>,
-    /// Cut plane of the stress pictures.
+    /// Cut plane in which the report shows the stresses.
     pub section: Plane,
-    /// Output interval of surfaces, cracks and cut plane [s].
+    /// Interval between outputs of surfaces, cracks and cut plane [s]; `None` for no output.
     pub surfaces_interval: Option<f64>,
-    /// Output interval of all tetrahedra [s].
+    /// Interval between snapshots of all tetrahedra [s]; `None` for no snapshots.
     pub tets_interval: Option<f64>,
-    /// Output interval of the energy balance [s].
+    /// Interval between rows of the energy balance [s].
     pub energy_interval: f64,
-    /// Checkpoint interval [s]; `None` for no checkpoints.
+    /// Interval between checkpoints [s]; `None` for no checkpoints.
     pub checkpoint_interval: Option<f64>,
-    /// Simulated time [s].
+    /// Simulated time after which the run ends [s].
     pub duration: f64,
 }
 
@@ -73,7 +73,8 @@ impl FractureCase {
         Self::from_document(&Document::read(path.as_ref())?)
     }
 
-    /// Validates the text of a case file. `name` is its name in messages; the mesh path is relative to its folder.
+    /// Validates the text of a case file. `name` is the path of the case file; the path of the mesh is relative to its
+    /// folder.
     pub fn from_str(text: &str, name: &str) -> Result<Self, CaseErrors> {
         Self::from_document(&Document::new(text, name)?)
     }
@@ -99,7 +100,7 @@ fn validate(file: &FractureFile, document: &Document, check: &mut Checker) -> Op
     warn_of_coarse_mesh(&setup, &mesh, check);
     let mut kept = file.clone();
     kept.fracture.mesh = FractureCase::MESH.to_owned();
-    let text = document.text_of(file, &kept);
+    let text = document.stored_text(file, &kept);
     let section = places::section(file, &setup, &mesh, check);
     Some(FractureCase {
         title: file.title.clone(),
@@ -140,7 +141,7 @@ fn validate_numbers(file: &FractureFile, check: &mut Checker) {
             penalty,
             at_least(0.1).up_to(1e4),
             "",
-            "50 reduces the stiffness by 5 %",
+            "with 50, the joints reduce the stiffness of a body by 5 %",
         );
     }
     if let Some(dt) = method.dt_s {
@@ -177,7 +178,8 @@ fn read_mesh(file: &FractureFile, name: &str, check: &mut Checker) -> Option<(Ve
     }
 }
 
-/// Warns of elements larger than a quarter of the characteristic length: these do not resolve cracks.
+/// Warns if the mean edge of the elements is longer than a quarter of the characteristic length. Such elements do not
+/// resolve cracks.
 fn warn_of_coarse_mesh(setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) {
     for (body, quality) in setup.bodies.iter().zip(&mesh.quality) {
         if let Some(warning) = quality.warning() {

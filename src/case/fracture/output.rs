@@ -1,16 +1,18 @@
-//! Validates the end of a fracture run and its output intervals.
+//! Validates the duration and the output intervals of a fracture run.
 
 use crate::case::file::FractureFile;
 use crate::case::output::files::validate_interval;
 use crate::case::reading::check::{Checker, at_least};
 
-/// Default checkpoint interval over the duration [-]. A checkpoint costs as much as about ten time steps.
+/// Default checkpoint interval over the duration of the run [-]. Writing a checkpoint takes as long as about ten time
+/// steps.
 const CHECKPOINTS_SHARE: f64 = 0.02;
 
 /// Largest number of rows of the energy balance [-].
 const MOST_ROWS: f64 = 1e6;
 
-/// Validates the end and the intervals; returns the intervals of surfaces, tetrahedra and checkpoints [s].
+/// Validates duration and output intervals. Returns the intervals of surfaces, tetrahedra and checkpoints [s]; `None`
+/// for no output.
 pub fn validate(file: &FractureFile, check: &mut Checker) -> [Option<f64>; 3] {
     let (duration, output) = (file.stop.duration_s, &file.output);
     check.number("stop.duration_s", duration, at_least(1e-9).up_to(1e3), "s", "an impact lasts a few milliseconds");

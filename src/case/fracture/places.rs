@@ -7,17 +7,17 @@ use crate::case::reading::check::{Checker, at_least, more_than};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::setup::Setup;
 
-/// A named box in the undeformed bodies.
+/// A box with a name, in the undeformed mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landmark {
-    /// Name in words.
+    /// Name in the report.
     pub name: String,
-    /// Lowest and highest corner of the box [m].
+    /// Corners of the box with the smallest and with the largest coordinates [m].
     pub corners: [DVec3; 2],
 }
 
 impl Landmark {
-    /// Returns the distance of a point from the box [m]; zero inside.
+    /// Returns the distance of a point from the box [m]; 0 for a point inside the box.
     pub fn distance(&self, place: DVec3) -> f64 {
         let [low, high] = self.corners;
         place.distance(place.clamp(low, high))
@@ -34,7 +34,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Returns the height of a point above the plane [m].
+    /// Returns the signed distance of a point from the plane along the normal [m].
     pub fn height(&self, place: DVec3) -> f64 {
         self.normal.dot(place - self.point)
     }
@@ -45,13 +45,13 @@ pub fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
         let path = |key: &str| format!("landmarks[{index}].{key}");
         if landmark.name.trim().is_empty() {
             let advice = "write a name that readers understand";
-            check.reject(&path("name"), format!("{:?}", landmark.name), "some words", advice);
+            check.reject(&path("name"), format!("{:?}", landmark.name), "a line of text", advice);
         }
         for axis in 0..3 {
             let (low, high) = (landmark.low_m[axis], landmark.high_m[axis]);
             let advice = "write a coordinate of the undeformed mesh";
             check.number(&path(&format!("low_m[{axis}]")), low, at_least(-1e4).up_to(1e4), "m", advice);
-            let advice = "high_m must not be below low_m";
+            let advice = "`high_m` must not be less than `low_m`";
             check.number(&path(&format!("high_m[{axis}]")), high, at_least(low).up_to(1e4), "m", advice);
         }
         Landmark {
@@ -62,8 +62,8 @@ pub fn landmarks(file: &FractureFile, check: &mut Checker) -> Vec<Landmark> {
     file.landmarks.iter().enumerate().map(validate).collect()
 }
 
-/// Returns the cut plane of the case. The default is normal to y through the centroid of the bodies that can crack, or
-/// of all bodies if none can.
+/// Returns the cut plane of the case. The default plane is normal to y and passes through the centroid of the bodies
+/// that can crack, or of all bodies if no body can crack.
 pub fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &mut Checker) -> Plane {
     let Some(given) = file.output.section else {
         let cracks = |tet: usize| setup.bodies.iter().any(|b| b.cohesion.is_some() && b.tets.contains(&tet));
@@ -78,7 +78,7 @@ pub fn section(file: &FractureFile, setup: &Setup, mesh: &PreparedMesh, check: &
         return Plane { point: moment / volume.max(f64::MIN_POSITIVE), normal: DVec3::Y };
     };
     let normal = DVec3::from_array(given.normal);
-    let advice = "[0, 1, 0] cuts along x and z";
+    let advice = "[0, 1, 0] gives a plane along x and z";
     check.number("output.section.normal (its length)", normal.length(), more_than(0.0).up_to(1e6), "", advice);
     for (axis, value) in given.point_m.into_iter().enumerate() {
         let advice = "write a point inside a body";

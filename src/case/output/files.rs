@@ -7,20 +7,20 @@ use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 /// Largest number of snapshots or rows of one output in a run.
 const MOST_OUTPUTS: f64 = 1e6;
 
-/// Output settings; SI units. `None` means that the output is not written.
+/// Output settings; SI units. An interval of `None` means that this output is not written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
-    /// Interval of the fluid snapshots [s].
+    /// Interval between snapshots of the water particles [s].
     pub fluid_interval: Option<f64>,
-    /// Fields of the fluid snapshots besides the positions, each once.
+    /// Fields of the water particles in the snapshots, in addition to the position; each only once.
     pub fluid_fields: Vec<FluidField>,
-    /// Lower and upper corner of the box of the fluid snapshots [m]; `None` for all water.
+    /// Lower and upper corner of the box whose water particles the snapshots contain [m]; `None` for all particles.
     pub fluid_box: Option<[[f64; 3]; 2]>,
-    /// Interval of the unit surfaces [s].
+    /// Interval between outputs of the unit surfaces [s].
     pub units_interval: Option<f64>,
-    /// Interval of the tables of gauges, motion, forces, energy and diagnostics [s].
+    /// Interval between rows of the tables with gauges, unit motion, unit forces, energy and diagnostics [s].
     pub series_interval: f64,
-    /// Interval of the checkpoints [s]; `None` for one at the end.
+    /// Interval between checkpoints [s]; `None` for only one checkpoint, at the end of the run.
     pub checkpoint_interval: Option<f64>,
 }
 
@@ -45,7 +45,7 @@ pub fn validate(file: &OutputFile, duration: f64, domain: Option<&Domain>, check
     }
 }
 
-/// Validates an interval in a run of `duration` [s]. Returns `None` for 0 or an error.
+/// Validates the interval `output.<key>` of a run of `duration` [s]. Returns `None` if it is 0 or invalid.
 pub fn validate_interval(key: &str, value: f64, duration: f64, check: &mut Checker) -> Option<f64> {
     if value == 0.0 {
         return None;
@@ -55,7 +55,7 @@ pub fn validate_interval(key: &str, value: f64, duration: f64, check: &mut Check
     check.number(&format!("output.{key}"), value, at_least(shortest).up_to(1e6), "s", &advice).then_some(value)
 }
 
-/// Validates the interval of the tables, which are always written.
+/// Validates the interval of the tables. It must not be 0, because the tables are always written.
 pub fn validate_series_interval(value: f64, duration: f64, check: &mut Checker) {
     let shortest = duration / MOST_OUTPUTS;
     let range = if shortest > 0.0 { at_least(shortest) } else { more_than(0.0) };
@@ -76,7 +76,7 @@ fn validate_fields(fields: &[FluidField], check: &mut Checker) {
     }
 }
 
-/// Validates the box of the fluid snapshots: it must not be empty and must overlap the domain.
+/// Validates the box whose water particles the snapshots contain. It must not be empty and must overlap the domain.
 fn validate_box([low, high]: [[f64; 3]; 2], domain: &Domain, check: &mut Checker) {
     let Domain { x, width, bottom_z, top_z, .. } = *domain;
     let ranges = [("x", x), ("y", [0.0, width]), ("z", [bottom_z, top_z])];

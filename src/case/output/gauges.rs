@@ -8,7 +8,7 @@ use crate::case::wave::wavemaker::Wavemaker;
 
 /// Largest number of gauges in a case.
 const MOST_GAUGES: usize = 1000;
-/// Largest number of characters in a gauge's name; names become file names and table headings.
+/// Largest number of characters in the name of a gauge. Names become parts of file names and table headings.
 const LONGEST_NAME: usize = 64;
 
 /// A gauge; SI units.
@@ -18,27 +18,29 @@ pub struct Gauge {
     pub name: String,
     /// Measured quantity.
     pub quantity: Quantity,
-    /// Position [m]; z of an elevation gauge is the still water level.
+    /// Initial position [x, y, z] [m]; z of an elevation gauge is the still water level.
     pub at: [f64; 3],
     /// Motion of the gauge.
     pub motion: Motion,
-    /// Whether the gauge is inside the particle domain; outside, only the flume model writes it.
+    /// true if the gauge is inside the particle domain. Outside the domain, only the flume model writes values for it.
     pub in_domain: bool,
 }
 
-/// How a gauge moves.
+/// Motion of a gauge.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Motion {
     /// Fixed in space.
     Fixed,
-    /// With a unit, counted from 0.
+    /// Moves with the unit of this index, counted from 0.
     OnUnit(usize),
-    /// Along a path: rows of the time from the start of the particles [s] and the displacement [m].
+    /// Moves along a path. Each row has the time from the start of the particle simulation [s] and the displacement
+    /// [m].
     Way(Vec<[f64; 4]>),
 }
 
 impl Gauge {
-    /// Returns the displacement along the path [m] at a time after the start of the particles [s]; 0 without a path.
+    /// Returns the displacement [m] of a gauge with a path; 0 for other gauges. `time` counts from the start of the
+    /// particle simulation [s].
     pub fn displacement(&self, time: f64) -> [f64; 3] {
         let Motion::Way(way) = &self.motion else { return [0.0; 3] };
         let after = way.partition_point(|point| point[0] <= time);
@@ -63,14 +65,14 @@ pub enum Quantity {
     Velocity,
 }
 
-/// Range in which elevation gauges are allowed.
+/// Region in which elevation gauges are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
-    /// The whole flume: the flume model writes the gauges outside the domain.
+    /// The whole flume, because the flume model computes the gauges outside the domain.
     Flume,
-    /// The domain, because there is no wave.
+    /// Only the particle domain, because the case has no wave and the flume model does not run.
     DomainWithoutWave,
-    /// The domain, because the wave is generated there.
+    /// Only the particle domain, because the wave is generated there and the flume model does not run.
     DomainWithPaddle,
 }
 
@@ -142,14 +144,14 @@ fn validate_names(file: &[GaugeFile], check: &mut Checker) {
                 "the name becomes part of a file name, e.g. \"WG1\"",
             );
         }
-        // Some file systems do not distinguish capital letters.
+        // Some file systems do not distinguish capital from small letters.
         if file[..index].iter().any(|other| self::gauge_name(other).eq_ignore_ascii_case(name)) {
             check.reject(&path, format!("{name:?}"), "different from the names before it", "rename one of the two");
         }
     }
 }
 
-/// Returns the range of y for gauges [m]; in two dimensions any y is allowed.
+/// Returns the allowed range of y for gauges [m]. In two dimensions, any y is allowed.
 fn y_range(domain: &Domain) -> [f64; 2] {
     let everywhere = [f64::MIN, f64::MAX];
     if domain.sides == Sides::TwoDimensional { everywhere } else { [0.0, domain.width] }

@@ -1,10 +1,10 @@
-//! What a run measures and writes, and when it ends.
+//! Settings for the output of a run, its gauges and its end.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | [`gauges`] | points at which the water is measured |
+//! | [`gauges`] | points at which elevation, pressure or velocity of the water is measured |
 //! | [`files`] | output files and their intervals |
-//! | [`stop`] | duration and rest criterion |
+//! | [`stop`] | duration of the run and rest criterion |
 
 pub mod files;
 pub mod gauges;

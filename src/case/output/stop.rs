@@ -3,23 +3,23 @@
 use crate::case::file::StopFile;
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 
-/// When the run ends; SI units.
+/// Criteria that end the run; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Longest simulated time [s].
+    /// Simulated time after which the run ends at the latest [s].
     pub duration: f64,
-    /// Rest criterion, which can end the run earlier.
+    /// Rest criterion, which can end the run before `duration`, if any.
     pub at_rest: Option<AtRest>,
 }
 
 /// Rest criterion; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtRest {
-    /// Largest speed of a unit at rest [m/s].
+    /// Speed below which a unit counts as at rest [m/s].
     pub speed: f64,
     /// Time for which all units must be at rest [s].
     pub hold: f64,
-    /// Earliest end of the run [s].
+    /// Earliest time at which the rest criterion can end the run [s].
     pub not_before: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Collects all errors and warnings of a case file, so that the user sees all of them at once.
+//! Collects the errors and warnings of a case file, so that the user sees all of them at once.
 
 use super::error::{CaseError, CaseErrors};
 
@@ -15,12 +15,12 @@ impl Checker {
         Self { file: file.to_owned(), errors: Vec::new(), warnings: Vec::new() }
     }
 
-    /// Returns the number of errors so far. If it does not grow over a section, the section is valid.
+    /// Returns the number of errors so far. A section is valid if its validation does not increase this number.
     pub fn count(&self) -> usize {
         self.errors.len()
     }
 
-    /// Adds the error that the value at `path` "must be" `allowed`.
+    /// Adds an error with the message "`path` = `value`: must be `allowed`; `advice`".
     pub fn reject(&mut self, path: &str, value: impl ToString, allowed: impl Into<String>, advice: impl Into<String>) {
         self.errors.push(CaseError::Invalid {
             file: self.file.clone(),
@@ -31,7 +31,7 @@ impl Checker {
         });
     }
 
-    /// Returns whether a number lies within a range, and adds an error if not; `unit` may be empty.
+    /// Returns true if `value` is within `range`. Otherwise it adds an error. `unit` may be empty.
     pub fn number(&mut self, path: &str, value: f64, range: Range, unit: &str, advice: &str) -> bool {
         let inside = range.contains(value);
         if !inside {
@@ -41,19 +41,19 @@ impl Checker {
         inside
     }
 
-    /// Refuses an empty title.
+    /// Adds an error if the title is empty.
     pub fn title(&mut self, title: &str) {
         if title.trim().is_empty() {
             self.reject("title", format!("{title:?}"), "a line of text", "name the case; reports show the title");
         }
     }
 
-    /// Adds a warning about something that is allowed but probably not intended.
+    /// Adds a warning about a value that is allowed but probably not intended.
     pub fn warn(&mut self, warning: impl Into<String>) {
         self.warnings.push(warning.into());
     }
 
-    /// Returns the errors.
+    /// Returns the collected errors.
     pub fn into_errors(self) -> CaseErrors {
         CaseErrors { errors: self.errors }
     }
@@ -68,23 +68,23 @@ pub struct Range {
     high_open: bool,
 }
 
-/// Numbers greater than `low`.
+/// Returns the range of numbers greater than `low`.
 pub fn more_than(low: f64) -> Range {
     Range { low, low_open: true, high: f64::MAX, high_open: false }
 }
 
-/// Numbers of at least `low`.
+/// Returns the range of numbers greater than or equal to `low`.
 pub fn at_least(low: f64) -> Range {
     Range { low, low_open: false, high: f64::MAX, high_open: false }
 }
 
 impl Range {
-    /// At most `high`.
+    /// Limits the range to numbers less than or equal to `high`.
     pub fn up_to(self, high: f64) -> Self {
         Self { high, high_open: false, ..self }
     }
 
-    /// Less than `high`.
+    /// Limits the range to numbers less than `high`.
     pub fn below(self, high: f64) -> Self {
         Self { high, high_open: true, ..self }
     }
@@ -102,7 +102,7 @@ impl Range {
     }
 }
 
-/// Formats a number for messages.
+/// Formats a number for messages, with at most six decimals.
 pub fn as_text(value: f64) -> String {
     if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
         // Six decimals are enough for any case file and hide the rounding errors of derived values.

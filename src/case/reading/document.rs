@@ -1,4 +1,4 @@
-//! An input file whose kind is known from its top-level keys, before anything else is parsed.
+//! The text of an input file. Its top-level keys determine its kind before the other keys are parsed.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -27,12 +27,12 @@ pub enum InputKind {
     Sweep,
     /// A placement file.
     Placement,
-    /// The description of a reference folder.
+    /// `reference.json`, the description of a reference folder.
     Reference,
 }
 
 impl InputKind {
-    /// Returns the name of the kind, with its article.
+    /// Returns the name of the kind with its article, for messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flume => "a flume case",
@@ -45,12 +45,12 @@ impl InputKind {
     }
 }
 
-/// The text of an input file, which is valid JSON.
+/// The text of an input file. It is valid JSON.
 #[derive(Debug, Clone)]
 pub struct Document {
-    /// Name of the file, as passed by the user.
+    /// Path of the file, as the user passed it.
     pub name: String,
-    /// The text.
+    /// Text of the file.
     pub text: String,
     /// Top-level keys.
     keys: Vec<String>,
@@ -69,7 +69,7 @@ impl Document {
         }
     }
 
-    /// Takes the text of an input file; `name` is its name in messages.
+    /// Makes a document from the text of an input file; `name` is the file name in messages.
     ///
     /// # Errors
     /// If the text is not valid JSON.
@@ -77,21 +77,21 @@ impl Document {
         let (text, name) = (text.into(), name.to_owned());
         let keys = match serde_json::from_str::<BTreeMap<String, IgnoredAny>>(without_mark(&text)) {
             Ok(object) => object.into_keys().collect(),
-            // Valid JSON, but not an object: parsing it as a flume case reports that.
+            // The text is valid JSON but not an object. Parsing it as a flume case reports this error.
             Err(error) if error.is_data() => Vec::new(),
             Err(error) => return Err(syntax_error(&error, &name)),
         };
         Ok(Self { name, text, keys })
     }
 
-    /// Returns the kind of the file. A file without the keys of another kind is a flume case.
+    /// Returns the kind of the file. A file that has no keys of the other kinds counts as a flume case.
     pub fn kind(&self) -> InputKind {
         let has = |key: &str| self.has(key);
         let has_flume = has("flume") || has("domain");
         match () {
             () if has("vary") => InputKind::Sweep,
             () if has("dry_test") || has("dry") => InputKind::DryTest,
-            // Old flume cases have a key `fracture` for their breakage analysis.
+            // Old flume cases use the key `fracture` for the breakage analysis.
             () if has("fracture") && !has_flume => InputKind::Fracture,
             () if has("series") && !has_flume => InputKind::Reference,
             () if has("poses") && !has_flume => InputKind::Placement,
@@ -103,7 +103,7 @@ impl Document {
         self.keys.iter().any(|found| found == key)
     }
 
-    /// Parses the file: keys and types.
+    /// Parses the file into a struct of `file`, which checks keys and types.
     ///
     /// # Errors
     /// If a key is unknown or missing, or a value has the wrong type.
@@ -111,13 +111,14 @@ impl Document {
         parse(without_mark(&self.text), &self.name)
     }
 
-    /// Returns the text that a run stores: the user's own if `kept`, the file as the run stores it, does not differ.
-    pub(in crate::case) fn text_of<F: PartialEq + Serialize>(&self, file: &F, kept: &F) -> String {
+    /// Returns the case text that a run stores. It is the user's own text if `file`, the parsed case, equals `kept`,
+    /// the case as the run stores it. Otherwise it is `kept` as JSON.
+    pub(in crate::case) fn stored_text<F: PartialEq + Serialize>(&self, file: &F, kept: &F) -> String {
         // Writing to memory cannot fail, because every key is a string.
         if kept == file { self.text.clone() } else { serde_json::to_string_pretty(kept).unwrap_or_default() }
     }
 
-    /// Parses and validates the file. Returns the result with the warnings, or all errors.
+    /// Parses the file and validates it. Returns the validated case and the warnings, or all errors.
     pub(in crate::case) fn validate<F: DeserializeOwned, C>(
         &self,
         validate: impl FnOnce(&F, &Self, &mut Checker) -> Option<C>,
@@ -135,7 +136,7 @@ impl Document {
     }
 }
 
-/// Returns the text without its byte order mark.
+/// Returns the text without a leading byte order mark.
 fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }

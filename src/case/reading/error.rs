@@ -13,28 +13,28 @@ pub enum CaseError {
         /// Message of the operating system.
         reason: String,
     },
-    /// The file is not JSON.
+    /// The file is not valid JSON.
     #[error("{file}: line {line}, column {column}: not valid JSON: {problem}")]
     Syntax {
         /// The case file.
         file: String,
-        /// Line, from 1.
+        /// Line number, counted from 1.
         line: usize,
-        /// Column, from 1.
+        /// Column number, counted from 1.
         column: usize,
         /// Message of the parser.
         problem: String,
     },
-    /// A key is unknown or missing, or its value is of the wrong type.
+    /// A key is unknown, missing or written twice, or its value has the wrong type.
     #[error("{file}: {path} (line {line}): {problem}; {advice}")]
     Key {
         /// The case file.
         file: String,
-        /// JSON path of the object or value.
+        /// JSON path of the object or value with the error.
         path: String,
-        /// Line, from 1.
+        /// Line number, counted from 1.
         line: usize,
-        /// What is wrong.
+        /// Description of the error.
         problem: String,
         /// What to do.
         advice: String,
@@ -46,16 +46,16 @@ pub enum CaseError {
         file: String,
         /// JSON path of the value.
         path: String,
-        /// The value as written or as derived.
+        /// The value in the file, or a value derived from it.
         value: String,
-        /// What is allowed, with its unit; completes "must be".
+        /// Allowed values with their unit; completes the phrase "must be ...".
         allowed: String,
         /// What to do.
         advice: String,
     },
 }
 
-/// All errors in a case file; never empty.
+/// All errors in a case file. The list is never empty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseErrors {
     /// The errors, in the order of validation.
@@ -85,7 +85,7 @@ impl From<CaseError> for CaseErrors {
 
 /// Returns the candidate with the smallest edit distance to `word`, if it is small enough for a typing error.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // No key is this long; the search would be slow.
+    // No key is longer than this, and the search would be slow.
     if word.len() > 64 {
         return None;
     }

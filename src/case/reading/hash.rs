@@ -1,15 +1,16 @@
-//! Fingerprint of a case, independent of the layout of its file.
+//! Fingerprint (hash) of a case, independent of the layout of its file.
 
 use serde::Serialize;
 
 use super::parse::RENAMED_KEYS;
 
-/// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with all defaults, and of `read`, the content of its
-/// other files. White space and key order do not matter. `file` must not contain its `$schema`.
+/// Returns 32 hexadecimal digits: FNV-1a (128 bits) of the case with all defaults, and of `read`, the content of the
+/// files that the case refers to. White space and key order do not matter. `file` must not contain its `$schema`.
 pub fn fingerprint(file: &impl Serialize, read: &[u8]) -> String {
     // The structs fix the order of the keys. Serializing to a string cannot fail: every key is a string.
     let canonical = serde_json::to_string(file).unwrap_or_default();
-    // Under its old name a key gives the hash that old runs have, so that they can resume. Quotes in values are escaped.
+    // Renamed keys are hashed under their old names, so that the hash of old runs stays valid and they can resume. The
+    // replacement changes no values, because quotes in values are escaped.
     let canonical = RENAMED_KEYS
         .iter()
         .fold(canonical, |text, (old, new)| text.replace(&format!("\"{new}\":"), &format!("\"{old}\":")));

@@ -1,11 +1,11 @@
-//! Reads input files: JSON, keys, types, and what is the same for every section.
+//! Reads input files: JSON, keys, types, and the error handling that all sections share.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
-//! | [`document`] | the text of an input file and its kind |
-//! | [`parse`] | keys and types, with the path of a wrong one |
-//! | [`check`] | collects errors and warnings of the validation |
-//! | [`error`] | errors and their messages |
+//! | [`document`] | text and kind of an input file |
+//! | [`parse`] | checks keys and types; errors name the path of the wrong key |
+//! | [`check`] | collects the errors and warnings of the validation |
+//! | [`error`] | errors in case files and their messages |
 //! | [`hash`] | fingerprint of a case |
 //! | [`schema`] | JSON schemas of all kinds of files |
 //! | [`template`] | the example case of `breakwater init` |

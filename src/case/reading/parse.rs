@@ -1,4 +1,4 @@
-//! Parses the JSON of an input file: keys and types.
+//! Parses the JSON of an input file and checks its keys and types.
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
@@ -9,10 +9,10 @@ use crate::case::file::{
     SolitaryFile, SpongeFile, TiltFile,
 };
 
-/// Top-level keys that were renamed, old and new name. Flume cases and dry tests may still have the old ones.
+/// Renamed top-level keys: old name, new name. Flume cases and dry tests may still use the old names.
 pub(super) const RENAMED_KEYS: [(&str, &str); 2] = [("fracture", "breakage"), ("dry", "dry_test")];
 
-/// Parses valid JSON; `name` is the file's name in messages.
+/// Parses valid JSON into a struct of `file`; `name` is the file name in messages.
 pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, CaseError> {
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize::<_, T>(&mut reader).map_err(|error| {
@@ -26,18 +26,17 @@ pub(super) fn parse<T: DeserializeOwned>(text: &str, name: &str) -> Result<T, Ca
     })
 }
 
-/// Returns the error for three faults that the parser reports as syntax errors although the text is valid JSON: a number
-/// beyond the largest float, another value where a name in quotes is required, and too many entries in a list of fixed
-/// length.
+/// Returns the error for three faults in valid JSON that the parser reports as syntax errors: a number beyond the
+/// largest float, a value without quotes where a name is required, and too many entries in a list of fixed length.
 fn value_error(text: &str, path: String, error: &serde_json::Error, name: &str) -> CaseError {
     let (problem, advice) = match without_position(error).as_str() {
         "number out of range" => ("number too large to be represented", "write a finite number"),
-        // Nested more deeply than the parser allows.
+        // The text is nested more deeply than the parser allows.
         _ if serde_json::from_str::<IgnoredAny>(text).is_err() => return syntax_error(error, name),
         "expected value" => {
             ("not one of the allowed names", "write a name in quotes; `breakwater schema` lists the names")
         }
-        _ => ("too many entries", "remove the surplus entries; `breakwater schema` shows how many are needed"),
+        _ => ("too many entries", "remove the surplus entries; `breakwater schema` shows the required number"),
     };
     let (problem, advice) = (problem.to_owned(), advice.to_owned());
     CaseError::Key { file: name.to_owned(), path, line: error.line(), problem, advice }
@@ -53,7 +52,7 @@ pub(super) fn syntax_error(error: &serde_json::Error, name: &str) -> CaseError {
     }
 }
 
-/// Returns the parser's message without its ending " at line 3 column 5".
+/// Returns the parser's message without the position at its end, for example " at line 3 column 5".
 fn without_position(error: &serde_json::Error) -> String {
     let message = error.to_string();
     let position = format!(" at line {} column {}", error.line(), error.column());
@@ -61,7 +60,7 @@ fn without_position(error: &serde_json::Error) -> String {
 }
 
 /// Returns the path of the wrong key inside an object with `kind`, and the problem. The parser reads such objects in
-/// two steps and knows only the object's path, so the object is parsed again as its kind.
+/// two steps and reports only the path of the object. Therefore the object is parsed again as the struct of its kind.
 fn locate_inside_kind(text: &str, path: &str) -> Option<(String, String)> {
     let root: Value = serde_json::from_str(text).ok()?;
     let pointer = format!("/{}", path.replace(['.', '['], "/").replace(']', ""));
@@ -93,7 +92,7 @@ fn first_problem<T: DeserializeOwned>(value: Value) -> Option<(String, String)> 
     Some((error.path().to_string(), without_position(error.inner())))
 }
 
-/// Returns an error whose message uses the terms of case files instead of the parser's.
+/// Returns an error whose message uses the terms of case files instead of the terms of the parser.
 fn key_error(name: &str, path: String, line: usize, problem: &str) -> CaseError {
     let path = if path == "." { "top level".to_owned() } else { path };
     let (problem, advice) = reword(problem);

@@ -31,6 +31,6 @@ pub fn reference_schema_text() -> String {
 
 fn indented_schema<T: JsonSchema>() -> String {
     let schema = schemars::schema_for!(T);
-    // A schema is plain JSON; the alternate format indents it and cannot fail.
+    // The alternate format indents the JSON text. It cannot fail.
     format!("{:#}", schema.as_value())
 }

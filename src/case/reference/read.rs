@@ -12,14 +12,14 @@ use crate::case::{
     },
 };
 
-/// Longest series [-].
-const MOST_UNITS: u32 = 10_000;
+/// Largest number of units in a series [-].
+const MAX_UNITS: u32 = 10_000;
 
 impl Reference {
-    /// Reads and validates a folder.
+    /// Reads and validates a reference folder.
     ///
     /// # Errors
-    /// All that is wrong in `reference.json`; each error names the key and what is allowed there.
+    /// Lists all errors in `reference.json` and its CSV files. Each error names the key and the allowed values.
     pub fn load(folder: &Path) -> Result<Self, CaseErrors> {
         let path = folder.join(Self::FILE);
         let document = Document::read(&path)?;
@@ -39,7 +39,8 @@ impl Reference {
     }
 }
 
-/// Reads the folder that a case names, seen from the folder of the case file `case_name`.
+/// Reads and validates the reference folder that a case names. `path` is relative to the folder of the case file
+/// `case_name`.
 pub(in crate::case) fn validate(path: &str, case_name: &str, check: &mut Checker) -> Option<Reference> {
     let folder = Path::new(case_name).parent().unwrap_or(Path::new("")).join(path);
     match Reference::load(&folder) {
@@ -47,7 +48,7 @@ pub(in crate::case) fn validate(path: &str, case_name: &str, check: &mut Checker
         Err(errors) => {
             let found: Vec<String> = errors.errors.iter().map(ToString::to_string).collect();
             let allowed = format!("a folder with a valid {} ({})", Reference::FILE, found.join("; "));
-            check.reject("reference", format!("{path:?}"), allowed, "paths start at the folder of the case file");
+            check.reject("reference", format!("{path:?}"), allowed, "paths are relative to the case file");
             None
         }
     }
@@ -56,16 +57,16 @@ pub(in crate::case) fn validate(path: &str, case_name: &str, check: &mut Checker
 fn check_keys(file: &ReferenceFile, check: &mut Checker) {
     for (key, text) in [("title", &file.title), ("source", &file.source)] {
         if text.trim().is_empty() {
-            check.reject(key, format!("{text:?}"), "a line of text", "comparisons show it");
+            check.reject(key, format!("{text:?}"), "a line of text", "comparison pages show it");
         }
     }
-    if !(1..=MOST_UNITS).contains(&file.units) {
-        check.reject("units", file.units, format!("between 1 and {MOST_UNITS}"), "write the number of units");
+    if !(1..=MAX_UNITS).contains(&file.units) {
+        check.reject("units", file.units, format!("between 1 and {MAX_UNITS}"), "write the number of units");
     }
     if let Some([first, last]) =
         file.inner_units.filter(|[first, last]| !(1 <= *first && first <= last && *last <= file.units))
     {
-        let allowed = format!("first and last unit, rising, between 1 and {}", file.units);
+        let allowed = format!("first and last unit in ascending order, between 1 and {}", file.units);
         check.reject("inner_units", format!("[{first}, {last}]"), allowed, "leave it out if no unit stands at a wall");
     }
     check.number(
@@ -85,7 +86,7 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
             check.reject(
                 &format!("{key}.name"),
                 format!("{:?}", series.name),
-                "unlike the others",
+                "different from the other names",
                 "rename one of them",
             );
         }
@@ -105,7 +106,7 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
                 period,
                 more_than(0.0).up_to(1e4),
                 "s",
-                "solitary waves have none",
+                "leave it out for a solitary wave",
             );
         }
         let same = |other: &&ReferenceWaveFile| {
@@ -113,7 +114,7 @@ fn check_keys(file: &ReferenceFile, check: &mut Checker) {
         };
         if file.waves[..index].iter().any(|other| same(&other)) {
             let words = format!("{} {} m", wave.kind.name(), wave.height_m);
-            check.reject(&key, words, "unlike the other waves", "give the period, or remove one of them");
+            check.reject(&key, words, "different from the other waves", "give the period, or remove one wave");
         }
     }
 }
@@ -131,11 +132,12 @@ fn read_wave(
     let before = check.count();
     if table.rows.len() != file.units as usize {
         let value = format!("{:?} with {} rows", wave.displacements, table.rows.len());
-        check.reject(&key, value, format!("a table with {} rows, one per unit", file.units), "see the key `units`");
+        let advice = "`units` must be the number of rows";
+        check.reject(&key, value, format!("a table with {} rows, one per unit", file.units), advice);
     }
     let mut column = |name: &str, range| {
         let values = table.column(name, &key, check)?;
-        let advice = "displacements are distances seen from above";
+        let advice = "a displacement is a horizontal distance in metres";
         let is_sound = values.iter().all(|value| check.number(&format!("{key}: {name}"), *value, range, "m", advice));
         is_sound.then_some(values)
     };
@@ -195,7 +197,7 @@ fn read_convergence(
     (0..dp.len()).map(resolution).collect()
 }
 
-/// Numbers in rows under names; an empty field is not a number.
+/// Contents of a CSV file: column names and rows of numbers. An empty field becomes NaN.
 struct Table {
     file: String,
     names: Vec<String>,
@@ -213,7 +215,7 @@ impl Table {
     }
 }
 
-/// Reads a CSV file of the folder and keeps it; lines that begin with `#` are comments.
+/// Reads a CSV file of the reference folder and adds its content to `files`. Lines that begin with `#` are comments.
 fn read_table(
     name: &str,
     key: &str,
@@ -225,7 +227,7 @@ fn read_table(
         check.reject(key, format!("{name:?}"), allowed, advice);
         None
     };
-    // A run keeps the files side by side.
+    // A run copies all files into one folder; therefore names must not contain folders.
     if Path::new(name).file_name().is_none_or(|file| file != name) || !name.ends_with(".csv") {
         return refuse("the name of a .csv file, without folders".to_owned(), "put it in the folder of reference.json");
     }

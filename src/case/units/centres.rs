@@ -1,13 +1,13 @@
-//! Validates units that the case places one by one, by their centres.
+//! Places units at the centres in the case file and validates their positions.
 
 use super::row::azimuth;
 use super::shape::UnitShape;
-use super::{MOST_UNITS, UnitPose};
+use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text};
 
-/// Tolerance on the position of a unit [m]: rounding of the numbers in the file.
+/// Tolerance on the position of a unit [m]. It allows for rounding of the numbers in the file.
 const SLACK: f64 = 1e-6;
 
 /// Places the units at the given centres. Checks that they fit into the domain and do not overlap.
@@ -25,14 +25,14 @@ pub fn place(
         ("first_y_m", file.first_y_m.is_some()),
     ] {
         if written {
-            check.reject(&format!("units.{key}"), "...", "left out with `centres_m`", "it gives every position");
+            check.reject(&format!("units.{key}"), "...", "left out with `centres_m`", "the centres give all positions");
         }
     }
-    if !(1..=MOST_UNITS as usize).contains(&centres.len()) {
+    if !(1..=MAX_UNITS as usize).contains(&centres.len()) {
         check.reject(
             "units.centres_m",
             format!("{} centres", centres.len()),
-            format!("1 to {MOST_UNITS}"),
+            format!("1 to {MAX_UNITS}"),
             "leave out `units` for a case without units",
         );
         return Vec::new();
@@ -45,7 +45,7 @@ pub fn place(
         validate_distances(centres, shape, site, check);
     }
     let placement = |(index, [x, y, z]): (usize, &[f64; 3])| {
-        // In two dimensions all units are cuboids, which half a turn maps onto themselves.
+        // In two dimensions, all units are cuboids. A rotation by 180 degrees does not change them.
         let turns = site.sides != Sides::TwoDimensional;
         let azimuth = if turns { azimuth(file.orientation, index as u32) } else { 0.0 };
         UnitPose::standing(shape, [*x, *y], Some(*z), azimuth, site)
@@ -59,7 +59,7 @@ fn validate_centre(path: &str, centre: &[f64; 3], shape: &UnitShape, site: &Site
     let across = match site.sides {
         Sides::Periodic => [0.0, site.width],
         Sides::Walls => [reach_y, site.width - reach_y],
-        // In two dimensions `planar::lay` moves the unit into the layer.
+        // In two dimensions any y is allowed, because `planar::lay` moves the unit into the particle layer.
         Sides::TwoDimensional => [f64::MIN, f64::MAX],
     };
     let along = [site.x[0] + reach_x, site.x[1] - reach_x];

@@ -1,4 +1,4 @@
-//! Validates materials and their friction.
+//! Validates materials and the friction between them.
 
 use crate::case::file::{FrictionFile, MaterialFile};
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
@@ -14,28 +14,28 @@ const MOST_MATERIALS: usize = 100;
 pub struct Material {
     /// Name in the case file.
     pub name: String,
-    /// Young's modulus in contact [Pa].
+    /// Young's modulus of the contacts [Pa].
     pub young_modulus: f64,
     /// Poisson's ratio [-].
     pub poisson_ratio: f64,
     /// Coefficient of restitution [-].
     pub restitution: f64,
-    /// Measured contact stiffness of two bodies of this material [N/m].
+    /// Measured stiffness of a contact between two bodies of this material [N/m], if given.
     pub contact_stiffness: Option<f64>,
 }
 
-/// Friction between two materials, each an index into `Case::materials`.
+/// Friction, rolling resistance and restitution between two materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionPair {
-    /// The two materials, the smaller index first.
+    /// Indices of the two materials in `Case::materials`, the smaller index first.
     pub between: [usize; 2],
     /// Static friction coefficient [-].
     pub coefficient: f64,
     /// Kinetic friction coefficient [-].
     pub kinetic: f64,
-    /// Coefficient of rolling resistance [-].
+    /// Rolling resistance coefficient [-]; 0 for none.
     pub rolling: f64,
-    /// Coefficient of restitution [-]; `None` for the smaller one of the two materials.
+    /// Coefficient of restitution [-]; `None` for the smaller of the two materials' values.
     pub restitution: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ pub struct Materials {
     pub list: Vec<Material>,
     /// Friction of each pair of materials in the file.
     pub friction: Vec<FrictionPair>,
-    /// Material of bed and mound, an index into the list; `None` if the file has none or an unknown one.
+    /// Material of bed and mound, an index into `list`; `None` if the file names no material or an unknown one.
     pub ground: Option<usize>,
 }
 
@@ -63,10 +63,10 @@ pub fn validate(
     Materials { list, friction, ground }
 }
 
-/// Validates the materials. The result has one entry per material in the file, even for those with errors.
+/// Validates the materials. The result also has entries for invalid materials, so that indices follow the file.
 fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Material> {
     if file.len() > MOST_MATERIALS {
-        check.reject("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "leave out some");
+        check.reject("materials", file.len(), format!("at most {MOST_MATERIALS} materials"), "remove some materials");
         return Vec::new();
     }
     for (index, material) in file.iter().enumerate() {
@@ -93,7 +93,7 @@ fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Materia
         );
         check.number(&path("restitution"), material.restitution, more_than(0.0).up_to(1.0), "", RESTITUTION_ADVICE);
         if let Some(stiffness) = material.contact_stiffness_n_m {
-            let advice = "force over overlap of two bodies pressed together";
+            let advice = "write contact force over overlap of two bodies in contact";
             check.number(&path("contact_stiffness_n_m"), stiffness, at_least(1.0).up_to(1e12), "N/m", advice);
         }
     }
@@ -107,7 +107,7 @@ fn validate_materials(file: &[MaterialFile], check: &mut Checker) -> Vec<Materia
     file.iter().map(validated).collect()
 }
 
-/// Returns the index of the material called `name`.
+/// Returns the index of the material `name`. Adds an error for the key `path` if there is no such material.
 pub(super) fn find(materials: &[Material], name: &str, path: &str, check: &mut Checker) -> Option<usize> {
     let found = materials.iter().position(|material| material.name == name);
     if found.is_none() {
@@ -128,7 +128,7 @@ fn list(names: &[&str]) -> String {
     format!("one of {}", quoted.join(", "))
 }
 
-/// Validates the table of friction coefficients.
+/// Validates the friction entries. Returns one entry for each pair of known materials.
 fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut Checker) -> Vec<FrictionPair> {
     let mut pairs: Vec<FrictionPair> = Vec::new();
     // At most one entry per pair of materials.
@@ -155,8 +155,8 @@ fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut 
             check.reject(
                 &format!("friction[{index}].between"),
                 format!("{:?}", friction.between),
-                format!("a pair not yet given (it has {})", as_text(other.coefficient)),
-                "keep one of the two",
+                format!("a pair that is listed only once (its first entry has {})", as_text(other.coefficient)),
+                "keep one of the two entries",
             );
             continue;
         }
@@ -167,7 +167,7 @@ fn validate_friction(file: &[FrictionFile], materials: &[Material], check: &mut 
     pairs
 }
 
-/// Validates the other values of a pair; returns its kinetic friction coefficient.
+/// Validates kinetic friction, rolling resistance and restitution of a pair. Returns the kinetic friction coefficient.
 fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 {
     let path = |key: &str| format!("friction[{index}].{key}");
     let kinetic = file.kinetic_coefficient.unwrap_or(file.coefficient);
@@ -183,7 +183,7 @@ fn validate_pair(index: usize, file: &FrictionFile, check: &mut Checker) -> f64 
     kinetic
 }
 
-/// Returns the entry of two materials, if the table has it.
+/// Returns the entry for the materials with indices `a` and `b`, if the list has one.
 pub(super) fn pair(pairs: &[FrictionPair], a: usize, b: usize) -> Option<&FrictionPair> {
     pairs.iter().find(|pair| pair.between == [a.min(b), a.max(b)])
 }

@@ -1,11 +1,11 @@
 //! The armour units: shape, mass, poses, materials and contact.
 //!
-//! | file | what it holds |
+//! | file | contents |
 //! | --- | --- |
 //! | [`shape`], [`stl`] | shape of a unit, from the catalogue or from STL files |
-//! | [`pose`] | pose of a unit |
+//! | [`pose`] | pose of a unit: position and rotation |
 //! | [`row`], [`centres`], [`poses`] | the three ways to place units |
-//! | [`planar`] | units in two dimensions |
+//! | [`planar`] | checks for units in two dimensions |
 //! | [`materials`], [`contact`], [`resistance`] | materials, contact settings, friction and restitution |
 
 mod centres;
@@ -29,7 +29,7 @@ use super::reading::check::{Checker, as_text, more_than};
 use crate::rigid::Resistance;
 
 /// Largest number of units in one case.
-pub(super) const MOST_UNITS: u32 = 10_000;
+pub(super) const MAX_UNITS: u32 = 10_000;
 
 /// The armour units; SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,11 +38,11 @@ pub struct Units {
     pub shape: UnitShape,
     /// Mass of a unit [kg].
     pub mass: f64,
-    /// Initial pose of each unit: in a row by rising y, else in the order of the file.
+    /// Initial pose of each unit. In a row, units are sorted by increasing y; otherwise by their order in the file.
     pub placements: Vec<UnitPose>,
-    /// Width of a unit over the thickness of a two-dimensional domain [-]; 1 in three dimensions.
+    /// In two dimensions, width of a unit over the thickness of the particle layer [-]; 1 in three dimensions.
     pub slices: f64,
-    /// A unit is damaged if it moves further than this [m].
+    /// A unit counts as damaged if its displacement is larger than this distance [m].
     pub damage_distance: f64,
     /// Material of the units, an index into `Case::materials`.
     pub material: usize,
@@ -55,13 +55,13 @@ pub struct Units {
 }
 
 impl Units {
-    /// Returns name and content of the files that a run saves next to its case.
+    /// Returns name and content of the STL files that a run saves next to its case file; empty for other shapes.
     pub fn files(&self) -> &[(String, Vec<u8>)] {
         if let UnitKind::Stl(unit) = &self.shape.kind { unit.files() } else { &[] }
     }
 
-    /// Makes the entry refer to [`Self::files`] and list all poses, instead of referring to other files.
-    /// Adds the content of the files to `read`, for the fingerprint of the case.
+    /// Changes the entry `units` of a stored case: it refers to [`Self::files`], and poses replace the placement file.
+    /// Adds the content of the files to `read`, for the hash of the case.
     pub(super) fn make_self_contained(&self, file: &mut UnitsFile, read: &mut Vec<u8>) {
         if let UnitKind::Stl(unit) = &self.shape.kind {
             file.stl = Some(unit.entry());
@@ -77,29 +77,29 @@ impl Units {
 
 /// Parts of the case on which the units depend.
 pub(super) struct Surroundings<'a> {
-    /// Name of the case file.
+    /// Path of the case file.
     pub name: &'a str,
-    /// Ground and walls.
+    /// Ground and boundaries of the area in which units stand; `None` if invalid.
     pub site: Option<&'a Site>,
     pub materials: &'a Materials,
-    /// Whether the file has a material of the ground, valid or not.
+    /// true if the file names a material of the ground, even an invalid one.
     pub ground_named: bool,
     pub contact: Contact,
-    /// The water, if any.
+    /// Water around the units; `None` in a dry test.
     pub water: Option<WaterAround>,
 }
 
-/// The water around the units.
+/// Properties of the water around the units.
 pub(super) struct WaterAround {
     /// Particle spacing [m].
     pub dp: f64,
-    /// Number of obstacles.
+    /// Number of obstacles in the domain.
     pub obstacles: usize,
-    /// Density [kg/m3].
+    /// Reference density of the water [kg/m3].
     pub rho0: f64,
 }
 
-/// Validates the units and places them.
+/// Validates the units and places them at their initial poses.
 pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let unplaced = validate_unplaced(file, around, check);
     let placements = place(file, unplaced.as_ref().map(|units| &units.shape), around, check);
@@ -108,7 +108,7 @@ pub(super) fn validate(file: &UnitsFile, around: &Surroundings, check: &mut Chec
     Some(Units { placements: placements?, slices, ..unplaced })
 }
 
-/// Validates everything except the positions of the units.
+/// Validates the units without their positions. In the result, `placements` is empty.
 pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: &mut Checker) -> Option<Units> {
     let before = check.count();
     let shape = shape::validate(file, around.contact.rounding_share, around.name, check);
@@ -152,7 +152,7 @@ pub(super) fn validate_unplaced(file: &UnitsFile, around: &Surroundings, check: 
     })
 }
 
-/// Places the units in a row or one by one. Returns `None` if errors prevent it.
+/// Places the units in a row, by their centres or by their poses. Returns `None` if errors in the file prevent this.
 fn place(
     file: &UnitsFile,
     shape: Option<&UnitShape>,
@@ -191,7 +191,7 @@ fn place(
     Some(if in_layer { planar::lay(placements, site, check) } else { placements })
 }
 
-/// Refuses obstacles, and warns of units that are small compared with the particle spacing.
+/// Refuses obstacles in a case with units. Warns of units that are small compared with the particle spacing.
 fn validate_water(water: &WaterAround, shape: &UnitShape, check: &mut Checker) {
     if water.obstacles > 0 {
         check.reject(

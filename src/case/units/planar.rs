@@ -1,7 +1,7 @@
-//! Validates units in two dimensions: cuboids that lie across the flume. The layer of particles is a slice of them.
+//! Validates units in two dimensions. They must be cuboids, and the particle layer is a slice of each cuboid.
 //!
-//! Units move in the plane of the layer, along x and z, and turn about y. A unit keeps its own width and mass. The
-//! water force on a unit is the force on its slice times the number of slices, see [`slices`].
+//! Units move along x and z, in the plane of the particle layer, and rotate about y. A unit keeps its own width and
+//! mass. The water force on a unit is the force on its slice times the number of slices, see [`slices`].
 
 use glam::DQuat;
 
@@ -11,17 +11,17 @@ use crate::case::file::{Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text};
 
-/// Largest quaternion component that turns out of the plane [-]: rounding to six written digits.
+/// Largest quaternion component of a rotation about x or z [-]. It allows for rounding to six digits in the file.
 const ROUNDING: f64 = 1e-6;
 
-/// Refuses units whose outline changes across the flume, and rows, which lie across it.
+/// Refuses units whose outline changes across the flume. Refuses rows, which have several units across the flume.
 pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut Checker) {
     if !matches!(shape.kind, UnitKind::Cuboid { .. }) {
         check.reject(
             "units.shape",
             format!("{:?}", file.shape.key()),
             "\"cuboid\" where `domain.sides` is \"two_dimensional\"",
-            "in two dimensions the outline must be the same across the flume: write \"periodic\" or \"walls\"",
+            "in two dimensions, only cuboids are allowed: use cuboids, or \"periodic\" or \"walls\"",
         );
     }
     if is_row {
@@ -34,7 +34,7 @@ pub fn validate(file: &UnitsFile, shape: &UnitShape, is_row: bool, check: &mut C
     }
 }
 
-/// Moves the units into the layer, whatever their position across the flume.
+/// Moves all units to the middle of the particle layer, whatever their y coordinate is in the file.
 pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<UnitPose> {
     let lay_one = |(index, UnitPose { mut centre, rotation }): (usize, UnitPose)| {
         centre.y = 0.5 * site.width;
@@ -44,7 +44,7 @@ pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<U
                 &format!("units.poses[{index}].quaternion_xyzw"),
                 format!("turned out of the plane by {}", as_text(out_of_plane)),
                 "a turn about y where `domain.sides` is \"two_dimensional\", [0, y, 0, w]",
-                "turn the unit about y only, or write \"periodic\" or \"walls\"",
+                "rotate the unit only about y, or write \"periodic\" or \"walls\"",
             );
         }
         UnitPose { centre, rotation: DQuat::from_xyzw(0.0, rotation.y, 0.0, rotation.w).normalize() }
@@ -52,7 +52,7 @@ pub fn lay(placements: Vec<UnitPose>, site: &Site, check: &mut Checker) -> Vec<U
     placements.into_iter().enumerate().map(lay_one).collect()
 }
 
-/// Returns the width of a unit over the thickness of the particle layer [-]; 1 in three dimensions.
+/// Returns the width of a unit over the thickness of the particle layer in two dimensions [-]; 1 in three dimensions.
 pub fn slices(shape: &UnitShape, site: &Site) -> f64 {
     match shape.kind {
         UnitKind::Cuboid { edges } if site.sides == Sides::TwoDimensional => edges[1] / site.width,

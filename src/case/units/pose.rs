@@ -1,11 +1,11 @@
-//! Pose of a unit.
+//! Pose of a unit: position and rotation.
 
 use glam::{DQuat, DVec3};
 
 use super::shape::UnitShape;
 use crate::case::flume::site::Site;
 
-/// Pose of a unit.
+/// Pose of a unit: position and rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnitPose {
     /// Centre of mass [m].
@@ -15,8 +15,9 @@ pub struct UnitPose {
 }
 
 impl UnitPose {
-    /// Returns a unit that stands with its axis vertical, on the ground unless `z` gives the level of its centre [m].
-    /// At azimuth 0 [rad] a Tetrapod has a leg seaward, at pi shoreward.
+    /// Returns the pose of a standing unit, with its axis vertical. `z` is the level of its centre [m]; without `z`,
+    /// the unit stands on the ground. A leg of a Tetrapod points seaward at azimuth 0 [rad] and shoreward at azimuth
+    /// pi.
     pub(in crate::case) fn standing(
         shape: &UnitShape,
         [x, y]: [f64; 2],

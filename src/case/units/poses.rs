@@ -1,19 +1,20 @@
-//! Validates units at given poses, written in the case or in a placement file.
+//! Places units at the poses in the case file or in a placement file, and validates the poses.
 
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
-use super::{MOST_UNITS, UnitPose};
+use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{PlacementFile, PoseFile, Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text};
 use crate::case::reading::document::Document;
 
-/// Tolerance on the length of a quaternion [-]: rounding to seven written digits.
+/// Tolerance on the length of a quaternion [-]. It allows for rounding to seven digits in the file.
 const ROUNDING: f64 = 1e-6;
 
-/// Places the units at the poses of the file or of its placement file, whose path is relative to the case file.
+/// Places the units at the poses in the case file, or in the placement file that it names. The path of the placement
+/// file is relative to the folder of the case file.
 pub fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut Checker) -> Option<Vec<UnitPose>> {
     for (key, written) in [
         ("count", file.count.is_some()),
@@ -30,14 +31,14 @@ pub fn place(file: &UnitsFile, case_name: &str, site: &Site, check: &mut Checker
         (Some(poses), None) => (poses.clone(), "units.poses"),
         (None, Some(path)) => (read(path, case_name, check)?, "units.placement_file"),
         _ => {
-            let advice = "keep one of the two";
+            let advice = "keep one of the two keys";
             check.reject("units.poses", "[...]", "left out with `placement_file`", advice);
             return None;
         }
     };
-    if !(1..=MOST_UNITS as usize).contains(&poses.len()) {
+    if !(1..=MAX_UNITS as usize).contains(&poses.len()) {
         let advice = "leave out `units` for a case without units";
-        check.reject(path, format!("{} poses", poses.len()), format!("1 to {MOST_UNITS}"), advice);
+        check.reject(path, format!("{} poses", poses.len()), format!("1 to {MAX_UNITS}"), advice);
         return None;
     }
     Some(
@@ -54,7 +55,7 @@ fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile
     match Document::read(&path).and_then(|document| document.parse::<PlacementFile>()) {
         Ok(file) => Some(file.poses),
         Err(reason) => {
-            let advice = "`breakwater place CASE` writes one";
+            let advice = "`breakwater place CASE` writes a placement file";
             let shown = format!("{:?}", path.display().to_string());
             check.reject("units.placement_file", shown, format!("a placement file ({reason})"), advice);
             None
@@ -65,10 +66,10 @@ fn read(path: &str, case_name: &str, check: &mut Checker) -> Option<Vec<PoseFile
 fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> UnitPose {
     let (centre, rotation) = (DVec3::from_array(pose.centre_m), DQuat::from_array(pose.quaternion_xyzw));
     let y = match site.sides {
-        // All periodic images are the same unit.
+        // Any y is allowed, because all periodic images are the same unit.
         Sides::Periodic => [f64::MIN, f64::MAX],
         Sides::Walls => [0.0, site.width],
-        // `planar::lay` moves the unit into the layer.
+        // Any y is allowed, because `planar::lay` moves the unit into the particle layer.
         Sides::TwoDimensional => [f64::MIN, f64::MAX],
     };
     let ground = site.profile.z(centre.x);
@@ -84,7 +85,7 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
     }
     let length = rotation.length();
     if (length - 1.0).abs() > ROUNDING || length.is_nan() {
-        let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] is no rotation";
+        let advice = "write x, y, z, w of a rotation; [0, 0, 0, 1] means no rotation";
         check.reject(
             &format!("{path}.quaternion_xyzw"),
             format!("of length {}", as_text(length)),
@@ -92,7 +93,7 @@ fn validate(path: &str, pose: &PoseFile, site: &Site, check: &mut Checker) -> Un
             advice,
         );
     }
-    // Do not normalize an exact rotation again, so that a saved case keeps its bits.
+    // Quaternions of exact length are not normalized again, so that the poses of a stored case keep their bits.
     let is_exact = (length - 1.0).abs() < 1e-15;
     UnitPose { centre, rotation: if is_exact { rotation } else { rotation.normalize() } }
 }

@@ -1,11 +1,12 @@
-//! Looks up friction and restitution of the units against each other and against the ground.
+//! Looks up friction and restitution between two units, and between a unit and the ground.
 
 use super::{Surroundings, materials};
 use crate::case::file::ContactLawName;
 use crate::case::reading::check::Checker;
 use crate::rigid::Resistance;
 
-/// Returns friction and restitution between two units, and between a unit and the ground.
+/// Returns friction and restitution between two units, and between a unit and the ground. `material` is the index of
+/// the material of the units.
 pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &mut Checker) -> Option<[Resistance; 2]> {
     let (unit, ground) = (material?, around.materials.ground?);
     let mut lookup = |a: usize, b: usize| {
@@ -30,7 +31,7 @@ pub(super) fn validate(material: Option<usize>, around: &Surroundings, check: &m
                 );
             }
         }
-        // Springs in series: each body has twice the stiffness of a contact between two bodies of its material.
+        // Springs in series: the stiffness of one body is twice that of a contact between two bodies of its material.
         let stiffness = a.contact_stiffness.zip(b.contact_stiffness).map(|(a, b)| 2.0 * a * b / (a + b));
         found.map(|pair| Resistance {
             static_friction: pair.coefficient,

@@ -1,14 +1,14 @@
-//! Validates units in a row across the flume.
+//! Places units in a row across the flume and validates their positions.
 
 use std::f64::consts::PI;
 
 use super::shape::{UnitKind, UnitShape};
-use super::{MOST_UNITS, UnitPose};
+use super::{MAX_UNITS, UnitPose};
 use crate::case::file::{Orientation, Sides, UnitsFile};
 use crate::case::flume::site::Site;
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 
-/// A row as the case file gives it; SI units.
+/// The row that the case file describes; SI units.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
     count: u32,
@@ -18,7 +18,7 @@ pub struct Row {
     orientation: Orientation,
 }
 
-/// Validates each number of a row on its own.
+/// Validates the numbers of a row, without comparing them with the domain.
 pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker) -> Option<Row> {
     let before = check.count();
     for (key, missing) in
@@ -46,8 +46,8 @@ pub fn validate(file: &UnitsFile, shape: Option<&UnitShape>, check: &mut Checker
         };
         check.number("units.pitch_m", pitch, range, "m", advice);
     }
-    if !(1..=MOST_UNITS).contains(&count) {
-        check.reject("units.count", count, format!("1 to {MOST_UNITS}"), "leave out `units` for a case without units");
+    if !(1..=MAX_UNITS).contains(&count) {
+        check.reject("units.count", count, format!("1 to {MAX_UNITS}"), "leave out `units` for a case without units");
     }
     let row = Row { count, pitch, x, first_y: file.first_y_m, orientation: file.orientation };
     (check.count() == before).then_some(row)
@@ -106,14 +106,14 @@ pub fn place(row: &Row, shape: &UnitShape, site: &Site, check: &mut Checker) -> 
 
 fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checker) {
     let length = f64::from(row.count) * row.pitch;
-    // Rounding of count * pitch.
+    // Tolerance for rounding of count * pitch.
     let slack = 1e-9;
     if length > width + slack || f64::from(row.count) != (width / row.pitch).round() {
         check.reject(
             "units.count",
             row.count,
             format!("such that count x pitch = {} m fills the periodic width, {} m", as_text(length), as_text(width)),
-            "the pitch must hold across the periodic sides: change `units.count`, `units.pitch_m` or `domain.width_m`",
+            "the row must fit the periodic width: change `units.count`, `units.pitch_m` or `domain.width_m`",
         );
         return;
     }
@@ -144,7 +144,7 @@ fn validate_periodic_row(row: &Row, width: f64, first_y: f64, check: &mut Checke
     }
 }
 
-/// Returns the rotation of the unit at `index` about the vertical [rad].
+/// Returns the rotation of unit `index` of the row (counted from 0) about the vertical axis [rad].
 pub fn azimuth(orientation: Orientation, index: u32) -> f64 {
     let shoreward = match orientation {
         Orientation::Alternating => !index.is_multiple_of(2),

@@ -1,4 +1,4 @@
-//! Validates the shape of the armour units and provides the proportions that their placement needs.
+//! Validates the shape of the armour units and computes the dimensions that are needed to place them.
 
 use std::sync::Arc;
 
@@ -9,14 +9,14 @@ use crate::case::file::{Shape, UnitsFile};
 use crate::case::reading::check::{Checker, as_text, at_least, more_than};
 use crate::geometry::armour_unit::{ArmourUnit, ArmourUnitError};
 
-/// Longest over shortest edge of a cuboid, at most [-]: the contact rounding, a share of the height, must fit all
-/// edges.
-const MOST_SLENDER: f64 = 5.0;
+/// Largest allowed ratio of the longest to the shortest edge of a cuboid [-]. The contact rounding is proportional to
+/// the height and must fit all edges.
+const LARGEST_EDGE_RATIO: f64 = 5.0;
 
 /// Kind and dimensions of a unit; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UnitKind {
-    /// Tetrapod of height H standing on three legs [m].
+    /// Tetrapod of height H when it stands on three legs [m].
     Tetrapod { height: f64 },
     /// Cuboid with its edges along x, y and z [m].
     Cuboid { edges: [f64; 3] },
@@ -24,17 +24,17 @@ pub enum UnitKind {
     Dolos { height: f64, waist: f64 },
     /// Core-Loc of size C [m].
     CoreLoc { size: f64 },
-    /// Grooved cube (Antifer block) of a height [m].
+    /// Grooved cube (Antifer block) with its height [m].
     GroovedCube { height: f64 },
     /// A unit from STL files.
     Stl(StlUnit),
 }
 
 impl UnitKind {
-    /// Builds the unit with edges rounded by a share of its height [-].
+    /// Builds the unit. `rounding_share` is the rounding radius of its edges over its height [-].
     ///
     /// # Errors
-    /// If lengths, waist or rounding do not make a unit.
+    /// If lengths, waist ratio or rounding are outside the range in which the unit can be built.
     pub fn build(&self, rounding_share: f64) -> Result<ArmourUnit, ArmourUnitError> {
         match self {
             Self::Tetrapod { height } => ArmourUnit::tetrapod(*height, rounding_share),
@@ -59,24 +59,24 @@ impl UnitKind {
     }
 
     /// Returns the stability coefficient K_D of Hudson's formula [-] for two layers, random placement, trunk, breaking
-    /// waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). `None` without a handbook
+    /// waves: Shore Protection Manual (1984), table 7-8; Core-Loc: Melby & Turk (1997). `None` if no handbook has a
     /// value.
     pub fn stability_coefficient(&self) -> Option<f64> {
         match self {
             Self::Tetrapod { .. } => Some(7.0),
             Self::Dolos { .. } => Some(15.8),
             Self::CoreLoc { .. } => Some(16.0),
-            // Listed as "modified cube".
+            // The manual lists these shapes as "modified cube".
             Self::Cuboid { .. } | Self::GroovedCube { .. } => Some(6.5),
             Self::Stl(_) => None,
         }
     }
 }
 
-/// Shape of a unit: its kind, surface and convex parts.
+/// Shape of a unit: its kind and dimensions, its surface and its convex parts.
 #[derive(Debug, Clone)]
 pub struct UnitShape {
-    /// Kind and dimensions.
+    /// Kind and dimensions of the unit.
     pub kind: UnitKind,
     unit: Arc<ArmourUnit>,
 }
@@ -88,17 +88,17 @@ impl PartialEq for UnitShape {
 }
 
 impl UnitShape {
-    /// Returns surface, convex parts and mass properties.
+    /// Returns the unit with its surface, convex parts and mass properties.
     pub fn unit(&self) -> &Arc<ArmourUnit> {
         &self.unit
     }
 
-    /// Returns the height of the standing unit [m].
+    /// Returns the height of a standing unit [m].
     pub fn height(&self) -> f64 {
         self.unit.height()
     }
 
-    /// Returns the volume [m3].
+    /// Returns the volume of a unit [m3].
     pub fn volume(&self) -> f64 {
         self.unit.solid().volume_properties().volume
     }
@@ -108,30 +108,31 @@ impl UnitShape {
         self.volume().cbrt()
     }
 
-    /// Returns the reach from the centre along and across the flume [m], for a unit standing at azimuth 0 or pi.
+    /// Returns the largest distance from the centre to the surface along x and along y [m], for a unit that stands at
+    /// azimuth 0 or pi.
     pub(in crate::case) fn reach(&self) -> [f64; 2] {
         let q = self.unit.standing_rotation(0.0);
         let reach = |axis: usize| self.unit.solid().vertices().iter().map(|v| (q * *v)[axis].abs()).fold(0.0, f64::max);
         [reach(0), reach(1)]
     }
 
-    /// Returns the height of the centre above the foot of the standing unit [m].
+    /// Returns the height of the centre of a standing unit above the ground [m], without the rounding of its edges.
     pub(in crate::case) fn centre_height(&self) -> f64 {
         self.unit.standing_height_sharp()
     }
 
-    /// Returns the smallest distance between the centres of two units side by side [m].
+    /// Returns the smallest distance between the centres of two neighbouring units in a row without overlap [m].
     pub(in crate::case) fn least_pitch(&self) -> f64 {
         match &self.kind {
-            // Units turned by half a circle fit between each other's legs.
+            // Neighbours that differ by 180 degrees fit between each other's legs.
             UnitKind::Tetrapod { height } => 0.75 * height,
-            // Rounding of the numbers in the file.
+            // The factor allows for rounding of the numbers in the file.
             UnitKind::Cuboid { edges } => edges[1] * (1.0 - 1e-9),
             _ => 2.0 * self.reach()[1],
         }
     }
 
-    /// Returns whether two standing units at this offset from each other overlap; cuboids may touch.
+    /// Returns true if two standing units overlap whose centres differ by `offset` [m]. Cuboids may touch.
     pub(in crate::case) fn overlaps(&self, offset: [f64; 3]) -> bool {
         match &self.kind {
             UnitKind::Cuboid { edges } => {
@@ -142,7 +143,7 @@ impl UnitShape {
     }
 }
 
-/// Validates the dimensions of the shape and builds it; `name` is the case file.
+/// Validates the dimensions of a unit and builds its shape; `name` is the path of the case file.
 pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut Checker) -> Option<UnitShape> {
     let before = check.count();
     refuse_keys_of_other_shapes(file, check);
@@ -188,7 +189,7 @@ pub fn validate(file: &UnitsFile, rounding_share: f64, name: &str, check: &mut C
             None
         }
         Err(error) => {
-            check.reject("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change its lengths");
+            check.reject("units.shape", format!("{:?}", file.shape.key()), error.to_string(), "change the lengths");
             None
         }
     }
@@ -227,12 +228,12 @@ fn validate_cuboid(edges: [f64; 3], check: &mut Checker) -> Option<UnitKind> {
         check_length(&format!("units.size_m[{axis}]"), edge, "write the edge in metres", check);
     }
     let (shortest, longest) = edges.iter().fold((f64::MAX, 0.0_f64), |(a, b), e| (a.min(*e), b.max(*e)));
-    if check.count() == before && longest > MOST_SLENDER * shortest {
+    if check.count() == before && longest > LARGEST_EDGE_RATIO * shortest {
         check.reject(
             "units.size_m",
             format!("{} to {} m", as_text(shortest), as_text(longest)),
-            format!("edges that differ by a factor of {MOST_SLENDER} at most"),
-            "the rounding of the edges does not fit a more slender block",
+            format!("edges that differ by a factor of {LARGEST_EDGE_RATIO} at most"),
+            "the rounding of the edges does not fit more slender blocks",
         );
     }
     (check.count() == before).then_some(UnitKind::Cuboid { edges })
@@ -242,13 +243,13 @@ fn check_length(path: &str, value: f64, advice: &str, check: &mut Checker) -> bo
     check.number(path, value, at_least(0.005).up_to(20.0), "m", advice)
 }
 
-/// Validates the mass of a unit against its volume. `rho0` is the water density; `None` without water.
+/// Validates the mass of a unit [kg] by means of its volume. `rho0` is the water density [kg/m3]; `None` without water.
 pub fn validate_mass(mass: f64, shape: &UnitShape, rho0: Option<f64>, check: &mut Checker) {
     let volume = shape.volume();
     let range = more_than(100.0 * volume).up_to(20_000.0 * volume);
-    let advice = format!("a unit of this size has {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
+    let advice = format!("a unit of this size has a volume of {volume:.3e} m3; concrete has 2300 to 2400 kg/m3");
     let sound = check.number("units.mass_kg", mass, range, "kg", &advice);
     if sound && rho0.is_some_and(|rho0| mass < rho0 * volume) {
-        check.warn(format!("units.mass_kg = {}: lighter than water, the units will float", as_text(mass)));
+        check.warn(format!("units.mass_kg = {}: the units are lighter than water and will float", as_text(mass)));
     }
 }

@@ -1,4 +1,4 @@
-//! Validates a unit from STL files: its surface, and its convex parts from files or by decomposition.
+//! Validates a unit from STL files: its surface and its convex parts. The parts come from files or from decomposition.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,23 +6,23 @@ use std::sync::Arc;
 use crate::case::file::StlFile;
 use crate::case::reading::check::{Checker, as_text, more_than};
 use crate::geometry::armour_unit::LARGEST_ROUNDING;
+use crate::geometry::convex::polyhedron::Polyhedron;
 use crate::geometry::decomposition::{self, Decomposition};
-use crate::geometry::polyhedron::Polyhedron;
 use crate::geometry::solid::Solid;
 use crate::geometry::stl;
 
-/// Largest volume by which the convex parts may differ from the unit, over the unit's volume [-].
+/// Largest allowed volume that convex parts and unit do not have in common, over the volume of the unit [-].
 const LARGEST_ERROR: f64 = 0.05;
 
 /// Largest number of files with convex parts.
 const MOST_PARTS: usize = 63;
 
-/// A unit from STL files, with the content of the files, which a run saves next to its case.
+/// A unit from STL files and the content of these files. A run saves the content next to its case file.
 #[derive(Debug, Clone)]
 pub struct StlUnit {
     solid: Arc<Solid>,
     parts: Arc<Vec<Polyhedron>>,
-    /// Volume that parts and surface do not have in common, over the unit's volume [-].
+    /// Volume that convex parts and unit do not have in common, over the volume of the unit [-].
     pub volume_error: f64,
     /// Name in the run folder and content of each file.
     files: Arc<Vec<(String, Vec<u8>)>>,
@@ -36,12 +36,12 @@ impl PartialEq for StlUnit {
 }
 
 impl StlUnit {
-    /// Returns the closed surface [m].
+    /// Returns the closed surface of the unit [m].
     pub fn solid(&self) -> &Solid {
         &self.solid
     }
 
-    /// Returns the convex parts [m].
+    /// Returns the convex parts of the unit [m].
     pub fn parts(&self) -> &[Polyhedron] {
         &self.parts
     }
@@ -51,16 +51,17 @@ impl StlUnit {
         &self.files
     }
 
-    /// Returns the entry for a case file in the same folder as [`Self::files`].
+    /// Returns the `stl` entry for the case file in the run folder. The entry refers to [`Self::files`].
     pub fn entry(&self) -> StlFile {
         let names: Vec<String> = self.files.iter().map(|(name, _)| name.clone()).collect();
         StlFile { path: names[0].clone(), scale: self.scale, parts: names[1..].to_vec() }
     }
 }
 
-/// Reads the files and checks that the parts fill the surface. Paths are relative to the case file `case_name`.
+/// Reads the STL files and checks that the convex parts fill the unit. Paths are relative to the folder of the case
+/// file `case_name`.
 pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mut Checker) -> Option<StlUnit> {
-    let advice = "1 for a file in metres, 0.001 for one in millimetres";
+    let advice = "1 for a file in metres, 0.001 for a file in millimetres";
     if !check.number("units.stl.scale", file.scale, more_than(0.0).up_to(1000.0), "", advice) {
         return None;
     }
@@ -82,7 +83,7 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
             Ok(bytes) => match stl::parse(&bytes, &path, file.scale) {
                 Ok(solid) => {
                     if let Some(point) = solid.self_intersection() {
-                        refuse(format!("a surface that does not intersect itself; it does so near {point} m"));
+                        refuse(format!("a surface that does not intersect itself (it does near {point} m)"));
                         return None;
                     }
                     files.push((name, bytes));
@@ -113,7 +114,7 @@ pub fn validate(file: &StlFile, rounding_share: f64, case_name: &str, check: &mu
         }
     }
     let found = if parts.is_empty() {
-        // Drop parts that are thinner than the rounding; their volume counts as error.
+        // Parts that are too thin for the rounding are removed. Their volume counts as error.
         let [low, high] = solid.bounds();
         let thinnest = rounding_share * (high.z - low.z) / LARGEST_ROUNDING;
         let mut found = decomposition::decompose(&solid);

@@ -1,4 +1,4 @@
-//! A validated wave from another program.
+//! Reads and validates a wave from another program.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,15 +16,15 @@ use crate::waves::external::{
 };
 use crate::waves::generation::velx::Velx;
 
-/// Name of the file with the velocities of the wavemaker's rows in a run folder.
+/// Name of the file in a run folder that contains the velocities of the wavemaker's rows.
 pub const ROWS_FILE: &str = "wave_velx.csv";
 
-/// Velocities of the wavemaker's rows from another program; SI units.
+/// A wave from another program: velocities of the wavemaker's rows; SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalWave {
-    /// Velocities at the levels of the wavemaker's rows.
+    /// Velocities as a function of time at the levels of the wavemaker's rows.
     pub rows: Arc<Velx>,
-    /// Celerity of the wave [m/s], if the rows follow the moving water.
+    /// Celerity of the wave [m/s]. If given, each row moves with the velocity at its current position.
     pub celerity: Option<f64>,
 }
 
@@ -37,14 +37,14 @@ impl ExternalWave {
         text
     }
 
-    /// Returns the first and the last time [s].
+    /// Returns the first and the last time of the velocities [s].
     pub fn times(&self) -> [f64; 2] {
         [self.rows.times_s[0], self.rows.times_s[self.rows.times_s.len() - 1]]
     }
 }
 
-/// Reads the files, relative to the folder of the case file `case_name`, and validates them at the wavemaker's
-/// position.
+/// Reads the files of the other program and validates the velocities at the position of the wavemaker. Paths are
+/// relative to the folder of the case file `case_name`.
 pub fn validate(
     file: &ExternalWaveFile,
     case_name: &str,
@@ -66,7 +66,7 @@ pub fn validate(
         gravity_m_s2: gravity,
         layers: Layers::AtLeastTwo,
     };
-    // Other checks refuse dry ground and wrong gravity.
+    // Other checks report dry ground and invalid gravity.
     if place.depth_m() <= 0.0 || gravity.is_nan() || gravity <= 0.0 {
         return None;
     }
@@ -129,7 +129,7 @@ fn read_swash(file: &SwashFile, base: &Path, place: &Place, check: &mut Checker)
     Some(swash::read(&tables, place))
 }
 
-/// Returns the columns of a table that the case file names.
+/// Returns the columns of a SWASH table from their names in the case file.
 fn parse_columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Option<Vec<Column>> {
     let mut columns = Vec::with_capacity(table.columns.len());
     for (index, name) in table.columns.iter().enumerate() {
@@ -154,7 +154,7 @@ fn parse_columns(path: &str, table: &SwashTableFile, check: &mut Checker) -> Opt
     Some(columns)
 }
 
-/// Refuses a start of the particles outside the times of the files.
+/// Refuses a `start_s` outside the time range of the files.
 pub fn refuse_late_start(wave: &ExternalWave, start: f64, check: &mut Checker) {
     let [first, last] = wave.times();
     if !(first..last).contains(&start) {
@@ -162,7 +162,7 @@ pub fn refuse_late_start(wave: &ExternalWave, start: f64, check: &mut Checker) {
             "domain.start_s",
             as_text(start),
             format!("within the times of the files, {} to {} s", as_text(first), as_text(last)),
-            "write a time of the other program",
+            "write a time in the time range of the files",
         );
     }
 }

@@ -8,15 +8,16 @@ use crate::case::flume::zones::RelaxationZone;
 use crate::case::reading::check::{Checker, as_text, at_least};
 use crate::waves::theory::regular::RegularWave;
 
-/// Largest stroke of a paddle over the length of the domain [-].
+/// Largest allowed stroke of a paddle over the length of the particle domain [-].
 const LARGEST_SWEEP: f64 = 0.5;
-/// Bed slope above which the wave at a paddle differs visibly from its theory, which assumes a horizontal bed [-].
+/// Bed slope above which the generated wave differs visibly from wavemaker theory [-]. The theory assumes a horizontal
+/// bed.
 const EVEN_SLOPE: f64 = 0.02;
 
-/// Validates the position of the wavemaker and its stroke.
+/// Validates position and stroke of the wavemaker against the particle domain.
 pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain: &Domain, check: &mut Checker) {
     let depth = flume.still_depth(domain.x[0]);
-    // A wavemaker needs a depth of at least four particles to act as a wall.
+    // A wavemaker acts as a wall only if the water there is at least four particles deep.
     if depth < 4.0 * domain.dp {
         check.reject(
             "domain.x_m[0]",
@@ -26,7 +27,7 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
         );
     }
     if let Some(gauge) = wavemaker.absorption_gauge() {
-        // Nearer than four particle spacings the gauge would measure the gap at the piston.
+        // A gauge closer than four particle spacings would measure the gap between piston and water.
         let (nearest, furthest) = (4.0 * domain.dp, 0.5 * (domain.x[1] - domain.x[0]));
         let advice = "a distance of about one depth is usual";
         check.number("wavemaker.absorption_gauge_m", gauge, at_least(nearest).up_to(furthest), "m", advice);
@@ -57,7 +58,7 @@ pub(super) fn validate(wave: &Wave, wavemaker: Wavemaker, flume: &Flume, domain:
         let particles = height / domain.dp;
         if particles < 5.0 {
             check.warn(format!(
-                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, 5 to 10 needed \
+                "domain.dp_m = {}: {particles:.1} particle spacings per wave height, but 5 to 10 are needed \
                  (Altomare et al. 2017)",
                 as_text(domain.dp)
             ));
@@ -92,13 +93,14 @@ fn validate_sweep(stroke: f64, height: f64, domain: &Domain, check: &mut Checker
     }
 }
 
-/// Warns of a sloping bed, because the theory of a paddle assumes a horizontal one.
+/// Warns of a sloping bed at the wavemaker, because wavemaker theory assumes a horizontal bed.
 fn warn_of_slope(flume: &Flume, domain: &Domain, depth: f64, check: &mut Checker) {
     let x0 = domain.x[0];
     let rise = flume.profile.z(x0 + depth) - flume.profile.z(x0);
     if rise.abs() > EVEN_SLOPE * depth {
         check.warn(format!(
-            "domain.x_m[0] = {}: the bed changes by {} m over one depth; the wavemaker theory has a horizontal bed",
+            "domain.x_m[0] = {}: the bed level changes by {} m over a distance of one depth, but wavemaker theory \
+             assumes a horizontal bed",
             as_text(x0),
             as_text(rise)
         ));
@@ -115,7 +117,7 @@ fn warn_of_order(wave: &RegularWave, wavemaker: Wavemaker, check: &mut Checker) 
     }
 }
 
-/// Refuses a relaxation zone if no wave comes from the flume model.
+/// Refuses a relaxation zone if the wave does not come from the flume model.
 pub fn refuse_relaxation_zone(zone: Option<&RelaxationZone>, wave: &Wave, wavemaker: Wavemaker, check: &mut Checker) {
     let from_flume = wavemaker.is_ml_piston() && !matches!(wave, Wave::None | Wave::External(_));
     if zone.is_some() && !from_flume {

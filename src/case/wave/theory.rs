@@ -1,4 +1,4 @@
-//! Validates waves of wave theory: solitary, regular and irregular waves.
+//! Validates waves from wave theory: solitary, regular and irregular waves.
 
 use super::{Surroundings, Wave};
 use crate::case::file::{IrregularFile, RegularFile, SolitaryFile, SolitaryTheory};
@@ -8,7 +8,7 @@ use crate::waves::theory::regular::{MeanFlow, RegularWave, WaveError};
 use crate::waves::theory::solitary::{PistonTheory, SolitaryWave, ThirdOrderSolitary};
 use crate::waves::theory::stream_function::StreamFunctionWave;
 
-/// Shortest wavelength of regular waves over the depth [-].
+/// Smallest allowed wavelength of regular waves over the depth [-].
 const SHORTEST_LENGTH: f64 = 0.1;
 
 pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut Checker) -> Option<Wave> {
@@ -17,18 +17,18 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
         check.reject(
             "flume.still_water_level_m",
             as_text(flume.still_water_level),
-            format!("above the bed at the wavemaker, {} m", as_text(flume.still_water_level - depth)),
-            "raise the still water level: the wave starts in still water at the seaward end of the bed",
+            format!("above the bed where the wave is generated, {} m", as_text(flume.still_water_level - depth)),
+            "raise the still water level: the wave must be generated in water",
         );
         return None;
     }
-    // Above 0.6 d no theory is close to the exact wave; above 0.78 d the wave breaks.
+    // Above 0.6 d, no theory is close to the exact wave. Above 0.78 d, the wave breaks.
     check.number(
         "wave.height_m",
         file.height_m,
         more_than(0.0).up_to(0.6 * depth),
         "m",
-        &format!("at most 0.6 of the offshore depth, {} m", as_text(depth)),
+        &format!("the limit is 0.6 times the depth where the wave is generated, {} m", as_text(depth)),
     );
     let (height_m, depth_m, gravity) = (file.height_m, depth, around.gravity);
     let piston = |theory| Wave::Solitary(SolitaryWave { height_m, depth_m, gravity, theory });
@@ -40,8 +40,8 @@ pub(super) fn solitary(file: &SolitaryFile, around: &Surroundings, check: &mut C
                 check.reject(
                     "wave.theory",
                     "\"third_order\"",
-                    "\"rayleigh\" or \"boussinesq\" with a piston in the particles",
-                    "a third-order wave flows into the flume model: remove `wavemaker`",
+                    "\"rayleigh\" or \"boussinesq\" with a piston in the particle domain",
+                    "a third-order wave enters the flume model: remove `wavemaker`",
                 );
             }
             Wave::SolitaryInflow(ThirdOrderSolitary { height_m, depth_m, gravity })
@@ -65,7 +65,7 @@ pub(super) fn regular(file: &RegularFile, around: &Surroundings, check: &mut Che
             "wave.period_s",
             as_text(period_s),
             format!("such that the wavelength is at least {} m, depth / 10", as_text(SHORTEST_LENGTH * depth)),
-            "shorter waves move only the surface: write a longer period or make the domain shallower",
+            "shorter waves move only the surface layer: write a longer period or make the domain shallower",
         );
         return None;
     }
@@ -88,13 +88,13 @@ pub(super) fn irregular(file: &IrregularFile, around: &Surroundings, check: &mut
     let period = "write the peak period of the spectrum in seconds";
     check.number("wave.peak_period_s", file.peak_period_s, at_least(0.01).up_to(1e4), "s", period);
     check.number("wave.peak_enhancement", file.peak_enhancement, at_least(1.0).up_to(10.0), "", "3.3 is the average");
-    // 5,000 wave components allow at most 2000 periods.
+    // The model has at most 5,000 wave components, which are enough for 2000 periods.
     let repeat = "with 200, the waves repeat after 200 peak periods";
     check.number("wave.repeat_periods", file.repeat_periods, at_least(20.0).up_to(2000.0), "", repeat);
     validate_ramp(file.ramp_periods, check);
     let depth = around.wet_depth(check)?;
-    // The highest of 3,000 waves is twice as high; that is the height at which a solitary wave breaks.
-    let height = format!("at most 0.4 of the depth, {} m", as_text(depth));
+    // The highest of 3,000 waves is twice as high, about 0.8 d. A solitary wave of this height breaks.
+    let height = format!("the limit is 0.4 times the depth, {} m", as_text(depth));
     check.number(
         "wave.significant_height_m",
         file.significant_height_m,
@@ -119,15 +119,15 @@ pub(super) fn irregular(file: &IrregularFile, around: &Surroundings, check: &mut
     Some(Wave::Irregular { sea, ramp_periods: file.ramp_periods })
 }
 
-/// Refuses a wave for which the theory has no solution.
+/// Refuses a wave for which wave theory has no solution, which `error` describes.
 fn refuse_impossible(error: Option<WaveError>, path: &str, value: f64, check: &mut Checker) {
     if let Some(error) = error {
         let advice = "lower the wave or change its period or the depth";
-        check.reject(path, as_text(value), format!("the height of a possible wave ({error})"), advice);
+        check.reject(path, as_text(value), format!("a height for which wave theory has a solution ({error})"), advice);
     }
 }
 
 fn validate_ramp(ramp_periods: f64, check: &mut Checker) {
-    let advice = "2 starts the waves smoothly";
+    let advice = "with 2 periods, the waves start smoothly";
     check.number("wave.ramp_periods", ramp_periods, at_least(0.5).up_to(100.0), "", advice);
 }

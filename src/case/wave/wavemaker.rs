@@ -1,4 +1,4 @@
-//! The validated wavemaker.
+//! Validates the wavemaker.
 
 use crate::case::file::{WaveFile, WavemakerFile};
 use crate::case::flume::bed::Flume;
@@ -6,13 +6,13 @@ use crate::case::reading::check::{Checker, at_least};
 use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::theory::regular::RegularWave;
 
-/// Largest distance of a hinge from z = 0 [m]; larger values are typing errors.
+/// Largest distance of a hinge from z = 0 [m]. Larger values are probably typing errors.
 const FURTHEST_HINGE: f64 = 1e5;
 
-/// Wavemaker at the seaward end of the domain.
+/// Wavemaker at the seaward end of the particle domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wavemaker {
-    /// Multi-layer piston: its rows follow the water of the flume model or of the wave files.
+    /// Multi-layer piston. Its rows move with the water of the flume model or of the wave files.
     MlPiston {
         /// Distance of the absorption gauge from the piston, if there is one [m].
         absorption_gauge: Option<f64>,
@@ -30,7 +30,7 @@ pub enum Wavemaker {
 }
 
 impl Wavemaker {
-    /// Whether the wave comes from the flume model or from files.
+    /// Returns true for the multi-layer piston, which takes the wave from the flume model or from files.
     pub fn is_ml_piston(&self) -> bool {
         matches!(self, Self::MlPiston { .. })
     }
@@ -43,7 +43,7 @@ impl Wavemaker {
         }
     }
 
-    /// Returns the shape of the paddle over a bed at the level `bed_z` [m].
+    /// Returns the shape of the paddle; `bed_z` is the bed level at the paddle [m].
     pub fn shape(self, bed_z: f64) -> PaddleShape {
         match self {
             Self::MlPiston { .. } | Self::Piston { .. } => PaddleShape::Piston,
@@ -51,7 +51,7 @@ impl Wavemaker {
         }
     }
 
-    /// Returns the motion of the paddle for regular waves over a bed at the level `bed_z` [m].
+    /// Returns the motion of the paddle for regular waves; `bed_z` is the bed level at the paddle [m].
     pub fn motion(self, wave: &RegularWave, ramp_periods: f64, bed_z: f64) -> RegularMotion {
         RegularMotion::new(wave, self.shape(bed_z), ramp_periods)
     }
@@ -101,13 +101,13 @@ pub fn validate(file: &WavemakerFile, wave: &WaveFile, flume: Option<&Flume>, ch
         WavemakerFile::Piston(piston) => Wavemaker::Piston { absorption_gauge: piston.absorption_gauge_m },
         WavemakerFile::Flap(flap) => {
             let highest = flume.map_or(FURTHEST_HINGE, |flume| flume.still_water_level);
-            // A hinge at the surface would leave the flap no length.
+            // With a hinge at the still water level, the flap would have no length below the water surface.
             check.number(
                 "wavemaker.hinge_z_m",
                 flap.hinge_z_m,
                 at_least(-FURTHEST_HINGE).below(highest),
                 "m",
-                "write the level in the z of `flume.bed_m`, below the still water level; most hinges lie at the bed",
+                "write a z coordinate as in `flume.bed_m`, below the still water level; most hinges are at the bed",
             );
             Wavemaker::Flap { hinge_z: flap.hinge_z_m }
         }

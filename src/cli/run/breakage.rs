@@ -1,10 +1,10 @@
-//! `breakwater breakage`: the hardest impacts of a run, re-run at prototype scale with breakable units.
+//! `breakwater breakage`: re-runs the hardest impacts of a run at prototype scale with breakable units.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::Trouble;
+use super::CommandError;
 use crate::{
     case::{BreakageSettings, Case, DryTestCase, InputFile, InputKind},
     cli::{
@@ -23,9 +23,11 @@ use crate::{
     },
 };
 
-/// Do the units break? Re-runs the hardest impacts of a finished run at prototype scale, with units that deform and crack,
-/// as the case's `breakage` says. `run` does so at its end; this command continues after an interruption, or starts again
-/// with another `breakage` in the run's case.json.
+/// Do the units break? Re-run the hardest impacts of a finished run at prototype scale, with units that deform and
+/// crack.
+///
+/// The key `breakage` of the case has the settings. `run` makes this analysis at its end. This command continues an
+/// interrupted analysis, or repeats the analysis after a change of `breakage` in the run's case.json.
 #[derive(Args)]
 pub struct BreakageArguments {
     /// Folder of the run.
@@ -35,52 +37,53 @@ pub struct BreakageArguments {
 }
 
 impl BreakageArguments {
-    pub(in crate::cli) fn execute(self) -> Result<(), Trouble> {
+    pub(in crate::cli) fn execute(self) -> Result<(), CommandError> {
         let case = load_run(&self.dir, &[InputKind::Flume, InputKind::DryTest])?;
         let control = self.machine.prepare()?;
         match case {
             InputFile::Flume(case) if case.breakage.is_some() => {
-                let summary = Summary::read(&self.dir).map_err(Trouble::refused)?;
+                let summary = Summary::read(&self.dir).map_err(CommandError::refused)?;
                 after_flume_run(&case, &summary, &self.dir, &control)
             }
             InputFile::DryTest(case) if case.breakage.is_some() => {
-                let summary = DryTestSummary::read(&self.dir).map_err(Trouble::refused)?;
+                let summary = DryTestSummary::read(&self.dir).map_err(CommandError::refused)?;
                 after_dry_test(&case, &summary, &self.dir, &control)
             }
             InputFile::Flume(_) | InputFile::DryTest(_) => {
-                let what = "has no `breakage`: write there what the units are made of, and run the case again";
-                Err(Trouble::refused(format!("{}: {what}", self.dir.join("case.json").display())))
+                let what = "has no key `breakage`; add it with the material of the units, and run the case again";
+                Err(CommandError::refused(format!("{}: {what}", self.dir.join("case.json").display())))
             }
             other => Err(other_kind(&self.dir, other.kind())),
         }
     }
 }
 
-/// Analyses breakage after a flume run, if its case asks for it; then writes summary and report again with the results.
+/// Analyses breakage after a flume run if the case has the key `breakage`. Then writes summary and report again, with
+/// the results of the analysis.
 pub(in crate::cli) fn after_flume_run(
     case: &Case,
     summary: &Summary,
     dir: &Path,
     control: &Control,
-) -> Result<(), Trouble> {
+) -> Result<(), CommandError> {
     let (Some(settings), Some(model)) = (&case.breakage, Model::of_case(case)) else { return Ok(()) };
     let moved = |unit: &UnitSummary| Moved { displacement: unit.displacement_m, damaged: unit.damaged };
     let moved: Vec<Moved> = summary.units.iter().map(moved).collect();
     let ended = analyse(&model, settings, &moved, dir, control);
-    // Also after a failure: the report then shows the impacts that were computed.
-    let breakage = Breakage::read_if_present(dir).map_err(Trouble::failed)?;
+    // The results are read even after a failure, so that the report shows the impacts that were computed.
+    let breakage = Breakage::read_if_present(dir).map_err(CommandError::failed)?;
     let summary = Summary { breakage: breakage.as_ref().map(BreakageSummary::from), ..summary.clone() };
-    summary.write(dir).and_then(|()| write_report(dir)).map_err(Trouble::failed)?;
+    summary.write(dir).and_then(|()| write_report(dir)).map_err(CommandError::failed)?;
     ended
 }
 
-/// Analyses breakage after a dry test, if its case asks for it.
+/// Analyses breakage after a dry test if the case has the key `breakage`.
 pub(super) fn after_dry_test(
     case: &DryTestCase,
     summary: &DryTestSummary,
     dir: &Path,
     control: &Control,
-) -> Result<(), Trouble> {
+) -> Result<(), CommandError> {
     let Some(settings) = &case.breakage else { return Ok(()) };
     let limit = case.units.damage_distance;
     let moved = |unit: &DryUnit| Moved { displacement: unit.moved_m, damaged: unit.moved_m > limit };
@@ -94,13 +97,13 @@ fn analyse(
     moved: &[Moved],
     dir: &Path,
     control: &Control,
-) -> Result<(), Trouble> {
+) -> Result<(), CommandError> {
     if !control.quiet {
         eprintln!("impacts re-run at prototype scale, length scale {}:", settings.scale);
     }
-    let breakage = analyse_breakage(model, settings, moved, dir, control).map_err(Trouble::failed)?;
+    let breakage = analyse_breakage(model, settings, moved, dir, control).map_err(CommandError::failed)?;
     for impact in breakage.impacts.iter().filter(|impact| impact.failure.is_none()) {
-        write_fracture_report(&dir.join(FOLDER).join(&impact.name)).map_err(Trouble::failed)?;
+        write_fracture_report(&dir.join(FOLDER).join(&impact.name)).map_err(CommandError::failed)?;
     }
     tell(&breakage, dir);
     let failures: Vec<String> = breakage
@@ -108,7 +111,7 @@ fn analyse(
         .iter()
         .filter_map(|impact| impact.failure.as_ref().map(|failure| format!("{}: {failure}", impact.name)))
         .collect();
-    if failures.is_empty() { Ok(()) } else { Err(Trouble::failed(failures.join("\n"))) }
+    if failures.is_empty() { Ok(()) } else { Err(CommandError::failed(failures.join("\n"))) }
 }
 
 /// Largest number of units that are printed.
@@ -126,11 +129,11 @@ fn tell(breakage: &Breakage, dir: &Path) {
                 let state = state_in_words(broken, area);
                 println!(", sigma_1 {:.2} MPa, {area:.3} m2 of cracks, {state}", sigma_1 * 1e-6);
             }
-            _ => println!(", no impact re-run"),
+            _ => println!(", none of its impacts was re-run"),
         }
     }
     if breakage.units.len() > MOST_LINES {
-        println!("  ... {} units in all, see {}", breakage.units.len(), Breakage::TABLE);
+        println!("  ... {} units in total, see {}", breakage.units.len(), Breakage::TABLE);
     }
     println!(
         "  {:.0} % of the units moved further than the damage distance, {:.0} % broke",

@@ -1,8 +1,9 @@
-//! Dry tests on the terminal.
+//! Runs dry tests and prints their results.
 
 use std::{path::Path, sync::Arc};
 
-use super::{Trouble, breakage, trouble};
+use super::{CommandError, breakage, command_error};
+use crate::cli::counted;
 use crate::{
     case::DryTestCase,
     output::{
@@ -18,15 +19,15 @@ use crate::{
 /// Largest number of units whose motion is printed.
 const MOST_LINES: usize = 20;
 
-/// Runs a test from its start; then the breakage analysis, if the case has one.
-pub(super) fn run_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
+/// Runs a dry test from its start, then the breakage analysis if the case has the key `breakage`.
+pub(super) fn run_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), CommandError> {
     introduce(case, dir, control.quiet);
     let summary = finish(run(case.clone(), dir, control), dir)?;
     breakage::after_dry_test(case, &summary, dir, control)
 }
 
-/// Continues a test from its last checkpoint.
-pub(super) fn resume_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), Trouble> {
+/// Continues a dry test from its last checkpoint.
+pub(super) fn resume_case(case: &Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<(), CommandError> {
     introduce(case, dir, control.quiet);
     let summary = finish(resume(case.clone(), dir, control), dir)?;
     breakage::after_dry_test(case, &summary, dir, control)
@@ -39,8 +40,8 @@ fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
     let (units, threads) = (&case.units, rayon::current_num_threads());
     eprintln!("{}", case.title);
     eprintln!(
-        "  {} units ({}) of {} kg, {} s at most, on {threads} threads",
-        units.placements.len(),
+        "  {} ({}) of {} kg, {} s at most, on {threads} threads",
+        counted(units.placements.len(), "unit"),
         units.shape.kind.name(),
         units.mass,
         case.stop.duration
@@ -49,9 +50,9 @@ fn introduce(case: &DryTestCase, dir: &Path, quiet: bool) {
     eprintln!("  results in {}", dir.display());
 }
 
-/// Prints how a test ended.
-fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTestSummary, Trouble> {
-    let summary = ended.map_err(trouble)?;
+/// Prints the results of a dry test and returns its summary.
+fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTestSummary, CommandError> {
+    let summary = ended.map_err(command_error)?;
     println!(
         "{:.2} s simulated in {} substeps and {} ({})",
         summary.simulated_s,
@@ -67,7 +68,7 @@ fn finish(ended: Result<DryTestSummary, RunError>, dir: &Path) -> Result<DryTest
         }
     }
     if summary.units.len() > MOST_LINES {
-        println!("  ... {} units in all, see units.csv", summary.units.len());
+        println!("  ... {} units in total, see units.csv", summary.units.len());
     }
     println!(
         "  {} contacts, deepest overlap {:.3} % of the height, kinetic energy {:.1e} J",

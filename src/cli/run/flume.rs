@@ -1,8 +1,8 @@
-//! Flume runs on the terminal.
+//! Runs flume cases and prints their results.
 
 use std::{path::Path, sync::Arc};
 
-use super::{Trouble, breakage, trouble};
+use super::{CommandError, breakage, command_error};
 use crate::{
     case::{Case, Reference},
     output::{Summary, driver::RunError, progress::readable},
@@ -13,13 +13,14 @@ use crate::{
     },
 };
 
-/// Runs a case from its start or from the checkpoint of another run; then the breakage analysis, if the case has one.
+/// Runs a case from its start or from the checkpoint of another run, then the breakage analysis if the case has the key
+/// `breakage`.
 pub(super) fn run_case(
     case: &Arc<Case>,
     start: Option<Start>,
     dir: &Path,
     options: &RunOptions,
-) -> Result<(), Trouble> {
+) -> Result<(), CommandError> {
     introduce(case, dir, options);
     let ended = match start {
         Some(start) => start.run(dir, options),
@@ -29,8 +30,8 @@ pub(super) fn run_case(
     breakage::after_flume_run(case, &summary, dir, &options.control)
 }
 
-/// Continues a run from its last checkpoint.
-pub(super) fn resume_case(case: &Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(), Trouble> {
+/// Continues a flume run from its last checkpoint, then makes the breakage analysis if the case has the key `breakage`.
+pub(super) fn resume_case(case: &Arc<Case>, dir: &Path, options: &RunOptions) -> Result<(), CommandError> {
     introduce(case, dir, options);
     let summary = finish(resume(case.clone(), dir, options), dir)?;
     breakage::after_flume_run(case, &summary, dir, &options.control)
@@ -57,10 +58,10 @@ fn introduce(case: &Case, dir: &Path, options: &RunOptions) {
     eprintln!("  results in {}", dir.display());
 }
 
-/// Writes the report of a run and prints how it ended.
-pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, Trouble> {
-    let summary = ended.map_err(trouble)?;
-    let report = write_report(dir).map_err(Trouble::failed)?;
+/// Writes the report of a run, prints the results and returns the summary.
+pub(in crate::cli) fn finish(ended: Result<Summary, RunError>, dir: &Path) -> Result<Summary, CommandError> {
+    let summary = ended.map_err(command_error)?;
+    let report = write_report(dir).map_err(CommandError::failed)?;
     println!(
         "{:.2} s simulated in {} steps and {} ({})",
         summary.simulated_s,

@@ -1,10 +1,10 @@
-//! `breakwater fracture`: fracture runs on the terminal.
+//! `breakwater fracture`: runs fracture cases and prints their results.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Trouble, require_checkpoint, trouble};
+use super::{CommandError, command_error, require_checkpoint};
 use crate::{
     case::{FractureCase, InputKind},
     cli::{
@@ -28,10 +28,10 @@ use crate::{
 
 /// Run a fracture case: deformable bodies of tetrahedra that collide and crack.
 ///
-/// Energy balance, surfaces with stresses, cracks, summary and report are written to one folder.
+/// The results are written to one folder: energy balance, surfaces with stresses, cracks, summary and report.
 #[derive(Args)]
 pub struct FractureArguments {
-    /// The fracture case.
+    /// The fracture case file.
     case: PathBuf,
     /// Folder of the results; default: runs/NAME, with the name of the case file.
     #[arg(long)]
@@ -44,9 +44,9 @@ pub struct FractureArguments {
 }
 
 impl FractureArguments {
-    pub(in crate::cli) fn execute(self) -> Result<(), Trouble> {
+    pub(in crate::cli) fn execute(self) -> Result<(), CommandError> {
         let document = read(&self.case, &[InputKind::Fracture])?;
-        let case = FractureCase::from_document(&document).map_err(Trouble::refused)?;
+        let case = FractureCase::from_document(&document).map_err(CommandError::refused)?;
         show_warnings(&case.warnings);
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let control = self.machine.prepare()?;
@@ -57,18 +57,18 @@ impl FractureArguments {
     }
 }
 
-/// Go on with an interrupted run.
-pub(super) fn resume_run(case: &FractureCase, dir: &Path, machine: &MachineArguments) -> Result<(), Trouble> {
-    require_checkpoint(&dir.join(checkpoint::FILE))?;
+/// Continues an interrupted fracture run from its last checkpoint.
+pub(super) fn resume_run(case: &FractureCase, dir: &Path, machine: &MachineArguments) -> Result<(), CommandError> {
+    require_checkpoint(dir, checkpoint::FILE)?;
     let control = machine.prepare()?;
     let world = at_start(case, &dir.join("case.json"))?;
     introduce(case, dir, &control);
     finish(resume(case, world, dir, &control), dir)
 }
 
-/// Builds the world of a case read from a file.
-fn at_start(case: &FractureCase, path: &Path) -> Result<World, Trouble> {
-    world(case).map_err(|error| Trouble::refused(format!("{}: {error}", path.display())))
+/// Builds the initial state of a fracture case; `path` names the case file in errors.
+fn at_start(case: &FractureCase, path: &Path) -> Result<World, CommandError> {
+    world(case).map_err(|error| CommandError::refused(format!("{}: {error}", path.display())))
 }
 
 fn introduce(case: &FractureCase, dir: &Path, control: &Control) {
@@ -78,17 +78,17 @@ fn introduce(case: &FractureCase, dir: &Path, control: &Control) {
     }
 }
 
-/// Writes the report of a run and prints how it ended.
-fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), Trouble> {
-    let summary = ended.map_err(trouble)?;
-    let report = write_fracture_report(dir).map_err(Trouble::failed)?;
+/// Writes the report of a run and prints the results.
+fn finish(ended: Result<FractureSummary, RunError>, dir: &Path) -> Result<(), CommandError> {
+    let summary = ended.map_err(command_error)?;
+    let report = write_fracture_report(dir).map_err(CommandError::failed)?;
     tell(&summary, dir);
     println!("report: {}", report.display());
     Ok(())
 }
 
-/// Tell what a fracture case holds and what it costs.
-pub(in crate::cli) fn check(case: &FractureCase, path: &Path) -> Result<(), Trouble> {
+/// Prints mesh, joints, time step and file size of a fracture case.
+pub(in crate::cli) fn check(case: &FractureCase, path: &Path) -> Result<(), CommandError> {
     let world = at_start(case, path)?;
     println!("{}: {}", path.display(), case.title);
     for quality in &case.mesh.quality {
@@ -114,14 +114,14 @@ pub(in crate::cli) fn check(case: &FractureCase, path: &Path) -> Result<(), Trou
         case.duration
     );
     if case.tets_interval.is_some() {
-        println!("  tets.vtkhdf {:.0} MB, more as cracks split nodes", tets_bytes(case) * 1e-6);
+        println!("  tets.vtkhdf {:.0} MB, more if cracks separate nodes", tets_bytes(case) * 1e-6);
     }
     Ok(())
 }
 
 fn tell(summary: &FractureSummary, dir: &Path) {
     println!(
-        "{:.3} ms simulated in {} steps and {}, {:.2e} tetrahedra per second",
+        "{:.3} ms simulated in {} steps and {}, {:.2e} tetrahedra times steps per second",
         summary.simulated_s * 1e3,
         summary.steps,
         readable(summary.execution.wall_s),
@@ -130,7 +130,7 @@ fn tell(summary: &FractureSummary, dir: &Path) {
     for (number, initiation) in summary.initiation.iter().enumerate() {
         let [x, y, z] = initiation.place;
         println!(
-            "  crack {} in {}: {:.3} ms at ({x:.3}, {y:.3}, {z:.3}) m, {}, {:.1} cm2 by the end",
+            "  crack {} in {}: starts after {:.3} ms at ({x:.3}, {y:.3}, {z:.3}) m, {}, final area {:.1} cm2",
             number + 1,
             initiation.body,
             initiation.t_s * 1e3,
@@ -139,7 +139,7 @@ fn tell(summary: &FractureSummary, dir: &Path) {
         );
     }
     println!(
-        "  {:.1} cm2 cracked, {} pieces, energy balance closes to {:.2} % of the kinetic energy",
+        "  crack area {:.1} cm2, {} pieces, energy residual {:.2} % of the peak kinetic energy",
         summary.crack_area_m2 * 1e4,
         summary.fragments.len(),
         100.0 * summary.energy_residual_ratio

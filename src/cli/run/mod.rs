@@ -1,4 +1,4 @@
-//! `breakwater run` and `breakwater resume`, and one file per kind of run for its terminal output.
+//! `breakwater run` and `breakwater resume`. One file per kind of run prints to the terminal.
 
 pub(super) mod breakage;
 mod dry_test;
@@ -13,7 +13,7 @@ use std::{
 use clap::Args;
 
 use super::{
-    Trouble,
+    CommandError,
     devices::DeviceArgument,
     folder::{fresh_folder, stem},
     input::{load, load_run, other_kind},
@@ -21,19 +21,19 @@ use super::{
 };
 use crate::{
     case::{InputFile, InputKind},
-    output::driver::RunError,
+    output::{Summary, driver::RunError},
     simulation::{
         dry_test::recorder::DryTestRecorder,
         flume::{
             branch::Start,
-            checkpoint::{Checkpoint, device_of},
+            outputs::checkpoint::{Checkpoint, device_of},
             run::RunOptions,
         },
     },
     sph::device::DeviceChoice,
 };
 
-/// Run a flume case or dry test; write tables, ParaView files, summary and report to one folder.
+/// Run a flume case or dry test; write tables, ParaView files and summary to one folder, for flume cases also a report.
 #[derive(Args)]
 pub struct RunArguments {
     /// The case file.
@@ -44,8 +44,8 @@ pub struct RunArguments {
     /// Replace the results in the folder; default: a folder with files is refused.
     #[arg(long)]
     overwrite: bool,
-    /// Begin at the last checkpoint of the run in this folder; default: begin at the start of the case. The two cases
-    /// may differ only in friction and the rest criterion, and the units must not have moved yet.
+    /// Begin at the last checkpoint of the run in this folder; default: begin at the start of the case. The cases of
+    /// both runs may differ only in friction and the rest criterion, and no unit may have moved before the checkpoint.
     #[arg(long, value_name = "DIR")]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -54,20 +54,20 @@ pub struct RunArguments {
     device: DeviceArgument,
 }
 
-/// Continue an interrupted run from its last checkpoint; the results are bitwise those of an uninterrupted run.
+/// Continue an interrupted run from its last checkpoint; the results are bitwise identical to an uninterrupted run.
 #[derive(Args)]
 pub struct ResumeArguments {
     /// Folder of the run.
     dir: PathBuf,
     #[command(flatten)]
     machine: MachineArguments,
-    /// What computes the water, as for `run`; default: the device that has computed it so far.
+    /// Device that computes the water, as for `run`; default: the device of the interrupted run.
     #[arg(long, value_name = "DEVICE")]
     device: Option<DeviceChoice>,
 }
 
 impl RunArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         let case = load(&self.case, &[InputKind::Flume, InputKind::DryTest])?;
         let dir = self.out.unwrap_or_else(|| Path::new("runs").join(stem(&self.case)));
         let control = self.machine.prepare()?;
@@ -79,9 +79,9 @@ impl RunArguments {
                 let start = match &self.from {
                     Some(from) if is_same_folder(from, &dir) => {
                         let what = "is the folder of the results; give another one with --out";
-                        return Err(Trouble::refused(format!("--from {}: {what}", from.display())));
+                        return Err(CommandError::refused(format!("--from {}: {what}", from.display())));
                     }
-                    Some(from) => Some(Start::at(Arc::clone(&case), from, &options).map_err(Trouble::refused)?),
+                    Some(from) => Some(Start::at(Arc::clone(&case), from, &options).map_err(CommandError::refused)?),
                     None => None,
                 };
                 fresh_folder(&dir, self.overwrite)?;
@@ -91,7 +91,7 @@ impl RunArguments {
                 self.device.refuse_card()?;
                 if let Some(from) = &self.from {
                     let what = "only flume cases can begin at the checkpoint of another run";
-                    return Err(Trouble::refused(format!("--from {}: {what}", from.display())));
+                    return Err(CommandError::refused(format!("--from {}: {what}", from.display())));
                 }
                 fresh_folder(&dir, self.overwrite)?;
                 dry_test::run_case(&Arc::from(case), &dir, &control)
@@ -102,10 +102,10 @@ impl RunArguments {
 }
 
 impl ResumeArguments {
-    pub(super) fn execute(self) -> Result<(), Trouble> {
+    pub(super) fn execute(self) -> Result<(), CommandError> {
         match load_run(&self.dir, &[InputKind::Flume, InputKind::DryTest, InputKind::Fracture])? {
             InputFile::Flume(case) => {
-                require_checkpoint(&self.dir.join(Checkpoint::FILE))?;
+                require_checkpoint(&self.dir, Checkpoint::FILE)?;
                 let (case, control) = (Arc::from(case), self.machine.prepare()?);
                 let before = || device_of(&self.dir).map_or(DeviceChoice::Auto, |name| DeviceChoice::named(&name));
                 let device = DeviceArgument { device: self.device.unwrap_or_else(before) };
@@ -113,7 +113,7 @@ impl ResumeArguments {
                 flume::resume_case(&case, &self.dir, &RunOptions { device, control, until: None })
             }
             InputFile::DryTest(case) => {
-                require_checkpoint(&self.dir.join(DryTestRecorder::CHECKPOINT))?;
+                require_checkpoint(&self.dir, DryTestRecorder::CHECKPOINT)?;
                 let control = self.machine.prepare()?;
                 DeviceArgument { device: self.device.unwrap_or_default() }.refuse_card()?;
                 dry_test::resume_case(&Arc::from(case), &self.dir, &control)
@@ -124,25 +124,28 @@ impl ResumeArguments {
     }
 }
 
-/// Refuses to resume a run without a checkpoint.
-fn require_checkpoint(path: &Path) -> Result<(), Trouble> {
+/// Returns an error if the run folder `dir` has no checkpoint of the name `file`.
+fn require_checkpoint(dir: &Path, file: &str) -> Result<(), CommandError> {
+    let path = dir.join(file);
     if path.exists() {
         return Ok(());
     }
-    Err(Trouble::refused(format!(
-        "{}: there is no checkpoint to resume from; start again with breakwater run or breakwater fracture",
-        path.display()
-    )))
+    let reason = if dir.join(Summary::FILE).exists() {
+        "the run has finished and left no checkpoint; its results are in summary.json"
+    } else {
+        "there is no checkpoint to resume from; start again with breakwater run or breakwater fracture"
+    };
+    Err(CommandError::refused(format!("{}: {reason}", path.display())))
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-/// A case that cannot be set up is refused input; every other error is a failure of the work.
-fn trouble(error: RunError) -> Trouble {
+/// Converts a set-up error to refused input (exit code 2) and every other error to a failure (exit code 1).
+fn command_error(error: RunError) -> CommandError {
     match error {
-        RunError::Setup(_) => Trouble::refused(error),
-        _ => Trouble::failed(error),
+        RunError::Setup(_) => CommandError::refused(error),
+        _ => CommandError::failed(error),
     }
 }

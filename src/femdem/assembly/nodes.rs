@@ -1,8 +1,8 @@
-//! The nodes: each is a list of node copies that move together.
+//! The nodes of a world. A mesh node has a copy in each of its tetrahedra; copies that move together are one node.
 
 use glam::DVec3;
 
-/// Marks the nodes of rigid bodies in [`Nodes::constraint`]; the body handles their constraints.
+/// Marks the nodes of rigid bodies in [`Nodes::constraint`]. The rigid body applies the constraints of these nodes.
 pub const RIGID: u16 = u16::MAX;
 
 /// Number of a node copy: 4 x tetrahedron + vertex.
@@ -17,14 +17,14 @@ pub struct Nodes {
     pub velocity: Vec<DVec3>,
     /// Lumped masses [kg].
     pub mass: Vec<f64>,
-    /// Constraint number of each node, from 1; 0 is a free node, [`RIGID`] a node of a rigid body.
+    /// Number of the constraint of each node, counted from 1. 0 marks a free node, [`RIGID`] a node of a rigid body.
     pub constraint: Vec<u16>,
     /// Copies of each node.
     pub copies: NodeCopies,
 }
 
 impl Nodes {
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn count(&self) -> usize {
         self.position.len()
     }
@@ -39,7 +39,7 @@ impl Nodes {
 /// The copies of every node.
 #[derive(Debug, Clone, Default)]
 pub struct NodeCopies {
-    /// Start and number of the copies of each node in `list`.
+    /// For each node, the index of its first copy in `list` and the number of its copies.
     pub(super) span: Vec<[u32; 2]>,
     pub(super) list: Vec<NodeCopy>,
 }

@@ -1,7 +1,7 @@
-//! Node splitting: which copies of a mesh node move together.
+//! Node splitting: which copies of a mesh node move together as one node.
 //!
-//! With joints from the start, every copy is a node of its own. With tied faces, a node is split as soon as the tied
-//! faces around it no longer connect its copies.
+//! If a body has joints from the start, every copy is a separate node. If its faces are tied, a node is split as soon
+//! as the tied faces around it no longer connect all its copies.
 
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ impl Nodes {
     /// vertices and the initial nodes.
     ///
     /// # Errors
-    /// Says why these nodes cannot result from splitting the initial ones.
+    /// If these nodes cannot result from splitting the initial nodes. The text gives the reason.
     pub fn restore_split(
         &mut self,
         tets: &mut Tets,
@@ -60,8 +60,8 @@ impl Nodes {
     }
 }
 
-/// Builds nodes and tetrahedra: copies of a mesh node that `tied` faces connect become one node. Nodes are numbered in
-/// the order of the tetrahedra.
+/// Builds nodes and tetrahedra. Copies of a mesh node that tied faces connect become one node. `tied` returns true for
+/// the number of a tied interface. Nodes are numbered in the order of the tetrahedra.
 pub fn assemble(setup: &Setup, tied: impl Fn(u32) -> bool) -> (Nodes, Tets) {
     let mut tets = Tets::new(setup);
     let around = copies_around(setup);
@@ -105,7 +105,7 @@ pub fn copies_around(setup: &Setup) -> Vec<Vec<NodeCopy>> {
     around
 }
 
-/// Lumped mass of a node [kg]: a quarter of the mass of the tetrahedron of each copy.
+/// Returns the lumped mass of a node [kg]: a quarter of the mass of the tetrahedron of each copy.
 fn lumped_mass(copies: &[NodeCopy], tets: &Tets, setup: &Setup) -> f64 {
     let quarter = |copy: &NodeCopy| {
         let t = *copy as usize / 4;
@@ -114,8 +114,8 @@ fn lumped_mass(copies: &[NodeCopy], tets: &Tets, setup: &Setup) -> f64 {
     copies.iter().map(quarter).sum()
 }
 
-/// Splits the copies of a node into groups connected by tied faces. Copies and groups are in ascending order. In a body
-/// that cannot crack, all copies are one group.
+/// Splits the copies of a node into groups that tied faces connect. Copies and groups are in ascending order. In a body
+/// that cannot crack, all copies form one group.
 pub fn connected_groups(
     tets: &Tets,
     setup: &Setup,
@@ -152,7 +152,7 @@ pub fn connected_groups(
     groups
 }
 
-/// Returns the copies of the same node across the tied faces of a copy's tetrahedron.
+/// Returns the copies of the same mesh node in those tetrahedra that share a tied face with the tetrahedron of `copy`.
 fn tied_neighbours<'a>(
     tets: &'a Tets,
     setup: &'a Setup,

@@ -9,31 +9,31 @@ const OUTSIDE: u32 = u32::MAX;
 /// The tetrahedra.
 #[derive(Debug, Clone, Default)]
 pub struct Tets {
-    /// Nodes at the vertices.
+    /// Node numbers at the vertices of each tetrahedron.
     pub nodes: Vec<[u32; 4]>,
-    /// Undeformed shapes.
+    /// Undeformed shape of each tetrahedron.
     pub shape: Vec<Shape>,
-    /// Body numbers.
+    /// Number of the body of each tetrahedron.
     pub body: Vec<u16>,
-    /// Interface at the face opposite to each vertex.
+    /// For each tetrahedron, the reference to the interface at the face opposite to each vertex.
     pub faces: Vec<[Link; 4]>,
-    /// Whether one of the faces has, or had, a joint.
+    /// For each tetrahedron, true if one of its faces has, or had, a joint.
     pub jointed: Vec<bool>,
 }
 
 /// Reference from a face of a tetrahedron to its interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Link {
-    /// 2 x interface number + side; [`OUTSIDE`] if there is none.
+    /// 2 x interface number + side; [`OUTSIDE`] if the face has no interface.
     code: u32,
-    /// Vertices of the face in the order of the interface.
+    /// Vertex numbers (0 to 3) of the face in the tetrahedron, in the corner order of the interface.
     pub nodes: [u8; 3],
 }
 
 impl Link {
     const NONE: Self = Self { code: OUTSIDE, nodes: [0; 3] };
 
-    /// Returns the interface number and the side, if there is an interface.
+    /// Returns the number of the interface and the side (0 or 1) of the tetrahedron; `None` without an interface.
     #[inline]
     pub fn interface(self) -> Option<(usize, usize)> {
         (self.code != OUTSIDE).then_some((self.code as usize / 2, self.code as usize % 2))
@@ -41,7 +41,7 @@ impl Link {
 }
 
 impl Tets {
-    /// Builds the tetrahedra of a setup, with mesh nodes at their vertices.
+    /// Builds the tetrahedra of a setup, with the numbers of mesh nodes at their vertices.
     pub fn new(setup: &Setup) -> Self {
         let shape = setup.tets.iter().map(|tet| Shape::new(&tet.map(|v| setup.nodes[v as usize]))).collect();
         let mut body = vec![0; setup.tets.len()];

@@ -1,10 +1,11 @@
-//! Contact detection: finds all pairs of intersecting boxes with a hierarchy of grids, one per box size.
+//! Contact detection: finds all pairs of intersecting boxes with a hierarchy of grids, one level per range of box
+//! sizes.
 //!
-//! Munjiza & Andrews (1998), "NBS contact detection algorithm for bodies of similar size", IJNME 43, 131-149, with a
-//! hierarchy for bodies of different size: Ericson (2005), "Real-Time Collision Detection", section 7.2. A box is
-//! stored on the level whose cells are just larger than the box, in the cells that it covers there (at most eight). It
-//! is tested against the boxes in the cells that it covers on its own level and on the coarser levels. The hash table
-//! has as many buckets as entries, so work and memory are linear in the number of boxes, however far apart they are.
+//! Method: Munjiza & Andrews (1998), "NBS contact detection algorithm for bodies of similar size", IJNME 43, 131-149.
+//! Hierarchy for boxes of different size: Ericson (2005), "Real-Time Collision Detection", section 7.2. A box is stored
+//! on the finest level whose cells are not smaller than the box, in the cells that it covers there (at most eight). It
+//! is tested against the boxes in the cells that it covers on this level and on all coarser levels. The hash table has
+//! one to two buckets per entry, so work and memory are linear in the number of boxes, even if boxes are far apart.
 
 use glam::{DVec3, I64Vec3};
 use rayon::prelude::*;
@@ -26,22 +27,22 @@ impl Bounds {
         Self { low: low - skin, high: high + skin }
     }
 
-    /// Longest side [m].
+    /// Returns the length of the longest side [m].
     fn size(&self) -> f64 {
         (self.high - self.low).max_element()
     }
 
-    /// Whether two boxes have a point in common.
+    /// Returns true if two boxes have a point in common.
     fn meets(&self, other: &Self) -> bool {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }
 }
 
-/// Least number of boxes per task of the thread pool.
+/// Smallest number of boxes per task of the thread pool.
 const CHUNK: usize = 1024;
 /// Number of levels; the cell size doubles from level to level.
 const LEVELS: usize = 32;
-/// Cell size of the finest level over the median box size [-]; the fastest value for meshes.
+/// Cell size of the finest level over the median box size [-]. For meshes, detection is fastest with this value.
 const FINEST: f64 = 1.25;
 
 /// Returns the pairs (i, j), i < j, of intersecting boxes for which `keep(i, j)` is true. They are in ascending order for
@@ -67,9 +68,9 @@ pub fn intersecting_pairs(boxes: &[Bounds], keep: impl Fn(u32, u32) -> bool + Sy
 
 /// Hash table from cells to the boxes stored in them.
 struct Table {
-    /// Ordered by bucket.
+    /// Stored boxes, ordered by bucket.
     entries: Vec<Entry>,
-    /// Start of the entries of each bucket, and the end of the last bucket.
+    /// Index of the first entry of each bucket, and the end of the last bucket.
     starts: Vec<u32>,
 }
 
@@ -97,7 +98,7 @@ impl Table {
             end += *start;
             *start = end;
         }
-        // Filling each bucket backwards turns the ends into starts.
+        // `starts` now has the end of each bucket. Filling each bucket backwards turns the ends into starts.
         for (number, own) in (0..).zip(boxes) {
             for key in grids.home_cells(own) {
                 let bucket = table.bucket(key);
@@ -108,7 +109,8 @@ impl Table {
         table
     }
 
-    /// Bucket of a cell: multiplicative hash (Knuth 1973, "The Art of Computer Programming" 3, section 6.4).
+    /// Returns the bucket of a cell by multiplicative hash (Knuth 1973, "The Art of Computer Programming" 3, section
+    /// 6.4).
     fn bucket(&self, key: u64) -> usize {
         let buckets = self.starts.len() - 1;
         ((key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize * buckets) >> 32
@@ -126,7 +128,7 @@ impl Table {
 struct Grids {
     /// Edge of the cells of the finest level [m].
     finest: f64,
-    /// Whether any box is stored on a level.
+    /// For each level, true if at least one box is stored on it.
     occupied: [bool; LEVELS],
 }
 
@@ -142,7 +144,7 @@ impl Grids {
         let median = *median;
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         assert!(largest.is_finite(), "contact detection: a bounding box is not finite");
-        // The largest box must fit the coarsest level. Boxes of zero size fit any cell size.
+        // The cells of the coarsest level must be as large as the largest box. Boxes of zero size fit into any cell.
         let finest = (FINEST * median).max(largest / f64::from(1u32 << (LEVELS - 1)));
         grids.finest = if finest > 0.0 { finest } else { 1.0 };
         for own in boxes {
@@ -174,8 +176,8 @@ impl Grids {
         self.covered(own, level).map(move |cell| key(level, cell))
     }
 
-    /// Calls `found` with the numbers, in ascending order, of each pair of intersecting boxes that belongs to box
-    /// `own_number`: this box is on the finer level or, on the same level, has the lower number.
+    /// Calls `found` for each pair of intersecting boxes that box `own_number` reports, with the lower number first. Of
+    /// two boxes, the box on the finer level reports the pair. On the same level, the box with the lower number does.
     fn visit_pairs(&self, table: &Table, boxes: &[Bounds], own_number: u32, mut found: impl FnMut(u32, u32)) {
         let own = &boxes[own_number as usize];
         let own_level = self.level(own);
@@ -184,7 +186,7 @@ impl Grids {
                 for number in table.in_cell(key(level, cell)).filter(|number| level > own_level || *number > own_number)
                 {
                     let other = &boxes[number as usize];
-                    // Two boxes may share several cells: only the cell of their lowest common point reports the pair.
+                    // Two boxes may share several cells. Only the cell with their lowest common point reports the pair.
                     if own.meets(other) && self.cell(own.low.max(other.low), level) == cell {
                         found(own_number.min(number), own_number.max(number));
                     }
@@ -194,7 +196,7 @@ impl Grids {
     }
 }
 
-/// Key of a cell: 5 bits for the level, 19 for each coordinate. Two cells of the same box never share a key.
+/// Returns the key of a cell: 5 bits for the level, 19 for each coordinate. Two cells of one box never share a key.
 fn key(level: usize, cell: I64Vec3) -> u64 {
     let [x, y, z] = (cell & I64Vec3::splat((1 << 19) - 1)).to_array().map(|c| c as u64);
     ((level as u64) << 57) | (x << 38) | (y << 19) | z

@@ -1,4 +1,4 @@
-//! Friction between two overlapping tetrahedra: a tangential spring with a history.
+//! Friction between two overlapping tetrahedra T and C: a tangential spring with a history.
 //!
 //! F_t = -k_t d, |F_t| <= mu F_n: Cundall & Strack (1979), Geotechnique 29, 47-65; for FEMDEM Xiang, Latham & Farsi
 //! (2017), eqs. (4), (5). The extension d follows the slip at the point of action of the contact force and is capped by
@@ -21,9 +21,9 @@ pub struct FrictionLaw {
 /// Friction history of a pair in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialSpring {
-    /// Extension d of the spring: elastic displacement of C relative to T [m].
+    /// Extension d of the spring: elastic displacement of tetrahedron C relative to tetrahedron T [m].
     pub(super) extension: DVec3,
-    /// Direction of the contact force on C at the last update of the extension.
+    /// Direction of the contact force on tetrahedron C at the last update of the extension.
     pub(super) normal: DVec3,
 }
 
@@ -37,22 +37,23 @@ pub struct Friction {
 }
 
 impl TangentialSpring {
-    /// Creates an unloaded spring; `contact_force` is the force on C [N].
+    /// Creates an unloaded spring. `contact_force` is the force on tetrahedron C; only its direction is used.
     pub fn new(contact_force: DVec3) -> Self {
         Self { extension: DVec3::ZERO, normal: contact_force.normalize_or_zero() }
     }
 
-    /// Energy in the spring, k_t d^2 / 2 [J]; it counts as dissipated when the contact ends.
+    /// Returns the energy of the spring, k_t d^2 / 2 [J]. This energy counts as dissipated when the contact ends.
     pub fn stored(&self, law: &FrictionLaw) -> f64 {
         0.5 * law.stiffness * self.extension.length_squared()
     }
 
-    /// Updates the spring and returns the friction of the pair (T, C) at the end of a time step. `vertices` and
-    /// `overlap` are those at the end, `moves` the displacements in the time step [m], `penalty` is p [Pa].
+    /// Updates the spring and returns the friction of the pair (T, C) at the end of a time step. `vertices` [m] and
+    /// `overlap` refer to the end of the time step. `moves` are the displacements of the vertices in the time step [m],
+    /// and `penalty` is p [Pa].
     ///
     /// Energy: the mean of the forces at start and end times the slip is -(change of [`Self::stored`]) - `dissipated`,
     /// except for the rotation of the contact within the time step. If the spring force reverses within a time step,
-    /// the dissipation could be negative. It is then set to zero, and the gain shows as an error in the energy balance.
+    /// the dissipation may be negative. It is then set to zero, and the energy balance has an error of the same amount.
     pub fn advance(
         &mut self,
         law: &FrictionLaw,
@@ -75,7 +76,7 @@ impl TangentialSpring {
         friction
     }
 
-    /// Rotates the spring with the normal, and about the normal by the mean rotation of the two bodies [rad].
+    /// Rotates the spring with the normal, and about the normal by `bodies`, the mean rotation of T and C [rad].
     fn turn(&mut self, normal: DVec3, bodies: DVec3) {
         let with_normal = DQuat::from_rotation_arc(self.normal, normal);
         let about_normal = DQuat::from_axis_angle(normal, bodies.dot(normal));
@@ -83,7 +84,7 @@ impl TangentialSpring {
         self.normal = normal;
     }
 
-    /// Extends the spring by a slip [m], up to the force `cap` [N]. Returns the dissipated energy [J].
+    /// Extends the spring by a slip [m]. The spring force is limited to `cap` [N]. Returns the dissipated energy [J].
     fn stretch(&mut self, law: &FrictionLaw, slip: DVec3, cap: f64) -> f64 {
         let before = self.extension;
         let trial = (before + slip).reject_from_normalized(self.normal);
@@ -93,12 +94,12 @@ impl TangentialSpring {
     }
 }
 
-/// Mean rotation of a tetrahedron [rad]: curl(u)/2 of the displacements of its vertices.
+/// Returns the mean rotation of a tetrahedron [rad]: curl(u)/2 of the displacements u of its vertices.
 fn rotation(tetrahedron: &Tetrahedron, moves: &[DVec3; 4]) -> DVec3 {
     0.5 * tetrahedron.gradients.iter().zip(moves).map(|(gradient, u)| gradient.cross(*u)).sum::<DVec3>()
 }
 
-/// Weighted sum of vectors at the vertices.
+/// Returns the weighted sum of vectors at the vertices.
 fn sum(vectors: &[DVec3; 4], weights: DVec4) -> DVec3 {
     vectors.iter().zip(weights.to_array()).map(|(vector, weight)| weight * vector).sum()
 }
@@ -113,7 +114,8 @@ mod tests {
     const LAW: FrictionLaw = FrictionLaw { stiffness: 2e9, coefficient: 0.6 };
     const PENALTY: f64 = 1e9;
 
-    /// A large tetrahedron and a regular one on its top face, `depth` [m] deep and moved `along` the face.
+    /// A large tetrahedron, and a small one on its top face: `depth` [m] deep in the face, moved by `along` [m] along
+    /// x.
     fn tetrahedron_on_base(depth: f64, along: f64) -> [[DVec3; 4]; 2] {
         let base = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, -9.0]].map(DVec3::from_array);
         let corner = |angle: f64| DVec3::new(along + 0.5 * angle.cos(), 0.5 * angle.sin(), -depth);
@@ -137,7 +139,7 @@ mod tests {
             let friction = spring.advance(&LAW, &found, PENALTY, [&pair[0], &pair[1]], moves);
             let force = force_on(&friction.forces[1]);
             let cap = LAW.coefficient * PENALTY * found.resultant().length();
-            // 1e-9: the top face is level, but the direction of the contact force has rounding errors.
+            // Tolerance: the top face is horizontal, but the direction of the contact force has rounding errors.
             assert!((force.x + (LAW.stiffness * f64::from(i) * step).min(cap)).abs() < 1e-9 * cap);
             assert!((force_on(&friction.forces[0]) + force).length() < 1e-12 * cap);
             assert!(friction.dissipated >= 0.0);
@@ -146,7 +148,7 @@ mod tests {
             before = force.x;
         }
         assert!(heat > 0.0);
-        // Rounding only; the trapezoidal rule is exact here.
+        // Tolerance: only rounding, because the trapezoidal rule is exact here.
         assert!((work + heat + spring.stored(&LAW)).abs() < 1e-9 * heat, "{work} {heat}");
     }
 
@@ -156,7 +158,7 @@ mod tests {
         let mut spring = TangentialSpring::new(DVec3::Z);
         let (mut heat, mut work, mut force) = (0.0, 0.0, DVec3::ZERO);
         for _ in 0..10_000 {
-            // Increments up to 0.7 of the lowest cap; the cap varies.
+            // The limit of the force varies. The slip increments reach 0.7 of the slip at the lowest limit.
             let cap = 50.0 + 50.0 * random.next_share();
             let slip = (0.5 * 50.0 / LAW.stiffness) * random_point(&mut random).with_z(0.0);
             let released = spring.stretch(&LAW, slip, cap);
@@ -192,7 +194,7 @@ mod tests {
                 assert_eq!(friction.dissipated, 0.0);
             }
             let expected = DQuat::from_axis_angle(axis, 1.0) * (1e-6 * DVec3::X);
-            // 1e-3 of the extension: each increment rotates by 1/2000 rad.
+            // Tolerance: 1e-3 of the extension, because each increment rotates by 1/2000 rad.
             assert!((spring.extension - expected).length() < 1e-9, "{} {expected}", spring.extension);
         }
     }
@@ -243,7 +245,7 @@ mod tests {
             x += step * v;
             at_rest = if v.x.abs() < 1e-2 { at_rest + 1 } else { 0 };
         }
-        // 1 %: the extension mu m g / k_t of the spring is 0.3 mm of 85 mm.
+        // Tolerance: 1 %, because the extension mu m g / k_t of the spring is 0.3 mm of 85 mm.
         assert!((x.x / 0.0850 - 1.0).abs() < 0.01, "{}", x.x);
     }
 }

@@ -22,18 +22,18 @@
 //!
 //! Volume integral. In the part where lambda_j is least, phi_T is linear and div(phi_T (x - a_j)) = 4 phi_T for any
 //! point a_j of face j. The plane between two parts j and l contributes phi_T (a_l - a_j) . n, which vanishes if
-//! a_l - a_j is parallel to the plane. The points in `anchors` achieve this for all planes except that between the
-//! parts 0 and 1, where the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
+//! a_l - a_j is parallel to the plane. The points in `anchors` achieve this for all planes except the plane between
+//! parts 0 and 1. There, the area vector of the triangle inside T times a_1 - a_0 is 3 V_T:
 //!
 //!   4 I_T = sum_k sum_j 3 V_C N_k^C(a_j) m_kj + 3 V_T q,
 //!
 //! with m_kj the integral of phi_T over the part of face k of C where lambda_j is least, and q the integral over the
 //! part inside C of the triangle (centroid, vertex 2, vertex 3) of T, both divided by the area of the triangle. Every
-//! term has a factor phi_T, so faces of T and C that coincide to rounding are harmless.
+//! term has a factor phi_T, so faces of T and C that coincide except for rounding cause no error.
 //!
-//! Stiffness. The stiffest pair shares a flush face of area A with heights h_T, h_C over it, and a small overlap depth
-//! d: E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and with
-//! masses of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
+//! Stiffness. The stiffest pair has a flush face of area A, with heights h_T, h_C over this face and a small overlap
+//! depth d: E = 2 p A (1/h_T + 1/h_C) d^2. The largest eigenvalue of its Hessian is 8/3 p A (1/h_T + 1/h_C) [N/m], and
+//! with masses of rho V / 4 at the vertices omega^2 = 16 p / rho (1/h_T + 1/h_C)^2.
 
 use glam::{DVec3, DVec4};
 
@@ -47,21 +47,23 @@ pub struct Overlap {
     pub energy: f64,
     /// Forces on the vertices of T and of C: minus the gradient of the energy [m2].
     pub forces: [[DVec3; 4]; 2],
-    /// Point of action of the resultant: mean position of the surfaces inside, weighted by the potential [m].
+    /// Point of action of the resultant [m]: mean position of those parts of both surfaces that are inside the other
+    /// tetrahedron, weighted by the potential.
     pub centre: DVec3,
 }
 
 impl Overlap {
-    /// Resultant force on C [m2]; the resultant on T is opposite.
+    /// Returns the resultant force on tetrahedron C per unit of penalty [m2]. The resultant on T is opposite.
     pub fn resultant(&self) -> DVec3 {
         self.forces[1].iter().sum()
     }
 }
 
-/// Weight of the surfaces inside over energy^(2/3) [-] below which it is only rounding, as for identical tetrahedra.
+/// If `Sum::weight` over energy^(2/3) is below this value [-], the weight is only rounding, as for identical
+/// tetrahedra.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// Computes the overlap of the tetrahedra T and C, vertices in any order [m]; `None` if they are apart or only touch.
+/// Computes the overlap of tetrahedra T and C from their vertices [m], in any order. `None` if T and C do not overlap.
 pub fn overlap(t: &[DVec3; 4], c: &[DVec3; 4]) -> Option<Overlap> {
     if are_boxes_apart(t, c) {
         return None;
@@ -86,41 +88,42 @@ pub fn overlap(t: &[DVec3; 4], c: &[DVec3; 4]) -> Option<Overlap> {
     (sum.energy > 0.0).then_some(Overlap { energy: sum.energy, forces: sum.forces, centre })
 }
 
-/// Whether the bounding boxes of two tetrahedra are apart.
+/// Returns true if the bounding boxes of two tetrahedra do not overlap.
 fn are_boxes_apart(t: &[DVec3; 4], c: &[DVec3; 4]) -> bool {
     let low = |v: &[DVec3; 4]| v[0].min(v[1]).min(v[2].min(v[3]));
     let high = |v: &[DVec3; 4]| v[0].max(v[1]).max(v[2].max(v[3]));
     low(t).cmpge(high(c)).any() || low(c).cmpge(high(t)).any()
 }
 
-/// Whether one face of a tetrahedron separates it from four vertices, given in its barycentric coordinates.
+/// Returns true if one face of a tetrahedron separates it from four vertices. The vertices are given in the barycentric
+/// coordinates of this tetrahedron.
 fn are_outside_a_face(vertices: &[DVec4; 4]) -> bool {
     let highest = vertices[0].max(vertices[1]).max(vertices[2].max(vertices[3]));
     highest.cmple(DVec4::ZERO).any()
 }
 
-/// Sums over the two potentials.
+/// Sums of energy and forces over the potentials of both tetrahedra, per unit of penalty.
 #[derive(Default)]
 struct Sum {
     energy: f64,
     forces: [[DVec3; 4]; 2],
-    /// Integral of the potentials over the surfaces inside [m2].
+    /// Integral of the potentials over those parts of the surfaces that are inside the other tetrahedron [m2].
     weight: f64,
-    /// Integral of the potentials times the position over the surfaces inside [m3].
+    /// Integral of the potentials times the position over the same parts [m3].
     position: DVec3,
 }
 
-/// The potential of one tetrahedron, its owner, over another one (T and C in the formulas above).
+/// The contact potential of a tetrahedron `owner` in its overlap with a tetrahedron `other` (T and C in the formulas).
 struct Potential<'a> {
     owner: &'a Tetrahedron,
     other: &'a Tetrahedron,
-    /// Vertices of each tetrahedron in the barycentric coordinates of the other one [-].
+    /// Vertices of each tetrahedron in the barycentric coordinates of the other tetrahedron [-].
     other_in_owner: [DVec4; 4],
     owner_in_other: [DVec4; 4],
 }
 
 impl Potential<'_> {
-    /// Adds energy and forces of the potential; `owner` and `other` are their indices in `forces`.
+    /// Adds energy and forces of the potential to `sum`. `owner` and `other` are indices in `Sum::forces`.
     fn add_to(&self, sum: &mut Sum, [owner, other]: [usize; 2]) {
         let anchors = anchors(&self.owner_in_other);
         let mut integral = 0.75 * self.owner.volume * self.between_parts();
@@ -149,7 +152,7 @@ impl Potential<'_> {
         sum.energy += integral;
     }
 
-    /// Integral q over the plane between the parts 0 and 1 [-].
+    /// Returns the integral q over the plane between the parts 0 and 1 [-].
     fn between_parts(&self) -> f64 {
         let vertices = &self.owner_in_other;
         let centroid = 0.25 * (vertices[0] + vertices[1] + vertices[2] + vertices[3]);
@@ -159,11 +162,11 @@ impl Potential<'_> {
     }
 }
 
-/// Vertices of the face opposite to each vertex.
+/// For each vertex, the vertices of the face opposite to it.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
-/// Points a_j, from the vertices of the tetrahedron in any affine coordinates. Barycentric: a_0 = (0, 2, -1/2, -1/2),
-/// a_1 = (2, 0, -1/2, -1/2), a_2 = a_3 = (1/2, 1/2, 0, 0).
+/// Returns the points a_j, from the vertices of the tetrahedron in any affine coordinates. In barycentric coordinates,
+/// a_0 = (0, 2, -1/2, -1/2), a_1 = (2, 0, -1/2, -1/2), a_2 = a_3 = (1/2, 1/2, 0, 0).
 fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
     let middle = 0.5 * (vertices[0] + vertices[1]);
     let opposite = 0.5 * (vertices[2] + vertices[3]);
@@ -172,13 +175,14 @@ fn anchors(vertices: &[DVec4; 4]) -> [DVec4; 4] {
 
 /// Integrals of a potential over the part of a face inside its owner, divided by the area of the face.
 struct FaceIntegrals {
-    /// Of the potential, where coordinate j is least, m_kj [-].
+    /// Integral of the potential over the part where barycentric coordinate j is least, m_kj [-].
     per_part: [f64; 4],
-    /// Of the potential times the shape functions of the face's corners [-].
+    /// Integral of the potential times the shape function of each corner of the face [-].
     at_corner: [f64; 3],
 }
 
-/// Integrals over a face of the other tetrahedron, in the coordinates of the owner; `None` if the face is outside.
+/// Returns the integrals over a face. Its corners are given in the barycentric coordinates of the owner of the
+/// potential. Returns `None` if the face is outside the owner.
 fn face_integrals(face: [DVec4; 3]) -> Option<FaceIntegrals> {
     let coordinates = coordinates(face);
     let inside = inside_tetrahedron(&coordinates)?;
@@ -193,8 +197,8 @@ fn face_integrals(face: [DVec4; 3]) -> Option<FaceIntegrals> {
     Some(FaceIntegrals { per_part, at_corner: [total.zeroth - s - t, s, t] })
 }
 
-/// Calls `visit` with each part of a polygon in which one coordinate is the least, and with the number of that
-/// coordinate. `least` is the least of the coordinates before `next`.
+/// Divides a polygon into parts in which one coordinate is the least. Calls `visit` with the number of this coordinate
+/// and with the part. `least` is the number of the least of the coordinates below number `next`.
 fn for_each_part(
     polygon: &Polygon,
     coordinates: &[Linear; 4],
@@ -214,13 +218,13 @@ fn for_each_part(
     }
 }
 
-/// Barycentric coordinates as linear functions on a triangle, from their values at its corners.
+/// Returns barycentric coordinates as linear functions on a triangle, from their values at the corners of the triangle.
 fn coordinates([a, b, c]: [DVec4; 3]) -> [Linear; 4] {
     let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());
     [0, 1, 2, 3].map(|j| Linear::with_values([a[j], b[j], c[j]]))
 }
 
-/// Part of a triangle inside a tetrahedron, from the barycentric coordinates on the triangle.
+/// Returns the part of a triangle inside a tetrahedron. `coordinates` are the barycentric coordinates on the triangle.
 fn inside_tetrahedron(coordinates: &[Linear; 4]) -> Option<Polygon> {
     Polygon::triangle().clip(coordinates)
 }

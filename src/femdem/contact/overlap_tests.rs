@@ -9,7 +9,8 @@ use crate::random::SplitMix64;
 
 type Pair = [[DVec3; 4]; 2];
 
-/// Overlapping pairs, from barely touching to one inside the other; sizes of 0.1 to 2.1 m against 1 m.
+/// Random overlapping pairs, from a very small overlap to one tetrahedron inside the other. T has a size of 1 m, C of
+/// 0.1 to 2.1 m.
 fn random_pairs(seed: u64, count: usize) -> Vec<(Pair, Overlap)> {
     let mut random = SplitMix64::new(seed);
     let mut pairs = Vec::new();
@@ -50,8 +51,8 @@ fn forces_are_minus_the_gradient_of_the_energy() {
                 };
                 ((energy_at(step) - energy_at(-step)) / (2.0 * step) + found.forces[body][vertex][axis]).abs()
             };
-            // 5e-17: rounding of the energy, 1e-24 for an overlap 1e-4 m deep, divided by the increment. The best
-            // increment depends on the depth and on kinks of the second derivative. The gradient has no kinks, so no
+            // 5e-17: rounding of the energy (1e-24 for an overlap 1e-4 m deep), divided by the increment. The best
+            // increment depends on the depth and on jumps of the second derivative. The gradient is continuous, so no
             // pair is skipped.
             let allowed = 1e-6 * largest_force(&found) + 5e-17;
             assert!([1e-4, 1e-5, 1e-6, 1e-7, 1e-3, 1e-8].into_iter().any(|step| error(step) < allowed), "{pair:?}");
@@ -63,7 +64,8 @@ fn forces_are_minus_the_gradient_of_the_energy() {
 fn forces_have_no_resultant_and_no_moment() {
     for (pair, found) in random_pairs(12, 4000) {
         let loads = loads(&pair, &found);
-        // Rounding of forces and of the areas that add up to them; positions are up to 3 m away.
+        // Tolerance: rounding of the forces and of the areas from which they are computed. Positions are up to 3 m
+        // away.
         let allowed = 1e-13 * largest_force(&found) + 1e-17;
         assert!(loads.iter().map(|(_, f)| f).sum::<DVec3>().length() < allowed);
         assert!(loads.iter().map(|(x, f)| x.cross(*f)).sum::<DVec3>().length() < 20.0 * allowed);
@@ -86,7 +88,7 @@ fn energy_is_invariant_under_rigid_motion_exchange_and_renumbering() {
     for (pair, found) in random_pairs(14, 2000) {
         let (turn, shift) = (random.next_rotation(), random_point(&mut random));
         let [t, c] = pair.map(|vertices| vertices.map(|vertex| turn * vertex + shift));
-        // 1e-15: rounding of volumes of order 0.1.
+        // Tolerance 1e-15: rounding of volumes of order 0.1.
         let same = |other: f64| (other - found.energy).abs() < 1e-12 * found.energy + 1e-15;
         assert!(same(energy([t, c])) && same(energy([c, t])));
         let turned = overlap(&t, &c).unwrap();
@@ -106,19 +108,20 @@ fn overlap_energy_of_identical_tetrahedra_is_half_their_volume() {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let volume = Tetrahedron::new(&t).unwrap().volume;
         let found = overlap(&t, &t).unwrap();
-        // The mean of each potential is 1/4. Rounding only.
+        // The mean of each potential is 1/4. Tolerance: only rounding.
         assert!((found.energy - 0.5 * volume).abs() < 1e-15);
         assert!((found.centre - t.iter().sum::<DVec3>() / 4.0).length() < 1e-15);
     }
 }
 
 #[test]
-fn a_small_tetrahedron_inside_another_sees_the_potential_at_its_centroid() {
+fn overlap_energy_of_a_small_tetrahedron_inside_another_follows_the_potential_at_its_centroid() {
     let mut random = SplitMix64::new(16);
     for _ in 0..1000 {
         let t = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
         let outer = Tetrahedron::new(&t).unwrap();
-        // Coordinate j is 0.1 and the others are 0.3; the part with j least is at most 0.2 m wide for this size.
+        // At the centroid, coordinate j is 0.1 and the others are 0.3. The part where coordinate j is least is then
+        // wide enough for the small tetrahedron.
         let j = (4.0 * random.next_share()) as usize;
         let about = outer.weighted(DVec4::splat(0.3) - 0.2 * DVec4::AXES[j]);
         let c = random_tetrahedron(&mut random, about, 0.01);
@@ -133,7 +136,7 @@ fn separate_or_touching_tetrahedra_have_no_overlap() {
     let t = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let below = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::Z];
     assert_eq!(overlap(&t, &below), None);
-    // Corner on face, edge on edge, corner on corner; then separate tetrahedra with and without intersecting boxes.
+    // Corner on face, edge on edge, corner on corner. Then separate tetrahedra, with and without intersecting boxes.
     let corner = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     assert_eq!(overlap(&t, &[corner(0.2, 0.2, 0.0), corner(0.0, 0.2, -1.0), corner(0.5, 0.2, -1.0), -DVec3::Z]), None);
     assert_eq!(overlap(&t, &[DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z]), None);
@@ -173,7 +176,7 @@ fn energy_of_a_tip_in_a_face_grows_with_the_fourth_power_of_the_depth() {
     for depth in [1e-3, 1e-4, 1e-5, 1e-6] {
         let found = tip(depth);
         // The depth is a difference of positions of up to 18 m, rounded to 1e-15. The energy is a difference of terms
-        // that are larger by another factor 1 / depth.
+        // that are larger by a further factor 1 / depth.
         let allowed = 1e-14 / depth;
         assert!((found.energy / depth.powi(4) / energy - 1.0).abs() < allowed / depth, "{depth} {}", found.energy);
         assert!((found.resultant() / depth.powi(3) - force).length() < allowed * force.length());
@@ -205,20 +208,21 @@ fn contact_of_two_meshed_cubes_does_not_depend_on_the_numbering() {
     renumbered.reverse();
     let (energy_again, force_again) = total(&lower, &renumbered);
     let (energy_back, force_back) = total(&renumbered, &lower);
-    // Rounding: 1e-15 / depth^2 for energies.
+    // Tolerance: rounding, 1e-15 / depth^2 for energies.
     assert!((energy_again / energy - 1.0).abs() < 1e-9 && (energy_back / energy - 1.0).abs() < 1e-9);
     assert!((force_again - force).length() < 1e-14 && (force_back + force).length() < 1e-14);
-    // Two of the six have a face in each side of the cube; the potential rises from that face to 1 over a quarter of
-    // the height of 1 m. Its mean over the slab is 4 depth / 2 for each cube. It is lower, in proportion to the depth,
-    // where another face is nearer.
+    // In each side of the cube, two of the six tetrahedra have a face. The potential rises from 0 at this face to 1
+    // over a quarter of the height of 1 m. For each cube, its mean over the overlap is 4 depth / 2. Where another face
+    // is nearer, the potential is lower, in proportion to the depth.
     assert!((energy / (4.0 * depth * depth) - 1.0).abs() < 5.0 * depth, "{energy}");
-    // The force points upwards: the cubes are flush at the sides, so no lateral force acts.
+    // The force points upwards. The cubes are flush at the sides, so no lateral force acts.
     assert!(force.z > 0.0 && force.truncate().length() < 5.0 * depth * force.z, "{force}");
 }
 
 #[test]
 fn a_bouncing_tetrahedron_conserves_energy_for_any_penalty() {
-    // A fixed tetrahedron with edges of 10 m. One of 1 m with masses of 1 kg and springs as edges falls on it at 1 m/s.
+    // A tetrahedron falls at 1 m/s on a fixed tetrahedron with edges of about 10 m. The falling tetrahedron has springs
+    // of 1 m as edges and a mass of 1 kg at each vertex.
     let base = [[-5.0, -3.0, 0.0], [5.0, -3.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, -8.0]].map(DVec3::from_array);
     let edges = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let (stiffness, step) = (5e3, 5e-6);
@@ -240,7 +244,7 @@ fn a_bouncing_tetrahedron_conserves_energy_for_any_penalty() {
                 force[j] -= pull;
                 stored += 0.5 * stiffness * extension * extension;
             }
-            // Velocity at the same time as the positions, between two half time steps.
+            // Velocity at the time of the positions: half a time step after `v`.
             let kinetic: f64 = (0..4).map(|i| 0.5 * (v[i] + 0.5 * step * force[i]).length_squared()).sum();
             worst = worst.max((kinetic + stored - 2.0).abs() / 2.0);
             if touched && found.is_none() && x.iter().all(|vertex| vertex.z > 0.05) {

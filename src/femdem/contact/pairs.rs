@@ -1,18 +1,18 @@
 //! Pairs of tetrahedra in contact: which pairs can touch, their forces, and the start of a contact.
 //!
-//! Only tetrahedra with a free face can touch: on the surface of a body or at a crack. Two tetrahedra do not touch if
-//! they share a node around which unbroken faces connect them, unless the face between them has broken.
+//! Only tetrahedra with a free face can touch: on the surface of a body or at a crack. Two tetrahedra cannot touch if
+//! they share a node and unbroken faces connect them around this node, unless the face between them has broken.
 //!
-//! The initial overlap of a new pair does not count, except for the elastic energy of a joint that failed in
-//! compression: the pair takes this energy over, so that no energy is created. With the overlap energy p I and the
-//! initial part I_b of I that does not count, the pair has
+//! The initial overlap of a new pair does not count. There is one exception: if a joint failed in compression, the pair
+//! takes over its elastic energy, so that no energy is created. p I is the overlap energy, and I_b is the initial part
+//! of I that does not count. The pair has
 //!
 //!   E = p (sqrt I - sqrt I_b)^2 where I > I_b, and the share 1 - sqrt(I_b / I) of the forces of the overlap.
 //!
-//! The force rises from zero. For flush faces, whose I grows with the square of the depth, it rises as steeply as for
-//! two separate bodies; no pair is stiffer. (With p (I - I_b) the force would jump at I = I_b, and fragments that
-//! rattle there would gain half of force times displacement in each time step that crosses the jump.) I_b decreases
-//! with I, so fragments that separate and meet again are a normal contact.
+//! The force rises from zero. For flush faces, I grows with the square of the depth, and the force rises as steeply as
+//! for two separate bodies. No pair is stiffer. (With the energy p (I - I_b), the force would jump at I = I_b.
+//! Fragments that vibrate there would gain half of force times displacement in each time step that crosses the jump.)
+//! If I falls below I_b, I_b is reduced to I. Fragments that separate and meet again are therefore a normal contact.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -33,9 +33,9 @@ use crate::femdem::setup::Setup;
 /// Pairs per task of the thread pool.
 const CHUNK: usize = 64;
 
-/// Search distance over the mean size of the tetrahedra that can touch [-]. A search then remains valid for thousands
-/// of time steps, and few pairs are evaluated in vain.
-const SKIN: f64 = 0.1;
+/// Search distance over the mean size of the tetrahedra that can touch [-]. With this value, a search remains valid for
+/// thousands of time steps, and few pairs without contact are evaluated.
+const SEARCH_MARGIN: f64 = 0.1;
 
 /// Tangential over normal contact stiffness [-] (Xiang, Latham and Farsi 2017).
 const TANGENTIAL: f64 = 2.0 / 7.0;
@@ -48,7 +48,7 @@ struct Pair {
     law: FrictionLaw,
     /// Initial overlap I_b (energy over penalty) that does not count [m3]; `None` before the first evaluation.
     initial_overlap: Option<f64>,
-    /// Elastic energy that a broken joint leaves to the pair [J]; the part that the pair cannot take is dissipated.
+    /// Elastic energy that the pair takes over from a broken joint [J]. What the pair cannot store is dissipated.
     inherited_energy: f64,
     spring: Option<TangentialSpring>,
     forces: Option<[[DVec3; 4]; 2]>,
@@ -63,10 +63,10 @@ struct Pair {
 pub struct Contacts {
     /// Tetrahedra with a free face, in ascending order.
     outer: Vec<u32>,
-    /// For every node copy, the first of the copies of its mesh node that unbroken faces connect with it.
+    /// For every node copy, the first copy of the same mesh node that unbroken faces connect with it.
     group: Vec<NodeCopy>,
     pairs: Vec<Pair>,
-    /// Tetrahedra whose joint has broken since the last search, and the energy that the joint leaves to them [J].
+    /// Pairs of tetrahedra whose joint has broken since the last search, and the elastic energy of this joint [J].
     opened: Vec<([u32; 2], f64)>,
     /// Scalars of the state.
     pub scalars: ContactScalars,
@@ -77,7 +77,9 @@ pub struct Contacts {
 pub struct ContactScalars {
     /// Upper limit of the distance that any node has moved since the last search [m].
     travelled: f64,
+    /// Search distance of the last search [m].
     skin: f64,
+    /// True if a new search is needed, for example because a face has broken.
     outdated: bool,
     /// Elastic energy of all contacts [J].
     pub stored: f64,
@@ -90,7 +92,8 @@ pub struct ContactScalars {
 }
 
 impl Contacts {
-    /// Creates the contacts between the surfaces of all bodies; `groups` are the connected copies around each node.
+    /// Creates the contacts between the surfaces of all bodies. `groups` are the groups of node copies that unbroken
+    /// faces connect.
     pub fn new<'a>(setup: &Setup, groups: impl Iterator<Item = &'a [NodeCopy]>) -> Self {
         let group = vec![0; 4 * setup.tets.len()];
         let mut contacts = Self { outer: setup.outer.clone(), group, ..Self::default() };
@@ -98,13 +101,13 @@ impl Contacts {
         contacts
     }
 
-    /// Sets the copies around a node that are connected now.
+    /// Records that unbroken faces connect the node copies of `group`, and no other copies with them.
     pub fn regroup(&mut self, group: &[NodeCopy]) {
         group.iter().for_each(|copy| self.group[*copy as usize] = group[0]);
         self.scalars.outdated = true;
     }
 
-    /// Allows the tetrahedra at a broken face to touch; the joint leaves them its elastic energy [J].
+    /// Allows the two tetrahedra at a broken face to touch. Their pair takes over the elastic energy of the joint [J].
     pub fn allow_contact(&mut self, mut tets: [u32; 2], inherited_energy: f64) {
         for tet in tets {
             if let Err(index) = self.outer.binary_search(&tet) {
@@ -121,8 +124,8 @@ impl Contacts {
         self.scalars.travelled += distance;
     }
 
-    /// Adds all contact forces to the forces of the tetrahedra [N]. Nodes are at `position` [m], after moving with
-    /// `velocity` [m/s] for `dt` [s].
+    /// Adds all contact forces to the forces of the tetrahedra [N]. The nodes have moved to `position` [m] with the
+    /// velocity `velocity` [m/s] in the time `dt` [s].
     pub fn add_forces(
         &mut self,
         setup: &Setup,
@@ -156,17 +159,17 @@ impl Contacts {
         }
     }
 
-    /// Whether tetrahedra of two different bodies are in contact.
+    /// Returns true if tetrahedra of two different bodies are in contact.
     pub fn touches_other_body(&self, tets: &Tets) -> bool {
         let body = |tet: u32| tets.body[tet as usize];
         self.scalars.touching > 0
             && self.pairs.iter().any(|pair| pair.forces.is_some() && body(pair.tets[0]) != body(pair.tets[1]))
     }
 
-    /// Finds the pairs closer than two skins; pairs that existed before keep their history.
+    /// Finds the pairs that are closer than twice the search distance. Pairs that existed before keep their history.
     fn search(&mut self, setup: &Setup, tets: &Tets, position: &[DVec3], is_broken: impl Fn(usize) -> bool + Sync) {
         let size: f64 = self.outer.iter().map(|tet| tets.shape[*tet as usize].volume.cbrt()).sum();
-        let skin = SKIN * size / self.outer.len().max(1) as f64;
+        let skin = SEARCH_MARGIN * size / self.outer.len().max(1) as f64;
         let corners = |tet: &u32| tets.nodes[*tet as usize].map(|node| position[node as usize]);
         let boxes: Vec<Bounds> = self.outer.par_iter().map(|tet| Bounds::about(&corners(tet), skin)).collect();
         let tets_of = |pair: [u32; 2]| pair.map(|index| self.outer[index as usize]);
@@ -181,7 +184,7 @@ impl Contacts {
         let mut pairs: Vec<Pair> = intersecting_pairs(&boxes, keep).iter().map(|pair| recall(tets_of(*pair))).collect();
         for (key, energy) in self.opened.drain(..) {
             if let Ok(index) = pairs.binary_search_by_key(&key, |pair| pair.tets) {
-                // A pair that was evaluated before already counts its overlap.
+                // A pair that was evaluated before takes over no energy, because its overlap already counts.
                 pairs[index].inherited_energy = if pairs[index].initial_overlap.is_none() { energy } else { 0.0 };
             }
         }
@@ -189,7 +192,7 @@ impl Contacts {
         self.scalars = ContactScalars { travelled: 0.0, skin, outdated: false, ..self.scalars };
     }
 
-    /// Whether two tetrahedra are not connected around a shared node, or the face between them has broken.
+    /// Returns true if two tetrahedra are not connected around a shared node, or if the face between them has broken.
     fn can_touch(&self, [a, b]: [u32; 2], setup: &Setup, tets: &Tets, is_broken: impl Fn(usize) -> bool) -> bool {
         let nodes = [a, b].map(|tet| setup.tets[tet as usize]);
         let is_connected = |k: usize| {
@@ -204,14 +207,14 @@ impl Contacts {
     }
 }
 
-/// Whether a face of one tetrahedron separates it from the other one by more than a gap [m]. This removes most pairs of
-/// intersecting boxes: boxes of second neighbours on a surface often intersect.
+/// Returns true if a face of one tetrahedron separates it from the other one by more than a gap [m]. This test removes
+/// most pairs with intersecting boxes, because the boxes of second neighbours on a surface often intersect.
 fn are_apart(a: &[DVec3; 4], b: &[DVec3; 4], gap: f64) -> bool {
     let beyond_a_face = |owner: &[DVec3; 4], other: &[DVec3; 4]| {
         let Some(owner) = Tetrahedron::new(owner) else { return false };
         let [p, q, r, s] = other.map(|vertex| owner.shape_functions(vertex));
         let nearest = p.max(q).max(r.max(s)).to_array();
-        // A shape function decreases by the length of its gradient per metre.
+        // Per metre of distance from the face, a shape function decreases by the length of its gradient.
         nearest.iter().zip(owner.gradients).any(|(nearest, gradient)| *nearest < -gap * gradient.length())
     };
     beyond_a_face(a, b) || beyond_a_face(b, a)
@@ -256,15 +259,16 @@ impl Pair {
         self.forces = Some(forces);
     }
 
-    /// Returns I_b, the initial overlap that does not count [m3]. It is chosen so that half a time step ago, when the
-    /// joint broke, the pair had the energy that the joint leaves. With s = sqrt I - sqrt I_b this is p s^2 now, minus
-    /// half the work of this time step against the forces (the share s / sqrt I of the forces of the overlap).
+    /// Returns I_b, the initial overlap that does not count [m3]. With this I_b, the pair had the elastic energy of the
+    /// joint half a time step ago, when the joint broke. With s = sqrt I - sqrt I_b, this energy is the present energy
+    /// p s^2 minus half the work of this time step against the contact forces. The contact forces are the share
+    /// s / sqrt I of the forces of the whole overlap.
     fn find_initial_overlap(&mut self, found: Option<&Overlap>, moves: &[[DVec3; 4]; 2]) -> f64 {
         let inherited = std::mem::take(&mut self.inherited_energy);
         let Some(found) = found.filter(|found| found.energy > 0.0) else { return 0.0 };
         let root = found.energy.sqrt();
         let works = found.forces.iter().flatten().zip(moves.iter().flatten()).map(|(force, u)| force.dot(*u));
-        // For the forces of the whole overlap, divided by p sqrt I.
+        // Half the work against the forces of the whole overlap, divided by p sqrt I.
         let work = -0.5 * works.sum::<f64>() / root;
         let counts = (0.5 * (work + (work * work + 4.0 * inherited / self.penalty).sqrt())).clamp(0.0, root);
         self.inherited_energy = (self.penalty * counts * (counts - work)).max(0.0);

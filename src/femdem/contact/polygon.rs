@@ -1,14 +1,15 @@
 //! Convex parts of a triangle: clipping by planes, and integrals.
 //!
 //! Points have the local coordinates (s, t) of the triangle: its corners are (0, 0), (1, 0) and (0, 1). Clipping:
-//! Sutherland & Hodgman (1974), "Reentrant polygon clipping", CACM 17, 32-42. Here the two parts share the new corners,
-//! and every other corner belongs to one part. So rounding never loses area or counts it twice.
+//! Sutherland & Hodgman (1974), "Reentrant polygon clipping", CACM 17, 32-42. In this code, the two parts of a cut
+//! share the new corners, and every other corner belongs to only one part. Rounding therefore never loses area or
+//! counts area twice.
 
 use std::ops::Sub;
 
 use glam::DVec2;
 
-/// A triangle cut by four faces and by three planes between sub-tetrahedra has ten corners at most.
+/// Largest number of corners: a triangle that is cut by four faces and by three planes between sub-tetrahedra has ten.
 const CAPACITY: usize = 10;
 
 /// A linear function on a triangle.
@@ -26,7 +27,7 @@ impl Linear {
         Self { origin: a, slope: DVec2::new(b - a, c - a) }
     }
 
-    /// Value at a point.
+    /// Returns the value at a point.
     pub fn at(&self, point: DVec2) -> f64 {
         self.origin + self.slope.dot(point)
     }
@@ -40,7 +41,7 @@ impl Sub for Linear {
     }
 }
 
-/// A convex polygon, corners in order.
+/// A convex part of a triangle. Its corners are in order around the polygon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Polygon {
     corners: [DVec2; CAPACITY],
@@ -61,14 +62,14 @@ pub enum Side {
 /// Cut of a polygon by a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cut {
-    /// First and last corner of the positive part.
+    /// Indices of the first and the last corner of the positive part.
     run: [usize; 2],
-    /// Intersections of the plane with the edges before the first and after the last corner.
+    /// Intersections of the plane with the edge before the first corner and with the edge after the last corner.
     ends: [DVec2; 2],
 }
 
 impl Polygon {
-    /// The whole triangle.
+    /// Returns the whole triangle.
     pub fn triangle() -> Self {
         let mut polygon = Self::EMPTY;
         for corner in [DVec2::ZERO, DVec2::X, DVec2::Y] {
@@ -79,7 +80,7 @@ impl Polygon {
 
     const EMPTY: Self = Self { corners: [DVec2::ZERO; CAPACITY], count: 0 };
 
-    /// Corners in order, in the coordinates of the triangle [-].
+    /// Returns the corners in order, in the coordinates (s, t) of the triangle [-].
     pub fn corners(&self) -> &[DVec2] {
         &self.corners[..self.count]
     }
@@ -89,7 +90,7 @@ impl Polygon {
         self.count += 1;
     }
 
-    /// Returns the side of the plane `side` = 0 on which the polygon lies.
+    /// Returns the side of a plane on which the polygon lies. The plane is where the function `side` is zero.
     pub fn side(&self, side: Linear) -> Side {
         let mut sides = [0.0; CAPACITY];
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -107,8 +108,9 @@ impl Polygon {
         if highest <= 0.0 {
             return Side::Negative;
         }
-        // The positive part is the run of corners around the farthest one. A corner elsewhere that is positive only by
-        // rounding stays with its neighbours, so each part gains at most one corner.
+        // The positive part is the sequence of positive corners around the farthest corner. Another corner may be
+        // positive by rounding. It stays in the negative part with its neighbours, so each part gains at most one
+        // corner.
         let (mut first, mut last) = (farthest, farthest);
         while sides[self.before(first)] >= 0.0 {
             first = self.before(first);
@@ -136,7 +138,7 @@ impl Polygon {
         self.part([self.after(last), self.before(first)], cut.ends)
     }
 
-    /// The corners from the first to the last of a run, closed by two new ones.
+    /// Returns the polygon of the corners from `first` to `last` and the two corners `closing`.
     #[inline]
     fn part(&self, [first, last]: [usize; 2], closing: [DVec2; 2]) -> Self {
         let mut part = Self::EMPTY;
@@ -172,7 +174,7 @@ impl Polygon {
         Some(inside)
     }
 
-    /// Integrals of `weight` over the polygon.
+    /// Returns the integrals of a function, `weight`, over the polygon.
     pub fn integrate(&self, weight: Linear) -> Moments {
         let corners = self.corners();
         let (a, mut b) = (corners[0], corners[1]);
@@ -191,12 +193,12 @@ impl Polygon {
     }
 }
 
-/// Integrals of a weight over a polygon, divided by the area of the whole triangle.
+/// Integrals of a weight function over a polygon, divided by the area of the whole triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moments {
-    /// Of the weight [-].
+    /// Integral of the weight [-].
     pub zeroth: f64,
-    /// Of the weight times the coordinates (s, t) [-].
+    /// Integral of the weight times the coordinates (s, t) [-].
     pub first: DVec2,
 }
 

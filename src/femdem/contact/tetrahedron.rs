@@ -21,7 +21,7 @@ impl Tetrahedron {
         let [a, b, c] = [1, 2, 3].map(|i| vertices[i] - vertices[0]);
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
         let six_volumes = a.dot(normals[0]);
-        // NaN: a vertex is not a number.
+        // The volume is NaN if a coordinate of a vertex is NaN.
         if six_volumes.is_nan() || six_volumes == 0.0 {
             return None;
         }
@@ -34,20 +34,20 @@ impl Tetrahedron {
         })
     }
 
-    /// Shape functions N_i at a point [-]: positive inside.
+    /// Returns the shape functions N_i at a point [-]. All of them are positive inside the tetrahedron.
     pub fn shape_functions(&self, point: DVec3) -> DVec4 {
         let from_centroid = point - self.centroid;
         let [n_0, n_1, n_2, n_3] = self.gradients.map(|gradient| 0.25 + gradient.dot(from_centroid));
         DVec4::new(n_0, n_1, n_2, n_3)
     }
 
-    /// Weighted sum of the vertices [m].
+    /// Returns the weighted sum of the vertices [m].
     pub fn weighted(&self, weights: DVec4) -> DVec3 {
         let [a, b, c, d] = self.vertices;
         weights.x * a + weights.y * b + weights.z * c + weights.w * d
     }
 
-    /// Outward area vector of the face opposite to vertex i, S_i = -3 V grad N_i [m2].
+    /// Returns the outward area vector of the face opposite to vertex i, S_i = -3 V grad N_i [m2].
     pub fn area_vector(&self, i: usize) -> DVec3 {
         -3.0 * self.volume * self.gradients[i]
     }
@@ -66,7 +66,7 @@ mod tests {
             let vertices = random_tetrahedron(&mut random, DVec3::ZERO, 1.0);
             let tetrahedron = Tetrahedron::new(&vertices).unwrap();
             for (i, vertex) in vertices.iter().enumerate() {
-                // 1e-12: rounding, amplified by the worst shape of the samples.
+                // Tolerance: rounding, amplified by the flattest tetrahedra of the samples.
                 assert!((tetrahedron.shape_functions(*vertex) - DVec4::AXES[i]).abs().max_element() < 1e-12);
             }
             let point = DVec3::new(random.next_share(), random.next_share(), random.next_share());

@@ -1,12 +1,12 @@
-//! Intact joints (without damage or plastic slip), four at a time. Nearly all joints are intact nearly always.
+//! Forces of intact joints (without damage or plastic slip), four at a time. Most joints remain intact during a run.
 //!
-//! The forces equal those of [`super::joint::forces`] with a new state, to rounding. A joint that reaches its strength
-//! is only reported, and [`super::joint::forces`] computes its forces.
+//! Except for rounding, these forces equal those of [`super::joint::forces`] with a new state. If a joint reaches its
+//! strength, this module only reports the joint, and [`super::joint::forces`] computes its forces.
 
 use crate::femdem::material::cohesive_law::Cohesion;
 use crate::femdem::parallel::lanes::{Lanes, Vectors};
 
-/// Cohesive laws of the joints in the lanes.
+/// Cohesive laws of the joints in the SIMD lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct IntactLaw<L> {
     /// p_0 [Pa].
@@ -18,17 +18,17 @@ pub struct IntactLaw<L> {
     friction: L,
 }
 
-/// Forces of the joints in the lanes.
+/// Forces of the joints in the SIMD lanes.
 #[derive(Debug, Clone, Copy)]
 pub struct IntactForces<L> {
-    /// Forces on the corners of side 0 [N]; side 1 has the negative.
+    /// Forces on the corners of side 0 [N]; the forces on side 1 are opposite.
     pub forces: [Vectors<L>; 3],
     /// Positive if a joint opens beyond its peak or slips beyond its strength; its forces are then not valid.
     pub beyond: L,
 }
 
 impl<L: Lanes> IntactLaw<L> {
-    /// Builds the laws from a function of the lane.
+    /// Builds the laws from a function of the lane number.
     #[inline(always)]
     pub fn from_fn<'a>(f: impl Fn(usize) -> &'a Cohesion) -> Self {
         Self {
@@ -44,7 +44,7 @@ impl<L: Lanes> IntactLaw<L> {
     #[inline(always)]
     pub fn forces(&self, edge: L, area: L, [a, b]: &[[Vectors<L>; 3]; 2]) -> IntactForces<L> {
         let jump = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-        // Corner of the mid-surface, scaled by two.
+        // First corner of the mid-surface, multiplied by two.
         let corner = a[0] + b[0];
         let normal = (a[1] + b[1] - corner).cross(a[2] + b[2] - corner);
         let normal = normal * (L::splat(1.0) / normal.dot(normal).sqrt());
@@ -61,7 +61,8 @@ impl<L: Lanes> IntactLaw<L> {
         }
     }
 
-    /// Traction at a jump of the positions [m], by eq. 2 and elastic slip, and its excess over the elastic limit.
+    /// Returns the traction for a jump of the positions [m] (eq. 2 and elastic slip), and a number that is positive
+    /// beyond the elastic limit.
     #[inline(always)]
     fn respond(&self, stiffness: L, jump: Vectors<L>, normal: Vectors<L>) -> (Vectors<L>, L) {
         let zero = L::splat(0.0);
@@ -98,7 +99,7 @@ mod tests {
         let mut random = SplitMix64::new(5);
         let (mut intact, mut damaged) = (0, 0);
         for _ in 0..2000 {
-            // Around the opening and slip at the strength, 0.15 and 0.37 micrometres.
+            // Offsets around the opening and slip at the strength, 0.15 and 0.37 micrometres.
             let mut offset = || 4e-7 * DVec3::new(random.next_share(), random.next_share(), random.next_share());
             let sides = [corners.map(|corner| corner - offset()), corners.map(|corner| corner + offset() - offset())];
             let mut state = JointState::default();
@@ -114,7 +115,7 @@ mod tests {
             }
             intact += 1;
             for (found, expected) in found.forces.into_iter().zip(expected.forces) {
-                // Rounding: jumps of 0.1 micrometres are differences of positions of 3 cm.
+                // Tolerance: rounding, because jumps of 0.1 micrometres are differences of positions of 3 cm.
                 assert!((found.to_array()[0] - expected).length() < 1e-9 * expected.length() + 1e-6);
             }
         }

@@ -1,33 +1,34 @@
 //! The joint element between two tetrahedra: six nodes, three integration points (Guo, Latham and Xiang, fig. 3).
 //!
 //! The mid-surface is the mean of the two faces; its normal n points from side 0 to side 1. The integration points are
-//! the middles of the edges, each with the undeformed area A/3. The jump of the positions is split into the opening
-//! along n and the slip across. Shape functions distribute the tractions to the nodes, exactly for linear jumps.
+//! the midpoints of the edges, each with the undeformed area A/3. The jump of the positions between the two sides is
+//! split into the opening along n and the slip normal to n. Shape functions distribute the tractions to the nodes. This
+//! integration is exact for linear jumps.
 
 use glam::DVec3;
 
 use crate::femdem::material::cohesive_law::{CohesiveLaw, PointState};
 
-/// Corners at the ends of the edge of each integration point.
+/// For each integration point, the two corners at the ends of its edge.
 const ENDS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// State of a joint.
+/// State of a joint element.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointState {
     /// States of the three integration points.
     pub points: [PointState; 3],
-    /// Opening in the cohesive law at which a tied joint was released [m].
+    /// Opening in the cohesive law when the tied face was released [m]. It is added to the opening of the faces.
     pub offset: f64,
-    /// Whether a point has damage or plastic slip, or the joint was released from a tied face.
+    /// True if a point has damage or plastic slip, or if the joint was released from a tied face.
     pub(super) is_damaged: bool,
 }
 
 /// Forces and dissipation of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointForces {
-    /// Forces on the corners of side 0 [N]; side 1 has the negative.
+    /// Forces on the corners of side 0 [N]; the forces on side 1 are opposite.
     pub forces: [DVec3; 3],
-    /// Energy dissipated since the last call [J].
+    /// Energy dissipated since the previous call of [`forces`] [J].
     pub dissipated: f64,
     /// Number of failed integration points.
     pub failed: u8,
@@ -42,7 +43,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// Returns the axes of the mean of two faces with matching corners [m].
+    /// Returns the axes of the mid-surface of two faces with matching corners [m].
     #[inline]
     pub fn of_faces(sides: &[[DVec3; 3]; 2]) -> Self {
         let middle = [0, 1, 2].map(|k| sides[0][k] + sides[1][k]);
@@ -64,13 +65,14 @@ impl Axes {
     }
 }
 
-/// Jump of the positions at the corners [m].
+/// Returns the jump of the positions from side 0 to side 1 at each corner [m].
 fn jumps(sides: &[[DVec3; 3]; 2]) -> [DVec3; 3] {
     let [a, b] = sides;
     [b[0] - a[0], b[1] - a[1], b[2] - a[2]]
 }
 
-/// Computes the forces of a joint from the corners of its faces, `sides` [m], and its undeformed area [m2].
+/// Computes the forces of a joint from the corners of its two faces, `sides` [m], and its undeformed area [m2]. Updates
+/// the state of the joint.
 pub fn forces(law: &CohesiveLaw, area: f64, state: &mut JointState, sides: &[[DVec3; 3]; 2]) -> JointForces {
     let jump = jumps(sides);
     let axes = Axes::of_faces(sides);
@@ -89,7 +91,7 @@ pub fn forces(law: &CohesiveLaw, area: f64, state: &mut JointState, sides: &[[DV
     out
 }
 
-/// Elastic energy of a joint in the state of the last call [J].
+/// Returns the elastic energy of a joint at the last call of [`forces`] [J].
 pub fn stored(law: &CohesiveLaw, area: f64, state: &JointState) -> f64 {
     state.points.iter().map(|point| law.stored(point)).sum::<f64>() * (area / 3.0)
 }
@@ -102,13 +104,13 @@ impl JointState {
         Self { points: [point; 3], offset, is_damaged: true }
     }
 
-    /// Whether sliding (mode II) has dissipated more energy than opening (mode I).
-    pub fn is_mostly_slid(&self) -> bool {
+    /// Returns true if sliding (mode II) has dissipated more energy than opening (mode I).
+    pub fn is_mostly_sliding(&self) -> bool {
         self.points.iter().map(|point| point.dissipated[1] - point.dissipated[0]).sum::<f64>() > 0.0
     }
 }
 
-/// Mean edge length and area of a triangle [m, m2].
+/// Returns the mean edge length [m] and the area [m2] of a triangle.
 pub fn size(corners: &[DVec3; 3]) -> (f64, f64) {
     let [a, b, c] = *corners;
     let mean = (a.distance(b) + b.distance(c) + c.distance(a)) / 3.0;

@@ -5,8 +5,8 @@
 //! | `joint` | the joint element between two tetrahedra |
 //! | `intact_joint` | intact joints, four at a time |
 //!
-//! Intact joints need no stored state. Joints with damage or plastic slip, and joints released from tied faces, are in
-//! a separate list, in the order in which they entered it.
+//! Intact joints need no stored state. Damaged joints (with damage or plastic slip, or released from tied faces) are in
+//! a separate list, in the order in which they were damaged or released.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,7 +15,7 @@ mod intact_joint;
 pub mod joint;
 
 use super::assembly::{nodes::Nodes, tets::Tets};
-use super::material::cohesive_law::{Cohesion, POINT_NUMBERS, PointState};
+use super::material::cohesive_law::{Cohesion, POINT_STATE_LENGTH, PointState};
 use super::parallel::chunks::{CHUNK, ordered_sum};
 use super::parallel::lanes::{self, LANES, Lanes, Vectors, WithLanes};
 use super::setup::Setup;
@@ -35,8 +35,8 @@ pub enum Bond {
     Broken,
 }
 
-/// Count of numbers of a damaged joint, see [`DamagedJoint::to_array`].
-pub const JOINT_NUMBERS: usize = 4 + 3 * POINT_NUMBERS;
+/// Number of values in the stored state of a damaged joint, see [`DamagedJoint::to_array`].
+pub const JOINT_STATE_LENGTH: usize = 4 + 3 * POINT_STATE_LENGTH;
 
 /// A damaged joint, see [`Bond::Damaged`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,22 +47,22 @@ pub struct DamagedJoint {
     pub state: JointState,
     /// Energy dissipated so far [J].
     pub dissipated: f64,
-    /// Elastic energy when the joint was released [J].
+    /// Elastic energy when the joint was released from a tied face [J]; else zero.
     pub released: f64,
     /// Forces on the corners of side 0 [N].
     forces: [DVec3; 3],
-    /// Whether the joint breaks after this time step.
+    /// True if the joint breaks at the end of this time step.
     pub failed: bool,
 }
 
-/// The joints of a world; faces are numbered like the interfaces of its setup.
+/// The joints of a world. Faces have the same numbers as the interfaces of the setup.
 #[derive(Debug, Clone, Default)]
 pub struct Joints {
     /// Bond of each face.
     pub bond: Vec<Bond>,
     /// Mean edge length h [m] and undeformed area [m2] of each face.
     pub size: Vec<[f64; 2]>,
-    /// Forces of each face on the corners of side 0 [N]; side 1 has the negative.
+    /// Forces of each joint on the corners of side 0 of its face [N]; the forces on side 1 are opposite.
     pub forces: Vec<[DVec3; 3]>,
     /// Damaged joints.
     pub damaged: Vec<DamagedJoint>,
@@ -77,17 +77,17 @@ impl DamagedJoint {
         Self { interface: interface as u32, state, dissipated: 0.0, released: 0.0, forces, failed: false }
     }
 
-    /// Returns the offset, damaged or not, the two energies and the states of the points as numbers, for a checkpoint.
-    pub fn to_array(&self) -> [f64; JOINT_NUMBERS] {
+    /// Returns the joint as numbers for a checkpoint: offset, 1 if damaged, the two energies, the states of the points.
+    pub fn to_array(&self) -> [f64; JOINT_STATE_LENGTH] {
         let JointState { points, offset, is_damaged } = self.state;
-        let mut numbers = [0.0; JOINT_NUMBERS];
+        let mut numbers = [0.0; JOINT_STATE_LENGTH];
         numbers[..4].copy_from_slice(&[offset, f64::from(u8::from(is_damaged)), self.dissipated, self.released]);
         numbers[4..].copy_from_slice(points.map(PointState::to_array).as_flattened());
         numbers
     }
 
     /// Restores the joint of an interface from the numbers of [`Self::to_array`].
-    pub fn from_array(interface: u32, numbers: [f64; JOINT_NUMBERS]) -> Self {
+    pub fn from_array(interface: u32, numbers: [f64; JOINT_STATE_LENGTH]) -> Self {
         let [offset, is_damaged, dissipated, released, ref points @ ..] = numbers;
         let points = std::array::from_fn(|k| PointState::from_array(points.as_chunks().0[k]));
         let state = JointState { points, offset, is_damaged: is_damaged != 0.0 };
@@ -116,12 +116,12 @@ impl Joints {
         jointed.for_each(|(interface, _)| interface.tets.iter().for_each(|tet| tets.jointed[*tet as usize] = true));
     }
 
-    /// Number of faces.
+    /// Returns the number of faces.
     pub fn count(&self) -> usize {
         self.bond.len()
     }
 
-    /// Computes all joint forces at the current positions; `dt` [s] is the last time step.
+    /// Computes all joint forces at the current positions. `dt` [s] is the length of the last time step.
     pub fn compute_forces(&mut self, setup: &Setup, tets: &Tets, nodes: &Nodes, dt: f64) {
         let Self { bond, size, forces, damaged, reached } = self;
         let chunks = bond.par_chunks(CHUNK).zip(forces.par_chunks_mut(CHUNK)).zip(reached.par_iter_mut());
@@ -133,7 +133,7 @@ impl Joints {
         for number in reached.iter_mut().flat_map(|reached| reached.drain(..)) {
             let number = number as usize;
             bond[number] = Bond::Damaged;
-            // The state before this time step, so that the first slip is counted from there.
+            // First computes the state one time step earlier, so that the dissipation of this time step counts.
             let ([edge, area], mut state) = (size[number], JointState::default());
             let before = faces_before(number, setup, tets, nodes, dt);
             joint::forces(&cohesion(setup, number).law(edge), area, &mut state, &before);
@@ -146,38 +146,38 @@ impl Joints {
             let response = joint::forces(&cohesion(setup, number).law(edge), area, &mut joint.state, &sides);
             joint.forces = response.forces;
             joint.dissipated += response.dissipated;
-            // Two of three failed points break a joint, as is usual in the literature.
+            // A joint fails when two of its three points have failed, as is usual in the literature.
             joint.failed = response.failed >= 2;
         });
         damaged.iter().for_each(|joint| forces[joint.interface as usize] = joint.forces);
     }
 
-    /// Elastic energy of all joints [J].
+    /// Returns the elastic energy of all joints [J].
     pub fn stored(&self, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
         let intact = |number: usize| self.intact_energy(number, setup, tets, nodes);
         let damaged = |k: usize| self.damaged_energy(&self.damaged[k], setup);
         ordered_sum(self.count(), intact) + ordered_sum(self.damaged.len(), damaged)
     }
 
-    /// Elastic energy of the joint of a face [J] if it is intact, else zero.
+    /// Returns the elastic energy of the joint at a face [J]; zero if the joint is not intact.
     pub fn intact_energy(&self, number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
         if self.bond[number] != Bond::Intact {
             return 0.0;
         }
         let [edge, area] = self.size[number];
         let (law, sides) = (cohesion(setup, number).law(edge), faces(number, setup, tets, nodes));
-        // Brings a new state to the current positions.
+        // Computes the state at the current positions from a new state.
         let mut state = JointState::default();
         joint::forces(&law, area, &mut state, &sides);
         joint::stored(&law, area, &state)
     }
 
-    /// Energy dissipated so far by the damaged joints, without those that have broken [J].
+    /// Returns the energy dissipated so far [J] by joints that are damaged but not broken.
     pub fn dissipated(&self) -> f64 {
         self.damaged.iter().fold(0.0, |sum, joint| sum + joint.dissipated)
     }
 
-    /// Elastic energy of a damaged joint in the state of the last force computation [J].
+    /// Returns the elastic energy of a damaged joint at the last computation of its forces [J].
     pub fn damaged_energy(&self, joint: &DamagedJoint, setup: &Setup) -> f64 {
         let number = joint.interface as usize;
         let [edge, area] = self.size[number];
@@ -204,7 +204,7 @@ impl WithLanes for IntactChunk<'_> {
     fn run<L: Lanes>(self) {
         let mut next = 0;
         loop {
-            // The last joint fills unused lanes.
+            // Unused lanes repeat the last joint.
             let (mut indices, mut count) = ([0; LANES], 0);
             while next < self.bond.len() && count < LANES {
                 if self.bond[next] == Bond::Intact {
@@ -240,7 +240,7 @@ impl IntactChunk<'_> {
         law.forces(edge, area, &[self.side(0, indices), self.side(1, indices)])
     }
 
-    /// Corners of one side of the interfaces in the lanes [m].
+    /// Returns the corners of one side of the interfaces in the SIMD lanes [m].
     #[inline(always)]
     fn side<L: Lanes>(&self, side: usize, indices: [usize; LANES]) -> [Vectors<L>; 3] {
         let Self { first, setup, tets, nodes, .. } = self;
@@ -266,25 +266,26 @@ pub fn cohesion(setup: &Setup, number: usize) -> &Cohesion {
     body.and_then(|body| body.cohesion.as_ref()).expect("interfaces lie in bodies that crack")
 }
 
-/// Current corners of both sides of an interface [m].
+/// Returns the current corners of both sides of an interface [m].
 pub fn faces(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes) -> [[DVec3; 3]; 2] {
     faces_before(number, setup, tets, nodes, 0.0)
 }
 
-/// Corners of both sides of an interface [m] a `time` [s] ago, if the nodes moved with their current velocities.
+/// Returns the corners of both sides of an interface [m] a `time` [s] ago, if nodes moved with their current
+/// velocities.
 fn faces_before(number: usize, setup: &Setup, tets: &Tets, nodes: &Nodes, time: f64) -> [[DVec3; 3]; 2] {
     let position = |node: u32| nodes.position[node as usize] - nodes.velocity[node as usize] * time;
     [0, 1].map(|side| corner_nodes(number, side, setup, tets).map(position))
 }
 
-/// Power that the motion of its faces supplies to a joint [W].
+/// Returns the power [W] that a damaged joint receives from the motion of its two faces.
 pub fn power_on(joint: &DamagedJoint, setup: &Setup, tets: &Tets, nodes: &Nodes) -> f64 {
     let number = joint.interface as usize;
     let [one, other] = [0, 1].map(|side| corner_nodes(number, side, setup, tets).map(|n| nodes.velocity[n as usize]));
     (0..3).map(|k| joint.forces[k].dot(other[k] - one[k])).sum()
 }
 
-/// Nodes at the corners of one side of an interface.
+/// Returns the node numbers at the corners of one side of an interface.
 #[inline(always)]
 fn corner_nodes(number: usize, side: usize, setup: &Setup, tets: &Tets) -> [u32; 3] {
     let interface = &setup.interfaces[number];
@@ -292,7 +293,7 @@ fn corner_nodes(number: usize, side: usize, setup: &Setup, tets: &Tets) -> [u32;
     [vertices[usize::from(a)], vertices[usize::from(b)], vertices[usize::from(c)]]
 }
 
-/// Undeformed corners of an interface [m].
+/// Returns the undeformed corners of an interface [m].
 pub fn corners(setup: &Setup, number: usize) -> [DVec3; 3] {
     let interface = &setup.interfaces[number];
     let tet = &setup.tets[interface.tets[0] as usize];

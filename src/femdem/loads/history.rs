@@ -1,6 +1,6 @@
 //! Values that change with time.
 
-/// Time series of `N` values: linear between two rows, constant before the first and after the last.
+/// Time series of `N` values: linear between two rows, constant before the first row and after the last row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History<const N: usize> {
     /// Times [s], ascending.
@@ -15,14 +15,14 @@ impl<const N: usize> History<N> {
         Self { times: vec![0.0], values: vec![values] }
     }
 
-    /// Creates a history from rows of a time [s] and values; `None` if there is no row or times do not increase.
+    /// Creates a history from rows with a time [s] and `N` values; `None` if there is no row or times do not increase.
     pub fn new(rows: impl IntoIterator<Item = (f64, [f64; N])>) -> Option<Self> {
         let (times, values): (Vec<f64>, Vec<[f64; N]>) = rows.into_iter().unzip();
         let rises = times.windows(2).all(|pair| pair[0] < pair[1]);
         (rises && !times.is_empty()).then_some(Self { times, values })
     }
 
-    /// Largest absolute value of each of the `N` values over all times.
+    /// Returns the largest absolute value of each of the `N` values over all times.
     pub fn largest(&self) -> [f64; N] {
         let larger = |a: [f64; N], b: &[f64; N]| std::array::from_fn(|k| a[k].max(b[k].abs()));
         self.values.iter().fold([0.0; N], larger)

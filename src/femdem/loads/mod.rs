@@ -3,7 +3,7 @@
 //! | file | contents |
 //! | --- | --- |
 //! | `history` | values that change with time |
-//! | `patch` | a force and a moment at a point, spread over the faces near the point |
+//! | `patch` | a force and a moment at a point, distributed over the faces near the point |
 //!
 //! Forces act on node copies (vertices of tetrahedra), so node splitting does not affect the loads.
 
@@ -35,7 +35,7 @@ pub enum Load {
         faces: Vec<Exterior>,
         /// Pressure, positive in compression [Pa].
         pressure: f64,
-        /// Whether area and normal are current or initial.
+        /// Surface that gives area and normal: current or initial.
         on: Surface,
         /// Factor of the pressure over time [-].
         factor: History<1>,
@@ -49,16 +49,16 @@ pub enum Load {
 pub enum Surface {
     /// The current surface, as for a fluid pressure.
     Deformed,
-    /// The initial surface; the load keeps its direction.
+    /// The initial surface. The direction of the load then remains constant.
     Undeformed,
 }
 
 /// Force on a vertex of a tetrahedron.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CornerForce {
-    /// The tetrahedron.
+    /// Number of the tetrahedron.
     pub tet: u32,
-    /// The vertex.
+    /// Number of the vertex in the tetrahedron (0 to 3).
     pub corner: u8,
     /// Force [N].
     pub force: DVec3,
@@ -81,14 +81,15 @@ fn vertex((positions, tets): Vertices, tet: u32, corner: u8) -> DVec3 {
     positions[tets[tet as usize][usize::from(corner)] as usize]
 }
 
-/// Area of a face times its outward normal [m2].
+/// Returns the area of a face times its outward normal [m2].
 fn area_vector(face: &Exterior, vertices: Vertices) -> DVec3 {
     let [a, b, c] = face.nodes.map(|corner| vertex(vertices, face.tet, corner));
     (b - a).cross(c - a) * 0.5
 }
 
 impl Load {
-    /// Appends the forces at a time [s] to a list. Each corner of a face gets a third of its force.
+    /// Appends the forces at a time [s] to `out`. For tractions and pressures, each corner of a face gets a third of
+    /// the force on the face.
     pub fn forces(&self, configuration: &Configuration, time: f64, out: &mut Vec<CornerForce>) {
         let mut spread = |face: &Exterior, force: DVec3| {
             out.extend(face.nodes.map(|corner| CornerForce { tet: face.tet, corner, force: force / 3.0 }));

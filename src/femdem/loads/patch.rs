@@ -1,9 +1,10 @@
-//! A force and a moment at a point, spread over the faces near it: a recorded impact or the water's load on a unit.
+//! A force and a moment at a point, distributed over the faces near the point: an impact, or the load of water on a
+//! unit.
 //!
-//! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and
-//! sum w_i X_i = P, the point in the undeformed body. For any deformation, the resultant is then the force and has no
-//! moment about p = sum w_i x_i, the point in the deformed body. The shares are those of a uniform stress, corrected by
-//! the smallest linear function of the position that moves their centre to P:
+//! Every vertex i of the tetrahedra at the loaded faces has a share w_i of the force, with sum w_i = 1 and sum w_i X_i
+//! = P, the point of action in the undeformed body. For any deformation, the resultant of the shares is then the force.
+//! It acts at p = sum w_i x_i, the point of action in the deformed body. The shares are the shares of a uniform stress,
+//! corrected by the smallest linear function of the position that moves their centre to P:
 //!
 //! w_i = A_i / A + m_i (X_i - C) . S^-1 (P - sum A_j X_j / A),  S = sum m_i (X_i - C)(X_i - C)^T
 //!
@@ -19,7 +20,7 @@ use super::{Configuration, CornerForce, vertex};
 use crate::femdem::mesh::PreparedMesh;
 use crate::femdem::mesh::faces::Exterior;
 
-/// Iterations of the polar decomposition, which converges quadratically from strains of a few per cent.
+/// Number of iterations of the polar decomposition, which converges quadratically for strains of a few per cent.
 const ROUNDS: usize = 12;
 
 /// Axes in which the components of a force are given.
@@ -31,7 +32,7 @@ pub enum Axes {
     Body,
 }
 
-/// A vertex that takes a share of a load.
+/// A vertex that receives a share of a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Corner {
     tet: u32,
@@ -44,7 +45,7 @@ struct Corner {
     arm: DVec3,
 }
 
-/// A force and a moment at a point.
+/// A force and a moment at a point, distributed over the vertices of tetrahedra at the loaded faces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
     corners: Vec<Corner>,
@@ -66,7 +67,8 @@ pub struct NearFaces {
     pub edge: f64,
 }
 
-/// Finds the faces of a body whose centre is within a radius [m] of a point [m]; if there is none, the nearest face.
+/// Finds the exterior faces of a body whose centres lie within a radius [m] around a point [m]. If there is no such
+/// face, returns the nearest face.
 pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -> NearFaces {
     let tets = &mesh.mesh.bodies[body].tets;
     let own = mesh.faces.exteriors.iter().filter(|face| tets.contains(&(face.tet as usize)));
@@ -94,7 +96,7 @@ pub fn faces_near(mesh: &PreparedMesh, body: usize, point: DVec3, radius: f64) -
 }
 
 impl Corner {
-    /// Current position [m].
+    /// Returns the current position of the vertex [m].
     fn current(&self, configuration: &Configuration) -> DVec3 {
         vertex(configuration.current, self.tet, self.corner)
     }
@@ -105,8 +107,8 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
 }
 
 impl Patch {
-    /// Creates a load on faces of a mesh, with a force through a point [m]. The history contains the force [N] and the
-    /// moment about the point [N m].
+    /// Creates a load on faces of a mesh, with a force that acts at a point [m]. The history contains the force [N] and
+    /// the moment about the point [N m].
     ///
     /// # Panics
     /// If there is no face.
@@ -159,12 +161,12 @@ impl Patch {
         Self { corners, inverse_spread, axes, history }
     }
 
-    /// Current position of the point of action [m].
+    /// Returns the current position of the point of action [m].
     pub fn position(&self, configuration: &Configuration) -> DVec3 {
         self.corners.iter().map(|corner| corner.current(configuration) * corner.share).sum()
     }
 
-    /// Prescribed force [N] and moment about the point [N m] at a time [s], in axes fixed in space.
+    /// Returns the prescribed force [N] and moment about the point [N m] at a time [s], in axes fixed in space.
     pub fn prescribed(&self, configuration: &Configuration, time: f64) -> [DVec3; 2] {
         let values = self.history.at(time);
         let given = [0, 3].map(|k| DVec3::from_slice(&values[k..k + 3]));
@@ -177,12 +179,13 @@ impl Patch {
         }
     }
 
-    /// Centroid of the current positions [m].
+    /// Returns the current centroid of the loaded tetrahedra [m].
     fn centroid(&self, configuration: &Configuration) -> DVec3 {
         self.corners.iter().map(|corner| corner.current(configuration) * corner.weight).sum()
     }
 
-    /// Rotation of the tetrahedra since the start: polar part of the best affine map, by Higham's iteration (1986).
+    /// Returns the rotation of the loaded tetrahedra since the start: the rotation in the polar decomposition of the
+    /// best affine map, by Higham's iteration (1986).
     fn rotation(&self, configuration: &Configuration) -> DMat3 {
         let centroid = self.centroid(configuration);
         let moved = |corner: &Corner| outer(corner.current(configuration) - centroid, corner.arm) * corner.weight;
@@ -194,7 +197,7 @@ impl Patch {
         rotation
     }
 
-    /// Appends the forces at a time [s] to a list.
+    /// Appends the forces of the load at a time [s] to `out`.
     pub(super) fn forces(&self, configuration: &Configuration, time: f64, out: &mut Vec<CornerForce>) {
         let [force, moment] = self.prescribed(configuration, time);
         let centroid = self.centroid(configuration);

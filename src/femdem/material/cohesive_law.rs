@@ -1,15 +1,15 @@
 //! The cohesive (traction-separation) law at an integration point of a joint, eqs. 1 to 4 of Guo, Latham and Xiang.
 //!
-//! The paper leaves some points open; this module makes these choices:
+//! The paper leaves some points open. This module makes these choices:
 //!
 //! | point | choice |
 //! | --- | --- |
 //! | penalty stiffness | 2 f / delta_p = p_0 / h in tension, sliding and compression; h is the mean edge of the joint, p_0 a stress |
 //! | softening range | exact: the area under the curve is G_f; published: max(2 delta_p, 3 G_f / f), which dissipates 1.16 G_f |
 //! | unloading and reloading | along the secant to the origin; damage never decreases |
-//! | sliding | return mapping to the yield stress f_s z(D): elastic slip with the stiffness p_0 / h, the rest is plastic and causes damage. The parabola of eq. 2 is used for tension only: with f_s changing under load it would create energy |
-//! | mixed mode | D of eq. 4 weakens tension and shear |
-//! | snap-back | softening in sliding is never steeper than the elastic line; a joint then dissipates more than G_fII |
+//! | sliding | return mapping to the yield stress f_s z(D): elastic slip with the stiffness p_0 / h; the remaining slip is plastic and causes damage. The parabola of eq. 2 is used in tension only: in sliding, it would create energy when f_s changes |
+//! | mixed mode | the damage D of eq. 4 reduces both the tensile and the shear strength |
+//! | snap-back | softening in sliding is never steeper than the elastic line; at this limit, a joint dissipates more than G_fII |
 //!
 //! The dissipation is never negative on any path.
 
@@ -19,7 +19,7 @@ use super::softening::{AREA, STEEPEST, z};
 /// Choice of the softening range of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Range {
-    /// The area under the curve is the fracture energy.
+    /// The area under the traction-separation curve is the fracture energy.
     #[default]
     Exact,
     /// max(2 delta_p, 3 G_f / f), as in the published programs.
@@ -35,7 +35,7 @@ pub struct Cohesion {
     pub penalty: f64,
     /// Softening range.
     pub range: Range,
-    /// Whether faces are tied until their strength is reached. All of G_f is then dissipated after the peak.
+    /// True if faces are tied until they reach their strength. Their joints then dissipate all of G_f after the peak.
     pub tied: bool,
 }
 
@@ -52,8 +52,8 @@ pub struct CohesiveLaw {
     range: Range,
 }
 
-/// Count of numbers of an integration point, see [`PointState::to_array`].
-pub const POINT_NUMBERS: usize = 10;
+/// Number of values in the stored state of an integration point, see [`PointState::to_array`].
+pub const POINT_STATE_LENGTH: usize = 10;
 
 /// State of an integration point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,9 +62,9 @@ pub struct PointState {
     pub damage: f64,
     /// Secant stiffness in opening [Pa/m]; infinite while undamaged.
     secant: f64,
-    /// Opening at the last call [m].
+    /// Opening at the last call of [`CohesiveLaw::respond`] [m].
     opening: f64,
-    /// Slip at the last call in the axes of the joint [m].
+    /// Slip at the last call of [`CohesiveLaw::respond`] in the axes of the joint [m].
     slip: [f64; 2],
     /// Plastic slip in the axes of the joint [m].
     plastic: [f64; 2],
@@ -76,24 +76,26 @@ pub struct PointState {
 
 impl PointState {
     /// Returns the state as numbers, for a checkpoint.
-    pub fn to_array(self) -> [f64; POINT_NUMBERS] {
+    pub fn to_array(self) -> [f64; POINT_STATE_LENGTH] {
         let Self { damage, secant, opening, slip: [a, b], plastic: [c, d], accumulated_slip, dissipated: [e, f] } =
             self;
         [damage, secant, opening, a, b, c, d, accumulated_slip, e, f]
     }
 
     /// Restores the state from the numbers of [`Self::to_array`].
-    pub fn from_array([damage, secant, opening, a, b, c, d, accumulated_slip, e, f]: [f64; POINT_NUMBERS]) -> Self {
+    pub fn from_array(
+        [damage, secant, opening, a, b, c, d, accumulated_slip, e, f]: [f64; POINT_STATE_LENGTH],
+    ) -> Self {
         Self { damage, secant, opening, slip: [a, b], plastic: [c, d], accumulated_slip, dissipated: [e, f] }
     }
 
-    /// Whether the point has neither damage nor plastic slip.
+    /// Returns true if the point has neither damage nor plastic slip.
     #[inline]
     pub fn is_intact(&self) -> bool {
         self.damage == 0.0 && self.plastic == [0.0; 2]
     }
 
-    /// Elastic part of the slip [m].
+    /// Returns the elastic part of the slip [m].
     #[inline]
     fn elastic_slip(&self) -> [f64; 2] {
         [self.slip[0] - self.plastic[0], self.slip[1] - self.plastic[1]]
@@ -114,7 +116,7 @@ pub struct Traction {
     pub normal: f64,
     /// Shear stress tau in the axes of the joint [Pa].
     pub shear: [f64; 2],
-    /// Energy dissipated since the last call [J/m2].
+    /// Energy dissipated since the previous call of [`CohesiveLaw::respond`] [J/m2].
     pub dissipated: f64,
 }
 
@@ -134,7 +136,7 @@ impl Cohesion {
         CohesiveLaw { strength, stiffness: self.penalty / h, peak_opening, opening_range, range }
     }
 
-    /// Longest usable edge length [m]: from there on, the work before the peak alone exceeds G_f.
+    /// Returns the longest usable edge length [m]. With longer edges, the work before the peak alone exceeds G_f.
     pub fn longest_edge(&self) -> f64 {
         if self.tied || self.range == Range::Published {
             return f64::INFINITY;
@@ -144,13 +146,13 @@ impl Cohesion {
 }
 
 impl CohesiveLaw {
-    /// Initial stiffness p_0 / h [Pa/m].
+    /// Returns the initial stiffness p_0 / h [Pa/m].
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// State of a point that carries the given stress [Pa] at zero slip, for the release of a tied face. Also returns
-    /// the opening [m] at which it carries the stress. A tensile stress beyond the strength counts as the strength.
+    /// Returns the state of a point that carries the given stress [Pa] at zero slip, and its opening [m] there.
+    /// This state is used when a tied face is released. A tensile stress above the strength is reduced to it.
     pub fn loaded(&self, normal: f64, shear: [f64; 2]) -> (PointState, f64) {
         let f_t = self.strength.tensile;
         let opening = if normal > 0.0 {
@@ -170,7 +172,8 @@ impl CohesiveLaw {
             point.damage = opened.min(1.0);
         }
         let mut normal = self.normal(point, opening);
-        // The shear strength depends on the normal stress; plastic slip may then increase the damage.
+        // The shear strength depends on the normal stress. If plastic slip increases the damage, the normal stress is
+        // computed again.
         let shear = self.slide(point, normal, opened, slip);
         if point.damage > old.damage {
             normal = self.normal(point, opening);
@@ -181,13 +184,13 @@ impl CohesiveLaw {
         Traction { normal, shear, dissipated: dissipated[0] + dissipated[1] }
     }
 
-    /// Elastic energy of a point at the opening and slip of its last call [J/m2].
+    /// Returns the elastic energy [J/m2] of a point at the opening and slip of its last call of [`Self::respond`].
     pub fn stored(&self, point: &PointState) -> f64 {
         let [a, b] = point.elastic_slip();
         self.stored_normal(point) + 0.5 * self.stiffness * (a * a + b * b)
     }
 
-    /// Normal stress [Pa], eq. 2; on the secant if the point is not at its largest opening.
+    /// Returns the normal stress [Pa]: by eq. 2 at the largest opening so far, or on the secant at a smaller opening.
     fn normal(&self, point: &mut PointState, opening: f64) -> f64 {
         let left = z(point.damage);
         if opening <= 0.0 {
@@ -205,7 +208,7 @@ impl CohesiveLaw {
         point.secant * opening
     }
 
-    /// Shear stress [Pa] by return mapping to the yield stress f_s z(D).
+    /// Returns the shear stress [Pa], by return mapping to the yield stress f_s z(D). Updates plastic slip and damage.
     fn slide(&self, point: &mut PointState, normal: f64, opened: f64, slip: [f64; 2]) -> [f64; 2] {
         let elastic = [slip[0] - point.plastic[0], slip[1] - point.plastic[1]];
         let trial = self.stiffness * (elastic[0] * elastic[0] + elastic[1] * elastic[1]).sqrt();
@@ -215,7 +218,7 @@ impl CohesiveLaw {
         }
         let range = self.sliding_range(strength);
         let damage = |slid: f64| opened.hypot((point.accumulated_slip + slid) / range).clamp(point.damage, 1.0);
-        // Decreases monotonically through zero: the yield stress is less steep than the elastic line.
+        // Decreases monotonically through zero, because the yield stress falls less steeply than the elastic line.
         let excess = |slid: f64| trial - self.stiffness * slid - strength * z(damage(slid));
         let slid = root(excess, trial / self.stiffness);
         let yielded = (trial - self.stiffness * slid).max(0.0);
@@ -226,7 +229,7 @@ impl CohesiveLaw {
         direction.map(|d| d * yielded)
     }
 
-    /// Plastic slip [m] at which a joint with shear strength f_s [Pa] fails.
+    /// Returns the plastic slip [m] at which a joint with shear strength f_s [Pa] fails.
     fn sliding_range(&self, strength: f64) -> f64 {
         let range = match self.range {
             Range::Exact => self.strength.sliding_energy / (AREA * strength),
@@ -247,7 +250,7 @@ impl CohesiveLaw {
         }
     }
 
-    /// Work of the normal stress between two calls that is not stored [J/m2].
+    /// Returns the part of the work of the normal stress between two calls that is not stored [J/m2].
     fn dissipated_normal(&self, old: &PointState, new: &PointState) -> f64 {
         if new.damage == old.damage && new.secant == old.secant {
             return 0.0;
@@ -267,9 +270,9 @@ impl CohesiveLaw {
         (work + stored(old, from) - stored(new, to)).max(0.0)
     }
 
-    /// Work of the shear stress between two calls that is not stored [J/m2]: mean stress times plastic slip. It could
-    /// be negative if the stress changes sign between the calls. It is then set to zero, and the gain shows as an error
-    /// in the energy balance.
+    /// Returns the part of the work of the shear stress between two calls that is not stored [J/m2]: mean stress times
+    /// plastic slip. If the stress changes sign between the calls, this product may be negative. It is then set to
+    /// zero, and the energy balance has an error of the same amount.
     fn dissipated_shear(&self, old: &PointState, new: &PointState) -> f64 {
         let (before, now) = (old.elastic_slip(), new.elastic_slip());
         let along = |k: usize| 0.5 * (before[k] + now[k]) * (new.plastic[k] - old.plastic[k]);
@@ -277,14 +280,15 @@ impl CohesiveLaw {
     }
 }
 
-/// Root in 0..end of a decreasing function by the Illinois variant of false position.
+/// Returns the root of a decreasing function between 0 and `end`, or `end` if the function is not negative there. Uses
+/// the Illinois variant of the false position method.
 fn root(f: impl Fn(f64) -> f64, end: f64) -> f64 {
     let (mut a, mut b) = (0.0, end);
     let (mut f_a, mut f_b) = (f(a), f(b));
     if f_b >= 0.0 {
         return b;
     }
-    // Converges in about eight iterations; the bound guards against rounding.
+    // Converges in about eight iterations. The limit of 60 ends the loop if rounding prevents convergence.
     for _ in 0..60 {
         let x = (a * f_b - b * f_a) / (f_b - f_a);
         let f_x = f(x);

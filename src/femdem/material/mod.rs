@@ -22,18 +22,18 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// Lamé's first constant lambda [Pa].
+    /// Returns Lamé's first constant lambda [Pa].
     pub fn lambda(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.young_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     }
 
-    /// Shear modulus mu [Pa].
+    /// Returns the shear modulus mu [Pa].
     pub fn mu(&self) -> f64 {
         self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
 
-    /// Celerity of longitudinal waves, sqrt((lambda + 2 mu) / rho) [m/s].
+    /// Returns the celerity of longitudinal waves, sqrt((lambda + 2 mu) / rho) [m/s].
     pub fn celerity(&self) -> f64 {
         ((self.lambda() + 2.0 * self.mu()) / self.density).sqrt()
     }
@@ -55,19 +55,19 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Shear strength f_s [Pa] at the normal stress sigma_n [Pa], tension positive: eq. 1, Mohr-Coulomb with a tension
-    /// cut-off.
+    /// Returns the shear strength f_s [Pa] at the normal stress sigma_n [Pa] (tension positive), by eq. 1: Mohr-Coulomb
+    /// with a tension cut-off.
     pub fn shear(&self, sigma_n: f64) -> f64 {
         (self.cohesion - sigma_n.min(self.tensile) * self.friction).max(0.0)
     }
 
-    /// Least stress that can break the material [Pa].
+    /// Returns the least stress that can break the material [Pa]: tensile strength, or shear strength at this tension.
     pub fn least(&self) -> f64 {
         self.tensile.min(self.shear(self.tensile))
     }
 
-    /// Characteristic lengths [m]: Hillerborg's E G_f / f_t^2 for opening and E G_fII / c^2 for sliding. Elements of a
-    /// quarter of this length resolve a crack.
+    /// Returns the characteristic lengths [m]: Hillerborg's E G_f / f_t^2 for opening and E G_fII / c^2 for sliding.
+    /// Elements of a quarter of these lengths resolve a crack.
     pub fn characteristic_lengths(&self, young_modulus: f64) -> [f64; 2] {
         let length = |energy: f64, strength: f64| young_modulus * energy / (strength * strength);
         [length(self.opening_energy, self.tensile), length(self.sliding_energy, self.cohesion)]

@@ -11,7 +11,7 @@ pub const AREA: f64 = 0.386_307_29;
 /// Steepest slope of z: largest -dz/dD [-].
 pub const STEEPEST: f64 = 2.040_2;
 
-/// Remaining share z of the strength at the damage D, eq. 3: 1 at D = 0, 0 from D = 1 on.
+/// Returns the remaining share z of the strength at the damage D, eq. 3: 1 for D = 0, 0 for D >= 1.
 pub fn z(damage: f64) -> f64 {
     if damage <= 0.0 {
         return 1.0;
@@ -44,7 +44,7 @@ mod tests {
             steepest = steepest.max((from - to) * f64::from(count));
         }
         println!("area {area:.10}, steepest {steepest:.6}");
-        // Number of digits of the constants.
+        // Tolerance: the number of digits of the constants.
         assert!((area - AREA).abs() < 1e-7);
         assert!((steepest - STEEPEST).abs() < 1e-3);
     }

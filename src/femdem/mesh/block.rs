@@ -10,13 +10,13 @@ use super::{Body, Mesh, TriangleSet};
 /// Division of a cell of the box into tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
-    /// 6 tetrahedra around the diagonal of the cell (Kuhn 1960): few, but with a preferred direction.
+    /// 6 tetrahedra around a diagonal of the cell (Kuhn 1960). The diagonal is a preferred direction of the mesh.
     Diagonal,
-    /// 24 tetrahedra around the centre, four on each side of the cell: equal along all axes.
+    /// 24 tetrahedra around the centre of the cell, four on each side. The mesh is the same along all axes.
     Centred,
 }
 
-/// The six sides of a box: name, axis, and whether it is the far end.
+/// The six sides of a box: name, number of the normal axis, and true for the side that is away from the origin.
 const SIDES: [(&str, usize, bool); 6] = [
     ("xmin", 0, false),
     ("xmax", 0, true),
@@ -51,14 +51,14 @@ pub fn block(lengths: DVec3, cells: [usize; 3], pattern: Pattern) -> Mesh {
     mesh.sets = SIDES
         .map(|(name, axis, far)| {
             let end = if far { lengths[axis] } else { 0.0 };
-            // Exact comparison: positions of nodes at the ends are not rounded.
+            // Exact comparison, because nodes on the sides have exact coordinates.
             TriangleSet { name: name.to_owned(), triangles: mesh.faces_within(|node| node[axis] == end) }
         })
         .to_vec();
     mesh
 }
 
-/// Nodes at corners, centres of sides and centres of cells, by position in half cells.
+/// Nodes at the corners, side centres and centres of the cells. `known` has their numbers by position in half cells.
 struct Lattice {
     lengths: DVec3,
     cells: [usize; 3],
@@ -75,7 +75,7 @@ impl Lattice {
         })
     }
 
-    /// Adds a tetrahedron with a positive volume for any order of its nodes.
+    /// Adds a tetrahedron, and exchanges two of its nodes if its volume would be negative.
     fn add(&mut self, indices: [[usize; 3]; 4]) {
         let mut nodes = indices.map(|index| self.node(index));
         if triple_product(nodes.map(|node| self.mesh.nodes[node as usize])) < 0.0 {
@@ -130,7 +130,7 @@ mod tests {
             let mesh = block(lengths, [3, 2, 4], pattern);
             assert_eq!(mesh.tets.len(), 24 * tets);
             let prepared = prepare(mesh).unwrap();
-            // Rounding of the sum only.
+            // Tolerance: rounding of the sum.
             assert!((prepared.quality[0].volume / lengths.element_product() - 1.0).abs() < 1e-13);
             let counts: Vec<_> = prepared.faces.boundaries.iter().map(|set| set.faces.len()).collect();
             assert_eq!(counts, [8, 8, 12, 12, 6, 6].map(|cells| cells * side));
@@ -142,7 +142,7 @@ mod tests {
     fn the_smallest_angle_between_faces_is_45_degrees() {
         for pattern in [Pattern::Diagonal, Pattern::Centred] {
             let quality = &prepare(block(DVec3::ONE, [1; 3], pattern)).unwrap().quality[0];
-            // Between a side and the plane through its edge and the opposite edge; rounding of the arc cosine.
+            // The angle between a side and a plane through two opposite edges. Tolerance: rounding of the arc cosine.
             assert!((quality.angle_min_deg - 45.0).abs() < 1e-12, "{pattern:?}: {}", quality.angle_min_deg);
         }
     }

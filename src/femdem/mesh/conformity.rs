@@ -1,7 +1,8 @@
-//! Conformity checks: bodies share no nodes, each body is in one piece, conforming inside and not overlapping.
+//! Checks that bodies share no nodes, and that each body is one piece with a conforming mesh without overlaps.
 //!
-//! Where two parts of a body do not share nodes by mistake, both get a free surface. Such a mesh looks sound, but the
-//! body falls apart in the first time step. The checks find it because the surface then touches or cuts itself.
+//! If two touching parts of a body do not share nodes, each part gets a free surface there. Such a mesh looks correct,
+//! but the body falls apart in the first time step. The checks find this error because the surface of the body then
+//! touches or intersects itself.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -14,8 +15,8 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::{Exterior, Faces};
 use super::{Body, Mesh};
 
-/// Distance from a face, over the shortest edge of the surface, up to which a node lies on the face [-]. It is far
-/// above the rounding of coordinates and far below any gap that a mesher can resolve.
+/// Largest distance of a node that lies on a face, over the shortest edge of the surface [-]. This value is far above
+/// the rounding errors of coordinates, and far below any gap that a mesh can resolve.
 const TOUCHING: f64 = 1e-6;
 
 /// Marks a node that no body has used yet.
@@ -46,9 +47,10 @@ pub(super) fn check_bodies_apart(mesh: &Mesh) -> Result<(), MeshDefect> {
     Ok(())
 }
 
-/// Checks that faces connect all tetrahedra of each body; pre-cracks count as connected.
+/// Checks that common faces connect all tetrahedra of each body. Faces of pre-cracks also connect tetrahedra.
 pub(super) fn check_one_piece(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect> {
-    // Union-find: each tetrahedron points to one with a lower number; the chain ends at the first of its piece.
+    // Union-find: each tetrahedron points to itself or to a lower-numbered tetrahedron of the same piece. The chain of
+    // these links ends at the first tetrahedron of the piece.
     let mut leader: Vec<u32> = (0..mesh.tets.len() as u32).collect();
     for interface in &faces.interfaces {
         let [a, b] = interface.tets.map(|tet| find_leader(&mut leader, tet));
@@ -64,7 +66,7 @@ pub(super) fn check_one_piece(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefe
     Ok(())
 }
 
-/// Returns the first tetrahedron of a piece, and shortens the chain for later calls.
+/// Returns the first tetrahedron of the piece to which `tet` belongs, and shortens the chain of links for later calls.
 fn find_leader(leader: &mut [u32], mut tet: u32) -> u32 {
     while leader[tet as usize] != tet {
         leader[tet as usize] = leader[leader[tet as usize] as usize];
@@ -73,7 +75,7 @@ fn find_leader(leader: &mut [u32], mut tet: u32) -> u32 {
     tet
 }
 
-/// Checks that the surface of each body does not touch or cut itself, except at shared nodes.
+/// Checks that the surface of each body does not touch or intersect itself, except at shared nodes.
 pub(super) fn check_surface(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect> {
     for body in &mesh.bodies {
         let bound = |tet: usize| faces.exteriors.partition_point(|face| (face.tet as usize) < tet);
@@ -86,7 +88,7 @@ pub(super) fn check_surface(mesh: &Mesh, faces: &Faces) -> Result<(), MeshDefect
     Ok(())
 }
 
-/// Exterior faces of a body with a tree for spatial search.
+/// Exterior faces of a body, with a bounding volume tree for spatial search.
 struct Surface {
     corners: Vec<[u32; 3]>,
     triangles: Vec<Triangle>,
@@ -106,7 +108,7 @@ impl Surface {
         Self { corners, triangles, boxes, tree }
     }
 
-    /// Checks that no node lies on a face of which it is not a corner.
+    /// Checks that every node that lies on a face is a corner of this face.
     fn check_nodes(&self, mesh: &Mesh, body: &Body) -> Result<(), MeshDefect> {
         let edges = self.triangles.iter().flat_map(|triangle| triangle.edges().map(|edge| edge.length()));
         let tolerance = TOUCHING * edges.fold(f64::INFINITY, f64::min);
@@ -143,7 +145,7 @@ impl Surface {
         }
     }
 
-    /// Returns the centre [m] of the first face that is cut by a face without a common corner.
+    /// Returns the centre [m] of the first face that intersects a face with which it has no common corner.
     fn first_cut(&self) -> Option<DVec3> {
         // The intersection test supports triangles, so it cannot fail.
         let here = Pose::IDENTITY;
@@ -169,7 +171,7 @@ mod tests {
     use super::super::prepare;
     use super::*;
 
-    /// Combines two meshes, the second one shifted, into one body `block` or into two bodies.
+    /// Combines two meshes, the second one shifted, into one body (`bodies` = 1) or two bodies (`bodies` = 2).
     fn joined(mut one: Mesh, other: Mesh, shift: DVec3, bodies: usize) -> Mesh {
         let [nodes, tets] = [one.nodes.len() as u32, one.tets.len() as u32];
         one.nodes.extend(other.nodes.iter().map(|node| *node + shift));
@@ -189,7 +191,7 @@ mod tests {
         block(DVec3::ONE, [cells; 3], Pattern::Diagonal)
     }
 
-    /// Merges nodes at the same position.
+    /// Merges nodes that have the same position.
     fn merged(mut mesh: Mesh) -> Mesh {
         for tet in &mut mesh.tets {
             *tet = tet.map(|node| {
@@ -212,7 +214,7 @@ mod tests {
 
     #[test]
     fn parts_meshed_separately_are_refused() {
-        // A bridge keeps the body in one piece, so that the coincident nodes are the only defect.
+        // A bridge keeps the body in one piece, so the coincident nodes are the only defect.
         let bridge = |mesh: Mesh| {
             let far = joined(mesh, cube(1), DVec3::new(1.0, 1.0, 0.0), 1);
             let mut bridged = joined(far, cube(1), DVec3::Y, 1);

@@ -5,7 +5,7 @@ use std::fmt;
 use glam::DVec3;
 use thiserror::Error;
 
-/// A node or a tetrahedron: its number in the file and its position.
+/// A node or a tetrahedron in an error message: its number in the file and its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spot {
     /// Number in the file.
@@ -36,10 +36,10 @@ pub enum MeshDefect {
          `Mesh.Optimize = 1`"
     )]
     Inverted { body: String, count: usize, tets: usize, first: Spot },
-    /// Some tetrahedra have no volume.
+    /// Some tetrahedra have (almost) no volume.
     #[error(
-        "body {body:?}: {count} of {tets} tetrahedra are flat (volume below {limit:e} of the cube of the longest edge), the \
-         first is {first}; mesh again with `Mesh.Optimize = 1`"
+        "body {body:?}: {count} of {tets} tetrahedra are flat (volume below {limit:e} times the cube of the longest \
+         edge), the first is {first}; mesh again with `Mesh.Optimize = 1`"
     )]
     Flat { body: String, count: usize, tets: usize, limit: f64, first: Spot },
     /// More than two tetrahedra share a face.
@@ -56,14 +56,14 @@ pub enum MeshDefect {
     SameSide { body: String, first: Spot, second: Spot },
     /// Two bodies share nodes.
     #[error(
-        "bodies {one:?} and {other:?} share {count} nodes, the first is {first}; bodies may only touch by contact: mesh each \
-         as a separate volume (no BooleanFragments between bodies), or put them into one physical volume"
+        "bodies {one:?} and {other:?} share {count} nodes, the first is {first}; bodies must not share nodes: mesh \
+         each as a separate volume (no BooleanFragments between bodies), or put both into one physical volume"
     )]
     SharedNodes { one: String, other: String, count: usize, first: Spot },
     /// A body has several unconnected pieces.
     #[error(
-        "body {body:?} has {pieces} pieces without common faces, one of them with tetrahedron {second}; give each piece its \
-         own physical volume, or unite them before meshing (BooleanUnion, BooleanFragments)"
+        "body {body:?} has {pieces} pieces that no common face connects; one piece contains tetrahedron {second}; give \
+         each piece its own physical volume, or unite the pieces before meshing (BooleanUnion, BooleanFragments)"
     )]
     Pieces { body: String, pieces: usize, second: Spot },
     /// Two nodes have the same position.
@@ -73,36 +73,38 @@ pub enum MeshDefect {
          the crack closed and name it Physical Surface(\"crack...\"))"
     )]
     CoincidentNodes { body: String, count: usize, first: Spot, second: Spot },
-    /// A node lies on a face of which it is not a corner.
+    /// A node lies on a face but is not a corner of this face.
     #[error(
-        "body {body:?}: {count} nodes lie on faces of which they are not a corner, the first is {first}; parts with \
-         different meshes touch: join the parts before meshing (BooleanFragments or Coherence;)"
+        "body {body:?}: {count} nodes lie on faces but are not corners of these faces, the first is {first}; parts \
+         with different meshes touch: join the parts before meshing (BooleanFragments or Coherence;)"
     )]
     HangingNode { body: String, count: usize, first: Spot },
-    /// The surface of a body cuts itself.
+    /// The surface of a body intersects itself.
     #[error(
-        "body {body:?}: its surface cuts itself near ({:.6}, {:.6}, {:.6}) m; parts overlap: unite them before meshing \
-         (BooleanUnion)", at.x, at.y, at.z
+        "body {body:?}: its surface intersects itself near ({:.6}, {:.6}, {:.6}) m; parts overlap: unite them before \
+         meshing (BooleanUnion)", at.x, at.y, at.z
     )]
     CutsItself { body: String, at: DVec3 },
     /// Triangles of a set are not faces of tetrahedra.
     #[error(
-        "physical surface {set:?}: {hanging} of {count} triangles are no face of a tetrahedron, the first near ({:.6}, \
+        "physical surface {set:?}: {hanging} of {count} triangles are not faces of tetrahedra, the first near ({:.6}, \
          {:.6}, {:.6}) m; make the surface part of the volume before meshing (BooleanFragments, or Surface {{...}} In \
          Volume {{...}})", at.x, at.y, at.z
     )]
     HangingTriangles { set: String, hanging: usize, count: usize, at: DVec3 },
     /// Triangles of a crack lie on the outside of a body.
     #[error(
-        "physical surface {set:?} is a crack by its name, but {outside} of {count} triangles are on the outside of a body, \
-         the first near ({:.6}, {:.6}, {:.6}) m; a crack must lie inside: remove these triangles, leave the crack closed (no \
-         Crack plugin in Gmsh), or choose a name that does not begin with \"crack\"", at.x, at.y, at.z
+        "physical surface {set:?} is a crack because its name begins with \"crack\", but {outside} of {count} \
+         triangles are on the outside of a body, the first near ({:.6}, {:.6}, {:.6}) m; a crack must lie \
+         inside: remove these triangles, leave the crack closed (no Crack plugin in Gmsh), or choose \
+         another name", at.x, at.y, at.z
     )]
     CrackOutside { set: String, outside: usize, count: usize, at: DVec3 },
     /// Triangles of a boundary lie inside a body.
     #[error(
         "physical surface {set:?} is a boundary, but {inside} of {count} triangles are inside a body, the first near \
-         ({:.6}, {:.6}, {:.6}) m; remove them, or begin the name with \"crack\" for a pre-crack", at.x, at.y, at.z
+         ({:.6}, {:.6}, {:.6}) m; remove these triangles, or let the name begin with \"crack\" if the surface is a \
+         pre-crack", at.x, at.y, at.z
     )]
     BoundaryInside { set: String, inside: usize, count: usize, at: DVec3 },
 }

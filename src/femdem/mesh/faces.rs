@@ -1,6 +1,7 @@
 //! Faces of a tetrahedral mesh: interfaces between two tetrahedra, where joints are inserted, and exterior faces.
 //!
-//! Faces are matched by sorting 128-bit numbers: the three nodes in ascending order, then the number of the face.
+//! Common faces are found by sorting 128-bit keys. A key consists of the three node numbers of a face in ascending
+//! order, and the number of the face.
 
 use std::array;
 
@@ -15,25 +16,25 @@ pub const LOCAL_FACES: [[u8; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1
 /// Largest number of tetrahedra whose faces can be numbered with 32 bits.
 pub const MOST_TETS: usize = u32::MAX as usize / 4;
 
-/// Marks a face without a partner.
+/// Marks a face that belongs to only one tetrahedron.
 const NONE: u32 = u32::MAX;
 
 /// The face between two tetrahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Interface {
-    /// The tetrahedra, the one with the lower number first.
+    /// Numbers of the two tetrahedra, in ascending order.
     pub tets: [u32; 2],
-    /// Corners 0..3 of each tetrahedron; entries with the same index are the same mesh node. Those of the first run
-    /// anticlockwise seen from the second, so the normal points from the first to the second.
+    /// Corner numbers (0 to 3) of the face in each tetrahedron. Entries with the same index are the same mesh node. The
+    /// corners are anticlockwise seen from the second tetrahedron, so the normal points from the first to the second.
     pub nodes: [[u8; 3]; 2],
 }
 
 /// A face on the outside of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Exterior {
-    /// Its tetrahedron.
+    /// Number of the tetrahedron of the face.
     pub tet: u32,
-    /// Corners 0..3 of the tetrahedron, anticlockwise seen from outside.
+    /// Corner numbers (0 to 3) of the face in the tetrahedron, anticlockwise seen from outside.
     pub nodes: [u8; 3],
 }
 
@@ -42,16 +43,16 @@ pub struct Exterior {
 pub struct FaceSet {
     /// Name of the physical surface.
     pub name: String,
-    /// Numbers of the faces, ascending, each once.
+    /// Numbers of the faces, in ascending order without duplicates.
     pub faces: Vec<u32>,
 }
 
 /// All faces of a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Faces {
-    /// Faces between two tetrahedra, by the number of the first.
+    /// Faces between two tetrahedra, sorted by the number of the first tetrahedron.
     pub interfaces: Vec<Interface>,
-    /// Faces on the outside, by the number of their tetrahedron.
+    /// Faces on the outside, sorted by the number of their tetrahedron.
     pub exteriors: Vec<Exterior>,
     /// Pre-cracks: sets of interfaces.
     pub cracks: Vec<FaceSet>,
@@ -60,11 +61,11 @@ pub struct Faces {
 }
 
 impl Faces {
-    /// Finds the faces of a mesh, and checks that its sets consist of them.
+    /// Finds the faces of a mesh, and checks that the triangles of its named sets are faces.
     ///
-    /// In a valid mesh no face has more than two tetrahedra, and two tetrahedra at a face lie on opposite sides. The
-    /// exterior faces are then closed: each edge borders an even number of them, usually two, but four or more where
-    /// the body touches itself along an edge.
+    /// In a valid mesh, at most two tetrahedra share a face, and they lie on opposite sides of the face. The exterior
+    /// faces then form a closed surface. Each edge borders an even number of exterior faces: usually two, but four or
+    /// more where the body touches itself along an edge.
     ///
     /// # Panics
     /// If the mesh has more than [`MOST_TETS`] tetrahedra.
@@ -89,7 +90,7 @@ impl Faces {
         for set in &mesh.sets {
             let ids: Vec<Option<u32>> = set.triangles.iter().map(|triangle| find_face(&keys, *triangle)).collect();
             let count = ids.len();
-            // Number of triangles that do not fit, and the position of the first.
+            // Returns the number of triangles for which `misfit` is true, and the centre of the first such triangle.
             let misfits = |misfit: &dyn Fn(&Option<u32>) -> bool| {
                 let first = ids.iter().position(misfit)?;
                 Some((ids.iter().filter(|id| misfit(id)).count(), centre(mesh, set.triangles[first])))
@@ -116,18 +117,18 @@ impl Faces {
     }
 }
 
-/// Nodes of face `id` of the mesh, in the order of its tetrahedron; four faces per tetrahedron.
+/// Returns the nodes of face `id`, in the corner order of its tetrahedron. Tetrahedron t has the faces 4 t to 4 t + 3.
 fn face_nodes(mesh: &Mesh, id: u32) -> [u32; 3] {
     LOCAL_FACES[id as usize % 4].map(|v| mesh.tets[id as usize / 4][v as usize])
 }
 
-/// Sorted nodes of a triangle in the upper 96 bits of a number.
+/// Returns the key of a triangle: its sorted nodes in the upper 96 bits; the lower 32 bits are zero.
 fn key(mut nodes: [u32; 3]) -> u128 {
     nodes.sort_unstable();
     nodes.iter().fold(0, |key, node| (key << 32) | u128::from(*node)) << 32
 }
 
-/// Keys with face numbers of all faces, in ascending order.
+/// Returns the keys of all faces in ascending order, with the face numbers in the lower 32 bits.
 fn sorted_keys(mesh: &Mesh) -> Vec<u128> {
     let faces = 0..4 * mesh.tets.len() as u32;
     let mut keys: Vec<u128> = faces.map(|id| key(face_nodes(mesh, id)) | u128::from(id)).collect();
@@ -135,7 +136,7 @@ fn sorted_keys(mesh: &Mesh) -> Vec<u128> {
     keys
 }
 
-/// Returns for every face the matching face of the tetrahedron on the other side.
+/// Returns for every face the same face of the tetrahedron on its other side; [`NONE`] if there is no tetrahedron.
 fn partners(mesh: &Mesh, keys: &[u128]) -> Result<Vec<u32>, MeshDefect> {
     let mut partner = vec![NONE; keys.len()];
     for same in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
@@ -155,7 +156,7 @@ fn partners(mesh: &Mesh, keys: &[u128]) -> Result<Vec<u32>, MeshDefect> {
     Ok(partner)
 }
 
-/// Creates the interface of two faces with the same nodes; `None` if both tetrahedra lie on the same side.
+/// Creates the interface of two faces with the same nodes; `None` if both tetrahedra lie on the same side of the face.
 fn interface(mesh: &Mesh, id: u32, other: u32) -> Option<Interface> {
     let tets = [id / 4, other / 4];
     let corners = LOCAL_FACES[id as usize % 4];
@@ -169,7 +170,7 @@ fn interface(mesh: &Mesh, id: u32, other: u32) -> Option<Interface> {
     opposite.then_some(Interface { tets, nodes: [corners, matching] })
 }
 
-/// Returns the number of the face with these nodes.
+/// Returns the number of the face with the nodes of a triangle; `None` if there is no such face.
 fn find_face(keys: &[u128], triangle: [u32; 3]) -> Option<u32> {
     let key = key(triangle);
     let found = *keys.get(keys.partition_point(|other| *other < key))?;
@@ -259,14 +260,14 @@ mod tests {
                 let way = mesh.centroid(tets[1] as usize) - mesh.centroid(tets[0] as usize);
                 prop_assert!(area(positions(&mesh, tets[0], nodes[0])).dot(way) > 0.0);
             }
-            // Gauss: over a closed surface the area vectors A add up to zero, and x.A to three times the volume.
+            // Gauss's theorem: on a closed surface, the area vectors A add up to 0, and x.A to three times the volume.
             let outside = faces.exteriors.iter().map(|face| positions(&mesh, face.tet, face.nodes));
             let (mut sum, mut volume) = (DVec3::ZERO, 0.0);
             for corners in outside {
                 sum += area(corners);
                 volume += area(corners).dot(corners[0]) / 3.0;
             }
-            // Rounding of sums of a few hundred terms of order one.
+            // Tolerance: rounding of sums of a few hundred terms of order one.
             prop_assert!(sum.length() < 1e-13 && (volume - 0.28).abs() < 1e-13);
         }
     }
@@ -287,18 +288,18 @@ mod tests {
     }
 
     #[test]
-    fn triangles_that_are_no_face_of_a_tetrahedron_are_counted() {
+    fn triangles_that_are_not_faces_of_tetrahedra_are_counted() {
         let mut mesh = with_set("side", |node| node.x == 0.0);
         let far = mesh.nodes.iter().position(|node| *node == DVec3::ONE).unwrap() as u32;
         mesh.sets[0].triangles[2][1] = far;
         let error = Faces::new(&mesh).unwrap_err().to_string();
-        assert!(error.contains("1 of 8 triangles are no face"), "{error}");
+        assert!(error.contains("1 of 8 triangles are not faces"), "{error}");
         mesh.sets[0].triangles = vec![[1, 1, 1]; 2];
         assert!(matches!(Faces::new(&mesh), Err(MeshDefect::HangingTriangles { hanging: 2, count: 2, .. })));
     }
 
     #[test]
-    fn a_triangle_given_twice_counts_once() {
+    fn a_triangle_that_is_listed_twice_counts_once() {
         let mut mesh = with_set("side", |node| node.x == 0.0);
         let again: Vec<[u32; 3]> = mesh.sets[0].triangles.iter().map(|[a, b, c]| [*c, *b, *a]).collect();
         mesh.sets[0].triangles.extend(again);

@@ -4,12 +4,12 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | `msh` | reads MSH 4.1: named volumes become bodies, surfaces triangle sets, curves and points node sets |
+//! | `msh` | reads MSH 4.1: named volumes are bodies, surfaces are triangle sets, curves and points are node sets |
 //! | `quality` | volume, edges, heights and angles of each body; finds inverted and flat tetrahedra |
-//! | `order` | sorts tetrahedra along a space-filling curve, nodes by first use |
+//! | `order` | sorts tetrahedra along a space-filling curve, and nodes by first use |
 //! | `faces` | interior faces with their two tetrahedra, exterior faces, cracks and boundaries |
 //! | `conformity` | finds shared nodes, unconnected pieces, hanging nodes and overlaps |
-//! | `defect` | mesh defects and their messages |
+//! | `defect` | mesh defects and their error messages |
 //! | `block` | structured meshes of a box, for verification |
 
 use std::fs;
@@ -48,31 +48,31 @@ pub enum MeshError {
     Defect { path: PathBuf, source: MeshDefect },
 }
 
-/// Linear tetrahedra grouped in bodies, and named sets of triangles.
+/// Linear tetrahedra grouped in bodies, with named sets of triangles and nodes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     /// Positions of the nodes [m].
     pub nodes: Vec<DVec3>,
     /// Number of each node in the file.
     pub node_tags: Vec<u64>,
-    /// Nodes of each tetrahedron; seen from the fourth, the first three run anticlockwise (positive volume).
+    /// Nodes of each tetrahedron. Seen from the fourth, the first three are anticlockwise (positive volume).
     pub tets: Vec<[u32; 4]>,
     /// Number of each tetrahedron in the file.
     pub tet_tags: Vec<u64>,
-    /// Bodies; their ranges of tetrahedra are consecutive without gaps.
+    /// Bodies. Their ranges of tetrahedra are consecutive and without gaps.
     pub bodies: Vec<Body>,
-    /// Boundaries and cracks.
+    /// Triangle sets: boundaries and pre-cracks.
     pub sets: Vec<TriangleSet>,
     /// Node sets from physical curves and points.
     pub node_sets: Vec<NodeSet>,
 }
 
-/// A named part of the tetrahedra: one solid.
+/// A solid: a named range of tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     /// Name of the physical volume.
     pub name: String,
-    /// Its tetrahedra.
+    /// Numbers of the tetrahedra of the body.
     pub tets: Range<usize>,
 }
 
@@ -81,7 +81,7 @@ pub struct Body {
 pub struct TriangleSet {
     /// Name of the physical surface.
     pub name: String,
-    /// Nodes of each triangle, clockwise or anticlockwise.
+    /// Nodes of each triangle, in clockwise or anticlockwise order.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -90,24 +90,25 @@ pub struct TriangleSet {
 pub struct NodeSet {
     /// Name of the physical curve or point.
     pub name: String,
-    /// Its nodes, ascending, each once.
+    /// Numbers of the nodes, in ascending order without duplicates.
     pub nodes: Vec<u32>,
 }
 
 impl TriangleSet {
-    /// Whether the set is a pre-crack, an interior surface that is broken at the start: its name begins with `crack`.
+    /// Returns true if the name of the set begins with `crack`. Such a set is a pre-crack: an interior surface that is
+    /// broken at the start.
     pub fn is_crack(&self) -> bool {
         self.name.starts_with("crack")
     }
 }
 
 impl Mesh {
-    /// Corners of a tetrahedron [m].
+    /// Returns the positions of the corners of a tetrahedron [m].
     pub fn corners(&self, tet: usize) -> [DVec3; 4] {
         self.tets[tet].map(|node| self.nodes[node as usize])
     }
 
-    /// Centroid of a tetrahedron [m].
+    /// Returns the centroid of a tetrahedron [m].
     pub fn centroid(&self, tet: usize) -> DVec3 {
         self.corners(tet).iter().sum::<DVec3>() / 4.0
     }
@@ -117,7 +118,8 @@ impl Mesh {
         &self.bodies[self.bodies.partition_point(|body| body.tets.end <= tet)]
     }
 
-    /// Returns the faces whose three nodes lie in a region of positions [m], each face once.
+    /// Returns the faces of tetrahedra whose three nodes lie in a region, each face once. `region` returns true for a
+    /// position [m] in the region.
     pub fn faces_within(&self, region: impl Fn(DVec3) -> bool) -> Vec<[u32; 3]> {
         let within: Vec<bool> = self.nodes.iter().map(|node| region(*node)).collect();
         let all = self.tets.iter().flat_map(|tet| faces::LOCAL_FACES.map(|face| face.map(|v| tet[v as usize])));
@@ -129,24 +131,24 @@ impl Mesh {
     }
 }
 
-/// A mesh that is checked and sorted, with its faces.
+/// A checked and sorted mesh, with its faces and its quality.
 #[derive(Debug, Clone)]
 pub struct PreparedMesh {
-    /// The sorted mesh; the tags are the numbers in the file.
+    /// The sorted mesh. Its tags are the numbers of nodes and tetrahedra in the file.
     pub mesh: Mesh,
     /// Interior and exterior faces, cracks and boundaries.
     pub faces: Faces,
-    /// Sizes and shapes, one entry per body.
+    /// Sizes and angles of the tetrahedra, one entry per body.
     pub quality: Vec<BodyQuality>,
 }
 
-/// Reads an MSH 4.1 file; lengths are multiplied by `scale` (0.001 for a file in mm).
+/// Reads, checks and sorts the mesh of an MSH 4.1 file. Lengths are multiplied by `scale` (0.001 for a file in mm).
 pub fn read(path: &Path, scale: f64) -> Result<PreparedMesh, MeshError> {
     let bytes = fs::read(path).map_err(|source| MeshError::Io { path: path.to_owned(), source })?;
     parse(&bytes, path, scale)
 }
 
-/// Parses the content of an MSH 4.1 file; `path` is its name in messages.
+/// Parses, checks and sorts the content of an MSH 4.1 file. `path` is the name of the file in error messages.
 pub fn parse(bytes: &[u8], path: &Path, scale: f64) -> Result<PreparedMesh, MeshError> {
     let mesh = msh::parse(bytes, scale).map_err(|source| MeshError::Msh { path: path.to_owned(), source })?;
     prepare(mesh).map_err(|source| MeshError::Defect { path: path.to_owned(), source })

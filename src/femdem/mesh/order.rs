@@ -7,14 +7,15 @@ use glam::DVec3;
 
 use super::{Mesh, TriangleSet};
 
-/// Bits of a Morton code per axis; 3 x 21 fit into 64 bits.
+/// Bits of a Morton code per axis. The three axes need 63 of 64 bits.
 const BITS: u32 = 21;
 
-/// Marks a node without a new number.
+/// Marks a node that has no new number yet.
 const UNUSED: u32 = u32::MAX;
 
-/// Returns the mesh sorted along the curve, body by body; tags move with their nodes and tetrahedra. Tetrahedra with
-/// the same code keep their order, so the result depends on the mesh only. Nodes used by triangles only come last.
+/// Returns the mesh with the tetrahedra of each body sorted along the Z-order curve. Tags move with their nodes and
+/// tetrahedra. Tetrahedra with the same Morton code keep their order, so the result depends only on the mesh. Nodes
+/// that only triangles use come last.
 pub fn along_curve(mesh: &Mesh) -> Mesh {
     let mut order = Vec::with_capacity(mesh.tets.len());
     for body in &mesh.bodies {
@@ -51,7 +52,7 @@ pub fn along_curve(mesh: &Mesh) -> Mesh {
         *node = new_index[*node as usize];
     }
     for set in &mut sorted.node_sets {
-        // Every node of a set is a node of a tetrahedron.
+        // Every node of a set has a new number, because it is a node of a tetrahedron.
         set.nodes.iter_mut().for_each(|node| *node = new_index[*node as usize]);
         set.nodes.sort_unstable();
     }
@@ -61,12 +62,12 @@ pub fn along_curve(mesh: &Mesh) -> Mesh {
 /// Morton code of a point in the unit cube: the interleaved bits of its coordinates.
 fn morton(point: DVec3) -> u64 {
     let cells = f64::from((1u32 << BITS) - 1);
-    // A body of one tetrahedron has no size; the cast turns its 0/0 into 0.
+    // For a body of one tetrahedron, `point` is 0/0 = NaN. The cast turns NaN into 0.
     let [x, y, z] = point.to_array().map(|coordinate| spread((coordinate * cells) as u64));
     x | (y << 1) | (z << 2)
 }
 
-/// Inserts two zeros between the bits of a number of [`BITS`] bits.
+/// Inserts two zero bits between neighbouring bits of a number that has [`BITS`] bits.
 fn spread(number: u64) -> u64 {
     let mut bits = number;
     for (shift, mask) in [
@@ -98,14 +99,14 @@ mod tests {
     }
 
     #[test]
-    fn the_result_does_not_depend_on_the_order_in_the_file() {
+    fn the_sorted_mesh_does_not_depend_on_the_order_of_elements_in_the_file() {
         let mesh = block(DVec3::new(1.0, 2.0, 3.0), [4, 5, 6], Pattern::Centred);
         let sorted = along_curve(&mesh);
         assert_eq!(along_curve(&sorted), sorted);
         let mut turned = mesh.clone();
         turned.tets.reverse();
         turned.tet_tags.reverse();
-        // No two centroids of this mesh have the same code, so the order of the file does not matter.
+        // In this mesh, no two centroids have the same Morton code, so the order in the file does not matter.
         assert_eq!(along_curve(&turned), sorted);
     }
 
@@ -120,7 +121,7 @@ mod tests {
         for (node, tag) in sorted.nodes.iter().zip(&sorted.node_tags) {
             assert_eq!(*node, mesh.nodes[*tag as usize - 1]);
         }
-        // Range of node numbers in a tetrahedron. The generator numbers layer by layer: at least 17 x 17 = 289.
+        // Range of node numbers in a tetrahedron. `block` numbers nodes by layers: the range is at least 17 x 17 = 289.
         let span = |tet: &[u32; 4]| tet.iter().max().unwrap() - tet.iter().min().unwrap();
         let median = |mesh: &Mesh| {
             let mut spans: Vec<u32> = mesh.tets.iter().map(span).collect();

@@ -1,7 +1,7 @@
 //! Size and shape of the tetrahedra of each body.
 //!
-//! For a tetrahedron with edges a, b, c from its first corner: volume V = (a x b).c / 6; height over a face of area A
-//! h = 3 V / A; the angle between two faces with outward unit normals m, n has the cosine -m.n.
+//! A tetrahedron with the edges a, b, c at its first corner has the volume V = (a x b).c / 6. Its height over a face of
+//! area A is h = 3 V / A. The angle between two faces with outward unit normals m, n has the cosine -m.n.
 
 use glam::DVec3;
 
@@ -9,12 +9,12 @@ use super::defect::{MeshDefect, Spot};
 use super::faces::LOCAL_FACES;
 use super::{Body, Mesh};
 
-/// Volume over the cube of the longest edge below which a tetrahedron is flat [-]. Its height is then less than 1e-9 of
-/// its length, and rounding of the coordinates decides on which side of the face the fourth corner lies.
+/// A tetrahedron is flat if its volume over the cube of its longest edge is at most this value [-]. Its height is then
+/// about 1e-9 of its length, so rounding of the coordinates decides on which side of the face the fourth corner lies.
 const FLAT: f64 = 1e-10;
 
-/// Smallest angle between faces [deg] without a warning. Slivers below it do not have a realistic stiffness, and their
-/// height limits the time step. Gmsh's optimiser leaves at least 10 deg.
+/// A smaller angle between two faces of a tetrahedron [deg] gives a warning. Such slivers have an unrealistic
+/// stiffness, and their small height limits the time step. Gmsh's optimiser leaves angles of at least 10 deg.
 pub const SHARP_DEG: f64 = 5.0;
 
 /// Size and shape of the tetrahedra of one body.
@@ -56,12 +56,12 @@ impl BodyQuality {
     }
 }
 
-/// Six times the volume of a tetrahedron [m3], negative if it is inverted.
+/// Returns six times the volume of a tetrahedron [m3]; negative for an inverted tetrahedron.
 pub fn triple_product([a, b, c, d]: [DVec3; 4]) -> f64 {
     (b - a).cross(c - a).dot(d - a)
 }
 
-/// Computes sizes and shapes, one entry per body; inverted and flat tetrahedra are refused.
+/// Returns size and shape of the tetrahedra of each body, or an error if a tetrahedron is inverted or flat.
 pub fn measure(mesh: &Mesh) -> Result<Vec<BodyQuality>, MeshDefect> {
     mesh.bodies.iter().map(|body| check_volumes(mesh, body).map(|()| measure_body(mesh, body))).collect()
 }
@@ -85,7 +85,7 @@ fn check_volumes(mesh: &Mesh, body: &Body) -> Result<(), MeshDefect> {
     }
 }
 
-/// Volume over the cube of the longest edge [-]; 0.12 for a regular tetrahedron.
+/// Returns the volume over the cube of the longest edge [-]; 0.12 for a regular tetrahedron.
 fn relative_volume(corners: [DVec3; 4]) -> f64 {
     triple_product(corners) / 6.0 / edges(corners).into_iter().fold(0.0, f64::max).powi(3)
 }

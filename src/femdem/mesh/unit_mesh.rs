@@ -1,15 +1,16 @@
-//! Tetrahedra of a unit: scaled to its size, checked against its surface, moved to a pose.
+//! Tetrahedral mesh of an armour unit: scaled to the size of the unit, checked against its surface, moved to a pose.
 
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::femdem::mesh::{Body, Mesh, PreparedMesh, TriangleSet};
 use crate::geometry::armour_unit::ArmourUnit;
 
-/// Largest distance of surface nodes from the unit's surface over its height [-]. Faces of coarse meshes cut across
-/// round legs, but their nodes do not.
+/// Largest allowed distance of a surface node of the mesh from the surface of the unit, over the unit's height [-].
+/// Faces of coarse meshes cut across round legs, but their nodes lie on the surface.
 const OFF_SURFACE: f64 = 0.02;
 
-/// Largest difference in volume between mesh and unit [-]: coarse meshes of round legs lack a few per cent.
+/// Largest allowed relative difference in volume between mesh and unit [-]. Coarse meshes of round legs lack a few per
+/// cent of the volume.
 const OFF_VOLUME: f64 = 0.06;
 
 /// Mesh of one unit in body axes, at the size of the case [m].
@@ -25,7 +26,7 @@ pub struct UnitMesh {
 /// Pose and scale of a unit; SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// Rotation.
+    /// Rotation from body axes to the axes of space.
     pub rotation: DQuat,
     /// Position of the origin of the body axes [m].
     pub position: DVec3,
@@ -37,11 +38,11 @@ impl UnitMesh {
     /// Scales a mesh to the size of a unit.
     ///
     /// # Errors
-    /// If it is not a mesh of the unit; the text gives the reason.
+    /// If the mesh is not a mesh of the unit. The text gives the reason.
     pub fn fit(prepared: PreparedMesh, unit: &ArmourUnit) -> Result<Self, String> {
         let PreparedMesh { mut mesh, faces, quality } = prepared;
         let [_] = &mesh.bodies[..] else {
-            return Err(format!("it has {} bodies; it must have only one, the unit", mesh.bodies.len()));
+            return Err(format!("it has {} bodies; it must have one body, the unit", mesh.bodies.len()));
         };
         let reach = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let scale = reach(unit.solid().vertices()) / reach(&mesh.nodes);
@@ -50,7 +51,10 @@ impl UnitMesh {
         let volume = quality[0].volume * scale.powi(3);
         if (volume / expected - 1.0).abs() > OFF_VOLUME {
             let percent = 100.0 * (volume / expected - 1.0);
-            return Err(format!("scaled to the unit's size, its volume differs by {percent:+.1} %: another unit?"));
+            return Err(format!(
+                "scaled to the unit's size, its volume differs from the unit's by {percent:+.1} %; check that it is a \
+                 mesh of this unit"
+            ));
         }
         for face in &faces.exteriors {
             for node in face.nodes.map(|k| mesh.tets[face.tet as usize][usize::from(k)]) {
@@ -58,8 +62,9 @@ impl UnitMesh {
                 let off = unit.solid().signed_distance(point).abs() / unit.height();
                 if off > OFF_SURFACE {
                     return Err(format!(
-                        "scaled to the unit's size, its surface node {} lies {:.1} % of the height off the unit's \
-                         surface; its origin must be the centre of mass, its axes the unit's (breakwater unit --gmsh)",
+                        "scaled to the unit's size, its surface node {} is {:.1} % of the height away from the unit's \
+                         surface; its origin must be the unit's centre of mass, and its axes the unit's axes \
+                         (breakwater unit --gmsh)",
                         mesh.node_tags[node as usize],
                         100.0 * off
                     ));
@@ -75,7 +80,7 @@ impl UnitMesh {
     /// Name of the body in the fracture cases.
     pub const NAME: &str = "unit";
 
-    /// Computes the mass properties as the solver does: a quarter of each tetrahedron at each of its corners.
+    /// Computes the mass properties as in the solver: each corner of a tetrahedron gets a quarter of its volume.
     fn measured(mesh: Mesh, volume: f64, edge: f64) -> Self {
         let mut shares = vec![0.0; mesh.nodes.len()];
         for (number, tet) in mesh.tets.iter().enumerate() {
@@ -108,13 +113,13 @@ impl UnitMesh {
         self.mesh.tets.len()
     }
 
-    /// Returns the centre of mass of the nodes [m].
+    /// Returns the centre of mass of the nodes at a pose [m].
     pub fn centre(&self, pose: &Pose) -> DVec3 {
         pose.place(self.centre)
     }
 
-    /// Returns the angular velocity that gives the nodes the angular momentum of a rigid body [rad/s]. The rigid body
-    /// has the inertia tensor per mass `inertia` in body axes [m2] and the angular velocity `omega` [rad/s].
+    /// Returns the angular velocity [rad/s] at which the nodes have the same angular momentum as the rigid unit. The
+    /// rigid unit has the inertia tensor per mass `inertia` in body axes [m2] and the angular velocity `omega` [rad/s].
     pub fn angular_velocity(&self, inertia: DMat3, rotation: DQuat, omega: DVec3) -> DVec3 {
         let in_body = rotation.inverse() * omega;
         rotation * ((self.inertia * (1.0 / self.volume)).inverse() * (inertia * in_body))
@@ -147,8 +152,8 @@ impl Pose {
     }
 }
 
-/// Joins two meshes into one.
-pub fn together(mut first: Mesh, second: Mesh) -> Mesh {
+/// Combines two meshes into one, without merging nodes. Tags count from one again.
+pub fn combine(mut first: Mesh, second: Mesh) -> Mesh {
     let (nodes, tets) = (first.nodes.len() as u32, first.tets.len());
     first.nodes.extend(second.nodes);
     first.tets.extend(second.tets.iter().map(|tet| tet.map(|node| node + nodes)));

@@ -1,4 +1,5 @@
-//! Four double-precision numbers in a SIMD register, and vectors of them. Each term is written once for all processors.
+//! SIMD lanes: four double-precision numbers in a register, and vectors of lanes. Each formula is written once for all
+//! processors.
 //!
 //! Products and sums are rounded separately (no fused multiply-add), so every processor gives bitwise equal results.
 
@@ -9,7 +10,7 @@ use glam::DVec3;
 /// Number of lanes.
 pub const LANES: usize = 4;
 
-/// Four numbers.
+/// Four numbers with the operations of a SIMD register.
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -19,9 +20,9 @@ pub trait Lanes:
     fn to_array(self) -> [f64; LANES];
     /// Square root.
     fn sqrt(self) -> Self;
-    /// Maximum per lane; `other` where one of them is NaN.
+    /// Maximum per lane; the number of `other` if one of the two numbers is NaN.
     fn max(self, other: Self) -> Self;
-    /// Minimum per lane; `other` where one of them is NaN.
+    /// Minimum per lane; the number of `other` if one of the two numbers is NaN.
     fn min(self, other: Self) -> Self;
 
     /// Fills all lanes with the same number.
@@ -30,15 +31,15 @@ pub trait Lanes:
         Self::load(&[value; LANES])
     }
 
-    /// Fills the lanes from a function of the lane.
+    /// Fills the lanes from a function of the lane number.
     #[inline(always)]
     fn from_fn(mut f: impl FnMut(usize) -> f64) -> Self {
         Self::load(&[f(0), f(1), f(2), f(3)])
     }
 }
 
-/// A computation written for any lane type. `run` and all functions on lanes that it calls must be `#[inline(always)]`.
-/// Only then are they compiled for the instructions of the dispatch. `map` of an array is not inlined.
+/// A computation for any lane type. `run` and all functions on lanes that it calls must be `#[inline(always)]`.
+/// Otherwise, the compiler does not use the instructions that [`dispatch`] selects. `map` of an array is not inlined.
 pub trait WithLanes {
     /// Result of the computation.
     type Output;
@@ -46,7 +47,7 @@ pub trait WithLanes {
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
-/// Runs a computation with the best lanes of this processor.
+/// Runs a computation with the fastest lane type of this processor.
 #[inline]
 pub fn dispatch<W: WithLanes>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
@@ -57,7 +58,7 @@ pub fn dispatch<W: WithLanes>(work: W) -> W::Output {
     work.run::<Portable>()
 }
 
-/// Four vectors.
+/// Four vectors, with one set of lanes per component.
 #[derive(Debug, Clone, Copy)]
 pub struct Vectors<L> {
     /// Components along x.
@@ -69,14 +70,14 @@ pub struct Vectors<L> {
 }
 
 impl<L: Lanes> Vectors<L> {
-    /// Builds the vectors from a function of the lane.
+    /// Builds the vectors from a function of the lane number.
     #[inline(always)]
     pub fn from_fn(mut f: impl FnMut(usize) -> DVec3) -> Self {
         let [a, b, c, d] = [f(0), f(1), f(2), f(3)];
         Self { x: L::load(&[a.x, b.x, c.x, d.x]), y: L::load(&[a.y, b.y, c.y, d.y]), z: L::load(&[a.z, b.z, c.z, d.z]) }
     }
 
-    /// Returns the vectors of the lanes.
+    /// Returns the four vectors.
     #[inline(always)]
     pub fn to_array(self) -> [DVec3; LANES] {
         let (x, y, z) = (self.x.to_array(), self.y.to_array(), self.z.to_array());
@@ -149,7 +150,7 @@ macro_rules! arithmetic {
     };
 }
 
-/// Lanes for any processor.
+/// Lane type for any processor: an array of four numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Portable([f64; LANES]);
 

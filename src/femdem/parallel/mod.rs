@@ -1,9 +1,9 @@
-//! Work on several numbers at a time.
+//! Parallel computation: SIMD lanes, and chunks of work for threads.
 //!
 //! | file | contents |
 //! | --- | --- |
 //! | `lanes` | SIMD lanes: four numbers in a register |
-//! | `chunks` | chunks of work for the thread pool, and sums over them |
+//! | `chunks` | chunks of work for the thread pool, and sums over chunks |
 
 pub mod chunks;
 pub mod lanes;

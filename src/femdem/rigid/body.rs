@@ -1,9 +1,10 @@
 //! Rigid bodies of tetrahedra.
 //!
-//! Mass and inertia are those of the tetrahedra; the forces act on the nodes. The centre moves by central differences,
-//! like a node. The rotation splits into rotations about the principal axes, with the angular momentum as state
-//! (Dullweber, Leimkuhler and McLachlan 1997, "Symplectic splitting methods for rigid body molecular dynamics", J.
-//! Chem. Phys. 107, 5840-5851). It is symplectic and reversible, and conserves angular momentum exactly.
+//! Mass and inertia are those of the tetrahedra; the forces act on the nodes. The centre of mass moves by central
+//! differences, like a node. The rotation of a time step is composed of rotations about the principal axes, and the
+//! angular momentum is part of the state (Dullweber, Leimkuhler and McLachlan 1997, "Symplectic splitting methods for
+//! rigid body molecular dynamics", J. Chem. Phys. 107, 5840-5851). This method is symplectic and reversible, and
+//! conserves angular momentum exactly.
 
 use glam::{DMat3, DQuat, DVec3};
 use rayon::prelude::*;
@@ -14,17 +15,14 @@ use crate::femdem::assembly::{nodes::Nodes, tets::Tets};
 use crate::femdem::parallel::chunks::CHUNK;
 use crate::femdem::setup::Setup;
 
-/// Marks the nodes of rigid bodies in [`Nodes::constraint`]; the body handles their constraints.
-pub const RIGID: u16 = u16::MAX;
-
-/// State of motion of a rigid body; together with the case, it is sufficient for a restart.
+/// State of motion of a rigid body. Together with the case, this state is sufficient for a restart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
     /// Centre of mass [m].
     pub centre: DVec3,
-    /// Velocity of the centre [m/s], half a time step before its position.
+    /// Velocity of the centre of mass [m/s], half a time step before the time of `centre`.
     pub velocity: DVec3,
-    /// Angular momentum about the centre [kg m2/s], half a time step before the orientation.
+    /// Angular momentum about the centre of mass [kg m2/s], half a time step before the time of `orientation`.
     pub angular_momentum: DVec3,
     /// Rotation from the principal axes to the axes of space.
     pub orientation: DQuat,
@@ -58,9 +56,9 @@ pub struct RigidBody {
     mass: f64,
     /// Principal moments of inertia [kg m2].
     moments: DVec3,
-    /// Its nodes, with their positions relative to the centre in the principal axes [m].
+    /// Numbers of its nodes, with their positions relative to the centre of mass in the principal axes [m].
     nodes: Vec<(u32, DVec3)>,
-    /// Constrained nodes, as indices into `nodes`, with the numbers of their constraints.
+    /// Nodes with prescribed velocities, as indices in `nodes`, with the numbers of their constraints.
     held: Vec<(u32, u16)>,
 }
 
@@ -71,7 +69,7 @@ impl RigidBody {
         (0..setup.bodies.len()).filter(is_rigid).map(|number| Self::new(number, setup, nodes, tets)).collect()
     }
 
-    /// Square of the largest speed of its nodes [m2/s2].
+    /// Returns the square of the largest speed of the nodes of the body [m2/s2].
     pub fn fastest_squared(&self, nodes: &Nodes) -> f64 {
         self.nodes.iter().map(|(node, _)| nodes.velocity[*node as usize].length_squared()).fold(0.0, f64::max)
     }
@@ -114,8 +112,9 @@ impl RigidBody {
         Self { body, motion, kinetic: 0.0, mass, moments, nodes: own.iter().map(arm).collect(), held }
     }
 
-    /// Advances the body and its nodes by one time step, from the forces on the tetrahedra [N] and the velocities
-    /// `prescribed` by constraints [m/s]. Returns the kinetic energy at the start and the work of the constraints [J].
+    /// Advances the body and its nodes by one time step. `forces` act on the vertices of the tetrahedra [N];
+    /// `prescribed` are the velocities of the constraints [m/s]. Returns the kinetic energy at the start and the work
+    /// of the constraints [J].
     pub fn advance(
         &mut self,
         nodes: &mut Nodes,
@@ -151,7 +150,7 @@ impl RigidBody {
                 * (impulse.force.dot(before.velocity + after.velocity)
                     + impulse.torque.dot(before.angular_velocity + after.angular_velocity));
         }
-        // From the velocities half a time step before and after, as for nodes.
+        // The kinetic energy follows from the velocities half a time step before and after, as for nodes.
         self.kinetic = 0.5 * self.mass * before.velocity.dot(motion.velocity)
             + 0.5 * before.angular_velocity.dot(motion.angular_momentum);
         motion.centre = centre + motion.velocity * dt;
@@ -172,7 +171,8 @@ impl RigidBody {
         }
     }
 
-    /// Force [N] and torque about the centre [N m]. Sums over chunks keep the order independent of the threads.
+    /// Returns the force [N] and the torque about the centre of mass [N m]. Sums add up each chunk of nodes first, so
+    /// the order of addition does not depend on the number of threads.
     fn resultant(&self, nodes: &Nodes, forces: &[[DVec3; 4]]) -> [DVec3; 2] {
         let sum_chunk = |chunk: &[(u32, DVec3)]| {
             let mut sum = [DVec3::ZERO; 2];
@@ -190,7 +190,7 @@ impl RigidBody {
     }
 }
 
-/// Inertia of a tetrahedron of uniform density about a point [kg m2].
+/// Returns the inertia tensor of a tetrahedron of uniform density about a point [kg m2].
 fn inertia(corners: &[DVec3; 4], mass: f64, about: DVec3) -> DMat3 {
     let outer = |v: DVec3| DMat3::from_cols(v * v.x, v * v.y, v * v.z);
     let arms = corners.map(|corner| corner - about);
@@ -233,11 +233,11 @@ mod tests {
             orientation = rotate_freely(orientation, moments, l, 1e-3);
             farthest = farthest.max((energy(orientation) / start - 1.0).abs());
         }
-        // Rotation about the intermediate axis, which tumbles; the angular momentum is constant by construction. The
-        // energy error is of second order, (omega dt)^2 = 1e-4 at most, and does not grow.
+        // The body rotates about its intermediate axis and therefore tumbles. The angular momentum is constant by
+        // construction. The energy error is of second order, (omega dt)^2 = 1e-4 at most, and does not grow.
         assert!(farthest < 1e-4, "{farthest:.1e}");
         assert!((orientation * DVec3::Y).dot(DVec3::Y) < 0.999);
-        // Forwards and backwards.
+        // A rotation forwards and then backwards in time gives the initial orientation.
         let back = rotate_freely(rotate_freely(orientation, moments, l, 1e-2), moments, l, -1e-2);
         assert!(back.abs_diff_eq(orientation, 1e-14));
     }

@@ -1,14 +1,16 @@
-//! Rigid bodies with given velocities at some of their points.
+//! Rigid bodies with prescribed velocities at some of their points.
 //!
-//! Each given velocity component of a point is one equation c . u = given, with u the velocity and angular velocity of
-//! the body. Equations that depend linearly on earlier ones are dropped, so at most six remain. The constraint impulse
-//! changes u so that all hold (Gauss's principle of least constraint).
+//! Each prescribed velocity component of a point gives one equation c . u = prescribed component, where u is the
+//! velocity and angular velocity of the body. Equations that depend linearly on earlier equations are dropped, so at
+//! most six remain. The constraint impulse changes u so that all remaining equations hold (Gauss's principle of least
+//! constraint).
 
 use glam::{DMat3, DVec3};
 
-/// Least independent part of a row, over its length [-]: far above rounding, far below any effective constraint.
+/// A row is dropped if its part that is independent of earlier rows is shorter than this share of the row [-]. The
+/// value is far above rounding and far below any effective constraint.
 const INDEPENDENT: f64 = 1e-6;
-/// Degrees of freedom of a body.
+/// Number of degrees of freedom of a body.
 const FREEDOMS: usize = 6;
 
 /// Velocity of a rigid body.
@@ -29,14 +31,14 @@ pub struct Impulse {
     pub torque: DVec3,
 }
 
-/// A given component of the velocity of a point.
+/// A prescribed velocity component of a point of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Direction.
+    /// Direction of the component.
     pub axis: DVec3,
-    /// Position of the point relative to the centre [m].
+    /// Position of the point relative to the centre of mass [m].
     pub arm: DVec3,
-    /// Velocity along the axis [m/s].
+    /// Prescribed velocity along `axis` [m/s].
     pub velocity: f64,
 }
 
@@ -54,8 +56,8 @@ fn parts(v: &Vector) -> [DVec3; 2] {
     [DVec3::from_slice(&v[..3]), DVec3::from_slice(&v[3..])]
 }
 
-/// Computes the impulse that gives a body the velocities of the rows. The body has a mass [kg] and an inverse inertia
-/// [1/(kg m2)], and would move with `free` without the constraints.
+/// Computes the impulse that gives a body the prescribed velocities of `rows`. The body has a mass [kg] and an inverse
+/// inertia [1/(kg m2)]. Without the constraints, it would have the velocity `free`.
 pub fn constraint_impulse(
     mass: f64,
     inverse_inertia: DMat3,
@@ -148,10 +150,10 @@ mod tests {
         let moved = after(&rows, FREE);
         let expected =
             RigidVelocity { velocity: DVec3::new(1.0, 2.0, -7.0), angular_velocity: DVec3::new(0.0, 0.0, 6.0) };
-        // Rounding.
+        // Tolerance: rounding.
         assert!((moved.velocity - expected.velocity).length() < 1e-13);
         assert!((moved.angular_velocity - expected.angular_velocity).length() < 1e-13);
-        // All components of all points are zero: the body is at rest.
+        // All components of all points are prescribed as zero: the body is at rest.
         let rows: Vec<Row> = corners.iter().flat_map(|arm| DVec3::AXES.map(|axis| row(axis, *arm, 0.0))).collect();
         let held = after(&rows, FREE);
         assert!(held.velocity.length() < 1e-13 && held.angular_velocity.length() < 1e-13);

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// Sweeps over the three planes. The off-diagonal elements converge quadratically, so six sweeps would be enough.
+/// Number of sweeps over the three planes. Off-diagonal elements converge quadratically, so six sweeps would be enough.
 const SWEEPS: usize = 12;
 
 /// Returns the principal values and axes of a symmetric matrix; the axes are columns of a right-handed matrix.
@@ -41,7 +41,7 @@ mod tests {
         for given in [[5.0, 2.0, 7.0], [3.0, 3.0, 1.0], [4.0, 4.0, 4.0]] {
             let matrix = rotation * DMat3::from_diagonal(DVec3::from_array(given)) * rotation.transpose();
             let (values, axes) = principal_axes(matrix);
-            // Rounding.
+            // Tolerance: rounding.
             assert!((axes * DMat3::from_diagonal(values) * axes.transpose()).abs_diff_eq(matrix, 1e-14));
             assert!((axes.determinant() - 1.0).abs() < 1e-14);
             let mut sorted = (values.to_array(), given);

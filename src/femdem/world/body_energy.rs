@@ -6,7 +6,7 @@ use super::World;
 use crate::femdem::assembly::nodes::RIGID;
 use crate::femdem::element;
 
-/// Energies of a body [J]. Contact energy belongs to two bodies and appears only in the total balance.
+/// Energies of a body [J]. Contact energy belongs to two bodies, so only the energy balance of the world includes it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
     /// Kinetic energy, defined as in [`EnergyBalance`](super::energy_balance::EnergyBalance).
@@ -17,7 +17,7 @@ pub struct BodyEnergy {
     pub joint: f64,
     /// Gravitational potential energy, zero at the start.
     pub gravity: f64,
-    /// Energy dissipated in the joints so far, including the part that contacts have taken over.
+    /// Energy dissipated in the joints so far, including the elastic energy that contacts have taken over.
     pub fracture: f64,
 }
 
@@ -49,7 +49,8 @@ impl World {
         energies
     }
 
-    /// Adds the kinetic energies, from the velocities `before` and now (half a time step earlier and later).
+    /// Adds the kinetic energies. `before` are the nodal velocities half a time step earlier, the current velocities
+    /// are half a time step later.
     pub(super) fn add_kinetic_energies(&self, energies: &mut [BodyEnergy], before: &[DVec3]) {
         for (node, before) in before.iter().enumerate().filter(|(node, _)| self.nodes.constraint[*node] != RIGID) {
             let energy = 0.5 * self.nodes.mass[node] * before.dot(self.nodes.velocity[node]);

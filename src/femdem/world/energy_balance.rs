@@ -6,10 +6,10 @@ use super::World;
 use crate::femdem::element;
 use crate::femdem::parallel::chunks::ordered_sum;
 
-/// Energies [J]: stored now, and dissipated or supplied since the start.
+/// Energies of a world [J]: stored at the current time, and dissipated or supplied since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergyBalance {
-    /// Kinetic energy: sum of m v- v+ / 2, with the velocities half a time step before and after.
+    /// Kinetic energy: sum of m v- v+ / 2, with the nodal velocities v- half a time step earlier and v+ later.
     pub kinetic: f64,
     /// Strain energy of the tetrahedra.
     pub strain: f64,
@@ -27,13 +27,13 @@ pub struct EnergyBalance {
     pub friction: f64,
     /// Work of constraints and loads.
     pub work: f64,
-    /// Elastic energy that tied faces get when they are released as joints; tied faces store none.
+    /// Elastic energy that joints receive when tied faces are released. Tied faces store no elastic energy.
     #[serde(rename = "freed")]
     pub released: f64,
 }
 
 impl EnergyBalance {
-    /// Returns the conserved total: stored plus dissipated minus supplied energy.
+    /// Returns the total [J], which is conserved: stored plus dissipated minus supplied energy.
     pub fn total(&self) -> f64 {
         let stored = self.kinetic + self.strain + self.joint + self.contact + self.gravity;
         stored + self.viscous + self.fracture + self.friction - self.work - self.released
@@ -56,7 +56,8 @@ impl World {
             friction: self.contacts.scalars.friction,
             fracture: self.dissipated.fracture + self.joints.dissipated() - self.contacts.scalars.taken_over,
             gravity: ordered_sum(self.nodes.count(), gravity) - self.gravity_at_start,
-            // The power is that of the velocity half a time step ago and lasts until half a time step after.
+            // The viscous power counts from half a time step before the current time to half a time step after it. Only
+            // the first half is in the past.
             viscous: self.dissipated.viscous + 0.5 * self.dt * viscous_power,
             ..self.dissipated
         }

@@ -3,9 +3,11 @@
 //! | quantity | limit | checked |
 //! | --- | --- | --- |
 //! | volume of a tetrahedron | finite and above zero | in every time step |
-//! | speed of a node | [`SPEED`] times the largest celerity, plus the speed that the case causes | in every time step |
-//! | distance from mesh middle | [`REACH`] mesh diagonals, plus the motion that the case causes | by `check_limits` |
-//! | overlap of two tetrahedra | [`DEPTH`] of the smaller one | by `check_limits` |
+//! | speed of a node | [`SPEED`] times the largest celerity, plus the expected speed | in every time step |
+//! | distance from the middle of the mesh | [`REACH`] mesh diagonals, plus the expected travel | by `check_limits` |
+//! | overlap of two tetrahedra | [`DEPTH`] times the smaller volume | by `check_limits` |
+//!
+//! Expected speed: the largest initial or prescribed speed plus gravity times time. Expected travel: its time integral.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,16 +16,17 @@ use super::World;
 use crate::femdem::assembly::nodes::Nodes;
 use crate::femdem::setup::{Constraint, Setup};
 
-/// Limit of the node speed in longitudinal celerities, in addition to the speed that the case causes [-]. At one
-/// celerity strains are of order one, where material law and strength are no longer valid.
+/// Limit of the nodal speed over the celerity of longitudinal waves [-]. The speed that the case prescribes is added to
+/// the limit. At a speed of one celerity, strains are of order one, so the material law and the strength are not valid.
 pub const SPEED: f64 = 2.0;
 
-/// Limit of the distance of a node from the middle of the mesh in mesh diagonals [-]; fragments beyond touch nothing.
+/// Limit of the distance of a node from the middle of the mesh, over the diagonal of the mesh [-]. Fragments beyond
+/// this distance have no contact any more.
 pub const REACH: f64 = 50.0;
 
-/// Limit of the overlap of two tetrahedra [-], see
-/// [`Contacts::deepest_overlap`](crate::femdem::contact::pairs::Contacts::deepest_overlap): half of the smaller one is
-/// then inside the other, and the contact force hardly pushes it back out.
+/// Limit of the overlap of two tetrahedra [-] as in
+/// [`Contacts::deepest_overlap`](crate::femdem::contact::pairs::Contacts::deepest_overlap). At this limit, half of the
+/// smaller tetrahedron is inside the other one, and the contact force hardly separates the two.
 pub const DEPTH: f64 = 0.25;
 
 /// Nodes per task of the thread pool.
@@ -50,7 +53,7 @@ pub enum StepError {
     TooFast {
         /// Number of the node.
         node: usize,
-        /// Its speed and the limit [m/s].
+        /// Speed of the node and its limit [m/s].
         speed: [f64; 2],
         /// Time [s].
         time: f64,
@@ -59,7 +62,7 @@ pub enum StepError {
     Escaped {
         /// Number of the node.
         node: usize,
-        /// Its distance from the middle of the mesh and the limit [m].
+        /// Distance of the node from the middle of the mesh, and its limit [m].
         distance: [f64; 2],
         /// Time [s].
         time: f64,
@@ -68,7 +71,7 @@ pub enum StepError {
     TooDeep {
         /// Numbers of the tetrahedra.
         tets: [u32; 2],
-        /// Overlap over the volume of the smaller one [-].
+        /// Overlap over the volume of the smaller tetrahedron [-].
         share: f64,
         /// Time [s].
         time: f64,
@@ -80,13 +83,13 @@ pub enum StepError {
 pub(super) struct Limits {
     /// Middle of the mesh [m].
     centre: DVec3,
-    /// Distance limit from the middle, without the motion that the case causes [m].
+    /// Limit of the distance from the middle of the mesh at the start [m]. It grows with the expected travel.
     reach: f64,
-    /// Speed limit, without the speed that the case causes [m/s].
+    /// Limit of the speed [m/s], to which the largest prescribed speed and the speed of free fall are added.
     speed: f64,
     /// Largest initial or prescribed speed [m/s].
     prescribed_speed: f64,
-    /// Gravitational acceleration [m/s2].
+    /// Magnitude of the gravitational acceleration [m/s2].
     gravity: f64,
 }
 
@@ -116,15 +119,15 @@ impl Limits {
 }
 
 impl World {
-    /// Checks for nodes that are too far away and for contacts that are too deep. This costs about as much as moving
-    /// the nodes, so it is not done in every time step.
+    /// Checks for nodes that are too far away and for contacts that are too deep. This check costs about as much as
+    /// moving the nodes, so the solver does not call it in every time step.
     ///
     /// # Errors
-    /// Returns the first such node, or the deepest contact.
+    /// Returns the first node that is too far away, or the deepest contact if it is too deep.
     pub fn check_limits(&self) -> Result<(), StepError> {
         let (time, reach, centre) = (self.time, self.limits.reach_at(self.time), self.limits.centre);
         let distance = |x: &DVec3| x.distance(centre);
-        // A NaN position counts as outside, too.
+        // A NaN position also counts as outside.
         let is_outside = |x: &DVec3| !matches!(distance(x).partial_cmp(&reach), Some(order) if order.is_le());
         if let Some(node) = self.nodes.position.par_iter().with_min_len(CHUNK).position_first(is_outside) {
             let position = self.nodes.position[node];
@@ -139,8 +142,8 @@ impl World {
         }
     }
 
-    /// Checks the square of the largest speed [m2/s2] against the limit. NaN speeds show as inverted tetrahedra in the
-    /// next time step.
+    /// Checks that the square of the largest speed [m2/s2] does not exceed the limit. NaN speeds are found in the next
+    /// time step, because tetrahedra then have no finite volume.
     pub(super) fn check_speed(&self, fastest_squared: f64) -> Result<(), StepError> {
         let (time, limit) = (self.time, self.limits.speed_at(self.time));
         if fastest_squared <= limit * limit {
@@ -152,7 +155,8 @@ impl World {
         Err(StepError::TooFast { node, speed: [speed, limit], time })
     }
 
-    /// Returns the error for a tetrahedron without volume: inverted, or with a node that is not finite.
+    /// Returns the error for a tetrahedron whose volume is not positive or not finite: `NotFinite` if the position of a
+    /// node is not finite, else `Inverted`.
     pub(super) fn inversion_error(&self, tet: usize) -> StepError {
         let time = self.time;
         let corners = self.tets.nodes[tet].map(|node| node as usize);

@@ -1,17 +1,17 @@
-//! A world of deformable bodies and its time step: the entry to the solver.
+//! A world and its time step: all bodies, joints and contacts of a run. This is the entry to the solver.
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | `time_step` | the time step limit |
+//! | `time_step` | the limit of the time step |
 //! | `motion` | motion of nodes and rigid bodies |
 //! | `release` | tied faces that become joints, joints that break |
 //! | `energy_balance`, `body_energy` | the energy balance, total and per body |
 //! | `limits` | limits that stop an unstable run |
 //! | `snapshot` | saves and restores the state |
 //!
-//! A time step has four loops: joints, tetrahedra, contacts, nodes. Each loop only writes what it owns (no scatter, no
-//! atomics), so results are bitwise equal for any number of threads. Velocities are half a time step before the
-//! positions (central differences; eqs. 9 and 10).
+//! A time step has four loops: over joints, tetrahedra, contacts and nodes. Each item writes only its own values (no
+//! scatter, no atomics), so results are bitwise equal for any number of threads. Velocities refer to half a time step
+//! before the time of the positions (central differences; eqs. 9 and 10).
 
 use glam::DVec3;
 
@@ -49,13 +49,13 @@ pub struct Failure {
     pub time: f64,
     /// Centroid of the undeformed face [m].
     pub centroid: DVec3,
-    /// Undeformed area [m2].
+    /// Undeformed area of the face [m2].
     pub area: f64,
-    /// Whether sliding (mode II) dissipated more energy than opening (mode I).
+    /// True if sliding (mode II) dissipated more energy than opening (mode I).
     pub by_sliding: bool,
-    /// Dissipated energy [J].
+    /// Energy that the joint dissipated [J].
     pub dissipated: f64,
-    /// Part of the dissipated energy that was elastic energy at the release of the tied face [J].
+    /// Part of `dissipated` that the joint received as elastic energy when its tied face was released [J].
     pub released: f64,
 }
 
@@ -65,7 +65,7 @@ pub struct World {
     // Parameters.
     setup: Setup,
     moduli: Vec<Moduli>,
-    /// Least strength of each body [Pa].
+    /// Least stress that can break each body [Pa].
     strength: Vec<f64>,
     /// Time step [s].
     pub dt: f64,
@@ -96,7 +96,7 @@ pub struct World {
 }
 
 impl World {
-    /// Creates a world in its initial state; its time step is `share` times the time step limit.
+    /// Creates a world in its initial state. Its time step is `share` times the limit of the time step.
     pub fn new(setup: Setup, share: f64) -> Self {
         let joints = Joints::new(&setup);
         let (nodes, mut tets) = splitting::assemble(&setup, |face| joints.bond[face as usize] == Bond::Tied);
@@ -149,18 +149,18 @@ impl World {
         self.advance(false, None).map(|_| ())
     }
 
-    /// Advances the world by one time step and returns the energy balance at its start.
+    /// Advances the world by one time step and returns the energy balance at the start of the time step.
     ///
     /// # Errors
-    /// As [`Self::step`].
+    /// Same as for [`Self::step`].
     pub fn step_with_energies(&mut self) -> Result<EnergyBalance, StepError> {
         self.advance(true, None)
     }
 
-    /// Advances the world by one time step and returns the energy balance at its start, total and per body.
+    /// Advances the world by one time step. Returns the energies at the start of the time step, in total and per body.
     ///
     /// # Errors
-    /// As [`Self::step`].
+    /// Same as for [`Self::step`].
     pub fn step_with_body_energies(&mut self) -> Result<(EnergyBalance, Vec<BodyEnergy>), StepError> {
         let mut bodies = Vec::new();
         Ok((self.advance(true, Some(&mut bodies))?, bodies))
@@ -187,7 +187,7 @@ impl World {
             self.add_kinetic_energies(bodies, &before);
         }
         balance.kinetic = kinetic;
-        // Half of the work of this time step belongs to the balance at its start.
+        // The balance at the start of this time step includes half of the work of this time step.
         balance.work += 0.5 * work;
         self.dissipated.viscous += self.dt * viscous_power;
         self.dissipated.work += work;
@@ -205,7 +205,7 @@ impl World {
         deformation.compute(bodies).map_err(|tet| self.inversion_error(tet))
     }
 
-    /// Adds the contact forces at the current positions.
+    /// Adds the contact forces at the current positions to the forces of the tetrahedra.
     fn add_contact_forces(&mut self) {
         let Self { contacts, setup, tets, nodes, joints, deformation, dt, .. } = self;
         let is_broken = |face: usize| joints.bond[face] == Bond::Broken;
@@ -217,7 +217,7 @@ impl World {
         configuration(&self.setup, &self.nodes, &self.tets)
     }
 
-    /// Adds the loads to the forces of the tetrahedra, and stores them to compute their work.
+    /// Adds the loads to the forces of the tetrahedra, and stores the loads to compute their work.
     fn apply_loads(&mut self) {
         let Self { setup, nodes, tets, loaded, deformation, time, .. } = self;
         loaded.clear();
@@ -228,7 +228,7 @@ impl World {
         }
     }
 
-    /// Power of the loads at the current velocities [W].
+    /// Returns the power of the loads at the current velocities [W].
     fn power_of_loads(&self) -> f64 {
         let power = |load: &CornerForce| {
             let node = self.tets.nodes[load.tet as usize][usize::from(load.corner)];
@@ -237,25 +237,25 @@ impl World {
         self.loaded.iter().map(power).sum()
     }
 
-    /// Undeformed area of all broken faces [m2].
+    /// Returns the total undeformed area of all broken faces [m2].
     pub fn crack_area(&self) -> f64 {
         // `sum` of an empty iterator would be -0.
         self.failures.iter().map(|failure| failure.area).fold(0.0, |sum, area| sum + area)
     }
 
-    /// Undeformed position of a node [m].
+    /// Returns the undeformed position of a node [m].
     pub fn initial_position(&self, node: usize) -> DVec3 {
         let copy = self.nodes.copies_of(node)[0] as usize;
         self.setup.nodes[self.setup.tets[copy / 4][copy % 4] as usize]
     }
 }
 
-/// Positions on which the loads of a setup act.
+/// Returns the initial and current vertices on which the loads of a setup act.
 fn configuration<'a>(setup: &'a Setup, nodes: &'a Nodes, tets: &'a Tets) -> Configuration<'a> {
     Configuration { initial: (&setup.nodes, &setup.tets), current: (&nodes.position, &tets.nodes) }
 }
 
-/// Creates the contacts; tetrahedra that unbroken faces connect around a node do not touch.
+/// Creates the contacts. Tetrahedra cannot touch if they share a node and unbroken faces connect them around this node.
 fn contacts(setup: &Setup, tets: &Tets, copies_around: &[Vec<NodeCopy>], joints: &Joints) -> Contacts {
     let unbroken = |face: u32| joints.bond[face as usize] != Bond::Broken;
     let used = copies_around.iter().filter(|copies| !copies.is_empty());

@@ -14,17 +14,17 @@ pub(super) struct NodeMotion {
     pub kinetic: f64,
     /// Work of the constraints [J].
     pub work: f64,
-    /// Square of the largest speed at the end of the time step [m2/s2].
+    /// Square of the largest new nodal speed [m2/s2].
     pub fastest: f64,
 }
 
 impl World {
-    /// Computes accelerations (eq. 8), velocities (eq. 9) and positions (eq. 10).
+    /// Computes accelerations (eq. 8), velocities (eq. 9) and positions (eq. 10) of all nodes and rigid bodies.
     pub(super) fn move_nodes(&mut self) -> NodeMotion {
         let Self { nodes, deformation, setup, dt, time, motion, rigid_bodies, .. } = self;
         let forces = &deformation.forces;
         let (dt, gravity) = (*dt, setup.gravity);
-        // Velocities are half a time step ahead.
+        // The new velocities refer to half a time step after `time`.
         let prescribed: Vec<_> = setup.constraints.iter().map(|constraint| constraint.at(*time + 0.5 * dt)).collect();
         let Nodes { position, velocity, mass, constraint, copies } = nodes;
         motion.resize(position.len().div_ceil(CHUNK), NodeMotion::default());

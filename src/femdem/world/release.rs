@@ -1,4 +1,4 @@
-//! Release of tied faces as joints, and breaking of failed joints.
+//! Turns tied faces that have reached their strength into joints (release), and breaks failed joints.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::femdem::joints::joint::{self, Axes, JointState};
 use crate::femdem::joints::{self, Bond, DamagedJoint};
 
 impl World {
-    /// Releases tied faces that have reached their strength as joints, and breaks failed joints.
+    /// Turns tied faces that have reached their strength into joints, and breaks failed joints.
     pub(super) fn release_joints(&mut self) {
         for (number, state) in self.faces_beyond_strength() {
             self.release_face(number, state);
@@ -40,16 +40,16 @@ impl World {
 
     fn break_joint(&mut self, joint: &DamagedJoint) {
         let number = joint.interface as usize;
-        // The elastic energy of the joint is dissipated with it. Its last forces were computed at the start of this
-        // time step; in central differences they act for half a time step after that. A joint that is crushed fast
-        // exchanges much of its energy in this time. If it springs back, the dissipated energy may even be negative.
+        // A joint that breaks dissipates its elastic energy. Its last forces were computed at the start of this time
+        // step. In central differences, they act until half a time step later. A joint that is crushed fast exchanges
+        // much of its energy in this time. If it springs back, the dissipated energy may even be negative.
         let last_work = 0.5 * self.dt * joints::power_on(joint, &self.setup, &self.tets, &self.nodes);
         let stored = self.joints.damaged_energy(joint, &self.setup) + last_work;
         self.dissipated.fracture += joint.dissipated + stored;
         self.joints.bond[number] = Bond::Broken;
         self.joints.forces[number] = Default::default();
         let energy = [joint.dissipated + stored, joint.released];
-        self.failures.push(self.failure(joint.interface, self.time, joint.state.is_mostly_slid(), energy));
+        self.failures.push(self.failure(joint.interface, self.time, joint.state.is_mostly_sliding(), energy));
         let opened = self.setup.interfaces[number];
         self.contacts.allow_contact(opened.tets, stored.max(0.0));
         let unbroken = |face: u32| self.joints.bond[face as usize] != Bond::Broken;
@@ -61,8 +61,8 @@ impl World {
         }
     }
 
-    /// Returns the tied faces on which the mean stress of both sides has reached the strength (eq. 1), with the joint
-    /// state that carries this stress.
+    /// Returns the tied faces where the mean stress of the two tetrahedra has reached the strength (eq. 1). For each
+    /// face, also returns the joint state that carries this stress.
     fn faces_beyond_strength(&self) -> Vec<(usize, JointState)> {
         let Self { joints, setup, tets, nodes, .. } = self;
         let strained = &self.deformation.strained;
@@ -85,7 +85,7 @@ impl World {
         joints.bond.par_iter().enumerate().filter_map(check_face).collect()
     }
 
-    /// Elastic Cauchy stress of a tetrahedron at the current positions [Pa].
+    /// Returns the elastic Cauchy stress of a tetrahedron at the current positions [Pa].
     fn stress(&self, tet: usize) -> glam::DMat3 {
         let corners = self.tets.nodes[tet].map(|node| self.nodes.position[node as usize]);
         element::stress(&self.tets.shape[tet], &self.moduli[usize::from(self.tets.body[tet])], &corners)

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::energy_balance::EnergyBalance;
 use super::{Failure, World, contacts};
 use crate::femdem::contact::pairs::{ContactScalars, snapshot::ContactSnapshot};
-use crate::femdem::joints::{self, Bond, DamagedJoint, JOINT_NUMBERS};
+use crate::femdem::joints::{self, Bond, DamagedJoint, JOINT_STATE_LENGTH};
 use crate::femdem::rigid::body::RigidMotion;
 
 /// State of a world.
@@ -20,31 +20,31 @@ pub struct Snapshot {
     pub position: Vec<DVec3>,
     /// Velocities of the nodes [m/s].
     pub velocity: Vec<DVec3>,
-    /// Nodes at the vertices of the tetrahedra.
+    /// Node numbers at the vertices of each tetrahedron.
     pub vertices: Vec<[u32; 4]>,
     /// Bond of each face: 0 tied, 1 intact joint, 2 broken, 3 damaged joint.
     pub bonds: Vec<u8>,
-    /// Face numbers of the damaged joints, in the order of their list.
+    /// Interface numbers of the damaged joints, in the order of `Joints::damaged`.
     pub damaged: Vec<u32>,
-    /// States of the damaged joints (opaque).
-    pub joint_states: Vec<[f64; JOINT_NUMBERS]>,
-    /// Broken faces, in order of time.
+    /// State of each damaged joint, see [`DamagedJoint::to_array`].
+    pub joint_states: Vec<[f64; JOINT_STATE_LENGTH]>,
+    /// Interface numbers of the broken faces, in order of time.
     pub failed: Vec<u32>,
-    /// Times of breaking [s].
+    /// Time at which each face broke [s].
     pub failed_at: Vec<f64>,
-    /// 1 if the face broke mainly by sliding, else 0.
+    /// For each broken face, 1 if it broke mainly by sliding, else 0.
     pub failed_by_sliding: Vec<u8>,
-    /// Energy dissipated by each broken face, and elastic energy at its release [J].
+    /// For each broken face, the energy that it dissipated and its elastic energy at the release [J].
     pub failed_energy: Vec<[f64; 2]>,
-    /// Motions of the rigid bodies (opaque).
+    /// Motion of each rigid body, see [`RigidMotion::to_array`].
     pub rigid: Vec<[f64; 13]>,
-    /// Contacts.
+    /// History of the contacts.
     pub contacts: ContactSnapshot,
-    /// Scalars of the world.
+    /// Time, time step and energies.
     pub scalars: Scalars,
 }
 
-/// Scalars of a world and its contacts.
+/// Time, time step, dissipated energies and contact scalars of a world.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Scalars {
     time: f64,
@@ -84,7 +84,7 @@ impl World {
     /// Restores a snapshot into a new world of the same setup.
     ///
     /// # Errors
-    /// Says why the snapshot does not belong to this setup. The world must not be used then.
+    /// If the snapshot does not belong to this setup. The text gives the reason. The world must then not be used.
     pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), &'static str> {
         let Snapshot {
             position, velocity, vertices, bonds, damaged, joint_states, contacts: of_contacts, scalars, ..
@@ -127,7 +127,8 @@ impl World {
         Ok(())
     }
 
-    /// Creates the record of a broken face: time [s], dissipated energy and elastic energy at its release [J].
+    /// Creates the record of a face that broke at a time [s]. `energy` is the energy that the face dissipated and its
+    /// elastic energy at the release [J].
     pub(super) fn failure(&self, interface: u32, time: f64, by_sliding: bool, energy: [f64; 2]) -> Failure {
         let corners = joints::corners(&self.setup, interface as usize);
         let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;

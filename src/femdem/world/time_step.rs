@@ -1,9 +1,9 @@
-//! The time step limit.
+//! The limit of the time step.
 //!
-//! With mass lumping, the largest angular frequency of a mesh is at most that of its stiffest element with its own
-//! share of the masses (Irons). Joints at the faces of a tetrahedron add twice their stiffness at each vertex to its
-//! largest eigenvalue. The time step limit of central differences is 2 / omega; with the viscous damping rate gamma it
-//! is (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
+//! With mass lumping, the largest angular frequency omega of a mesh is at most the frequency of its stiffest element
+//! with its own share of the masses (Irons). Joints increase the largest eigenvalue of a tetrahedron by at most twice
+//! their stiffness at a vertex. The limit for central differences is 2 / omega. With the viscous damping rate gamma,
+//! the limit is (2 / omega) (sqrt(1 + xi^2) - xi), xi = gamma / (2 omega).
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -12,13 +12,13 @@ use super::World;
 use crate::femdem::element::Shape;
 use crate::femdem::material::Elastic;
 
-/// Rounds of the power iteration; they give the largest of twelve eigenvalues to one percent.
+/// Number of power iterations. This number gives the largest of twelve eigenvalues to one per cent.
 const ROUNDS: usize = 40;
-/// Safety factor for the remaining error of the iteration [-].
-const LACKING: f64 = 1.02;
+/// Safety factor for the remaining error of the power iteration [-].
+const EIGENVALUE_SAFETY: f64 = 1.02;
 
 impl World {
-    /// Computes the time step limit [s]; every face counts as a joint, because a tied face may be released.
+    /// Computes the limit of the time step [s]. Every interface counts as a joint, because a tied face may be released.
     pub fn time_step_limit(&self) -> f64 {
         let limit = |t: usize| {
             let body = &self.setup.bodies[usize::from(self.tets.body[t])];
@@ -35,7 +35,8 @@ impl World {
             }
             let contact = contact_stiffness(shape, body.contact_penalty);
             if body.rigid {
-                // Only contact limits the time step. A rigid body moves less than its tetrahedra alone would.
+                // For a rigid body, only contact limits the time step. The limit for the free tetrahedron is
+                // sufficient, because a contact force accelerates the whole body less.
                 let touches = contact > 0.0 && self.setup.outer.binary_search(&(t as u32)).is_ok();
                 return if touches { stable_step(2.0 * contact / mass, 0.0) } else { f64::INFINITY };
             }
@@ -47,7 +48,7 @@ impl World {
     }
 }
 
-/// Square of the largest angular frequency of a free tetrahedron [1/s2].
+/// Returns the square of the largest angular frequency of a free tetrahedron [1/s2].
 pub fn element_frequency_squared(shape: &Shape, elastic: &Elastic) -> f64 {
     let (lambda, mu) = (elastic.lambda(), elastic.mu());
     let mass = 0.25 * elastic.density * shape.volume;
@@ -58,13 +59,13 @@ pub fn element_frequency_squared(shape: &Shape, elastic: &Elastic) -> f64 {
     largest * shape.volume / mass
 }
 
-/// Largest rate at which viscosity damps a free tetrahedron [1/s].
+/// Returns the largest rate at which viscosity damps the motion of a free tetrahedron [1/s].
 pub fn element_damping_rate(shape: &Shape, elastic: &Elastic) -> f64 {
     let mass = 0.25 * elastic.density * shape.volume;
     largest_eigenvalue(shape, |rate| rate * elastic.viscosity) * shape.volume / mass
 }
 
-/// Contact stiffness at a vertex of a tetrahedron in contact at its largest face [N/m].
+/// Returns the contact stiffness at a vertex of a tetrahedron whose largest face is in contact [N/m].
 ///
 /// The contact potential rises from 0 to 1 over a quarter of the height H. Two flush tetrahedra with overlap depth d
 /// have the energy p 4 d^2 / H and the stiffness 8 p / H per unit of area. Each vertex gets a third of the face.
@@ -74,10 +75,10 @@ pub fn contact_stiffness(shape: &Shape, penalty: f64) -> f64 {
     8.0 * penalty * steepest * (shape.volume * steepest)
 }
 
-/// Largest eigenvalue of B^T C B [C/m2] for a stress C(strain).
+/// Returns the largest eigenvalue of B^T C B for a stress C(strain), in the unit of C per m2.
 fn largest_eigenvalue(shape: &Shape, stress: impl Fn(DMat3) -> DMat3) -> f64 {
     let gradients = shape.gradients();
-    // Start vector without any symmetry.
+    // The start vector has no symmetry, so that it contains a part of every eigenvector.
     let mut u = [0.3, -0.7, 1.0, -0.6].map(|a: f64| DVec3::new(a, a * a - 0.4, 0.5 - a));
     let mut largest = 0.0;
     for _ in 0..ROUNDS {
@@ -94,10 +95,10 @@ fn largest_eigenvalue(shape: &Shape, stress: impl Fn(DMat3) -> DMat3) -> f64 {
         }
         u = next.map(|f| f / length);
     }
-    LACKING * largest
+    EIGENVALUE_SAFETY * largest
 }
 
-/// Time step limit [s] for the square of the largest angular frequency [1/s2] and a damping rate [1/s].
+/// Returns the limit of the time step [s] for the square of the largest angular frequency and a damping rate [1/s].
 pub fn stable_step(frequency_squared: f64, damping_rate: f64) -> f64 {
     let omega = frequency_squared.sqrt();
     let xi = 0.5 * damping_rate / omega;

@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec3};
 use hdf5_metno::{File, Group};
 
-use super::{FluidAtPeak, Impact, Impacts, NO_BODY, PARTNER, PartnerNumbers, PressurePlace, SCALARS, VECTORS};
+use super::{FluidAtPeak, Impact, Impacts, NO_BODY, PARTNER, PartnerNumbers, PressurePoint, SCALARS, VECTORS};
 use crate::output::state_file::{Hdf5Result, read_rows, read_vectors};
 use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load};
 
-/// The datasets of a file as stored.
+/// The datasets of an impact file, unconverted.
 pub struct Columns {
     numbers: Vec<u64>,
     units: Vec<u32>,
@@ -50,14 +50,15 @@ impl Columns {
         })
     }
 
-    /// Converts the datasets to impacts; the error is the name of a dataset that does not match the others.
+    /// Converts the datasets to impacts. The error is the name of a dataset whose length does not match the other
+    /// datasets.
     pub fn into_impacts(self) -> Result<Impacts, &'static str> {
         let [particles, to_surface] = &self.places;
         if particles.len() != to_surface.len() {
             return Err("to_surface_m");
         }
-        let place = |(&particle, &to_surface)| PressurePlace { particle, to_surface };
-        let places: Vec<PressurePlace> = particles.iter().zip(to_surface).map(place).collect();
+        let place = |(&particle, &to_surface)| PressurePoint { particle, to_surface };
+        let places: Vec<PressurePoint> = particles.iter().zip(to_surface).map(place).collect();
         let count = self.numbers.len();
         if self.pressures.len() != count * places.len() {
             return Err("pressure_pa");
@@ -106,7 +107,7 @@ impl Columns {
     }
 }
 
-/// An empty event.
+/// A contact event in which all values are zero, as a start value.
 pub const NO_EVENT: ContactEvent = ContactEvent {
     number: 0,
     start: 0.0,
@@ -128,7 +129,7 @@ pub const NO_EVENT: ContactEvent = ContactEvent {
     impulse: [0.0; 3],
 };
 
-/// Converts numbers of [`super::partner_numbers`] to the partner; `None` if they are invalid.
+/// Converts the numbers from [`super::partner_numbers`] back to the contact partner; `None` if the numbers are invalid.
 fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
     let end = part.try_into().ok()?;
     Some(match kind {
@@ -140,7 +141,7 @@ fn partner([kind, number, image, part]: PartnerNumbers) -> Option<Feature> {
     })
 }
 
-/// Reads the states of the bodies: as many as the shortest dataset has rows.
+/// Reads the states of the bodies. Their number is the number of rows of the shortest dataset.
 fn read_bodies(group: &Group, prefix: &str) -> Hdf5Result<Vec<BodyState>> {
     let positions = read_vectors(group, &format!("{prefix}position_m"))?;
     let rotations = read_rows(group, &format!("{prefix}rotation_xyzw"))?.into_iter().map(DQuat::from_array);

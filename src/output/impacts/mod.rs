@@ -1,13 +1,13 @@
-//! The hardest impacts of a run: `impacts.h5`, the input of the breakage analysis.
+//! File `impacts.h5` with the hardest impacts of a run, the input of the breakage analysis.
 //!
 //! | group | content, one row per impact |
 //! | --- | --- |
-//! | `impacts` | bodies, position, velocities, peak, impulse, previous body states, water load; NaN if absent |
-//! | `history` | samples of all impacts, concatenated; impact k has `offset[k]..offset[k + 1]` |
+//! | `impacts` | bodies, position, velocities, peak, impulse, body states before impact, water load; NaN if absent |
+//! | `history` | force samples of all impacts, concatenated; impact k has the rows `offset[k]..offset[k + 1]` |
 //! | `pressure` | pressure at the boundary particles, NaN where it is unknown |
 //!
 //! Units count from 1 as in the tables. `partner_kind` is 0 for a unit, 1 for the bed profile, 2 for the terrain
-//! surface, 3 for a wall. `partner_number` is the number of that unit, segment, face or wall.
+//! surface, 3 for a wall. `partner_number` is the number of this unit, segment, face or wall.
 
 mod columns;
 
@@ -22,22 +22,22 @@ use super::state_file::{Hdf5Result, read_state, write_column, write_rows, write_
 use crate::rigid::{BodyState, ContactEvent, Feature, ForceSample, Load, RecordedContact};
 use columns::Columns;
 
-/// Version of the file layout; increased with every change.
+/// Version of the layout of `impacts.h5`, increased with every change of the layout.
 const VERSION: u32 = 1;
 
-/// A point of known water pressure at a unit, in body axes from the centre of mass.
+/// A boundary particle whose water pressure is recorded, in body axes with the origin at the centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PressurePlace {
+pub struct PressurePoint {
     /// Position of the boundary particle, inside the unit [m].
     pub particle: DVec3,
-    /// Vector from the particle to the nearest point of the surface [m].
+    /// Vector from the particle to the nearest point of the unit surface [m].
     pub to_surface: DVec3,
 }
 
-/// Water load on the unit `event.body` in the time step of the peak force of an impact.
+/// Water load on the unit `event.body` of an [`Impact`] in the time step with the peak force.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FluidAtPeak {
-    /// Force and torque about the centre of mass in world axes, averaged over the time step.
+    /// Force [N] and torque about the centre of mass [N m] in flume axes, averaged over the time step.
     pub load: Load,
     /// Pressure at each point of [`Impacts::places`] [Pa].
     pub pressure: Vec<f32>,
@@ -46,24 +46,24 @@ pub struct FluidAtPeak {
 /// An impact of a unit on another unit, the bed or a wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
-    /// Bodies, position and strength; times are flume times.
+    /// Bodies, position, velocities, peak force and impulse; times are flume times [s].
     pub event: ContactEvent,
-    /// Force on `event.body` over flume time, without gaps; the opposite force acts on the partner.
+    /// Contact force on the unit `event.body` over flume time, without gaps. The opposite force acts on the partner.
     pub history: Vec<ForceSample>,
-    /// Water load at the peak; none in dry tests.
+    /// Water load in the time step with the peak force; `None` in dry tests.
     pub fluid: Option<FluidAtPeak>,
 }
 
-/// The impacts of a run.
+/// The hardest impacts of a run: the content of `impacts.h5`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Impacts {
-    /// Points of known pressure, the same for all units; empty in dry tests.
-    pub places: Vec<PressurePlace>,
+    /// Boundary particles whose pressure is recorded, the same for all units; empty in dry tests.
+    pub places: Vec<PressurePoint>,
     /// The impacts, the hardest first.
     pub impacts: Vec<Impact>,
 }
 
-/// Text of the file.
+/// Text of the state file, in JSON.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,
@@ -92,19 +92,20 @@ const VECTORS: [Vector; 5] = [
 ];
 
 impl Impact {
-    /// Creates an impact from a contact and the water load at its peak; `offset` [s] is added to get flume time.
+    /// Creates an impact from a contact and the water load at its peak force. `offset` [s] converts the times to flume
+    /// time.
     pub fn new(contact: &RecordedContact, offset: f64, fluid: Option<FluidAtPeak>) -> Self {
         let in_flume_time = |sample: &ForceSample| ForceSample { start: sample.start + offset, ..*sample };
         let history = contact.history.samples().iter().map(in_flume_time).collect();
-        Self { event: contact.event.on_clock(offset), history, fluid }
+        Self { event: contact.event.shifted_in_time(offset), history, fluid }
     }
 }
 
 impl Impacts {
-    /// Name of the file in a run folder.
+    /// Name of the impact file in a run folder.
     pub const FILE: &str = "impacts.h5";
 
-    /// Writes the file atomically.
+    /// Writes the impacts to the file `path` atomically.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -117,10 +118,10 @@ impl Impacts {
         })
     }
 
-    /// Reads the file.
+    /// Reads the impacts from the file `path`.
     ///
     /// # Errors
-    /// If the file is missing, damaged or not a file of impacts.
+    /// If the file is missing or damaged, or is not an impact file.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         std::fs::metadata(path).map_err(OutputError::io(path))?;
         let (text, columns) = read_state(path, Columns::read)?;
@@ -198,7 +199,7 @@ const NO_BODY: BodyState = BodyState {
     angular_velocity: DVec3::NAN,
 };
 
-/// Kind, number, image, and part or end of the partner, for the columns [`PARTNER`].
+/// Kind, number, periodic image, and part or end of the contact partner; one value for each column in [`PARTNER`].
 type PartnerNumbers = [i64; 4];
 const PARTNER: [&str; 4] = ["partner_kind", "partner_number", "partner_image", "partner_part"];
 
@@ -250,7 +251,7 @@ mod tests {
     }
 
     fn some_impacts() -> Impacts {
-        let place = |x| PressurePlace { particle: DVec3::X * x, to_surface: DVec3::Y * x };
+        let place = |x| PressurePoint { particle: DVec3::X * x, to_surface: DVec3::Y * x };
         let partners = [
             Feature::Unit { body: 7, image: -1, part: 1023 },
             Feature::Ground { place: 3, end: 1 },

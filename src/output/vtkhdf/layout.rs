@@ -1,4 +1,4 @@
-//! Groups and datasets of VTKHDF files, and writing of their rows.
+//! Groups and datasets of VTKHDF files, and functions that append or set their rows.
 
 use std::path::Path;
 
@@ -10,11 +10,11 @@ use super::{FieldKind, FieldValues};
 
 pub(super) type Hdf5Result<T> = hdf5_metno::Result<T>;
 
-/// Rows per chunk in the long datasets (64 KiB for one f32 per row).
+/// Rows per chunk in datasets with one row per point or cell (64 KiB for one f32 per row).
 pub(super) const LONG_CHUNK: usize = 16_384;
-/// Rows per chunk in the datasets with one row per step.
+/// Rows per chunk in the datasets with one row per step (recorded time).
 pub(super) const STEP_CHUNK: usize = 256;
-/// The four topologies of VTK's PolyData, in the order of the columns of `CellOffsets`.
+/// Names of the four topologies of PolyData in VTK, in the order of the columns of `CellOffsets`.
 pub(super) const TOPOLOGIES: [&str; 4] = ["Vertices", "Lines", "Polygons", "Strips"];
 
 /// Returns a file builder without file locks, so that ParaView can open the files of a run in progress.
@@ -24,7 +24,7 @@ pub(super) fn unlocked() -> hdf5_metno::FileBuilder {
     builder
 }
 
-/// Opens a file with at least `steps` steps and the given fields in a group of the root.
+/// Opens a file with at least `steps` steps and the given fields in the group `VTKHDF/{group}`.
 ///
 /// # Errors
 /// If the file cannot be opened, lacks a field, or has fewer steps.
@@ -44,14 +44,14 @@ pub(super) fn open_with_steps(
     };
     let (file, present) = open().map_err(OutputError::hdf5(path))?;
     if present < steps {
-        let what = format!("holds {present} steps, fewer than the {steps} at the checkpoint");
+        let what = format!("has {present} steps, fewer than the {steps} at the checkpoint");
         return Err(OutputError::content(path, what));
     }
     Ok(file)
 }
 
-/// Creates the two groups of a file that grows step by step, and the attributes for version and type. VTK requires a
-/// string of the exact length of the type name: `LETTERS`.
+/// Creates the groups `VTKHDF` and `Steps`, and the attributes for version and type. `LETTERS` is the length of
+/// `type_name`, because VTK requires a string of exactly this length.
 pub(super) fn new_root<const LETTERS: usize>(file: &File, type_name: &str) -> Hdf5Result<[Group; 2]> {
     let root = file.create_group("VTKHDF")?;
     root.new_attr_builder().with_data(&[2_i64, 0]).create("Version")?;
@@ -61,7 +61,7 @@ pub(super) fn new_root<const LETTERS: usize>(file: &File, type_name: &str) -> Hd
     Ok([root, steps])
 }
 
-/// Creates groups, attributes and empty datasets of PolyData.
+/// Creates the groups, attributes and empty datasets of a PolyData file.
 pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
     let [root, steps] = new_root::<8>(file, "PolyData")?;
     steps.new_attr::<i64>().create("NSteps")?.write_scalar(&0_i64)?;
@@ -78,7 +78,7 @@ pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5R
         let group = root.create_group(name)?;
         new_list::<i64>(&group, "NumberOfCells", STEP_CHUNK)?;
         new_list::<i64>(&group, "NumberOfConnectivityIds", STEP_CHUNK)?;
-        // The VTK reader needs the leading 0 even without cells.
+        // The VTK reader needs the first offset 0 even if there are no cells.
         append_rows(&new_list::<i64>(&group, "Offsets", LONG_CHUNK)?, &[0_i64])?;
         new_list::<i64>(&group, "Connectivity", LONG_CHUNK)?;
     }
@@ -87,7 +87,7 @@ pub(super) fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5R
     fields.iter().try_for_each(|(name, kind)| new_field(&point_data, &offsets, name, *kind))
 }
 
-/// Creates the dataset of a field and the dataset with the starts of its steps.
+/// Creates the dataset of a field, and the dataset with the first row of each step in this field.
 pub(super) fn new_field(data: &Group, offsets: &Group, name: &str, kind: FieldKind) -> Hdf5Result<()> {
     match kind {
         FieldKind::Scalar => new_list::<f32>(data, name, LONG_CHUNK)?,
@@ -99,7 +99,7 @@ pub(super) fn new_field(data: &Group, offsets: &Group, name: &str, kind: FieldKi
     Ok(())
 }
 
-/// Appends the values of a field; returns the row of the first value.
+/// Appends the values of a field; returns the row of the first new value.
 pub(super) fn append_values(dataset: &Dataset, values: &FieldValues<'_>) -> Hdf5Result<usize> {
     match values {
         FieldValues::Scalar(values) => append_rows(dataset, values),
@@ -109,7 +109,7 @@ pub(super) fn append_values(dataset: &Dataset, values: &FieldValues<'_>) -> Hdf5
     }
 }
 
-/// Cuts the dataset of a field to its first `rows`.
+/// Cuts the dataset of a field to its first `rows` rows.
 pub(super) fn cut_field(dataset: &Dataset, kind: FieldKind, rows: usize) -> Hdf5Result<()> {
     match kind {
         FieldKind::Vector => dataset.resize((rows, 3)),
@@ -126,7 +126,7 @@ pub(super) fn new_rows<const N: usize>(group: &Group, name: &str) -> Hdf5Result<
     group.new_dataset::<f32>().chunk((LONG_CHUNK, N)).shape((0.., N)).create(name)
 }
 
-/// Appends values to a list; returns the row of the first value.
+/// Appends values to a dataset of one column; returns the row of the first new value.
 pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T]) -> Hdf5Result<usize> {
     let start = dataset.size();
     if !values.is_empty() {
@@ -136,7 +136,7 @@ pub(super) fn append_rows<T: H5Type>(dataset: &Dataset, values: &[T]) -> Hdf5Res
     Ok(start)
 }
 
-/// Appends rows of several values; returns the index of the first row.
+/// Appends rows of `N` values; returns the index of the first new row.
 pub(super) fn append_rows_of<const N: usize>(dataset: &Dataset, rows: &[[f32; N]]) -> Hdf5Result<usize> {
     let start = dataset.size() / N;
     if !rows.is_empty() {
@@ -146,13 +146,13 @@ pub(super) fn append_rows_of<const N: usize>(dataset: &Dataset, rows: &[[f32; N]
     Ok(start)
 }
 
-/// Sets one row of a list and makes the list `row + 1` long.
+/// Sets one row of a dataset of one column, and sets its length to `row + 1`.
 pub(super) fn set_row<T: H5Type + Copy>(dataset: &Dataset, row: usize, value: T) -> Hdf5Result<()> {
     dataset.resize(row + 1)?;
     dataset.write_slice::<_, T, _, _>(&[value], row..=row)
 }
 
-/// Sets one row of four values and makes the list `row + 1` long.
+/// Sets one row of a dataset of four columns, and sets its length to `row + 1`.
 pub(super) fn set_row_of_4(dataset: &Dataset, row: usize, values: [i64; 4]) -> Hdf5Result<()> {
     dataset.resize((row + 1, 4))?;
     dataset.write_slice::<_, i64, _, _>(&[values], (row..=row, ..))

@@ -1,9 +1,9 @@
 //! Moving points and surfaces for ParaView: VTKHDF temporal PolyData (version 2.0), one file per series.
 //!
-//! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step (recorded moment) is one
-//! part. All cells of a kind have the same number of corners, so all steps share one list of `Offsets` 0, n, 2n, ...
-//! The list is written once, as long as the longest step needs. Connectivity is written again only if it differs from
-//! the previous step. `NSteps` is written last, then the file is flushed: a killed run leaves a file of complete steps.
+//! Layout: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/>. Every step (recorded time) is one
+//! part. All cells of a kind have the same number of corners n. Therefore all steps share one list `Offsets` 0, n, 2n,
+//! ..., as long as the longest step needs. Connectivity is written again only if it differs from the previous step.
+//! `NSteps` is written last, and then the file is flushed, so that a killed run leaves a file of complete steps.
 
 use std::path::{Path, PathBuf};
 
@@ -26,12 +26,12 @@ mod tests;
 mod triangles;
 mod volume;
 
-/// Kind of the cells of a series.
+/// Kind of the cells in a [`PolyDataSeries`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
-    /// One cell per point: particles.
+    /// One cell per point, for particles.
     Vertices,
-    /// Triangles: surfaces.
+    /// Triangles, for surfaces.
     Triangles,
 }
 
@@ -58,22 +58,22 @@ pub enum FieldKind {
     Scalar,
     /// Three f32.
     Vector,
-    /// A symmetric tensor as six f32: xx, yy, zz, xy, yz, xz, the order of ParaView.
+    /// A symmetric tensor: six f32 in the order of ParaView, xx, yy, zz, xy, yz, xz.
     Tensor,
     /// One i32.
     Integer,
 }
 
-/// Values of a field in one step, one per point or cell.
+/// Values of a field in one step, one value per point or cell.
 #[derive(Debug, Clone, Copy)]
 pub enum FieldValues<'a> {
-    /// For [`FieldKind::Scalar`].
+    /// Values of a field of [`FieldKind::Scalar`].
     Scalar(&'a [f32]),
-    /// For [`FieldKind::Vector`].
+    /// Values of a field of [`FieldKind::Vector`].
     Vector(&'a [[f32; 3]]),
-    /// For [`FieldKind::Tensor`].
+    /// Values of a field of [`FieldKind::Tensor`].
     Tensor(&'a [[f32; 6]]),
-    /// For [`FieldKind::Integer`].
+    /// Values of a field of [`FieldKind::Integer`].
     Integer(&'a [i32]),
 }
 
@@ -97,7 +97,7 @@ impl FieldValues<'_> {
     }
 }
 
-/// A VTKHDF file that grows step by step.
+/// A VTKHDF file of points or triangles that grows step by step; a step is one recorded time.
 #[derive(Debug)]
 pub struct PolyDataSeries {
     path: PathBuf,
@@ -105,13 +105,13 @@ pub struct PolyDataSeries {
     cells: Cells,
     fields: Vec<(String, FieldKind)>,
     steps: usize,
-    /// Connectivity of the last step and where it starts in the file.
+    /// Triangles of the last step, and the row in `Connectivity` where they start.
     last_triangles: Vec<[u32; 3]>,
     last_connectivity_start: usize,
 }
 
 impl PolyDataSeries {
-    /// Creates a file for cells of one kind and the given point fields. An old file is overwritten.
+    /// Creates a file for cells of one kind and the given point fields. Overwrites an existing file.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -137,7 +137,7 @@ impl PolyDataSeries {
     /// Opens the file of an interrupted run and keeps only the first `steps` steps.
     ///
     /// # Errors
-    /// If the file cannot be opened, has other fields, or has fewer steps.
+    /// If the file cannot be opened, lacks a field, or has fewer than `steps` steps.
     pub fn open_and_truncate(
         path: &Path,
         cells: Cells,
@@ -158,8 +158,8 @@ impl PolyDataSeries {
         Ok(series)
     }
 
-    /// Appends one step: time [s], points [m], triangles (none for [`Cells::Vertices`]) and the values of each field in
-    /// the order of creation.
+    /// Appends one step: time [s], points [m], triangles (none for [`Cells::Vertices`]) and the values of each field,
+    /// in the order in which the fields were created.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -182,7 +182,7 @@ impl PolyDataSeries {
         self.write_step(time_s, points_m, triangles, values).map_err(OutputError::hdf5(&self.path))
     }
 
-    /// Number of steps in the file.
+    /// Returns the number of steps in the file.
     pub fn steps(&self) -> usize {
         self.steps
     }
@@ -232,7 +232,8 @@ impl PolyDataSeries {
         self.file.flush()
     }
 
-    /// Writes the new cells of this step; returns the start of its connectivity.
+    /// Writes the cells of this step that the file does not have yet; returns the row where the connectivity of this
+    /// step starts.
     fn write_cells(&mut self, root: &Group, points: usize, triangles: &[[u32; 3]], count: usize) -> Hdf5Result<usize> {
         let group = root.group(TOPOLOGIES[self.cells.topology()])?;
         let offsets = group.dataset("Offsets")?;
@@ -258,7 +259,7 @@ impl PolyDataSeries {
         }
     }
 
-    /// Cuts every dataset after the last kept step.
+    /// Cuts every dataset after the last of the `self.steps` kept steps.
     fn truncate(&mut self) -> Hdf5Result<()> {
         let root = self.file.group("VTKHDF")?;
         let steps = root.group("Steps")?;
@@ -296,7 +297,7 @@ impl PolyDataSeries {
         self.file.flush()
     }
 
-    /// Reads the triangles of the last kept step and cuts the connectivity after them.
+    /// Reads the triangles of the last kept step, and cuts the dataset `Connectivity` after these triangles.
     fn recall_last_triangles(&mut self, root: &Group, steps: &Group) -> Hdf5Result<()> {
         let group = root.group(TOPOLOGIES[Cells::Triangles.topology()])?;
         let connectivity = group.dataset("Connectivity")?;

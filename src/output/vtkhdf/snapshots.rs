@@ -1,4 +1,4 @@
-//! Reading of the water particles of a run, moment by moment.
+//! Reading of the water particles of a run at each recorded time.
 
 use std::path::{Path, PathBuf};
 
@@ -7,19 +7,19 @@ use hdf5_metno::File;
 use super::super::OutputError;
 use super::layout::{Hdf5Result, unlocked};
 
-/// A file of particles with velocities, as written by [`super::PolyDataSeries`].
+/// Reader of a file of particles with velocities that a [`super::PolyDataSeries`] wrote.
 #[derive(Debug)]
 pub struct WaterSnapshots {
     path: PathBuf,
     file: File,
     times_s: Vec<f64>,
-    /// Number of particles of each moment, and the start of its points and velocities.
+    /// Number of particles at each recorded time, and the first rows of their points and velocities.
     counts: Vec<usize>,
     point_starts: Vec<usize>,
     velocity_starts: Vec<usize>,
 }
 
-/// The particles at one moment.
+/// The particles at one recorded time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaterSnapshot {
     /// Position of each particle [m].
@@ -29,7 +29,7 @@ pub struct WaterSnapshot {
 }
 
 impl WaterSnapshots {
-    /// Opens the file, which may still grow. `None` if it has no velocities.
+    /// Opens the file, to which a run may still write. Returns `None` if the file has no velocities.
     ///
     /// # Errors
     /// If the file cannot be read.
@@ -59,26 +59,26 @@ impl WaterSnapshots {
         }))
     }
 
-    /// Time of each moment [s].
+    /// Returns the recorded times [s].
     pub fn times_s(&self) -> &[f64] {
         &self.times_s
     }
 
-    /// Index of the moment nearest to a time [s]; `None` in a file without moments.
+    /// Returns the index of the recorded time nearest to `time_s` [s]; `None` if the file has no recorded times.
     pub fn nearest(&self, time_s: f64) -> Option<usize> {
         let distance = |step: &usize| (self.times_s[*step] - time_s).abs();
         (0..self.times_s.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Reads one moment.
+    /// Reads the particles at the recorded time with the index `step`.
     ///
     /// # Errors
     /// If the file cannot be read.
     ///
     /// # Panics
-    /// If the file has fewer moments.
+    /// If `step` is not less than the number of recorded times.
     pub fn read(&self, step: usize) -> Result<WaterSnapshot, OutputError> {
-        assert!(step < self.times_s.len(), "{}: no moment {step}", self.path.display());
+        assert!(step < self.times_s.len(), "{}: no recorded time {step}", self.path.display());
         let rows = |name: &str, start: usize| -> Hdf5Result<Vec<[f32; 3]>> {
             let dataset = self.file.dataset(&format!("VTKHDF/{name}"))?;
             let rows = dataset.read_slice_2d::<f32, _>((start..start + self.counts[step], ..))?;

@@ -23,7 +23,7 @@ fn the_number_of_particles_may_change_from_step_to_step() {
     for (step, count) in [5, 3, 7, 0, 2].into_iter().enumerate() {
         append_particles(&mut series, step, count);
     }
-    // A killed run would leave this copy, made while the series is still open.
+    // The copy is made while the series is still open, so it is the file that a killed run would leave.
     let left_behind = folder.path().join("killed.vtkhdf");
     std::fs::copy(&path, &left_behind).unwrap();
     let file = File::open(&left_behind).unwrap();
@@ -44,7 +44,7 @@ fn the_number_of_particles_may_change_from_step_to_step() {
 }
 
 #[test]
-fn every_moment_reads_back() {
+fn every_recorded_time_reads_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fluid.vtkhdf");
     let mut series = PolyDataSeries::create(&path, Cells::Vertices, &FLUID).unwrap();
@@ -87,7 +87,7 @@ fn a_resumed_series_continues_after_the_checkpoint() {
     assert_eq!(pressure[8..], [200.0, 201.0, 202.0, 203.0, 204.0, 205.0]);
     drop(file);
     let error = PolyDataSeries::open_and_truncate(&path, Cells::Vertices, &FLUID, 9).unwrap_err();
-    assert!(error.to_string().contains("holds 3 steps, fewer than the 9"), "{error}");
+    assert!(error.to_string().contains("has 3 steps, fewer than the 9"), "{error}");
 }
 
 #[test]

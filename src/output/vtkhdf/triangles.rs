@@ -1,4 +1,4 @@
-//! Reading of triangles, moment by moment: surfaces, cracks, section planes.
+//! Reading of triangles at each recorded time: surfaces, cracks, section planes.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use hdf5_metno::{File, H5Type};
 use super::super::OutputError;
 use super::layout::{Hdf5Result, unlocked};
 
-/// A file of triangles that share no points, as written by [`super::PolyDataSeries`].
+/// Reader of a file of triangles that a [`super::PolyDataSeries`] wrote. The triangles share no points.
 #[derive(Debug)]
 pub struct TriangleMoments {
     path: PathBuf,
@@ -18,7 +18,7 @@ pub struct TriangleMoments {
 }
 
 impl TriangleMoments {
-    /// Opens the file, which may still grow.
+    /// Opens the file, to which a run may still write.
     ///
     /// # Errors
     /// If the file cannot be read.
@@ -34,18 +34,18 @@ impl TriangleMoments {
         read().map_err(OutputError::hdf5(path))
     }
 
-    /// Time of each moment [s].
+    /// Returns the recorded times [s].
     pub fn times_s(&self) -> &[f64] {
         &self.times_s
     }
 
-    /// Reads the corners of the triangles of a moment [m].
+    /// Reads the corners of all triangles at the recorded time with the index `moment` [m].
     ///
     /// # Errors
     /// If the file cannot be read.
     ///
     /// # Panics
-    /// If the file has fewer moments.
+    /// If `moment` is not less than the number of recorded times.
     pub fn triangles(&self, moment: usize) -> Result<Vec<[DVec3; 3]>, OutputError> {
         let read = || -> Hdf5Result<Vec<[DVec3; 3]>> {
             let start = offsets(&self.file, "Steps/PointOffsets")?[moment];
@@ -58,13 +58,13 @@ impl TriangleMoments {
         read().map_err(OutputError::hdf5(&self.path))
     }
 
-    /// Reads a field with one number per point, at the first corner of each triangle.
+    /// Reads a field with one number per point; returns its value at the first corner of each triangle.
     ///
     /// # Errors
-    /// If the file cannot be read, or has no such field.
+    /// If the file cannot be read, or does not have the field.
     ///
     /// # Panics
-    /// If the file has fewer moments.
+    /// If `moment` is not less than the number of recorded times.
     pub fn values<T: H5Type + Copy>(&self, moment: usize, field: &str) -> Result<Vec<T>, OutputError> {
         let read = || -> Hdf5Result<Vec<T>> {
             let start = offsets(&self.file, &format!("Steps/PointDataOffsets/{field}"))?[moment];
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn triangles_read_back_moment_by_moment() {
+    fn triangles_read_back_at_every_recorded_time() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("cracks.vtkhdf");
         let mut series = PolyDataSeries::create(&path, Cells::Triangles, &[("mode", FieldKind::Integer)]).unwrap();

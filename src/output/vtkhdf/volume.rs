@@ -1,8 +1,8 @@
 //! Tetrahedra for ParaView: VTKHDF temporal UnstructuredGrid, one file per series.
 //!
 //! As in [`super::PolyDataSeries`], every step is one part. Connectivity is written again only after nodes have
-//! separated. `Offsets` and `Types` never change but are written in every step, because VTK expects the offsets of a
-//! part after those of the previous parts.
+//! separated. `Offsets` and `Types` are the same in every step. They are still written in every step, because VTK
+//! expects the offsets of each part after the offsets of the previous parts.
 
 use std::path::{Path, PathBuf};
 
@@ -17,22 +17,22 @@ use super::{FieldKind, FieldValues};
 
 /// VTK cell type of a linear tetrahedron.
 const VTK_TETRA: u8 = 10;
-/// Point field of every file.
+/// Name of the point field that every file has.
 const VELOCITY: &str = "velocity";
 
-/// A VTKHDF file of tetrahedra that grows step by step.
+/// A VTKHDF file of tetrahedra that grows step by step; a step is one recorded time.
 #[derive(Debug)]
 pub struct TetSeries {
     path: PathBuf,
     file: File,
     fields: Vec<(String, FieldKind)>,
     steps: usize,
-    /// Connectivity of the last step and where it starts in the file.
+    /// Tetrahedra of the last step, and the row in `Connectivity` where they start.
     last_tets: Vec<[u32; 4]>,
     last_connectivity_start: usize,
 }
 
-/// Data of one moment in a file of tetrahedra.
+/// Data of one recorded time in a file of tetrahedra.
 #[derive(Debug, Clone, Copy)]
 pub struct TetMoment<'a> {
     /// Time [s].
@@ -43,12 +43,12 @@ pub struct TetMoment<'a> {
     pub velocity_m_s: &'a [[f32; 3]],
     /// Nodes of each tetrahedron; the number of tetrahedra is the same in every step.
     pub tets: &'a [[u32; 4]],
-    /// Values of each field of the tetrahedra, in the order of creation.
+    /// Values of each field of the tetrahedra, in the order in which the fields were created.
     pub values: &'a [FieldValues<'a>],
 }
 
 impl TetSeries {
-    /// Creates a file with the given fields of the tetrahedra. An old file is overwritten.
+    /// Creates a file with the given fields of the tetrahedra. Overwrites an existing file.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -66,7 +66,7 @@ impl TetSeries {
     /// Opens the file of an interrupted run and keeps only the first `steps` steps.
     ///
     /// # Errors
-    /// If the file cannot be opened, lacks a field, or has fewer steps.
+    /// If the file cannot be opened, lacks a field, or has fewer than `steps` steps.
     pub fn open_and_truncate(path: &Path, fields: &[(&str, FieldKind)], steps: usize) -> Result<Self, OutputError> {
         let file = open_with_steps(path, "CellData", fields, steps)?;
         let mut series = Self::new(path, file, fields, steps);
@@ -79,12 +79,12 @@ impl TetSeries {
         Self { path: path.to_owned(), file, fields, steps, last_tets: Vec::new(), last_connectivity_start: 0 }
     }
 
-    /// Number of steps in the file.
+    /// Returns the number of steps in the file.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// Appends one step.
+    /// Appends one step with the data of `moment`.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -92,8 +92,8 @@ impl TetSeries {
     /// # Panics
     /// If the fields do not match those of the file, or a field does not have one value per tetrahedron.
     pub fn append(&mut self, moment: &TetMoment<'_>) -> Result<(), OutputError> {
-        assert_eq!(moment.points_m.len(), moment.velocity_m_s.len(), "one velocity a node");
-        assert_eq!(moment.values.len(), self.fields.len(), "{}: one value list a field", self.path.display());
+        assert_eq!(moment.points_m.len(), moment.velocity_m_s.len(), "one velocity per node");
+        assert_eq!(moment.values.len(), self.fields.len(), "{}: one list of values per field", self.path.display());
         for ((name, kind), value) in self.fields.iter().zip(moment.values) {
             assert_eq!(*kind, value.kind(), "kind of field {name}");
             assert_eq!(moment.tets.len(), value.len(), "length of field {name}");
@@ -133,7 +133,7 @@ impl TetSeries {
         self.file.flush()
     }
 
-    /// Cuts every dataset after the last kept step.
+    /// Cuts every dataset after the last of the `self.steps` kept steps.
     fn truncate(&mut self) -> Hdf5Result<()> {
         let root = self.file.group("VTKHDF")?;
         let steps = root.group("Steps")?;
@@ -176,10 +176,10 @@ impl TetSeries {
     }
 }
 
-/// Datasets with one integer per step.
+/// Names of the datasets in `Steps` with one integer per step.
 const STARTS: [&str; 5] = ["PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"];
 
-/// Creates groups, attributes and empty datasets.
+/// Creates the groups, attributes and empty datasets of an UnstructuredGrid file.
 fn write_skeleton(file: &File, fields: &[(&str, FieldKind)]) -> Hdf5Result<()> {
     let [root, steps] = new_root::<16>(file, "UnstructuredGrid")?;
     steps.new_attr::<i64>().create("NSteps")?.write_scalar(&0_i64)?;
@@ -253,6 +253,6 @@ mod tests {
         assert_eq!(list(&file, "Steps/ConnectivityIdOffsets"), [0, 0, 8]);
         drop(file);
         let error = TetSeries::open_and_truncate(&path, &FIELDS, 9).unwrap_err();
-        assert!(error.to_string().contains("holds 3 steps, fewer than the 9"), "{error}");
+        assert!(error.to_string().contains("has 3 steps, fewer than the 9"), "{error}");
     }
 }

@@ -1,14 +1,14 @@
-//! Lists the broken units of a run.
+//! Describes in words which units of a run broke.
 
 use super::super::plot::short;
 use crate::simulation::breakage::results::{Breakage, UnitBreakage};
 
-/// Broken, unbroken and other units of a run by their numbers.
+/// Lists the numbers of the broken and unbroken units of a run, and the number of units that were not analysed.
 pub fn in_words(breakage: &Breakage) -> String {
-    let those = |broken: Option<bool>| -> Vec<&UnitBreakage> {
+    let units_with = |broken: Option<bool>| -> Vec<&UnitBreakage> {
         breakage.units.iter().filter(|unit| unit.broken == broken).collect()
     };
-    let told = |what: &str, units: Vec<&UnitBreakage>| match units.as_slice() {
+    let listed = |what: &str, units: Vec<&UnitBreakage>| match units.as_slice() {
         [] => format!("no unit {what}"),
         [unit] => format!("unit {} {what}", unit.unit),
         units => {
@@ -16,15 +16,15 @@ pub fn in_words(breakage: &Breakage) -> String {
             format!("units {} {what}", numbers.join(", "))
         }
     };
-    let mut words =
-        format!("in a prototype {} times as large, {}", short(breakage.scale, 3), told("broke", those(Some(true))));
-    let unbroken = those(Some(false));
+    let broken = listed("broke", units_with(Some(true)));
+    let mut words = format!("in a prototype {} times as large, {broken}", short(breakage.scale, 3));
+    let unbroken = units_with(Some(false));
     if !unbroken.is_empty() {
-        words += &format!("; {}", told("did not break", unbroken));
+        words += &format!("; {}", listed("did not break", unbroken));
     }
-    let others = those(None).len();
+    let others = units_with(None).len();
     if others > 0 {
-        words += &format!("; {others} of {} not analysed, counted as not broken", breakage.units.len());
+        words += &format!("; {others} of {} units not re-run, counted as not broken", breakage.units.len());
     }
     words + "."
 }
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_are_told_by_their_numbers() {
+    fn broken_and_unbroken_units_are_listed_by_number() {
         let unit = |(index, broken): (usize, &Option<bool>)| UnitBreakage {
             unit: index + 1,
             displacement_m: 0.1,
@@ -47,15 +47,15 @@ mod tests {
             heaviest_share: None,
             broken: *broken,
         };
-        let told = |broken: &[Option<bool>]| {
+        let words = |broken: &[Option<bool>]| {
             let units = broken.iter().enumerate().map(unit).collect();
             in_words(&Breakage { scale: 50.0, damaged_ratio: 0.0, broken_ratio: 0.0, units, impacts: Vec::new() })
         };
         assert_eq!(
-            told(&[Some(true), None, Some(false), Some(true)]),
-            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 not analysed, \
+            words(&[Some(true), None, Some(false), Some(true)]),
+            "in a prototype 50 times as large, units 1, 4 broke; unit 3 did not break; 1 of 4 units not re-run, \
              counted as not broken."
         );
-        assert_eq!(told(&[Some(false)]), "in a prototype 50 times as large, no unit broke; unit 1 did not break.");
+        assert_eq!(words(&[Some(false)]), "in a prototype 50 times as large, no unit broke; unit 1 did not break.");
     }
 }

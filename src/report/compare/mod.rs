@@ -11,46 +11,46 @@ use crate::case::{Reference, ReferenceWave, ReferenceWaveKind, Series, mean};
 use crate::output::{CsvSeries, OutputError, Summary, write_atomically};
 use crate::simulation::breakage::results::Breakage;
 
-/// Runs compared with measurements; printed as a table for the terminal.
+/// Comparison of runs with measurements. `Display` formats the comparison as a table for the terminal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// What was measured, and where it was published.
+    /// Title and source of the measurements.
     pub title: String,
     /// Remarks on the measurements.
     pub notes: Vec<String>,
-    /// The waves of the runs, lowest first.
+    /// The waves of the runs, in the order of the reference.
     pub waves: Vec<WaveComparison>,
 }
 
-/// The runs of one wave and its measurements.
+/// The runs with one wave, and the measurements of this wave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaveComparison {
-    /// What was measured and published.
+    /// Measurements and published simulations of the wave.
     pub reference: ReferenceWave,
-    /// The runs.
+    /// The runs with this wave.
     pub runs: Vec<RunResult>,
 }
 
-/// The results of a run that are compared.
+/// The results of a run that are compared with the measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunResult {
     /// Name of the run folder.
     pub name: String,
-    /// The run's summary.
+    /// Summary of the run.
     pub summary: Summary,
-    /// Mean displacement [m].
+    /// Mean displacement of the units of the run [m].
     pub mean_m: f64,
     /// Deviation of the mean displacement from the measured mean of all units, (run - measured) / measured [%].
     pub deviation_percent: f64,
-    /// Deviation from the measured mean of the inner units [%].
+    /// Deviation of the mean displacement from the measured mean of the inner units [%].
     pub inner_deviation_percent: f64,
-    /// Share of the units that moved further than the reference's damage distance [-].
+    /// Share of the units that moved further than the damage distance of the reference [-].
     pub damage_ratio: f64,
-    /// Results of the breakage analysis, if the run has one.
+    /// Results of the breakage analysis; `None` if the run has no breakage analysis.
     pub breakage: Option<Breakage>,
 }
 
-/// Compares runs with measurements; wave kind, height and period of a run select the wave of the reference.
+/// Compares runs with measurements. Each run is compared with the reference wave of the same kind, height and period.
 ///
 /// # Errors
 /// If a summary cannot be read, the reference lacks the wave of a run, or a run has no units.
@@ -71,7 +71,7 @@ pub fn compare<P: AsRef<Path>>(run_dirs: &[P], reference: &Reference) -> Result<
     Ok(Comparison { title, notes: reference.notes.clone(), waves })
 }
 
-/// The reference's wave of a run.
+/// Returns the reference wave with the kind, height and period of the wave of the run.
 fn reference_wave<'a>(
     dir: &Path,
     summary: &Summary,
@@ -108,13 +108,14 @@ impl RunResult {
         }
     }
 
-    /// Whether the run has fewer units than the experiment: a slice that represents the inner units.
+    /// Returns true if the run has fewer units than the experiment. Such a run is a slice that represents the inner
+    /// units.
     pub fn is_slice_of(&self, reference: &ReferenceWave) -> bool {
         self.summary.units.len() < reference.units()
     }
 }
 
-/// A unit of the experiment or of a slice, by its index.
+/// Index of a unit of the experiment, or of a unit of a slice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum UnitIndex {
     Unit(usize),
@@ -131,7 +132,7 @@ impl fmt::Display for UnitIndex {
 }
 
 impl WaveComparison {
-    /// The experiment's units, then those of the slices, which are not units of the experiment.
+    /// Returns the units of the experiment, then the units of the slices, which are not units of the experiment.
     fn units(&self) -> Vec<UnitIndex> {
         let most = |slices: bool| {
             let runs = self.runs.iter().filter(|run| run.is_slice_of(&self.reference) == slices);
@@ -141,7 +142,7 @@ impl WaveComparison {
         (0..units).map(UnitIndex::Unit).chain((0..most(true)).map(UnitIndex::Slice)).collect()
     }
 
-    /// Displacement in each series of the reference [m].
+    /// Displacement of a unit in each series of the reference [m]; `None` for a unit of a slice.
     fn reference_m(&self, unit: UnitIndex) -> impl Iterator<Item = Option<f64>> {
         self.reference.series.iter().map(move |series| match unit {
             UnitIndex::Unit(index) => series.displacement_m.get(index).copied(),
@@ -149,7 +150,7 @@ impl WaveComparison {
         })
     }
 
-    /// The wave in words: `Solitary wave, H = 0.045 m`.
+    /// Describes the wave: `Solitary wave, H = 0.045 m`.
     fn title(&self) -> String {
         let ReferenceWave { kind, height_m, period_s, .. } = &self.reference;
         let kind = match kind {
@@ -161,12 +162,12 @@ impl WaveComparison {
         format!("{kind}, H = {height_m} m{period}")
     }
 
-    /// Deviation of a published simulation from the measured mean [%]; none for a measurement.
+    /// Deviation of a published simulation from the measured mean displacement [%]; `None` for a measurement.
     fn published_deviation_percent(&self, series: &Series) -> Option<f64> {
         (!series.is_measured()).then(|| 100.0 * (series.mean_m() / self.reference.measured_mean_m() - 1.0))
     }
 
-    /// Displacement in a run [m].
+    /// Displacement of a unit in a run [m]; `None` if the run does not have the unit.
     fn run_m(&self, run: &RunResult, unit: UnitIndex) -> Option<f64> {
         let index = match (unit, run.is_slice_of(&self.reference)) {
             (UnitIndex::Unit(index), false) | (UnitIndex::Slice(index), true) => index,
@@ -175,21 +176,21 @@ impl WaveComparison {
         run.summary.units.get(index).map(|unit| unit.displacement_m)
     }
 
-    /// Whether a run has a breakage analysis.
+    /// Returns true if at least one run has a breakage analysis.
     fn has_breakage(&self) -> bool {
         self.runs.iter().any(|run| run.breakage.is_some())
     }
 
-    /// Remarks on the runs: slices, other numbers of units, breakage, assumptions.
+    /// Returns remarks on each run: number of units if different from the experiment, breakage, assumptions.
     fn remarks(&self) -> Vec<String> {
         let mut remarks = Vec::new();
         for run in &self.runs {
             let (units, all) = (run.summary.units.len(), self.reference.units());
             if run.is_slice_of(&self.reference) {
                 remarks.push(format!(
-                    "{}: {units} of {all} units. The slice represents the inner units of the row; it has no side walls, so \
-                     its units are not the first {units} units of the experiment. Its mean deviates from the measured \
-                     mean of the inner units ({} to {}) by {} %.",
+                    "{}: {units} of {all} units. The run is a slice that represents the inner units of the row; \
+                     its units are not the first {units} units of the experiment. Its mean displacement deviates \
+                     from the measured mean of the inner units ({} to {}) by {} %.",
                     run.name,
                     self.reference.inner.start + 1,
                     self.reference.inner.end,
@@ -197,7 +198,7 @@ impl WaveComparison {
                 ));
             } else if units > all {
                 remarks.push(format!(
-                    "{}: {units} units, but the experiment has {all}; the mean includes all units of the run.",
+                    "{}: the run has {units} units, the experiment has {all}; the mean includes all units of the run.",
                     run.name
                 ));
             }
@@ -213,7 +214,7 @@ impl Comparison {
     /// Writes `compare.html` and `compare.csv` into a folder; returns their paths.
     ///
     /// # Errors
-    /// If they cannot be written.
+    /// If a file cannot be written.
     pub fn write(&self, dir: &Path) -> Result<[PathBuf; 2], OutputError> {
         let (html, csv) = (dir.join("compare.html"), dir.join("compare.csv"));
         write_atomically(&html, page::html(self).as_bytes())?;
@@ -221,8 +222,8 @@ impl Comparison {
         Ok([html, csv])
     }
 
-    /// One row per wave and unit. Units of a slice have rows of their own, numbered from 1, with `slice` = 1; a series
-    /// without such a unit leaves its field empty.
+    /// Writes one row per wave and unit. Units of a slice have separate rows with `slice` = 1, and their numbers start
+    /// at 1. A field is empty if the series or run does not have the unit.
     fn write_csv(&self, path: &Path) -> Result<(), OutputError> {
         let has_periods = self.waves.iter().any(|wave| wave.reference.period_s.is_some());
         let mut columns = vec!["wave_height_m".to_owned()];
@@ -278,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn published_run_deviates_as_the_paper_says() {
+    fn published_simulation_deviates_by_the_published_percentage() {
         let folder = tempfile::tempdir().unwrap();
         let fudo = fudo();
         let sph1 = run(folder.path(), "sph1", 0.045, &fudo.waves[1].series[3].displacement_m);
@@ -290,7 +291,7 @@ mod tests {
         let comparison = compare(&[&sph1, &slice, &low], &fudo).unwrap();
         assert_eq!(comparison.waves.iter().map(|w| w.runs.len()).collect::<Vec<_>>(), [1, 2]);
         let [full, slice] = &comparison.waves[1].runs[..] else { panic!("two runs") };
-        // Table 6 gives 2.0 % at dp = 0.005 m; the appendix has three decimals.
+        // Table 6 of the paper gives 2.0 % for dp = 0.005 m. The displacements in its appendix have three decimals.
         assert!((full.deviation_percent + 2.0).abs() < 0.1, "{}", full.deviation_percent);
         assert_eq!((full.damage_ratio, slice.damage_ratio), (1.0, 0.5));
         let text = comparison.to_string();
@@ -313,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn other_wave_is_refused_with_the_allowed_waves() {
+    fn a_wave_missing_in_the_reference_is_refused_and_the_available_waves_are_listed() {
         let folder = tempfile::tempdir().unwrap();
         let fudo = fudo();
         let other = run(folder.path(), "other", 0.05, &[0.1]);

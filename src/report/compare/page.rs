@@ -1,14 +1,14 @@
-//! The comparison as a page.
+//! The comparison with measurements as an HTML page.
 
 use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
 use super::{Comparison, WaveComparison};
 use crate::{case::Series, report::page::page};
 
-/// The whole page.
+/// Returns the complete HTML page of a comparison.
 pub fn html(comparison: &Comparison) -> String {
     let title = "Runs compared with measurements";
     let mut body = format!("<h1>{title}</h1>\n<p class=\"lead\">{}</p>\n", escape(&comparison.title));
-    body += "<p>Displacement is the horizontal distance seen from above.</p>\n";
+    body += "<p>Displacement is the horizontal distance between initial and final position of a unit.</p>\n";
     comparison.waves.iter().for_each(|wave| body += &section(wave));
     body += &list(&comparison.notes);
     page(title, &body)
@@ -19,25 +19,25 @@ fn section(wave: &WaveComparison) -> String {
     html += &format!("<div class=\"scroll\">{}</div>\n", means(wave));
     html += &format!("<figure>{}</figure>\n", units_chart(wave));
     html += &format!(
-        "<figure>{}<figcaption>Mean displacement against the particle spacing; the measured mean as a dashed line.\
+        "<figure>{}<figcaption>Mean displacement against the particle spacing. Dashed line: measured mean.\
          </figcaption></figure>\n",
         resolution_chart(wave)
     );
     html + &list(&wave.remarks()) + "</section>\n"
 }
 
-/// A list of sentences; nothing if there are none.
+/// Returns the sentences as an HTML list, or an empty string without sentences.
 fn list(sentences: &[String]) -> String {
     let items: String = sentences.iter().map(|sentence| format!("<li>{}</li>\n", escape(sentence))).collect();
     if items.is_empty() { items } else { format!("<ul>\n{items}</ul>\n") }
 }
 
-/// Mean, damage ratio and deviation of every series.
+/// Table of mean displacement, damage ratio and deviation of every series and run.
 fn means(wave: &WaveComparison) -> String {
     let reference = &wave.reference;
     let deviation = |percent: f64| format!("{percent:+.1}").replace('-', "\u{2212}");
     let spacing = |dp_m: f64| short(1000.0 * dp_m, 2);
-    // References have no breakage: model units do not break.
+    // The measurements have no breakage, because the units of a physical model do not break.
     let has_broken = wave.has_breakage();
     let row = |name: &str, dp: String, units: usize, mean: f64, damage: f64, broken: Option<f64>, deviation: String| {
         let name = escape(name);
@@ -73,7 +73,7 @@ fn means(wave: &WaveComparison) -> String {
     )
 }
 
-/// Displacement of each unit, measured, published and computed.
+/// Chart of the displacement of each unit: measured, published and computed.
 fn units_chart(wave: &WaveComparison) -> String {
     let units = wave.units();
     let reference = |series: &Series| Bars {
@@ -103,7 +103,7 @@ fn units_chart(wave: &WaveComparison) -> String {
     .svg()
 }
 
-/// Mean displacement against the particle spacing.
+/// Chart of the mean displacement against the particle spacing.
 fn resolution_chart(wave: &WaveComparison) -> String {
     let measured = wave.reference.measured_mean_m();
     let point = |dp_m: f64, percent: f64| [1000.0 * dp_m, measured * (1.0 + 0.01 * percent)];
@@ -129,7 +129,7 @@ fn resolution_chart(wave: &WaveComparison) -> String {
     .svg()
 }
 
-/// Colours of the runs: those that published series do not use.
+/// Returns the colour of a run; published series use other colours.
 fn run_colour(index: usize) -> usize {
     [1, 2, 3, 4][index % 4]
 }

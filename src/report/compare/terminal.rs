@@ -1,18 +1,18 @@
-//! The comparison as text for a terminal.
+//! The comparison with measurements as text for the terminal.
 
 use std::fmt;
 
 use super::{Comparison, RunResult, WaveComparison};
 use crate::case::Series;
 
-/// Width of a column.
+/// Minimum width of a column with numbers [characters].
 const COLUMN: usize = 9;
-/// Width of the first column.
+/// Width of the first column [characters].
 const LABEL: usize = 14;
 
 impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}: displacement seen from above [m]", self.title)?;
+        writeln!(f, "{}: horizontal displacement [m]", self.title)?;
         self.waves.iter().try_for_each(|wave| write_wave(f, wave))?;
         self.notes.iter().try_for_each(|note| writeln!(f, "{note}"))
     }
@@ -46,7 +46,7 @@ fn write_wave(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result 
     reference.series.iter().try_for_each(|series| write!(f, "{:>column$.0}", damaged(series)))?;
     wave.runs.iter().try_for_each(|run| write!(f, "{:>width$.0}", 100.0 * run.damage_ratio))?;
     if wave.has_breakage() {
-        // References have no breakage: model units do not break.
+        // The measurements have no breakage, because the units of a physical model do not break.
         write!(f, "\n{:LABEL$}{:>2$}", "broken [%]", "", reference.series.len() * column)?;
         let ratio = |run: &RunResult| run.breakage.as_ref().map(|breakage| 100.0 * breakage.broken_ratio);
         wave.runs.iter().try_for_each(|run| match ratio(run) {
@@ -66,7 +66,7 @@ fn write_wave(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result 
     wave.remarks().iter().try_for_each(|remark| writeln!(f, "{remark}"))
 }
 
-/// Deviation of the mean at each resolution: published and of the runs.
+/// Writes the deviation of the mean displacement for each particle spacing: published simulations, then the runs.
 fn write_resolutions(f: &mut fmt::Formatter<'_>, wave: &WaveComparison) -> fmt::Result {
     writeln!(f, "Deviation of the mean displacement from the measured mean by particle spacing:")?;
     for resolution in &wave.reference.convergence {

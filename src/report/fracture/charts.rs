@@ -1,4 +1,4 @@
-//! Charts of energy balance and crack area over time.
+//! Charts of the energy balance and the crack area over time.
 
 use super::folder::FractureFolder;
 use super::moments::main_cracks;
@@ -9,7 +9,7 @@ const WIDE: [f64; 2] = [920.0, 380.0];
 /// Size of a low full-width chart [px].
 const LOW: [f64; 2] = [920.0, 220.0];
 
-/// Columns of the energy balance: name in the legend, colour, dashed.
+/// Terms of the energy balance: column of `energy.csv`, name in the legend, colour, dashed line.
 const TERMS: [(&str, &str, usize, bool); 10] = [
     ("kinetic_j", "kinetic", 0, false),
     ("strain_j", "elastic strain", 2, false),
@@ -23,12 +23,12 @@ const TERMS: [(&str, &str, usize, bool); 10] = [
     ("freed_j", "released by tied joints", 1, true),
 ];
 
-/// All terms of the energy balance; terms that are always zero are left out.
+/// Chart of all terms of the energy balance that are not always zero.
 pub fn energy(run: &FractureFolder) -> String {
     chart(run, "Energy balance", "energy [J]", terms(run, |_| true), WIDE)
 }
 
-/// Dissipated energy and the energy released by tied joints, on their own scale.
+/// Chart of the dissipated energy and of the energy released by tied joints, with a separate vertical scale.
 pub fn losses(run: &FractureFolder) -> String {
     let is_loss = |column: &str| ["viscous_j", "fracture_j", "friction_j", "freed_j"].contains(&column);
     chart(run, "Dissipated energy", "energy [J]", terms(run, is_loss), LOW)
@@ -43,13 +43,13 @@ fn terms(run: &FractureFolder, is_shown: impl Fn(&str) -> bool) -> Vec<Line> {
     lines.collect()
 }
 
-/// Residual of the energy balance.
+/// Chart of the residual of the energy balance.
 pub fn residual(run: &FractureFolder) -> String {
     let lines = column_line(run, "residual_j").map(|line| Line { colour: 5, ..line });
     chart(run, "Residual of the energy balance", "residual [J]", lines.into_iter().collect(), LOW)
 }
 
-/// Crack area, with dots at the start of the main cracks.
+/// Chart of the crack area, with a dot at the start of each main crack.
 pub fn crack_area(run: &FractureFolder) -> String {
     let Some(mut area) = column_line(run, "crack_area_m2") else { return String::new() };
     area.points.iter_mut().for_each(|point| point[1] *= 1e4);
@@ -61,7 +61,7 @@ pub fn crack_area(run: &FractureFolder) -> String {
         [time, area_at(time)]
     });
     let dots = Line { name: String::new(), points: begins.collect(), colour: 1, dots: true, ..Line::default() };
-    // One line per dot, so that no line connects the dots.
+    // Each dot is a separate `Line`, so that no line connects the dots.
     let dots = dots.points.iter().map(|point| Line { points: vec![*point], ..dots.clone() });
     let mut lines: Vec<Line> = vec![area.clone()];
     lines.extend(dots);

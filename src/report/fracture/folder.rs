@@ -7,19 +7,19 @@ use crate::output::{OutputError, Table, TriangleMoments};
 use crate::report::plot::short;
 use crate::simulation::fracture::summary::{FractureSummary, InitiationSummary};
 
-/// The contents of a run folder. Data that the run did not write is `None`.
+/// The contents of a run folder. A field is `None` if the run did not write the file.
 pub struct FractureFolder {
-    /// The folder.
+    /// Path of the run folder.
     pub dir: PathBuf,
     /// The case with its mesh.
     pub case: FractureCase,
-    /// `summary.json`.
+    /// Content of `summary.json`.
     pub summary: FractureSummary,
-    /// Energy balance.
+    /// `energy.csv`: energy balance.
     pub energy: Option<Table>,
-    /// Failed faces.
+    /// `cracks.csv`: failed faces.
     pub cracks: Option<Table>,
-    /// Outer surfaces of the bodies, crack faces, section plane.
+    /// Triangles for the pictures: outer surfaces of the bodies, crack faces, section plane.
     pub pictures: Option<[TriangleMoments; 3]>,
 }
 
@@ -48,18 +48,18 @@ impl FractureFolder {
         })
     }
 
-    /// Returns whether any face failed by sliding.
+    /// Returns true if at least one face failed by sliding.
     pub fn has_slid_faces(&self) -> bool {
         self.cracks.as_ref().and_then(|table| table.get("mode")).is_some_and(|modes| modes.contains(&2.0))
     }
 
-    /// Returns whether the folder contains a file with this name.
+    /// Returns true if the folder contains a file with this name.
     pub fn has(&self, file: &str) -> bool {
         self.dir.join(file).exists()
     }
 
-    /// Indices of the bodies that the pictures show: bodies that can crack; if none can, unconstrained bodies; if there
-    /// are none, all bodies.
+    /// Indices of the bodies that the pictures show: all bodies that can crack. If no body can crack: all bodies
+    /// without constraints; if every body has constraints: all bodies.
     pub fn shown_bodies(&self) -> Vec<usize> {
         let setup = &self.case.setup;
         let is_constrained = |body: usize| {
@@ -75,12 +75,13 @@ impl FractureFolder {
         if free.is_empty() { all.collect() } else { free }
     }
 
-    /// Converts a time of the run to report time [ms]: since the impact, or since the start if no bodies touched.
+    /// Converts a time of the run [s] to report time [ms]: time since the impact, or since the start of the run if no
+    /// bodies touched.
     pub fn clock_ms(&self, time_s: f64) -> f64 {
         (time_s - self.summary.impact_s.unwrap_or(0.0)) * 1e3
     }
 
-    /// Describes a time of the run in words.
+    /// Describes a time of the run [s] as time after or before the impact, or after the start of the run.
     pub fn time_in_words(&self, time_s: f64) -> String {
         let clock = self.clock_ms(time_s);
         match (self.summary.impact_s, clock < 0.0) {
@@ -90,13 +91,13 @@ impl FractureFolder {
         }
     }
 
-    /// Name of the report time, for axes and tables.
+    /// Name of the time from [`Self::clock_ms`], for axes and tables.
     pub fn clock_name(&self) -> &'static str {
         if self.summary.impact_s.is_some() { "time since the impact" } else { "time since the start" }
     }
 }
 
-/// Describes the position at which a crack started.
+/// Describes the position where a crack started, by the distance from the nearest landmark or by coordinates.
 pub fn place_in_words(initiation: &InitiationSummary) -> String {
     match (&initiation.near, initiation.distance_m) {
         (Some(near), Some(0.0)) => format!("at the {}", without_article(near)),
@@ -108,7 +109,7 @@ pub fn place_in_words(initiation: &InitiationSummary) -> String {
     }
 }
 
-/// Returns a name without its article.
+/// Returns a name without a leading "the ".
 fn without_article(name: &str) -> &str {
     name.strip_prefix("the ").unwrap_or(name)
 }

@@ -1,9 +1,9 @@
-//! Report of a fracture run: text, tables, charts and pictures from the files of the run folder.
+//! Report of a fracture run: text, tables, charts and pictures, made from the files of the run folder.
 //!
 //! | file | content |
 //! | --- | --- |
 //! | `folder` | data read from the run folder |
-//! | `moments` | choice of the moments that are shown |
+//! | `moments` | choice of the recorded times that are shown |
 //! | `unit_picture` | transparent units with crack faces |
 //! | `stress_picture` | first principal stress in the section plane |
 //! | `pictures` | report section with both kinds of picture |
@@ -40,8 +40,8 @@ pub fn write_fracture_report(dir: &Path) -> Result<PathBuf, OutputError> {
     Ok(path)
 }
 
-/// Returns pictures of the impact and of the end of a fracture run, for a report about many impacts. `None` if the run
-/// wrote no surfaces.
+/// Returns pictures of a fracture run just after the impact and at the end, as HTML for the report about all impacts of
+/// a flume run. `None` if the fracture run wrote no surfaces.
 ///
 /// # Errors
 /// If case, mesh or summary are missing, or a file is invalid.

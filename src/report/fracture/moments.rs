@@ -1,20 +1,20 @@
-//! Choice of the moments that the report shows.
+//! Choice of the recorded times (moments) that the report shows.
 
 use crate::simulation::fracture::summary::InitiationSummary;
 
-/// Number of main cracks: the largest cracks, whose initiation is shown.
+/// Largest number of main cracks. These are the largest cracks; the report shows when and where they start.
 const MAIN_CRACKS: usize = 4;
-/// Minimum number of moments, if the run recorded so many.
+/// Minimum number of moments that are shown, if the run recorded enough.
 const LEAST: usize = 6;
 
-/// A moment that is shown.
+/// A recorded time that the report shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Moment {
-    /// Index of the moment in the files.
+    /// Index of the recorded time in the files.
     pub frame: usize,
-    /// Numbers (from 1) of the cracks that started since the previous moment.
+    /// Numbers (from 1) of the cracks that started after the previous moment that is shown.
     pub begun: Vec<usize>,
-    /// Why it is shown.
+    /// Why the report shows this moment.
     pub why: Why,
 }
 
@@ -23,15 +23,15 @@ pub struct Moment {
 pub enum Why {
     /// The first moment after the impact, or the start of the run.
     Impact,
-    /// A crack has just started.
+    /// A main crack has just started.
     Crack,
-    /// Halfway between two other moments.
+    /// The moment is halfway between two other shown moments.
     Between,
     /// The last moment.
     End,
 }
 
-/// Numbers of the main cracks (from 1), in order of time.
+/// Returns the numbers of the main cracks (from 1), in chronological order.
 pub fn main_cracks(initiations: &[InitiationSummary]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..initiations.len()).collect();
     order.sort_by(|a, b| initiations[*b].area_m2.total_cmp(&initiations[*a].area_m2));
@@ -40,13 +40,14 @@ pub fn main_cracks(initiations: &[InitiationSummary]) -> Vec<usize> {
     order.into_iter().map(|index| index + 1).collect()
 }
 
-/// Moments just after the impact, at the start of each main crack and at the end. If these are few, some are added.
+/// Chooses the moments just after the impact, at the start of each main crack and at the end. Adds intermediate moments
+/// until there are `LEAST` moments, if the run recorded enough.
 pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
     let mut shown = ends(times_s, impact_s);
     for crack in main_cracks(initiations) {
         shown.extend(first_after(times_s, initiations[crack - 1].t_s).map(|frame| (frame, Why::Crack)));
     }
-    // At the same moment, a crack goes before the end and is kept.
+    // If a crack starts at the last moment, the reason `Crack` is sorted first and replaces the reason `End`.
     shown.sort_by_key(|(frame, why)| (*frame, *why == Why::End));
     shown.dedup_by_key(|(frame, _)| *frame);
     while shown.len() < LEAST {
@@ -59,12 +60,12 @@ pub fn moments(times_s: &[f64], impact_s: Option<f64>, initiations: &[Initiation
     with_cracks(shown, times_s, initiations)
 }
 
-/// Only the moments just after the impact and at the end.
+/// Chooses only the moments just after the impact and at the end.
 pub fn impact_and_end(times_s: &[f64], impact_s: Option<f64>, initiations: &[InitiationSummary]) -> Vec<Moment> {
     with_cracks(ends(times_s, impact_s), times_s, initiations)
 }
 
-/// The first moment after the impact, and the last moment if it is a different one.
+/// Returns the first moment after the impact and the last moment, or only one if both are the same.
 fn ends(times_s: &[f64], impact_s: Option<f64>) -> Vec<(usize, Why)> {
     let impact = first_after(times_s, impact_s.unwrap_or(0.0)).map(|frame| (frame, Why::Impact));
     let end = times_s.len().checked_sub(1).map(|last| (last, Why::End));
@@ -73,12 +74,13 @@ fn ends(times_s: &[f64], impact_s: Option<f64>) -> Vec<(usize, Why)> {
     ends
 }
 
-/// The first moment at or after a time, or else the last moment; `None` without moments.
+/// Returns the index of the first recorded time at or after `time_s` [s], or the last index if there is none. `None`
+/// without recorded times.
 fn first_after(times_s: &[f64], time_s: f64) -> Option<usize> {
     times_s.iter().position(|t| *t >= time_s).or(times_s.len().checked_sub(1))
 }
 
-/// Adds to each moment the cracks that started since the previous moment.
+/// Adds to each chosen moment the cracks that started after the previous chosen moment.
 fn with_cracks(shown: Vec<(usize, Why)>, times_s: &[f64], initiations: &[InitiationSummary]) -> Vec<Moment> {
     let mut counted = 0;
     let begun_by = |frame: usize| initiations.iter().filter(|i| i.t_s <= times_s[frame]).count();

@@ -1,4 +1,4 @@
-//! Pictures of the run: units with cracks and stress in the section plane, at the same moments.
+//! Pictures of the run: units with cracks, and stress in the section plane, at the same recorded times.
 
 use super::folder::{FractureFolder, place_in_words};
 use super::moments::{Moment, Why, impact_and_end, main_cracks, moments};
@@ -8,17 +8,18 @@ use crate::output::OutputError;
 use crate::report::plot::{escape, short};
 use crate::simulation::fracture::summary::InitiationSummary;
 
-/// Returns the content of the section, or a note if the run has no pictures.
+/// Returns the content of the report section "Pictures", or a note if the run wrote no surfaces.
 ///
 /// # Errors
 /// If a file cannot be read.
 pub fn pictures(run: &FractureFolder) -> Result<String, OutputError> {
-    let words = "<p>No pictures: the run wrote no surfaces. Set <code>output.surfaces_interval_s</code> in the case to more \
-                 than 0.</p>\n";
+    let words = "<p>No pictures, because the run wrote no surfaces. Set <code>output.surfaces_interval_s</code> in \
+                 the case to a value above 0.</p>\n";
     Ok(figures(run, moments, "in the table above")?.unwrap_or_else(|| words.to_owned()))
 }
 
-/// Returns pictures of the impact and the end, for a report about many impacts; `None` if the run has no pictures.
+/// Returns pictures just after the impact and at the end of the run, for the report about all impacts of a flume run;
+/// `None` if the run wrote no surfaces.
 ///
 /// # Errors
 /// If a file cannot be read.
@@ -26,10 +27,11 @@ pub fn of_impact_and_end(run: &FractureFolder) -> Result<Option<String>, OutputE
     figures(run, impact_and_end, "in the report of the impact")
 }
 
-/// Chooses moments from the times of a run, the time of the impact and the crack initiations.
+/// Function that chooses the shown moments from the recorded times [s], the time of the impact [s] and the crack
+/// initiations.
 type Choice = fn(&[f64], Option<f64>, &[InitiationSummary]) -> Vec<Moment>;
 
-/// Legend and pictures of the chosen moments. `listed` says where the numbered cracks are listed.
+/// Returns legend and pictures of the chosen moments. `listed` says where the reader finds the list of numbered cracks.
 fn figures(run: &FractureFolder, choose: Choice, listed: &str) -> Result<Option<String>, OutputError> {
     let Some([surfaces, cracks, section]) = &run.pictures else { return Ok(None) };
     let complete = [surfaces, cracks, section].map(|file| file.times_s().len()).into_iter().min().unwrap_or(0);
@@ -58,7 +60,8 @@ fn picture(title: &str, uri: &str, over: &str) -> String {
     )
 }
 
-/// Numbers of the main cracks that have started, next to the positions where they started.
+/// Draws the numbers of the main cracks that have started by `time` [s], next to the positions where the cracks
+/// started.
 fn labels(run: &FractureFolder, units: &UnitScene, time: f64) -> String {
     let mut svg = String::new();
     for number in main_cracks(&run.summary.initiation) {
@@ -79,7 +82,7 @@ fn labels(run: &FractureFolder, units: &UnitScene, time: f64) -> String {
     svg
 }
 
-/// Describes the events since the previous moment.
+/// Describes the events between the previous moment and this moment.
 fn events(run: &FractureFolder, moment: &Moment) -> String {
     let main = main_cracks(&run.summary.initiation);
     let describe_crack = |number: &usize| {
@@ -120,10 +123,10 @@ fn legend(run: &FractureFolder, stress: &StressScene, listed: &str) -> String {
     let plane = &run.case.section;
     let [x, y, z] = plane.point.to_array().map(|c| short(c, 3));
     format!(
-        "<p>Left: transparent units, seen from the front, left and above; the numbers refer to the cracks {listed}. \
-         Right: \u{3c3}\u{2081} in the plane through ({x}, {y}, {z}) m {}, which moves with the bodies. Thin black lines are \
-         outlines, thick black lines are cracks. {} Displacements are drawn to scale, so crack openings are too small to \
-         see.</p>\n<div class=\"swatches\">{entries}</div>\n{}",
+        "<p>Left: transparent units, seen from the front, left and above. The numbers are the crack numbers {listed}. \
+         Right: \u{3c3}\u{2081} in the plane through ({x}, {y}, {z}) m {}, which moves with the bodies. Thin black \
+         lines are outlines, thick black lines are cracks. {} Displacements are drawn to scale, so that crack \
+         openings are too small to see.</p>\n<div class=\"swatches\">{entries}</div>\n{}",
         normal_in_words(plane.normal),
         stress.scale_in_words(),
         stress.legend()

@@ -1,4 +1,4 @@
-//! Text of the report, section by section.
+//! Text of the report of a fracture run, section by section.
 
 use super::folder::{FractureFolder, place_in_words};
 use super::{charts, pictures, tables};
@@ -8,7 +8,7 @@ use crate::{
     report::page::{clock, grouped, section},
 };
 
-/// Returns the content of the `<main>` element.
+/// Returns the content of the `<main>` element of the page.
 ///
 /// # Errors
 /// If a file of the run cannot be read.
@@ -20,8 +20,8 @@ pub fn body(run: &FractureFolder) -> Result<String, OutputError> {
     html += &energy(run);
     html += &fragments(run);
     html += &facts(run);
-    html += &list("Warnings", "These may make the results unreliable.", &run.summary.warnings);
-    let words = "No source gives these values. They were chosen, and the results depend on them.";
+    html += &list("Warnings", "The results may be unreliable for these reasons.", &run.summary.warnings);
+    let words = "No source gives these values. The author of the case chose them, and the results depend on them.";
     html += &list("Assumptions", words, &run.summary.assumptions);
     Ok(html + &files(run))
 }
@@ -40,8 +40,8 @@ fn header(run: &FractureFolder) -> String {
 
 fn joints_in_words(run: &FractureFolder) -> &'static str {
     match run.case.setup.bodies.iter().find_map(|body| body.cohesion) {
-        Some(cohesion) if cohesion.tied => "cracks along element faces, tied until they reach their strength",
-        Some(_) => "joints at all element faces from the start",
+        Some(cohesion) if cohesion.tied => "cracks along element faces, tied until the stress reaches the strength",
+        Some(_) => "cracks along element faces, with joints at all faces from the start",
         None => "no body can crack",
     }
 }
@@ -86,15 +86,15 @@ fn cracks(run: &FractureFolder) -> String {
     }
     let since = match run.summary.impact_s {
         Some(impact) => format!(
-            "Times count from the impact: the first contact of two bodies, {} \u{b5}s after the start of the run. ",
+            "Times count from the impact (first contact of two bodies), {} \u{b5}s after the start of the run. ",
             short(impact * 1e6, 1)
         ),
-        None => "No bodies touched. Times count from the start of the run. ".to_owned(),
+        None => "No bodies touched, so times count from the start of the run. ".to_owned(),
     };
     let content = format!(
-        "<p>{since}A failed face starts a new crack if all faces that failed before it are more than four edges away; \
-         otherwise it belongs to the nearest crack. The position is the centre of the first face in the undeformed mesh. Its \
-         accuracy is the mesh size, about {} mm.</p>\n{}<figure>{}</figure>\n",
+        "<p>{since}A failed face starts a new crack if all faces that failed earlier are more than four edge lengths \
+         away; otherwise the face belongs to the nearest crack. The table gives the centre of the first failed face in \
+         the undeformed mesh. This position is accurate to the mesh size, about {} mm.</p>\n{}<figure>{}</figure>\n",
         short(face_length(run) * 1e3, 0),
         tables::cracks(run),
         charts::crack_area(run)
@@ -102,7 +102,7 @@ fn cracks(run: &FractureFolder) -> String {
     section("Crack initiation", &content)
 }
 
-/// Largest mean edge length of the shown bodies [m].
+/// Mean edge length of the mesh [m]; the largest value of the bodies that the pictures show.
 fn face_length(run: &FractureFolder) -> f64 {
     let lengths = run.shown_bodies().into_iter().map(|body| run.case.mesh.quality[body].edge_mean);
     lengths.fold(0.0, f64::max)
@@ -114,13 +114,13 @@ fn energy(run: &FractureFolder) -> String {
         return String::new();
     }
     let per_area = run.summary.energy_over_g_f.map_or(String::new(), |ratio| {
-        format!(" Cracks dissipated {} times crack area times fracture energy.", short(ratio, 3))
+        format!(" The cracks dissipated {} times the product of crack area and fracture energy.", short(ratio, 3))
     });
     let content = format!(
         "<p>Stored, dissipated and supplied energy since the start of the run. The gravity energy is zero at the start.</p>\n\
-         <figure>{chart}</figure>\n<figure>{}<figcaption>Dissipated and released energy on its own scale.</figcaption></figure>\n\
-         <figure>{}<figcaption>Error of the energy balance: stored plus dissipated minus supplied energy, relative to the \
-         initial value. It is at most {} % of the peak kinetic energy.{per_area}\
+         <figure>{chart}</figure>\n<figure>{}<figcaption>Dissipated and released energy only.</figcaption></figure>\n\
+         <figure>{}<figcaption>Error of the energy balance: stored plus dissipated minus supplied energy, minus the \
+         initial value of this sum. The error is at most {} % of the peak kinetic energy.{per_area}\
          </figcaption></figure>\n",
         charts::losses(run),
         charts::residual(run),
@@ -133,8 +133,8 @@ fn fragments(run: &FractureFolder) -> String {
     if run.summary.fragments.is_empty() {
         return String::new();
     }
-    let words = "<p>Pieces at the end of the run, the heaviest first. Intact faces hold a piece together. A body in one \
-                 piece may still have deep cracks.</p>\n";
+    let words = "<p>Pieces at the end of the run, the heaviest first. Tetrahedra that are connected by intact faces \
+                 belong to the same piece. A body in one piece may still have deep cracks.</p>\n";
     section("Pieces", &format!("{words}{}", tables::fragments(run)))
 }
 
@@ -170,7 +170,7 @@ fn facts(run: &FractureFolder) -> String {
         (
             "Computing time",
             format!(
-                "{} with {} threads, {} million tetrahedra per second",
+                "{} with {} threads; {} million tetrahedra times time steps per second",
                 clock(summary.execution.wall_s),
                 summary.execution.threads,
                 short(summary.tet_steps_per_s * 1e-6, 2)
@@ -191,7 +191,7 @@ fn list(heading: &str, words: &str, items: &[String]) -> String {
     section(heading, &content)
 }
 
-/// Files of a run folder and their contents, in the order of the table.
+/// Files of a run folder and their contents, in the order of the table in the report.
 const FILES: [(&str, &str); 11] = [
     ("cracks.csv", "every failed face: time, position, area, mode (1 opening, 2 sliding)"),
     ("fragments.csv", "pieces at the end: mass, centre, velocity"),
@@ -201,8 +201,8 @@ const FILES: [(&str, &str); 11] = [
     ("cracks.vtkhdf", "crack faces with time and mode: open in ParaView together with the surfaces"),
     ("section.vtkhdf", "section plane with velocity and stress"),
     ("tets.vtkhdf", "all tetrahedra with stress tensor, principal stresses, body and piece"),
-    ("summary.json", "the numbers of this page, for other programs"),
-    ("case.json", "the case as it was run"),
+    ("summary.json", "the results on this page as JSON, for other programs"),
+    ("case.json", "the case that was run"),
     ("mesh.msh", "the mesh of the case"),
 ];
 
@@ -210,7 +210,7 @@ fn files(run: &FractureFolder) -> String {
     let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
         .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
         .collect();
-    let words = "<p>Tables are plain CSV in SI units; each column name includes the unit. Their times count from the start \
-                 of the run.</p>\n";
+    let words = "<p>Tables are CSV files in SI units; each column name includes the unit. The times in these files \
+                 count from the start of the run.</p>\n";
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
 }

@@ -11,9 +11,9 @@ use crate::report::raster::{Canvas, Colour, View, mixed};
 
 const PAPER: Colour = [1.0; 3];
 const INK: Colour = [0.1; 3];
-/// Margin relative to the size of a picture.
+/// Width of the margin divided by the size of the picture [-].
 const MARGIN: f64 = 0.05;
-/// Colours from compression (blue) over zero to tension (red), balanced and safe for colour-blind readers.
+/// Colours from compression (blue) over zero (grey) to tension (red); colour-blind readers can distinguish them.
 const SCALE: [Colour; 7] = [
     [0.13, 0.26, 0.52],
     [0.32, 0.54, 0.76],
@@ -26,20 +26,20 @@ const SCALE: [Colour; 7] = [
 /// Number of colours in the legend.
 const STEPS: usize = 40;
 
-/// Settings that all pictures of a run share.
+/// View and colour scale that all stress pictures of a run share.
 pub struct StressScene {
     view: View,
     shown: Vec<usize>,
     /// Largest tensile strength of the bodies; zero if no body can crack [Pa].
     strength: f64,
-    /// End of the scale [Pa].
+    /// Stress at the upper end of the colour scale [Pa]; the lower end is the negative value.
     top: f64,
 }
 
 impl StressScene {
-    /// Creates the scene of a run. The view contains the shown bodies. The scale ends at twice the tensile strength,
-    /// because stresses exceed the strength where no face is normal to them. Without a strength it ends at the largest
-    /// stress of the given moments.
+    /// Creates the scene of a run, with all shown bodies in the view. The colour scale ends at twice the tensile
+    /// strength, because a stress can exceed the strength if no element face is normal to the stress. If no body has a
+    /// strength, the scale ends at the largest stress at the recorded times `frames`.
     ///
     /// # Errors
     /// If the files cannot be read.
@@ -61,7 +61,7 @@ impl StressScene {
         Ok(Self { view, shown, strength, top: if top > 0.0 { top } else { 1.0 } })
     }
 
-    /// Returns the picture of a moment as a data URI.
+    /// Returns the stress picture at a recorded time as a data URI.
     ///
     /// # Errors
     /// If the files cannot be read.
@@ -102,7 +102,7 @@ impl StressScene {
         mixed(SCALE[low], SCALE[low + 1], (at - low as f64) as f32)
     }
 
-    /// Returns the legend: the colours with their stresses.
+    /// Returns the legend as SVG: the colours and their stresses [MPa].
     pub fn legend(&self) -> String {
         let (left, width) = (10.0, 420.0);
         let mut svg = String::from(
@@ -132,7 +132,7 @@ impl StressScene {
         svg + "</svg>\n"
     }
 
-    /// Explains the mark or the end of the scale.
+    /// Explains the mark on the stress scale, or the end of the scale if there is no mark.
     pub fn scale_in_words(&self) -> String {
         let megapascals = |stress: f64| short(stress * 1e-6, 2);
         if self.strength > 0.0 {
@@ -149,7 +149,7 @@ pub fn css(colour: Colour) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Current section plane of a body; the plane moves with the body.
+/// Returns the current section plane of a body from its triangles in this plane, which moves with the body.
 fn plane_of<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<Plane> {
     let (mut normal, mut weight, mut moment) = (DVec3::ZERO, 0.0, DVec3::ZERO);
     for [a, b, c] in triangles {
@@ -161,7 +161,7 @@ fn plane_of<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<Plane
     (weight > 0.0).then(|| Plane { point: moment / weight, normal: normal.normalize_or(DVec3::Y) })
 }
 
-/// Intersection line of a triangle and a plane.
+/// Returns the ends of the line in which a triangle and a plane intersect; `None` if they do not intersect.
 fn crossing(plane: &Plane, corners: &[DVec3; 3]) -> Option<[DVec3; 2]> {
     let height = corners.map(|corner| plane.height(corner));
     let mut ends = (0..3)

@@ -4,10 +4,10 @@ use super::folder::{FractureFolder, place_in_words};
 use crate::report::page::grouped;
 use crate::report::plot::{escape, short};
 
-/// Maximum number of rows of a table; `summary.json` lists everything.
-const MOST: usize = 20;
+/// Maximum number of rows of a table; `summary.json` lists all cracks and pieces.
+const MAX_ROWS: usize = 20;
 
-/// Table of crack initiation, in order of time.
+/// Table of crack initiation, in chronological order.
 pub fn cracks(run: &FractureFolder) -> String {
     let all = &run.summary.initiation;
     let row = |(index, crack): (usize, &crate::simulation::fracture::summary::InitiationSummary)| {
@@ -23,12 +23,12 @@ pub fn cracks(run: &FractureFolder) -> String {
             short(crack.area_m2 * 1e4, 1)
         )
     };
-    let mut rows: String = all.iter().enumerate().take(MOST).map(row).collect();
-    if all.len() > MOST {
-        let rest: f64 = all[MOST..].iter().map(|crack| crack.area_m2).sum();
+    let mut rows: String = all.iter().enumerate().take(MAX_ROWS).map(row).collect();
+    if all.len() > MAX_ROWS {
+        let rest: f64 = all[MAX_ROWS..].iter().map(|crack| crack.area_m2).sum();
         rows += &format!(
             "<tr class=\"sum\"><td colspan=\"8\">{} more in summary.json</td><td>{}</td></tr>\n",
-            all.len() - MOST,
+            all.len() - MAX_ROWS,
             short(rest * 1e4, 1)
         );
     }
@@ -40,7 +40,7 @@ pub fn cracks(run: &FractureFolder) -> String {
     )
 }
 
-/// Table of the pieces at the end, the heaviest first.
+/// Table of the pieces at the end of the run, the heaviest first.
 pub fn fragments(run: &FractureFolder) -> String {
     let all = &run.summary.fragments;
     let mass_of = |body: &str| all.iter().filter(|f| f.body == body).map(|f| f.mass_kg).sum::<f64>();
@@ -57,12 +57,12 @@ pub fn fragments(run: &FractureFolder) -> String {
             short(speed, 3)
         )
     };
-    let mut rows: String = all.iter().enumerate().take(MOST).map(row).collect();
-    if all.len() > MOST {
-        let rest: f64 = all[MOST..].iter().map(|piece| piece.mass_kg).sum();
+    let mut rows: String = all.iter().enumerate().take(MAX_ROWS).map(row).collect();
+    if all.len() > MAX_ROWS {
+        let rest: f64 = all[MAX_ROWS..].iter().map(|piece| piece.mass_kg).sum();
         rows += &format!(
             "<tr class=\"sum\"><td colspan=\"3\">{} smaller pieces</td><td>{}</td><td colspan=\"5\"></td></tr>\n",
-            all.len() - MOST,
+            all.len() - MAX_ROWS,
             short(rest, 3)
         );
     }
@@ -107,7 +107,7 @@ pub fn bodies(run: &FractureFolder) -> String {
     )
 }
 
-/// Formats a coordinate [m], rounded to millimetres, without a minus sign before zero.
+/// Formats a coordinate in metres, rounded to whole millimetres, without a minus sign before zero.
 fn to_millimetres(coordinate: f64) -> String {
     let rounded = (coordinate * 1e3).round() / 1e3 + 0.0;
     format!("{rounded:.3}").replace('-', "\u{2212}")

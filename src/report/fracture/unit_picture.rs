@@ -10,12 +10,13 @@ use crate::report::raster::{Canvas, Colour, View, mixed};
 
 /// Width and height of a picture [px], twice its size on the page.
 pub const SIZE: [f64; 2] = [900.0, 660.0];
-/// Viewing direction: from the front, slightly left and above, so that the corner of stem and upright fluke is visible.
+/// Viewing direction: from the front, slightly from the left and from above. The corner between the stem and the
+/// upright fluke of a Dolos is then visible.
 const AHEAD: DVec3 = DVec3::new(0.26, 0.86, -0.43);
-/// Margin relative to the size of a picture.
+/// Width of the margin divided by the size of the picture [-].
 const MARGIN: f64 = 0.05;
 
-/// Colour of the units. As in the figures of the paper, units are yellow and new opening cracks are blue.
+/// Colour of the units: yellow, so that blue opening cracks are clearly visible.
 pub const UNIT: Colour = [0.97, 0.83, 0.32];
 /// Colour of new cracks that opened (mode I).
 pub const OPENED: Colour = [0.05, 0.25, 0.75];
@@ -27,12 +28,13 @@ const OTHERS: Colour = [0.80, 0.80, 0.79];
 const PAPER: Colour = [1.0; 3];
 const INK: Colour = [0.25, 0.20, 0.05];
 
-/// Opacity of one outer face of a unit.
-const VEIL: f32 = 0.26;
-/// Cosine of the angle below which two adjacent faces have no visible edge.
+/// Opacity of one front face of a unit [-].
+const FACE_OPACITY: f32 = 0.26;
+/// An edge is drawn if the cosine of the angle between the normals of its two faces is less than this value.
 const SMOOTH: f64 = 0.94;
 
-/// Colour of a crack face for its mode in the files.
+/// Returns the colour of a crack face; `mode` is the value in `cracks.vtkhdf` (0: pre-existing, 1: opening, 2:
+/// sliding).
 pub fn crack_colour(mode: i32) -> Colour {
     match mode {
         0 => OLD,
@@ -41,17 +43,18 @@ pub fn crack_colour(mode: i32) -> Colour {
     }
 }
 
-/// Settings that all pictures of a run share.
+/// View and edges that all unit pictures of a run share.
 pub struct UnitScene {
-    /// The view.
+    /// Projection of the pictures.
     pub view: View,
     shown: Vec<usize>,
-    /// Edges to draw: for both adjacent faces, the face and the edge's first corner in it.
+    /// Edges to draw: for each of the two adjacent faces, the index of the face and of the first corner of the edge (0
+    /// to 2).
     edges: Vec<[(usize, usize); 2]>,
 }
 
 impl UnitScene {
-    /// Creates the scene of a run.
+    /// Creates the scene of a run, with all shown bodies in the view.
     pub fn new(run: &FractureFolder) -> Self {
         let mesh = &run.case.mesh;
         let shown = run.shown_bodies();
@@ -65,7 +68,7 @@ impl UnitScene {
             let [a, b, c] = corners(face).map(|node| mesh.mesh.nodes[node as usize]);
             (b - a).cross(c - a).normalize_or_zero()
         };
-        // The faces at each edge, with the index of the edge's first corner in the face.
+        // For each edge: the adjacent faces, each with the index (0 to 2) of the first corner of the edge.
         let mut at_edge: BTreeMap<[u32; 2], Vec<(usize, usize)>> = BTreeMap::new();
         for face in 0..exteriors.len() {
             let nodes = corners(face);
@@ -81,7 +84,7 @@ impl UnitScene {
         Self { view, edges: at_edge.values().filter_map(sharp_edge).collect(), shown }
     }
 
-    /// Returns the picture of a moment as a data URI.
+    /// Returns the picture of the units at a recorded time as a data URI.
     ///
     /// # Errors
     /// If the files cannot be read.
@@ -94,16 +97,16 @@ impl UnitScene {
         let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
         let lit = |colour: Colour, normal: DVec3| mixed([0.0; 3], colour, self.view.light(normal) as f32);
 
-        // The other bodies are the background.
+        // Bodies that are not shown transparently are drawn first, as the background.
         let mut canvas = Canvas::new(&self.view, PAPER);
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| !is_unit(*face)) {
             canvas.fill(project(corners), lit(OTHERS, normal(corners)));
         }
         self.draw_edges(&mut canvas, &outside, |face| !is_unit(face), [0.45; 3], 0.5);
-        // Back faces of the units hide other bodies farther away.
+        // The back faces of the units hide other bodies behind them.
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| is_unit(*face)) {
             if !self.view.faces(normal(corners)) {
-                // A face in contact may lie slightly behind the other body's surface.
+                // A face in contact may lie slightly behind the surface of the other body.
                 let nearer = project(corners).map(|[x, y, depth]| [x, y, depth - 3.0 / self.view.scale]);
                 canvas.fill(nearer, mixed(PAPER, UNIT, 0.55));
             }
@@ -114,7 +117,7 @@ impl UnitScene {
             let towards = if self.view.faces(towards) { towards } else { -towards };
             canvas.fill(project(corners), lit(crack_colour(*mode), towards));
         }
-        // Every front face is a translucent layer over what it hides; the nearest one gives the shade.
+        // Every front face is a transparent layer over the objects behind it. The nearest front face gives the shade.
         let mut veil = vec![(0_i32, f64::INFINITY, PAPER); behind.len()];
         for (_, corners) in outside.iter().enumerate().filter(|(face, _)| is_unit(*face)) {
             let normal = normal(corners);
@@ -134,7 +137,7 @@ impl UnitScene {
         for (sample, (layers, nearest, shade)) in veil.into_iter().enumerate() {
             if layers > 0 {
                 let is_crack = canvas.depth[sample] < behind[sample];
-                let clear = (1.0 - VEIL).powi(layers) * if is_crack { 1.0 } else { 0.6 };
+                let clear = (1.0 - FACE_OPACITY).powi(layers) * if is_crack { 1.0 } else { 0.6 };
                 canvas.colour[sample] = mixed(shade, canvas.colour[sample], clear);
                 canvas.depth[sample] = nearest;
             }
@@ -152,7 +155,7 @@ impl UnitScene {
         ink: Colour,
         strength: f32,
     ) {
-        // A tolerance of a few pixels, because a line lies on the faces that it bounds.
+        // The depth tolerance is a few pixels, because an edge lies on its adjacent faces and these must not hide it.
         let hidden = 3.0 / self.view.scale;
         for [(face, k), _] in self.edges.iter().filter(|[(face, _), _]| is_drawn(*face)) {
             let Some(corners) = outside.get(*face) else { continue };

@@ -5,7 +5,7 @@ use super::short;
 /// A linear axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Label: quantity and unit.
+    /// Label of the axis: quantity and unit.
     pub label: String,
     low: f64,
     high: f64,
@@ -13,7 +13,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Creates an axis that covers all finite `values`, has round numbers at both ends and about `ticks` ticks.
+    /// Creates an axis with about `ticks` ticks that covers all finite `values`; both ends are round numbers.
     pub fn round(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let (low, high) = range(values);
         let step = round_step((high - low) / ticks.max(1) as f64);
@@ -21,31 +21,31 @@ impl Axis {
         Self { label: label.to_owned(), low, high: if high > low { high } else { low + step }, step }
     }
 
-    /// Creates an axis that ends exactly at the smallest and the largest value.
+    /// Creates an axis that ends exactly at the smallest and the largest finite value.
     pub fn tight(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let (low, high) = range(values);
         Self { label: label.to_owned(), low, high, step: round_step((high - low) / ticks.max(1) as f64) }
     }
 
-    /// Smallest and largest value.
+    /// Returns the values at both ends of the axis.
     #[cfg(test)]
     fn range(&self) -> (f64, f64) {
         (self.low, self.high)
     }
 
-    /// Relative position of a value between the ends, 0 to 1.
+    /// Relative position of a value on the axis: 0 at the lower end, 1 at the upper end.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
     }
 
-    /// Tick values: round numbers within the range.
+    /// Returns the tick values, which are round numbers within the range of the axis.
     pub fn ticks(&self) -> Vec<f64> {
         let first = (self.low / self.step - 1e-6).ceil() as i64;
         let last = (self.high / self.step + 1e-6).floor() as i64;
         (first..=last).map(|i| i as f64 * self.step).collect()
     }
 
-    /// Formats a tick value with as many decimals as the step needs.
+    /// Formats a tick value with as many decimals as the distance between the ticks needs.
     pub fn number(&self, tick: f64) -> String {
         // The tolerance covers the rounding error of i * step.
         let decimals = (0..9).find(|d| {
@@ -58,7 +58,7 @@ impl Axis {
     }
 }
 
-/// Smallest and largest finite value; widened if the range is empty.
+/// Smallest and largest finite value. The range is widened if both are equal, and is 0 to 1 without values.
 fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .into_iter()

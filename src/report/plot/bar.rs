@@ -2,42 +2,42 @@
 
 use super::{Axis, Frame, escape, marks, short, text};
 
-/// One set of bars, one bar per group.
+/// A series of a bar chart, with one bar per group.
 #[derive(Debug, Clone, Default)]
 pub struct Bars {
-    /// Name in the legend; empty for none.
+    /// Name in the legend; if it is empty, the legend has no entry.
     pub name: String,
-    /// Heights; values that are not finite are left out.
+    /// Heights of the bars; values that are not finite have no bar.
     pub values: Vec<f64>,
     /// Index in the colour palette.
     pub colour: usize,
-    /// Outlined instead of filled, to set measurements apart from calculations.
+    /// True for outlined, pale bars, which distinguish measurements from simulations.
     pub hollow: bool,
 }
 
 /// A bar chart.
 #[derive(Debug, Clone, Default)]
 pub struct BarChart {
-    /// Title, for screen readers.
+    /// Title of the chart for screen readers; the title is not drawn.
     pub title: String,
-    /// Label of the groups.
+    /// Label of the horizontal axis: what the groups are.
     pub x_label: String,
     /// Label of the vertical axis: quantity and unit.
     pub y_label: String,
     /// Names of the groups.
     pub groups: Vec<String>,
-    /// The sets of bars.
+    /// The series of the chart.
     pub bars: Vec<Bars>,
-    /// Whether all sets share one position in a group; each group should then have one value.
+    /// True if all series share one position in a group. Each group should then have only one finite value.
     pub stacked: bool,
-    /// Horizontal lines with labels.
+    /// Horizontal lines: value and label.
     pub marks: Vec<(f64, String)>,
-    /// Width and height [px].
+    /// Width and height of the chart [px].
     pub size: [f64; 2],
 }
 
 impl BarChart {
-    /// The chart as an `<svg>` element.
+    /// Returns the chart as an `<svg>` element.
     pub fn svg(&self) -> String {
         let height = self.size[1];
         let named =

@@ -5,26 +5,26 @@ use super::{Axis, Frame, marks, text};
 /// One line of a chart.
 #[derive(Debug, Clone, Default)]
 pub struct Line {
-    /// Name in the legend; empty for none.
+    /// Name in the legend; if it is empty, the legend has no entry.
     pub name: String,
     /// Points in the units of the axes; values that are not finite interrupt the line.
     pub points: Vec<[f64; 2]>,
     /// Index in the colour palette.
     pub colour: usize,
-    /// Dashed instead of solid.
+    /// True for a dashed line, false for a solid line.
     pub dashed: bool,
-    /// Thin and pale, for a line among many.
+    /// True for a thin and pale line, for charts with many lines.
     pub faint: bool,
-    /// Whether each point has a dot.
+    /// True if each point has a dot.
     pub dots: bool,
-    /// Half height of a shaded band around the line at each point; empty for none.
+    /// Half height of a shaded band around the line, one value per point; if it is empty, there is no band.
     pub band: Vec<f64>,
 }
 
 /// A line chart. The vertical axis always includes zero.
 #[derive(Debug, Clone, Default)]
 pub struct LineChart {
-    /// Title, for screen readers.
+    /// Title of the chart for screen readers; the title is not drawn.
     pub title: String,
     /// Label of the horizontal axis: quantity and unit.
     pub x_label: String,
@@ -32,14 +32,14 @@ pub struct LineChart {
     pub y_label: String,
     /// The lines, drawn in this order.
     pub lines: Vec<Line>,
-    /// Horizontal lines with labels.
+    /// Horizontal lines: value and label.
     pub marks: Vec<(f64, String)>,
-    /// Width and height [px].
+    /// Width and height of the chart [px].
     pub size: [f64; 2],
 }
 
 impl LineChart {
-    /// The chart as an `<svg>` element.
+    /// Returns the chart as an `<svg>` element.
     pub fn svg(&self) -> String {
         let [width, height] = self.size;
         let named = || self.lines.iter().filter(|line| !line.name.is_empty());
@@ -80,7 +80,7 @@ impl LineChart {
     }
 }
 
-/// Sample of a line in the legend.
+/// Returns the SVG sample that the legend shows for a line.
 fn sample(line: &Line) -> String {
     if line.points.len() == 1 && line.dots {
         return format!("<circle class=\"dot c{}\" cx=\"12\" cy=\"0\" r=\"4.5\"/>", line.colour % super::COLOURS);
@@ -94,7 +94,7 @@ fn class(line: &Line) -> String {
     format!("line c{}{dashed}{faint}", line.colour % super::COLOURS)
 }
 
-/// Path data of a line. Of the points in one half-pixel column, only first, lowest, highest and last are kept.
+/// Path data of a line. In each column of half a pixel, only the first, lowest, highest and last point are kept.
 fn path(frame: &Frame, x: &Axis, y: &Axis, points: &[[f64; 2]]) -> String {
     let mut data = String::new();
     for piece in points.split(|p| !(p[0].is_finite() && p[1].is_finite())).filter(|piece| !piece.is_empty()) {
@@ -124,7 +124,7 @@ fn thinned(column: &[[f64; 2]]) -> Vec<[f64; 2]> {
     kept.into_iter().map(|i| column[i]).collect()
 }
 
-/// The shaded band around a line.
+/// Returns the shaded band around a line as SVG.
 fn band(frame: &Frame, x: &Axis, y: &Axis, line: &Line) -> String {
     if line.band.is_empty() {
         return String::new();

@@ -1,7 +1,7 @@
-//! Line, bar and tornado charts as SVG: inline with the style sheet of the page, or as files with their own style.
+//! Line, bar and tornado charts as SVG: inline in a page, with its style sheet, or as files with their own style sheet.
 //!
-//! The classes `c0` to `c5` are the colours. Their palette suits colour-blind readers (Okabe & Ito 2008) and differs
-//! between light and dark pages.
+//! The CSS classes `c0` to `c5` are the colours of the palette. The palette suits colour-blind readers (Okabe & Ito
+//! 2008) and differs between light and dark pages.
 
 mod axis;
 mod bar;
@@ -11,18 +11,18 @@ mod tornado;
 pub use axis::Axis;
 pub use bar::{BarChart, Bars};
 pub use line::{Line, LineChart};
-pub use tornado::{Lever, TornadoChart};
+pub use tornado::{TornadoChart, TornadoInput};
 
-/// Style sheet of charts, with the palette for light and dark pages.
+/// Style sheet of the charts, with the palettes for light and dark pages.
 pub const CHART_STYLE: &str = include_str!("chart.css");
 /// Number of colours in the palette.
 pub const COLOURS: usize = 6;
 /// Left edge of the plot area [px].
 const LEFT: f64 = 58.0;
-/// Upper estimate of the width of a letter [px].
+/// Estimated largest width of a letter [px].
 const LETTER: f64 = 7.2;
 
-/// Formats a number with at most `decimals` decimals, without trailing zeros and with a true minus sign.
+/// Formats a number with at most `decimals` decimals, without trailing zeros and with the Unicode minus sign.
 pub fn short(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
@@ -60,7 +60,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Creates a frame with space for the legend above and for the labels of `marks` at the right.
+    /// Creates a frame with space for the legend above the plot area and for the labels of `marks` to its right.
     fn new([width, height]: [f64; 2], legend: &[&str], marks: &[(f64, String)]) -> Self {
         let words = marks.iter().map(|(_, words)| words.chars().count()).max();
         let right = width - words.map_or(14.0, |letters| 18.0 + LETTER * letters as f64);
@@ -84,7 +84,7 @@ impl Frame {
         )
     }
 
-    /// Horizontal grid lines with their values, and the label of the vertical axis.
+    /// Draws the horizontal grid lines with their values, and the label of the vertical axis.
     fn vertical_axis(&self, axis: &Axis) -> String {
         let mut svg = String::new();
         for tick in axis.ticks() {
@@ -101,7 +101,7 @@ impl Frame {
         svg
     }
 
-    /// Ticks, values and label of the horizontal axis.
+    /// Draws the horizontal axis with ticks, values and label.
     fn horizontal_axis(&self, axis: &Axis) -> String {
         let mut svg = format!("<path class=\"axis\" d=\"M{:.1} {:.1}H{:.1}\"/>", self.left, self.bottom, self.right);
         for tick in axis.ticks() {
@@ -117,8 +117,8 @@ impl Frame {
         text(0.5 * (self.left + self.right), self.height - 6.0, "label mid", label) + "\n"
     }
 
-    /// Legend entries from left to right above the plot area. An entry is a name and the SVG of its sample; the sample
-    /// is up to 22 px wide and starts at the origin.
+    /// Draws the legend entries from left to right above the plot area. An entry is a name and the SVG of its sample.
+    /// The sample is up to 22 px wide and starts at x = 0.
     fn legend(&self, entries: &[(String, String)]) -> String {
         let (mut x, mut y, mut svg) = (self.left, 14.0, String::new());
         for (name, sample) in entries {
@@ -134,7 +134,7 @@ impl Frame {
     }
 }
 
-/// Number of rows of a legend in a chart of this width.
+/// Number of rows of the legend in a chart of this width [px].
 fn legend_rows(width: f64, names: &[&str]) -> usize {
     let (mut x, mut rows) = (LEFT, usize::from(!names.is_empty()));
     for name in names {
@@ -156,7 +156,7 @@ fn text(x: f64, y: f64, class: &str, words: &str) -> String {
     format!("<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escape(words))
 }
 
-/// Horizontal lines with labels at the right of the plot area; labels that would overlap are moved apart.
+/// Draws horizontal lines with labels to the right of the plot area. Labels that would overlap are moved apart.
 fn marks(frame: &Frame, axis: &Axis, marks: &[(f64, String)]) -> String {
     let mut sorted: Vec<(f64, &str)> = marks.iter().map(|(v, words)| (frame.y(axis, *v), words.as_str())).collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));

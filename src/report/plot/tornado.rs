@@ -1,39 +1,40 @@
-//! Tornado charts: sensitivity of a result to several inputs, as bars to both sides of the base case.
+//! Tornado charts: sensitivity of a result to several inputs. Bars show increases and decreases from the base case.
 
 use super::{Axis, Frame, LETTER, escape, short, text};
 
 /// Height of a bar with the space around it [px].
 const BAR: f64 = 19.0;
-/// Space between the inputs [px].
+/// Space between the bar groups of two inputs [px].
 const GAP: f64 = 7.0;
 
-/// An input of a tornado chart.
+/// An input parameter of a tornado chart, with its tested values.
 #[derive(Debug, Clone, Default)]
-pub struct Lever {
+pub struct TornadoInput {
     /// Name of the input.
     pub name: String,
-    /// Label of each tested value, and the change that it causes; changes that are not finite are left out.
+    /// Label of each tested value, and the change of the result; changes that are not finite are left out.
     pub values: Vec<(String, f64)>,
 }
 
 /// A tornado chart: one group of bars per input, the most influential input on top.
 #[derive(Debug, Clone, Default)]
 pub struct TornadoChart {
-    /// Title, for screen readers.
+    /// Title of the chart for screen readers; the title is not drawn.
     pub title: String,
-    /// Label of the horizontal axis: quantity and unit of the changes.
+    /// Label of the horizontal axis: quantity and unit of the change.
     pub x_label: String,
     /// The inputs, in any order.
-    pub levers: Vec<Lever>,
-    /// Width [px]; the height follows from the number of bars.
+    pub levers: Vec<TornadoInput>,
+    /// Width of the chart [px]. The height follows from the number of bars.
     pub width: f64,
 }
 
 impl TornadoChart {
-    /// The chart as an `<svg>` element.
+    /// Returns the chart as an `<svg>` element.
     pub fn svg(&self) -> String {
-        let largest_change = |lever: &Lever| lever.values.iter().map(|(_, change)| change.abs()).fold(0.0, f64::max);
-        let mut levers: Vec<&Lever> = self.levers.iter().collect();
+        let largest_change =
+            |lever: &TornadoInput| lever.values.iter().map(|(_, change)| change.abs()).fold(0.0, f64::max);
+        let mut levers: Vec<&TornadoInput> = self.levers.iter().collect();
         // The sort is stable: inputs of equal influence keep their order.
         levers.sort_by(|a, b| largest_change(b).total_cmp(&largest_change(a)));
         let text_width = |words: &str| LETTER * words.chars().count() as f64;
@@ -65,15 +66,15 @@ impl TornadoChart {
         svg + "</svg>\n"
     }
 
-    /// Creates an axis of a length [px] with space for the labels at the ends of the bars; `bars` holds the label width
-    /// [px] and the change of each bar. Label widths are fixed in pixels, so the bars get the remaining length.
+    /// Creates an axis of a length [px] with space for the labels at the ends of the bars. `bars` has the label width
+    /// [px] and the change of each bar. Label widths are fixed in pixels, so that the bars get the remaining length.
     fn axis(&self, length: f64, bars: &[(f64, f64)]) -> Axis {
         let largest = |quantity: &dyn Fn(&(f64, f64)) -> f64| bars.iter().map(quantity).fold(0.0, f64::max);
         let (below, above) = (largest(&|(_, change)| -change), largest(&|(_, change)| *change));
         let range = if below + above > 0.0 { below + above } else { 1.0 };
         let left = largest(&|(words, change)| if *change < 0.0 { *words } else { 0.0 });
         let right = largest(&|(words, change)| if *change < 0.0 { 0.0 } else { *words });
-        // The bars always keep at least a third of the length.
+        // The bars always get at least one third of the axis length, even if the labels are long.
         let scale = (length - left - right).max(length / 3.0) / range;
         Axis::tight(&self.x_label, [-below - left / scale, above + right / scale], (length / 90.0) as usize)
     }
@@ -100,14 +101,14 @@ mod tests {
     use super::*;
 
     fn chart(levers: &[(&str, &[(&str, f64)])]) -> TornadoChart {
-        let lever = |(name, values): &(&str, &[(&str, f64)])| Lever {
+        let lever = |(name, values): &(&str, &[(&str, f64)])| TornadoInput {
             name: (*name).to_owned(),
             values: values.iter().map(|(words, change)| ((*words).to_owned(), *change)).collect(),
         };
         TornadoChart { levers: levers.iter().map(lever).collect(), width: 800.0, ..TornadoChart::default() }
     }
 
-    /// Left and right edges of the bars, in their order from the top.
+    /// Left and right edges of the bars [px], from the top bar to the bottom bar.
     fn edges(svg: &str) -> Vec<[f64; 2]> {
         let number = |rest: &str, name: &str| -> f64 {
             let after = rest.split_once(&format!(" {name}=\"")).unwrap().1;

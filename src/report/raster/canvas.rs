@@ -1,35 +1,37 @@
-//! Pixel image with depth buffer for triangles and lines.
+//! Pixel image with a depth buffer, in which triangles and lines are drawn.
 
 use super::View;
 use super::image;
 
-/// Red, green and blue, 0 to 1.
+/// A colour: red, green and blue, each 0 to 1.
 pub type Colour = [f32; 3];
 
-/// Samples per pixel in each direction, for smooth edges.
-const FINER: usize = 2;
+/// Number of samples per pixel in each direction; the mean of the samples gives smooth edges.
+const SAMPLES_PER_PIXEL: usize = 2;
 
-/// An image being drawn. Coordinates are those of a [`View`] of the same size.
+/// An image with a depth buffer. Its coordinates are the coordinates that a [`View`] of the same size returns.
 #[derive(Debug, Clone)]
 pub struct Canvas {
     columns: usize,
     rows: usize,
     /// Colour of each sample, row by row from the upper left corner.
     pub colour: Vec<Colour>,
-    /// Depth of each sample [m]; infinite where nothing is drawn.
+    /// Distance from the viewer for each sample [m]; infinite where nothing is drawn.
     pub depth: Vec<f64>,
 }
 
 impl Canvas {
-    /// Creates an empty image of the size of a view.
+    /// Creates an image of the size of a view, filled with the background colour `ground`.
     pub fn new(view: &View, ground: Colour) -> Self {
-        let [columns, rows] = view.size.map(|length| length.round().max(1.0) as usize * FINER);
+        let [columns, rows] = view.size.map(|length| length.round().max(1.0) as usize * SAMPLES_PER_PIXEL);
         Self { columns, rows, colour: vec![ground; columns * rows], depth: vec![f64::INFINITY; columns * rows] }
     }
 
-    /// Calls `visit` with the index and depth of every sample in a triangle (across [px], down [px], depth [m]).
+    /// Calls `visit` with the index and the depth [m] of every sample in a triangle. A corner is: distance from the
+    /// left edge [px], distance from the upper edge [px], depth [m].
     pub fn visit(&self, corners: [[f64; 3]; 3], mut visit: impl FnMut(usize, f64)) {
-        let [a, b, c] = corners.map(|[x, y, depth]| [x * FINER as f64 - 0.5, y * FINER as f64 - 0.5, depth]);
+        let [a, b, c] = corners
+            .map(|[x, y, depth]| [x * SAMPLES_PER_PIXEL as f64 - 0.5, y * SAMPLES_PER_PIXEL as f64 - 0.5, depth]);
         let double = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if double == 0.0 || !double.is_finite() {
             return;
@@ -51,7 +53,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a triangle where nothing is nearer.
+    /// Draws a triangle, except where the image already shows something nearer to the viewer.
     pub fn fill(&mut self, corners: [[f64; 3]; 3], colour: Colour) {
         let (mut colours, mut depths) = (std::mem::take(&mut self.colour), std::mem::take(&mut self.depth));
         self.visit(corners, |sample, depth| {
@@ -62,7 +64,8 @@ impl Canvas {
         (self.colour, self.depth) = (colours, depths);
     }
 
-    /// Draws a line of a width [px] and opacity `strength`, except where something is nearer by more than `hidden` [m].
+    /// Draws a line of a width [px] with the opacity `strength`, except where the image shows something that is nearer
+    /// to the viewer by more than `hidden` [m].
     pub fn line(&mut self, [a, b]: [[f64; 3]; 2], width: f64, colour: Colour, strength: f32, hidden: f64) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let length = dx.hypot(dy);
@@ -84,17 +87,22 @@ impl Canvas {
 
     /// Returns the image as a PNG data URI.
     pub fn data_uri(&self) -> String {
-        let (width, height) = (self.columns / FINER, self.rows / FINER);
+        let (width, height) = (self.columns / SAMPLES_PER_PIXEL, self.rows / SAMPLES_PER_PIXEL);
         let mut bytes = Vec::with_capacity(3 * width * height);
         for row in 0..height {
             for column in 0..width {
                 let mut sum = [0.0_f32; 3];
-                for sample in 0..FINER * FINER {
-                    let (y, x) = (FINER * row + sample / FINER, FINER * column + sample % FINER);
+                for sample in 0..SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL {
+                    let (y, x) = (
+                        SAMPLES_PER_PIXEL * row + sample / SAMPLES_PER_PIXEL,
+                        SAMPLES_PER_PIXEL * column + sample % SAMPLES_PER_PIXEL,
+                    );
                     let of_sample = self.colour[y * self.columns + x];
                     sum.iter_mut().zip(of_sample).for_each(|(sum, part)| *sum += part);
                 }
-                let mean = |sum: f32| (sum / (FINER * FINER) as f32 * 255.0).round().clamp(0.0, 255.0) as u8;
+                let mean = |sum: f32| {
+                    (sum / (SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL) as f32 * 255.0).round().clamp(0.0, 255.0) as u8
+                };
                 bytes.extend(sum.map(mean));
             }
         }
@@ -102,7 +110,7 @@ impl Canvas {
     }
 }
 
-/// Mixes a share of the other colour into one colour.
+/// Mixes two colours: returns `one` for share 0 and `other` for share 1.
 pub fn mixed(one: Colour, other: Colour, share: f32) -> Colour {
     [0, 1, 2].map(|k| one[k] + share * (other[k] - one[k]))
 }
@@ -122,7 +130,7 @@ mod tests {
         canvas.fill(triangle(3.0), [0.0, 0.0, 1.0]);
         assert_eq!(canvas.colour[0], [0.0, 1.0, 0.0]);
         assert_eq!(canvas.colour[399], [1.0; 3]);
-        // Half of the samples, plus those on the edge.
+        // The triangle covers half of the samples, and some of the samples on its edge.
         let mut inside = 0;
         canvas.visit(triangle(0.0), |_, _| inside += 1);
         assert!((190..=210).contains(&inside), "{inside}");

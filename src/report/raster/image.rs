@@ -1,6 +1,6 @@
-//! PNG images embedded in a page.
+//! PNG images that are embedded in an HTML page as data URIs.
 
-/// Alphabet of base64 (RFC 4648).
+/// The 64 characters of base64 (RFC 4648).
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Returns an 8-bit RGB image, given row by row, as a PNG data URI.
@@ -15,7 +15,7 @@ pub fn data_uri(width: u32, height: u32, rgb: &[u8]) -> String {
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(rgb));
-    // Writing to memory cannot fail if the length is right.
+    // Writing to memory cannot fail, because `rgb` has the right length.
     debug_assert!(written.is_ok());
     format!("data:image/png;base64,{}", base64(&bytes))
 }
@@ -45,7 +45,7 @@ mod tests {
     #[test]
     fn the_data_uri_contains_a_png() {
         let uri = data_uri(2, 1, &[255, 0, 0, 0, 0, 255]);
-        // The eight-byte signature of a PNG.
+        // The base64 text starts with the signature of a PNG file (8 bytes).
         assert!(uri.starts_with("data:image/png;base64,iVBORw0KGgo"), "{uri}");
     }
 }

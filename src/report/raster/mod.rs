@@ -1,8 +1,8 @@
-//! Pixel images of solids, for scenes with too many faces for SVG paths.
+//! Pixel images of solids. They show scenes that have too many faces for SVG paths.
 //!
 //! | file | content |
 //! | --- | --- |
-//! | `view` | parallel projection of positions to the image |
+//! | `view` | parallel projection from positions [m] to the image [px] |
 //! | `canvas` | pixel image with depth buffer for triangles and lines |
 //! | `image` | PNG images embedded in a page |
 

@@ -1,4 +1,4 @@
-//! Parallel projection of a scene.
+//! Parallel projection of a three-dimensional scene to an image.
 
 use glam::DVec3;
 
@@ -7,19 +7,20 @@ use glam::DVec3;
 pub struct View {
     right: DVec3,
     up: DVec3,
-    /// Viewing direction, away from the viewer.
+    /// Viewing direction: unit vector away from the viewer.
     ahead: DVec3,
-    /// Centre of the image [m].
+    /// Position that is shown at the centre of the image [m].
     centre: DVec3,
-    /// Scale [px/m].
+    /// Scale of the image [px/m].
     pub scale: f64,
     /// Width and height of the image [px].
     pub size: [f64; 2],
 }
 
 impl View {
-    /// Creates a view along `ahead` (of any length) that shows all `places` [m] in an image of a size [px]; `margin` is
-    /// relative to that size. The z axis points upwards in the image, or the y axis if the view is along z.
+    /// Creates a view in the direction `ahead` (any length) that shows all `places` [m] in an image of a size [px].
+    /// `margin` is the width of the margin divided by the image size. The z axis points upwards in the image; in a view
+    /// along z, the y axis points upwards.
     pub fn along(ahead: DVec3, places: impl IntoIterator<Item = DVec3>, size: [f64; 2], margin: f64) -> Self {
         let ahead = ahead.normalize_or(DVec3::Y);
         let upwards = if ahead.z.abs() > 0.999 { DVec3::Y } else { DVec3::Z };
@@ -37,7 +38,8 @@ impl View {
         Self { right, up, ahead, centre, scale, size }
     }
 
-    /// Projects a position [m]: distance right of and below the upper left corner [px], depth away from the viewer [m].
+    /// Projects a position [m] to the image: distance from the left edge [px], distance from the upper edge [px], depth
+    /// away from the viewer [m].
     pub fn project(&self, place: DVec3) -> [f64; 3] {
         let from = place - self.centre;
         [
@@ -47,12 +49,13 @@ impl View {
         ]
     }
 
-    /// Returns whether a face with this normal faces the viewer.
+    /// Returns true if a face with this outward normal is turned towards the viewer.
     pub fn faces(&self, normal: DVec3) -> bool {
         normal.dot(self.ahead) < 0.0
     }
 
-    /// Brightness of a face with this normal (of any length), 0 to 1. Light comes from over the viewer's left shoulder.
+    /// Brightness (0 to 1) of a face with this normal (any length). The light comes from behind the viewer, from the
+    /// upper left.
     pub fn light(&self, normal: DVec3) -> f64 {
         let towards = (self.up * 0.75 - self.right * 0.45 - self.ahead * 0.8).normalize();
         0.5 + 0.5 * normal.normalize_or_zero().dot(towards).max(0.0)
@@ -68,7 +71,7 @@ mod tests {
         let corners = [DVec3::new(1.0, 5.0, -1.0), DVec3::new(3.0, 9.0, 0.0)];
         let view = View::along(DVec3::Y, corners, [200.0, 200.0], 0.0);
         let [x, y, near] = view.project(corners[0]);
-        // 2 m across 200 px; 1 m upwards in the middle.
+        // The width of 2 m fills 200 px. The height of 1 m is centred.
         assert!(x.abs() < 1e-9 && (y - 150.0).abs() < 1e-9, "{x} {y}");
         let [x, y, far] = view.project(corners[1]);
         assert!((x - 200.0).abs() < 1e-9 && (y - 50.0).abs() < 1e-9 && far > near);

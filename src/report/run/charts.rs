@@ -1,4 +1,4 @@
-//! Charts of the report.
+//! Charts in the report of a flume run.
 
 use super::super::plot::{BarChart, Bars, Line, LineChart, escape, short};
 use super::folder::RunFolder;
@@ -7,12 +7,13 @@ use crate::output::Table;
 
 /// Size of a full-width chart [px].
 const WIDE: [f64; 2] = [920.0, 300.0];
-/// Size of a chart that shares its row with another [px].
+/// Size of a chart with half the width of the page, so that two charts are side by side [px].
 const HALF: [f64; 2] = [452.0, 250.0];
-/// Up to this number, each unit has its own colour; otherwise odd and even units have one colour each.
+/// Up to this number of units, each unit has its own colour. For more units, all odd units have one colour and all even
+/// units another colour.
 const COLOURED_UNITS: usize = 6;
 
-/// Bar chart of the displacement of each unit, with damage distance and mean.
+/// Bar chart of the displacement of each unit, with damage distance and mean displacement.
 pub fn displacements(run: &RunFolder) -> String {
     let summary = &run.summary;
     if summary.units.is_empty() {
@@ -47,7 +48,7 @@ pub fn displacements(run: &RunFolder) -> String {
     .svg()
 }
 
-/// Shoreward displacement of each unit over time.
+/// Line chart of the shoreward displacement of each unit over time.
 pub fn paths(run: &RunFolder) -> String {
     let shoreward = |motion: &UnitMotion| -> Vec<[f64; 2]> {
         let start = motion.position_m.first().map_or(0.0, |p| p[0]);
@@ -57,7 +58,7 @@ pub fn paths(run: &RunFolder) -> String {
     line_chart("Shoreward displacement of the units", "x \u{2212} x(0) [m]", lines, WIDE)
 }
 
-/// One line per unit. Few units have a colour each; of many, odd and even units share a colour.
+/// Returns one line per unit, with colours as described at [`COLOURED_UNITS`].
 fn unit_lines(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 2]>) -> Vec<Line> {
     let few = motions.len() <= COLOURED_UNITS;
     let mut lines: Vec<Line> = Vec::new();
@@ -74,8 +75,8 @@ fn unit_lines(motions: &[UnitMotion], points: impl Fn(&UnitMotion) -> Vec<[f64; 
     lines
 }
 
-/// Charts of the horizontal and vertical force of the water and of the contact force: mean over the units. Few units
-/// are also shown individually; for many, a band shows the standard deviation.
+/// Charts of the horizontal water force, the vertical water force and the contact force: mean over the units. If there
+/// are few units, the charts also show each unit; if there are many, a band shows the standard deviation.
 pub fn forces(run: &RunFolder) -> [String; 3] {
     let force = |title: &str, label: &str, colour: usize, histories: Vec<Vec<f64>>, size| {
         let Some(first) = run.motions.first() else { return String::new() };
@@ -110,7 +111,7 @@ pub fn forces(run: &RunFolder) -> [String; 3] {
     ]
 }
 
-/// One chart per elevation gauge with particles and flume model, then one per pressure or velocity gauge.
+/// Returns one chart per elevation gauge (particles and flume model), then one chart per pressure or velocity gauge.
 pub fn gauges(run: &RunFolder) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
     for table in [&run.gauges, &run.flume_gauges].into_iter().flatten() {
@@ -140,8 +141,8 @@ pub fn gauges(run: &RunFolder) -> Vec<String> {
     charts
 }
 
-/// Time range for the flume model [s]: the range of the particles, extended by half its length on both sides. Without
-/// particles at the gauge, everything before the end of the run.
+/// Time range in which the flume model is shown [s]: the time range of the particles, extended by half its length on
+/// both sides. If the gauge is outside the particle domain: all times before the end of the run.
 fn shown_time(particles: Option<&Table>, at_gauge: bool) -> [f64; 2] {
     let times = particles.and_then(|table| table.get("time_s")).unwrap_or_default();
     let (Some(start), Some(end)) = (times.first(), times.last()) else { return [f64::MIN, f64::MAX] };
@@ -176,7 +177,7 @@ fn column_line(table: Option<&Table>, column: &str, name: &str, colour: usize, d
     Some(Line { name: name.to_owned(), points, colour, dashed, ..Line::default() })
 }
 
-/// Chart of every energy column over time, minus its first value.
+/// Chart of the change of each energy in `energy.csv` since the start, over time.
 pub fn energy(run: &RunFolder) -> String {
     let Some(table) = &run.energy else { return String::new() };
     let lines: Vec<Line> = (table.names().iter().filter(|n| n.ends_with("_j")).enumerate())

@@ -1,11 +1,11 @@
-//! Coverage map of a drawing: faces behind covered areas can be left out.
+//! Map of the covered areas of a drawing. Faces behind covered areas are not drawn.
 
 use super::window::{WIDTH, Window};
 
-/// Size of a cell [px]: a fraction of the finest visible detail.
+/// Size of a cell of the map [px], smaller than the finest visible detail.
 const CELL: f64 = 0.5;
 
-/// Cells of a drawing, covered or free.
+/// Map of the cells of a drawing, each covered or free.
 pub struct Cover {
     columns: usize,
     rows: usize,
@@ -13,18 +13,18 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// Creates an empty map.
+    /// Creates a map in which all cells are free.
     pub fn new(window: &Window) -> Self {
         let [columns, rows] = [WIDTH, window.height()].map(|length| (length / CELL).ceil() as usize);
         Self { columns, rows, covered: vec![false; columns * rows] }
     }
 
-    /// Returns whether a triangle [px] is fully covered. A triangle too thin to be visible counts as covered.
+    /// Returns true if a triangle [px] is fully covered. A triangle that is too thin to be visible counts as covered.
     pub fn hides(&self, triangle: [[f64; 2]; 3]) -> bool {
         self.cells(triangle).all(|cell| self.covered[cell])
     }
 
-    /// Marks the triangles as covered.
+    /// Marks all cells in the triangles [px] as covered.
     pub fn add(&mut self, triangles: impl IntoIterator<Item = [[f64; 2]; 3]>) {
         for triangle in triangles {
             let cells: Vec<usize> = self.cells(triangle).collect();
@@ -32,7 +32,7 @@ impl Cover {
         }
     }
 
-    /// Cells of the drawing whose centre is in the triangle.
+    /// Returns the indices of the cells whose centre is in the triangle [px].
     fn cells(&self, triangle: [[f64; 2]; 3]) -> impl Iterator<Item = usize> {
         let corners = triangle.map(|corner| corner.map(|c| c / CELL - 0.5));
         let span = |axis: usize, end: usize| {
@@ -49,7 +49,7 @@ impl Cover {
     }
 }
 
-/// Returns whether a point is in a triangle of either orientation.
+/// Returns true if a point is in a triangle whose corners are in clockwise or counter-clockwise order.
 fn contains([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> bool {
     let side =
         |from: [f64; 2], to: [f64; 2]| (to[0] - from[0]) * (p[1] - from[1]) - (to[1] - from[1]) * (p[0] - from[0]);
@@ -70,7 +70,7 @@ mod tests {
         assert!(!cover.hides(behind));
         cover.add([front]);
         assert!(cover.hides(front) && cover.hides(behind) && !cover.hides(protruding));
-        // Outside the drawing everything counts as covered.
+        // A triangle outside the drawing counts as covered.
         assert!(cover.hides([[-50.0, 10.0], [-10.0, 10.0], [-10.0, 40.0]]));
     }
 }

@@ -6,33 +6,33 @@ use super::motion::{UnitMotion, motions};
 use crate::output::{OutputError, Summary, Table, UnitSurface};
 use crate::simulation::breakage::results::Breakage;
 
-/// The contents of a run folder. Data that the run did not write is empty or `None`.
+/// The contents of a run folder. A field is empty or `None` if the run did not write its file.
 #[derive(Debug)]
 pub struct RunFolder {
-    /// The folder.
+    /// Path of the run folder.
     pub dir: PathBuf,
-    /// `summary.json`.
+    /// Content of `summary.json`.
     pub summary: Summary,
     /// Bed profile with the mound, as corner points [x, z] [m].
     pub profile: Vec<[f64; 2]>,
-    /// Gauge series of the particles.
+    /// `gauges.csv`: gauge series in the particle domain.
     pub gauges: Option<Table>,
-    /// Elevation gauge series of the flume model.
+    /// `flume_gauges.csv`: surface elevation at the gauges in the flume model.
     pub flume_gauges: Option<Table>,
     /// Motion and forces of each unit.
     pub motions: Vec<UnitMotion>,
-    /// Energy balance.
+    /// `energy.csv`: energy balance.
     pub energy: Option<Table>,
-    /// Surface of a unit about its centre of mass.
+    /// Surface of a unit, relative to its centre of mass.
     pub surface: Option<UnitSurface>,
-    /// Results of the breakage analysis.
+    /// Results of the breakage analysis; `None` if the run has no breakage analysis.
     pub breakage: Option<Breakage>,
 }
 
 impl RunFolder {
     /// Name of the file with the water particles.
     pub const WATER: &str = "fluid.vtkhdf";
-    /// Name of the picture of one moment of the run.
+    /// Name of the picture of one recorded time of the run.
     pub const PICTURE: &str = "picture.svg";
 
     /// Reads a run folder. Only `summary.json` is required.
@@ -61,7 +61,7 @@ impl RunFolder {
         })
     }
 
-    /// Returns whether the folder contains a file with this name.
+    /// Returns true if the folder contains a file with this name.
     pub fn has(&self, file: &str) -> bool {
         self.dir.join(file).exists()
     }

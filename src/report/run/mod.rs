@@ -1,7 +1,7 @@
-//! Report of a run.
+//! Report of a flume run.
 //!
-//! `report.html` is self-contained: style sheet and charts are inline, and there are no scripts. `picture.svg` shows
-//! one moment of the run as a separate picture.
+//! `report.html` is self-contained: style sheet and charts are inline, and there are no scripts. `picture.svg` is a
+//! separate picture of one recorded time of the run.
 
 mod breakage;
 mod charts;
@@ -23,8 +23,8 @@ use crate::report::page::page;
 use folder::RunFolder;
 use moments::Moments;
 
-/// Writes `report.html` into the run folder, and `picture.svg` if the folder holds particle data of the water.
-/// Only `summary.json` is required; sections whose files are missing are left out.
+/// Writes `report.html` into the run folder, and `picture.svg` if the folder contains the water particles.
+/// Only `summary.json` is required. Sections whose files are missing are left out.
 ///
 /// # Errors
 /// If the summary is missing, a file is invalid, or the report cannot be written.

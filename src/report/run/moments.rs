@@ -1,59 +1,62 @@
-//! Side views of water and units at a few moments, and one of them as a separate picture.
+//! Side views of water and units at a few recorded times (moments), and one of these views as a separate picture.
 
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use super::motion::{UnitMotion, mean_and_deviation};
-use super::scene::{Poses, Scene, bed_in, range, unit_radius};
-use super::solids::Eye;
+use super::scene::{ImpactScene, Poses, bed_in, range, unit_radius};
+use super::solids::ViewDirection;
 use super::water::{Dot, Slab, SpeedScale};
 use super::window::{Window, label, svg};
 use crate::output::{OutputError, WaterSnapshots};
 
-/// Length of water shown on each side of the mound [m].
+/// Length of the flume that is shown on each side of the mound [m].
 const BESIDE_MOUND_M: f64 = 0.5;
-/// A corner of the bed profile within this distance of the units belongs to their mound [m].
+/// A corner of the bed profile belongs to the mound if its distance from the units is less than this value [m].
 const MOUND_REACH_M: f64 = 1.5;
-/// If the units are fastest when the force peaks, the moment this much later is shown instead [s].
+/// If the snapshot at the peak speed of the units is already chosen, the moment this long after the peak force is shown
+/// instead [s].
 const LATER_S: f64 = 0.5;
-/// Share of the dots that must lie below the upper edge; the rest is spray [-].
+/// Share of the water particles that are below the upper edge of the window [-]; the particles above it are spray.
 const UNDER_EDGE: f64 = 0.999;
-/// Space for the label of the wavemaker [px].
+/// Space that the label of the wavemaker needs [px].
 const WAVEMAKER_ROOM: f64 = 100.0;
-/// Margin around the drawing in the picture, and heights of its heading and legend [px].
+/// Margin around the drawing in `picture.svg`, height of the heading and height of the legend [px].
 const MARGIN: f64 = 40.0;
 const HEADING: f64 = 74.0;
 const LEGEND: f64 = 60.0;
-/// Font size of the picture's title [px], and width of a letter relative to it. A long title gets a smaller font.
+/// Font size of the title of `picture.svg` [px]; a long title gets a smaller font.
 const TITLE_SIZE: f64 = 19.0;
+/// Width of a letter divided by the font size [-].
 const LETTER: f64 = 0.58;
 
-/// The snapshots include the wavemaker if their water starts within this distance of it, in particle spacings.
-/// Otherwise they hold only a box of the water.
+/// The snapshots extend to the wavemaker if the first water particle is within this distance of it [particle spacings].
+/// Otherwise the snapshots contain only the water in `output.fluid_box_m`.
 const AT_WAVEMAKER: f64 = 2.0;
 
-/// One moment of the run.
+/// One recorded time of the run, with the data for its drawing.
 struct Moment {
     time_s: f64,
     words: String,
-    /// Whether `picture.svg` shows this moment.
+    /// True if `picture.svg` shows this moment.
     pictured: bool,
     dots: Vec<Dot>,
-    /// Position of the wavemaker, if it is shown: the seaward end of the water [m].
+    /// Position of the wavemaker [m], taken as the seaward end of the water; `None` if the wavemaker is not shown.
     wavemaker_x: Option<f64>,
     poses: Poses,
 }
 
-/// The moments of a run and the settings for drawing them.
+/// The moments of a run that the report shows, and the settings of their drawings.
 pub struct Moments<'a> {
     run: &'a RunFolder,
-    scene: Scene<'a>,
+    scene: ImpactScene<'a>,
     slab: Slab,
     scale: SpeedScale,
     moments: Vec<Moment>,
 }
 
 impl<'a> Moments<'a> {
-    /// Reads the moments of a run from its water particles; `None` without particles or without their velocities.
+    /// Chooses the moments of a run and reads their water particles. `None` if the run recorded no particles or no
+    /// velocities.
     ///
     /// # Errors
     /// If the file with the water particles cannot be read.
@@ -83,20 +86,21 @@ impl<'a> Moments<'a> {
             return Ok(None);
         }
         let scale = SpeedScale::holding(moments.iter().map(|moment| moment.dots.as_slice()));
-        let scene = Scene::new(run, Window::new(x, shown_z(run, x, &moments)), Eye::Side);
+        let scene = ImpactScene::new(run, Window::new(x, shown_z(run, x, &moments)), ViewDirection::Side);
         Ok(Some(Self { run, scene, slab, scale, moments }))
     }
 
-    /// Heading of the section.
+    /// Returns the heading of the report section.
     pub fn heading(&self) -> &'static str {
         if self.run.motions.is_empty() { "The wave in the flume" } else { "The wave at the units" }
     }
 
-    /// Content of the section.
+    /// Returns the content of the report section as HTML.
     pub fn section(&self) -> String {
         let mut html = format!(
-            "<p>Side views at equal horizontal and vertical scale. Dots are water particles less than {} mm from y = {} m, \
-             coloured by speed; the darkest colour includes all faster particles{} Flume time 0 is the start of the wavemaker.</p>\n<figure>{}</figure>\n",
+            "<p>Side views at equal horizontal and vertical scale. Dots are water particles less than {} mm from \
+             y = {} m, coloured by speed; the darkest colour includes all faster particles{} Flume time 0 is the start \
+             of the wavemaker.</p>\n<figure>{}</figure>\n",
             short(1000.0 * self.slab.half(), 1),
             short(self.slab.y, 4),
             if self.run.motions.is_empty() {
@@ -116,7 +120,7 @@ impl<'a> Moments<'a> {
         html
     }
 
-    /// Returns the chosen moment as a self-contained SVG, with background and fonts.
+    /// Returns the moment chosen for `picture.svg` as a self-contained SVG, with background and fonts.
     pub fn picture(&self) -> Option<String> {
         let moment = self.moments.iter().find(|moment| moment.pictured)?;
         let (width, drawing_height) = (super::window::WIDTH + 2.0 * MARGIN, self.scene.window.height());
@@ -138,7 +142,7 @@ impl<'a> Moments<'a> {
         ))
     }
 
-    /// Label of the wavemaker, if the wavemaker is in the window and the label fits.
+    /// Draws the label of the wavemaker, if the wavemaker is in the window and there is space for the label.
     fn wavemaker(&self, moment: &Moment) -> String {
         let Some(x) = moment.wavemaker_x else { return String::new() };
         let [left, _, _, _] = self.scene.window.edges();
@@ -158,14 +162,14 @@ impl<'a> Moments<'a> {
     }
 }
 
-/// A moment chosen for the report.
+/// A snapshot chosen for the report: its index, its description, and whether `picture.svg` shows it.
 struct Choice {
     step: usize,
     words: String,
     pictured: bool,
 }
 
-/// Chooses the moments, in order of time. Without units there are four, equally spaced.
+/// Chooses the moments, in chronological order. Without units, four equally spaced moments are chosen.
 fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
     let Some(last) = water.times_s().len().checked_sub(1) else { return Vec::new() };
     let mut choices = vec![Choice { step: 0, words: "Start of the particle simulation".to_owned(), pictured: false }];
@@ -194,7 +198,7 @@ fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
             add(water.nearest(fastest_s).unwrap_or(0), words, false)
         });
         if !fastest {
-            let words = format!("{} s after the peak of the mean force", short(LATER_S, 1));
+            let words = format!("{} s after the peak of the mean horizontal force", short(LATER_S, 1));
             add(water.nearest(force_s + LATER_S).unwrap_or(0), words, false);
         }
     } else {
@@ -210,7 +214,8 @@ fn choices(run: &RunFolder, water: &WaterSnapshots) -> Vec<Choice> {
     choices
 }
 
-/// Time and value at which the mean over the units is furthest from zero; `None` if it is always zero.
+/// Returns the time [s] and the value at which the mean over the units has its largest magnitude; `None` if the mean is
+/// always zero.
 fn largest_mean(run: &RunFolder, history: impl Fn(&UnitMotion) -> Vec<f64>) -> Option<(f64, f64)> {
     let (mean, _) = mean_and_deviation(&run.motions.iter().map(history).collect::<Vec<_>>());
     let times = &run.motions.first()?.time_s;
@@ -218,7 +223,7 @@ fn largest_mean(run: &RunFolder, history: impl Fn(&UnitMotion) -> Vec<f64>) -> O
     known.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
 }
 
-/// Range of x that is shown [m]: the mound with some water on each side, and the paths of all units.
+/// Range of x that the drawing shows [m]: the mound with some water on each side, and all positions of all units.
 fn shown_x(run: &RunFolder) -> [f64; 2] {
     let radius = unit_radius(run);
     let [begin, end] = run.summary.domain_x_m;
@@ -232,7 +237,7 @@ fn shown_x(run: &RunFolder) -> [f64; 2] {
     if end > begin { [low.max(begin), high.min(end)] } else { [low, high] }
 }
 
-/// Range of z that is shown [m]: from below the bed to above water and units.
+/// Range of z that the drawing shows [m]: from below the bed to above the water and the units.
 fn shown_z(run: &RunFolder, x: [f64; 2], moments: &[Moment]) -> [f64; 2] {
     let radius = unit_radius(run);
     let highest = |moment: &Moment| {

@@ -2,7 +2,7 @@
 
 use crate::output::{OutputError, Table};
 
-/// Averaging time of the initial force, before the wave arrives [s].
+/// Averaging time of the initial water force, before the wave arrives [s].
 const START_S: f64 = 0.2;
 
 /// Motion and forces of one unit.
@@ -18,14 +18,15 @@ pub struct UnitMotion {
     pub orientation: Vec<[f64; 4]>,
     /// Velocity of the centre of mass [m/s].
     pub velocity_m_s: Vec<[f64; 3]>,
-    /// Force of the water [N]; NaN where it was not computed yet.
+    /// Force of the water [N]; NaN in a first row that was written before the first time step.
     pub fluid_n: Vec<[f64; 3]>,
-    /// Force of bed and neighbouring units [N].
+    /// Contact force from bed and neighbouring units [N].
     pub contact_n: Vec<[f64; 3]>,
 }
 
 impl UnitMotion {
-    /// Component 0 to 2 of the force of the water, minus its mean over the first 0.2 s [N].
+    /// Component (0 to 2: x, y, z) of the water force over time, minus the mean of this component over the first 0.2 s
+    /// [N].
     pub fn fluid_change_n(&self, component: usize) -> Vec<f64> {
         let first = self.time_s.first().copied().unwrap_or(0.0);
         let at_start: Vec<f64> = (self.time_s.iter().zip(&self.fluid_n))
@@ -37,23 +38,23 @@ impl UnitMotion {
         self.fluid_n.iter().map(|force| force[component] - initial_mean).collect()
     }
 
-    /// Magnitude of the force of bed and neighbouring units [N].
+    /// Magnitude of the contact force from bed and neighbouring units over time [N].
     pub fn contact_size_n(&self) -> Vec<f64> {
         self.contact_n.iter().map(magnitude).collect()
     }
 
-    /// Speed of the centre of mass [m/s].
+    /// Speed of the centre of mass over time [m/s].
     pub fn speed_m_s(&self) -> Vec<f64> {
         self.velocity_m_s.iter().map(magnitude).collect()
     }
 
-    /// Position and orientation at the recorded moment nearest to a time.
+    /// Returns position and orientation at the recorded time nearest to `time_s` [s]; `None` without recorded times.
     pub fn at(&self, time_s: f64) -> Option<Pose> {
         let distance = |i: &usize| (self.time_s[*i] - time_s).abs();
         (0..self.time_s.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|i| self.pose(i))
     }
 
-    /// Position and orientation at the first and the last moment.
+    /// Returns position and orientation at the first and the last recorded time; `None` without recorded times.
     pub fn ends(&self) -> Option<[Pose; 2]> {
         let last = self.time_s.len().checked_sub(1)?;
         Some([0, last].map(|i| self.pose(i)))
@@ -126,7 +127,7 @@ pub fn motions(units: &Table) -> Result<Vec<UnitMotion>, OutputError> {
     Ok(motions)
 }
 
-/// Mean and standard deviation over the units at each moment.
+/// Returns mean and standard deviation over the units at each recorded time.
 pub fn mean_and_deviation(histories: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
     let length = histories.iter().map(Vec::len).min().unwrap_or(0);
     let count = histories.len().max(1) as f64;

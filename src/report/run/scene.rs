@@ -1,48 +1,48 @@
-//! Elements of every drawing of the flume: bed, still water level and units.
+//! Elements of the drawings of the flume: bed, still water level and units.
 
 use super::cover::Cover;
 use super::folder::RunFolder;
 use super::motion::Pose;
-use super::solids::{Eye, coarsened, reach, shaded, silhouette};
+use super::solids::{ViewDirection, coarsened, reach, shaded, silhouette};
 use super::window::{Window, label, path_point};
 use crate::output::UnitSurface;
 
-/// Distance beyond the window at which outlines are no longer visible [px].
+/// Distance beyond the edge of the window at which outlines are no longer visible [px].
 const OUTSIDE: f64 = 5.0;
 
-/// Unit numbers with their poses.
+/// Numbers of the units (from 1) with their positions and orientations.
 pub type Poses = Vec<(u32, Pose)>;
 
 /// The flume with its units, in one window and one viewing direction.
-pub struct Scene<'a> {
+pub struct ImpactScene<'a> {
     run: &'a RunFolder,
     /// Part of the flume that is drawn.
     pub window: Window,
-    eye: Eye,
+    eye: ViewDirection,
     surface: Option<UnitSurface>,
 }
 
-impl<'a> Scene<'a> {
-    /// Creates the scene for a window.
-    pub fn new(run: &'a RunFolder, window: Window, eye: Eye) -> Self {
+impl<'a> ImpactScene<'a> {
+    /// Creates the scene for a window and a viewing direction.
+    pub fn new(run: &'a RunFolder, window: Window, eye: ViewDirection) -> Self {
         let surface = run.surface.as_ref().map(|surface| coarsened(surface, window.scale));
         Self { run, window, eye, surface }
     }
 
-    /// Draws a white background, also on dark pages, for colours that need it.
+    /// Draws a white background. The colours of the water need this background on dark pages, too.
     pub fn sky(&self) -> String {
         let [left, top, right, bottom] = self.window.edges();
         format!("<path class=\"sky\" d=\"M{left:.1} {top:.1}H{right:.1}V{bottom:.1}H{left:.1}Z\"/>\n")
     }
 
-    /// Draws bed, mound and obstacles in side view; the bed is filled down to the lower edge.
+    /// Draws bed, mound and obstacles in side view. The bed is filled down to the lower edge of the window.
     pub fn bed(&self) -> String {
         let bottom = self.window.edges()[3];
         let bed: Vec<[f64; 2]> =
             bed_in(self.run, self.window.x).iter().map(|point| self.window.at(point[0], point[1])).collect();
         let (Some([x0, y0]), Some([x1, y1])) = (bed.first(), bed.last()) else { return String::new() };
         let line = bed.iter().map(|point| path_point(*point)).collect::<Vec<_>>().join("L");
-        // The ends extend beyond the window, so that their outline is clipped.
+        // Both ends of the bed extend beyond the window, so that their vertical outlines are clipped.
         let (left, right, bottom) = (x0 - OUTSIDE, x1 + OUTSIDE, bottom + OUTSIDE);
         self.obstacles()
             + &format!(
@@ -60,7 +60,7 @@ impl<'a> Scene<'a> {
         self.run.summary.obstacles_m.iter().map(rectangle).collect()
     }
 
-    /// Draws the still water, filled down to the lower edge.
+    /// Draws the still water as an area from the still water level down to the lower edge of the window.
     pub fn still_water(&self) -> String {
         let [left, _, right, bottom] = self.window.edges();
         let surface = self.window.at(0.0, self.run.summary.still_water_level_m)[1];
@@ -76,7 +76,7 @@ impl<'a> Scene<'a> {
             + "\n"
     }
 
-    /// Draws the units, distant units first. If `judged`, damaged units have a different colour.
+    /// Draws the units, the most distant unit first. If `judged` is true, damaged units have a different colour.
     pub fn units(&self, poses: &[(u32, Pose)], judged: bool) -> String {
         let damaged = |unit: u32| judged && self.run.summary.units.iter().any(|u| u.unit == unit && u.damaged);
         let mut order: Vec<&(u32, Pose)> = poses.iter().collect();
@@ -91,7 +91,8 @@ impl<'a> Scene<'a> {
             };
             format!("<g class=\"{class}\"><title>unit {unit}</title>{shape}</g>\n")
         });
-        // Computed from front to back, painted from back to front.
+        // The units are computed from front to back, because front units cover others. They are painted from back to
+        // front.
         units.collect::<Vec<_>>().into_iter().rev().collect()
     }
 
@@ -110,13 +111,14 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Half the size of a unit [m], for margins and for units of unknown shape.
+/// Half the size of a unit [m], for margins and for drawing units of unknown shape.
 pub fn unit_radius(run: &RunFolder) -> f64 {
     let surface = run.surface.as_ref().map_or(0.0, reach);
     if surface > 0.0 { surface } else { 0.5 * run.summary.damage_distance_m.unwrap_or(0.1) }
 }
 
-/// Corner points of the bed between two positions, ends included [m]; empty where the bed is unknown.
+/// Returns the corner points [x, z] of the bed between two positions x [m], including the bed at both positions. Empty
+/// if the bed profile is unknown.
 pub fn bed_in(run: &RunFolder, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let end = |x: f64| bed_z(run, x).map(|z| [x, z]);
     let corners = run.profile.iter().copied().filter(|p| from < p[0] && p[0] < to);
@@ -126,11 +128,11 @@ pub fn bed_in(run: &RunFolder, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
 fn bed_z(run: &RunFolder, x: f64) -> Option<f64> {
     let piece = run.profile.windows(2).find(|w| w[0][0] <= x && x <= w[1][0])?;
     let ([x0, z0], [x1, z1]) = (piece[0], piece[1]);
-    // A vertical wall has two corners at the same x.
+    // A vertical wall has two corners at the same x; the second corner is used.
     Some(if x1 > x0 { z0 + (z1 - z0) * (x - x0) / (x1 - x0) } else { z1 })
 }
 
-/// Smallest and largest value; `None` without values.
+/// Returns the smallest and the largest value; `None` without values.
 pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     values.into_iter().fold(None, |range, v| Some(range.map_or([v, v], |[a, b]: [f64; 2]| [a.min(v), b.max(v)])))
 }

@@ -1,4 +1,4 @@
-//! Text and tables of the report, section by section.
+//! Text and tables in the report of a flume run, section by section.
 
 use super::super::plot::{escape, short};
 use super::folder::RunFolder;
@@ -9,7 +9,7 @@ use crate::{
     report::page::{clock, grouped, section},
 };
 
-/// Returns the content of the `<main>` element.
+/// Returns the content of the `<main>` element of the page.
 pub fn body(run: &RunFolder, moments: Option<&Moments>) -> String {
     let mut html = header(&run.summary);
     html += &key_figures(&run.summary);
@@ -50,12 +50,12 @@ fn wave_in_words(wave: &WaveSummary) -> String {
     format!("{kind} {noun}, {} = {height} cm at the wavemaker", height_symbol(wave))
 }
 
-/// Symbol of the wave height: the summary holds the significant height of irregular waves.
+/// Returns the symbol of the wave height in the summary: H_s for irregular waves (significant height), otherwise H.
 fn height_symbol(wave: &WaveSummary) -> &'static str {
     if wave.kind == "irregular" { "H_s" } else { "H" }
 }
 
-/// Width and side boundaries of the domain.
+/// Describes the width and the side boundaries of the particle domain.
 fn width_and_sides(summary: &Summary) -> String {
     let sides = if summary.side_walls { "with side walls" } else { "periodic across the flume" };
     match summary.two_dimensional {
@@ -107,8 +107,8 @@ fn displacement(run: &RunFolder) -> String {
         return String::new();
     }
     let mut content = format!(
-        "<p>Displacement is the horizontal distance between initial and final position of the centre of mass. A unit counts \
-         as damaged if its displacement exceeds {} m.</p>\n<figure>{}</figure>\n",
+        "<p>Displacement is the horizontal distance between initial and final position of the centre of mass. A unit \
+         counts as damaged if its displacement exceeds {} m.</p>\n<figure>{}</figure>\n",
         short(run.summary.damage_distance_m.unwrap_or(0.0), 3),
         charts::displacements(run)
     );
@@ -143,8 +143,8 @@ fn unit_table(summary: &Summary) -> String {
          <th>&Delta;x [m]</th><th>&Delta;z [m]</th><th>Rotation [&deg;]</th><th>Peak force of the water [N]</th>\
          <th>Peak contact force [N]</th><th>Contacts with bed</th><th>Contacts with units</th></tr></thead>\n<tbody>\n{rows}\
          <tr class=\"sum\"><td>Mean</td><td>{mean:.3}</td><td>{} of {}</td><td colspan=\"8\"></td></tr>\n</tbody></table></div>\n\
-         <figcaption>Direction in plan view: 0 is shoreward, positive towards larger y. The mean force of still water is \
-         subtracted from the force of the water.</figcaption>\n",
+         <figcaption>Direction in plan view: 0 is shoreward, positive is towards larger y. The peak force of the water \
+         is the peak after subtraction of the mean force of still water.</figcaption>\n",
         summary.damaged(),
         summary.units.len()
     )
@@ -157,9 +157,9 @@ fn water(run: &RunFolder) -> String {
     }
     let mut content = String::from("<p>The surface elevation \u{3b7} is relative to the still water level.");
     if run.flume_gauges.is_some() {
-        content += " The flume model carries the wave along the whole flume, without units and without wave breaking. If it \
-                    agrees with the particles until the wave reaches the units, the wave has entered the particle domain \
-                    correctly.";
+        content += " The flume model computes the wave along the whole flume, without units and without wave breaking. \
+                    If the elevations of flume model and particles agree until the wave reaches the units, the wave \
+                    has entered the particle domain correctly.";
     }
     content += "</p>\n";
     content += &gauge_table(&run.summary);
@@ -202,12 +202,13 @@ fn forces(run: &RunFolder) -> String {
     }
     let contacts = &run.summary.contacts;
     let content = format!(
-        "<p>Force of the water minus the force of still water (mean over the first 0.2 s). For many units, the band shows \
-         the mean \u{b1} one standard deviation.</p>\n\
+        "<p>Force of the water minus the force of still water (mean over the first 0.2 s). If there are many units, a \
+         band shows the mean \u{b1} one standard deviation.</p>\n\
          <div class=\"pair\">\n<figure><figcaption>Horizontal force, positive shoreward</figcaption>{along}</figure>\n\
          <figure><figcaption>Vertical force, positive upwards</figcaption>{up}</figure>\n</div>\n\
-         <figure>{contact}<figcaption>Resultant force of bed and neighbouring units. Contact events: {} with the bed, {} \
-         between units. Largest force in one event: {} N. Largest approach velocity: {} m/s.</figcaption></figure>\n",
+         <figure>{contact}<figcaption>Resultant contact force from bed and neighbouring units. Contact events: {} with \
+         the bed, {} between units. Largest force in one event: {} N. Largest approach velocity: {} m/s.\
+         </figcaption></figure>\n",
         grouped(contacts.with_bed),
         grouped(contacts.between_units),
         short(contacts.peak_force_n, 1),
@@ -224,23 +225,27 @@ fn energy(run: &RunFolder) -> String {
     let mut words = String::from("Each energy minus its initial value.");
     if let Some(energy) = &run.summary.energy {
         let change = energy.end_j - energy.start_j;
-        words += &format!(" The total changed by {} J: work of the wavemaker minus dissipation.", short(change, 2));
+        words += &format!(
+            " The total energy changed by {} J: work of the wavemaker minus dissipation in the water and the units.",
+            short(change, 2)
+        );
     }
     section("Energy", &format!("<figure>{chart}<figcaption>{words}</figcaption></figure>\n"))
 }
 
 fn warnings(summary: &Summary) -> String {
     let items: String = summary.warnings.iter().map(|warning| format!("<li>{}</li>\n", escape(warning))).collect();
-    let words = "<p>These may make the results unreliable.</p>\n";
+    let words = "<p>The results may be unreliable for these reasons.</p>\n";
     section("Warnings", &if items.is_empty() { items } else { format!("{words}<ul>\n{items}</ul>\n") })
 }
 
 fn assumptions(summary: &Summary) -> String {
     let items: String = summary.assumptions.iter().map(|a| format!("<li>{}</li>\n", escape(a))).collect();
     if items.is_empty() {
-        return section("Assumptions", "<p>The case file lists none.</p>\n");
+        return section("Assumptions", "<p>The case file lists no assumptions.</p>\n");
     }
-    let words = "<p>No source gives these values. They were chosen, and the results depend on them.</p>\n";
+    let words = "<p>No source gives these values. The author of the case chose them, and the results depend on \
+                 them.</p>\n";
     section("Assumptions", &format!("{words}<ul>\n{items}</ul>\n"))
 }
 
@@ -301,7 +306,7 @@ fn facts(summary: &Summary) -> String {
     ];
     if let Some(mach) = summary.largest_mach {
         let words =
-            format!("{} times the speed of sound; below 0.1 the water is nearly incompressible", short(mach, 3));
+            format!("{} times the speed of sound; below 0.1, the water is nearly incompressible", short(mach, 3));
         rows.push(("Highest water speed", words));
     }
     if let Some(wave) = &summary.wave {
@@ -316,9 +321,9 @@ fn facts(summary: &Summary) -> String {
     section("How the run was made", &format!("<table class=\"facts\"><tbody>\n{html}</tbody></table>\n"))
 }
 
-/// Files of a run folder and their contents, in the order of the table.
+/// Files of a run folder and their contents, in the order of the table in the report.
 const FILES: [(&str, &str); 16] = [
-    (RunFolder::PICTURE, "picture of one moment of the wave"),
+    (RunFolder::PICTURE, "picture of water and units at one time"),
     (
         RunFolder::WATER,
         "water particles with velocity, pressure and density: open in ParaView 5.12 or later, show as <em>Point Gaussian</em>, colour by velocity",
@@ -326,28 +331,28 @@ const FILES: [(&str, &str); 16] = [
     ("units.vtkhdf", "moving surfaces of the units: open in ParaView together with the water"),
     ("units.csv", "position, orientation, velocity, force of the water and contact force of each unit over time"),
     ("contacts.csv", "every contact event with position, velocity, peak force and impulse"),
-    ("impacts.h5", "the hardest impacts of each unit with their force histories: HDF5, for other programs"),
+    ("impacts.h5", "the hardest impacts of the units with their force histories: HDF5, for other programs"),
     (
         "breakage.csv",
         "displacement, peak impact force, stresses, cracks and pieces of each unit; forces and stresses at prototype scale",
     ),
-    ("breakage.json", "the same, and the impacts that were re-run at prototype scale"),
-    ("impacts", "fracture case and results of each of these impacts"),
-    ("gauges.csv", "gauge series of the particles"),
+    ("breakage.json", "content of breakage.csv, and the impacts that were re-run at prototype scale"),
+    ("impacts", "folder with the fracture case and the results of each re-run impact"),
+    ("gauges.csv", "gauge series of the particle domain"),
     ("flume_gauges.csv", "gauge series of the flume model"),
     ("energy.csv", "energy balance of water and units"),
     ("diagnostics.csv", "checks of the run: volume, Mach number and density of the water, time steps"),
     ("profile.csv", "bed profile with the mound"),
-    ("summary.json", "the numbers of this page, for other programs"),
-    ("case.json", "the case as it was run"),
+    ("summary.json", "the results on this page as JSON, for other programs"),
+    ("case.json", "the case that was run"),
 ];
 
 fn files(run: &RunFolder) -> String {
     let rows: String = (FILES.iter().filter(|(name, _)| run.has(name)))
         .map(|(name, what)| format!("<tr><td><code>{name}</code></td><td>{what}</td></tr>\n"))
         .collect();
-    let words = "<p>Tables are plain CSV in SI units; each column name includes the unit. Flume time 0 is the start of the \
-                 wavemaker.</p>\n";
+    let words = "<p>Tables are CSV files in SI units; each column name includes the unit. Flume time 0 is the start of \
+                 the wavemaker.</p>\n";
     section("Files of this run", &format!("{words}<table class=\"facts\"><tbody>\n{rows}</tbody></table>\n"))
 }
 
@@ -361,7 +366,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_height_of_irregular_waves_is_significant() {
+    fn irregular_waves_are_described_by_the_significant_height() {
         let wave = |kind: &str| WaveSummary { kind: kind.to_owned(), height_m: 0.12, ..WaveSummary::default() };
         assert_eq!(wave_in_words(&wave("irregular")), "Irregular waves, H_s = 12 cm at the wavemaker");
         assert_eq!(wave_in_words(&wave("solitary")), "Solitary wave, H = 12 cm at the wavemaker");

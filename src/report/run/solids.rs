@@ -7,24 +7,24 @@ use super::motion::Pose;
 use super::window::{Window, path_point};
 use crate::output::UnitSurface;
 
-/// Number of brightness levels.
+/// Number of brightness levels of the faces.
 const SHADES: f64 = 7.0;
 /// Size of the finest detail that is drawn [px].
 const DETAIL: f64 = 1.8;
-/// Number of depth layers of a unit. Within a layer, faces of one shade are drawn together.
+/// Number of depth layers of a unit. In each layer, faces of the same brightness level are drawn as one SVG path.
 const LAYERS: f64 = 16.0;
 
-/// Viewing direction.
+/// Viewing direction of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Eye {
-    /// Along y: x to the right, z upwards.
+pub enum ViewDirection {
+    /// Side view along y: x to the right, z upwards.
     Side,
-    /// Along -z: x to the right, y upwards.
+    /// Top view along -z: x to the right, y upwards.
     Above,
 }
 
-impl Eye {
-    /// Horizontal and vertical coordinate in the drawing, and distance towards the viewer [m].
+impl ViewDirection {
+    /// Returns the horizontal and vertical coordinate in the drawing, and the coordinate towards the viewer [m].
     pub fn project(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Side => [x, z, -y],
@@ -38,8 +38,8 @@ impl Eye {
     }
 }
 
-/// Simplifies a surface to the detail visible at `scale` [px/m]: all vertices in one grid cell are merged into their
-/// mean.
+/// Simplifies a surface to the detail that is visible at `scale` [px/m]. The vertices in each cell of a grid are
+/// replaced by their mean.
 pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
     let cell = |v: &[f64; 3]| v.map(|c| (c * scale / DETAIL).floor() as i64);
     let mut cells: BTreeMap<[i64; 3], (u32, [f64; 3], f64)> = BTreeMap::new();
@@ -62,17 +62,17 @@ pub fn coarsened(surface: &UnitSurface, scale: f64) -> UnitSurface {
     UnitSurface { vertices_m, triangles }
 }
 
-/// Half the size of a unit: largest distance of a vertex from the centre of mass [m].
+/// Largest distance of a vertex of the unit from its centre of mass [m].
 pub fn reach(surface: &UnitSurface) -> f64 {
     surface.vertices_m.iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max)
 }
 
-/// A projected face: depth layer from back to front, brightness level, corners [px].
+/// A projected face: number of the depth layer (increases towards the viewer), brightness level, corners [px].
 type Face = (i64, usize, [[f64; 2]; 3]);
 
-/// Draws the visible faces of a unit, lit from above left. Covered faces are left out; the drawn faces are added to
-/// `cover`.
-pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cover: &mut Cover) -> String {
+/// Draws the visible faces of a unit with light from the upper left. Faces that `cover` hides are left out; the drawn
+/// faces are added to `cover`.
+pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: ViewDirection, cover: &mut Cover) -> String {
     let reach = reach(surface).max(f64::MIN_POSITIVE);
     let middle = eye.project(pose.position_m)[2];
     let mut faces: Vec<Face> = (placed_triangles(surface, pose))
@@ -99,8 +99,8 @@ pub fn shaded(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye, cove
     layers.into_iter().rev().collect()
 }
 
-/// Path data of a unit's silhouette: all faces towards the viewer.
-pub fn silhouette(surface: &UnitSurface, pose: Pose, window: &Window, eye: Eye) -> String {
+/// SVG path data of the silhouette of a unit: all faces that are turned towards the viewer.
+pub fn silhouette(surface: &UnitSurface, pose: Pose, window: &Window, eye: ViewDirection) -> String {
     (placed_triangles(surface, pose))
         .filter(|corners| eye.project(normal(*corners))[2] > 0.0)
         .map(|corners| triangle(corners.map(|c| eye.on_paper(window, c))))
@@ -113,7 +113,7 @@ fn placed_triangles(surface: &UnitSurface, pose: Pose) -> impl Iterator<Item = [
     surface.triangles.iter().map(move |t| t.map(|i| points[i as usize]))
 }
 
-/// Path data of a triangle: the first corner, then relative steps to the others.
+/// SVG path data of a triangle: first corner, then the steps to the second and the third corner.
 fn triangle(corners: [[f64; 2]; 3]) -> String {
     let tenths = corners.map(|corner| corner.map(|c| (10.0 * c).round()));
     let way = |i: usize| [0, 1].map(|axis| 0.1 * (tenths[i][axis] - tenths[i - 1][axis]));
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn invisible_detail_is_merged() {
-        // Two triangles of 1 m, and one of 1 mm between them.
+        // Two triangles with edges of 1 m, and a triangle with edges of 1 mm between them.
         let surface = UnitSurface {
             vertices_m: vec![[0.5; 3], [0.501, 0.5, 0.5], [0.5, 0.501, 0.5], [1.5, 0.5, 0.5], [0.5, 1.5, 0.5]],
             triangles: vec![[0, 1, 2], [0, 3, 4], [1, 3, 4]],

@@ -3,11 +3,12 @@
 use super::super::plot::short;
 use super::folder::RunFolder;
 use super::motion::Pose;
-use super::scene::{Poses, Scene, bed_in, range, unit_radius};
-use super::solids::Eye;
+use super::scene::{ImpactScene, Poses, bed_in, range, unit_radius};
+use super::solids::ViewDirection;
 use super::window::{Window, label, svg};
 
-/// Returns the three views of a run: side before, side after, top. Empty without units.
+/// Returns the three views of a run: side view before the wave, side view after the wave, top view. Empty without
+/// units.
 pub fn views(run: &RunFolder) -> String {
     let ends: Vec<(u32, [Pose; 2])> = run.motions.iter().filter_map(|m| Some((m.unit, m.ends()?))).collect();
     let places = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[0]));
@@ -39,7 +40,7 @@ fn side_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])], moment: us
     let centres = ends.iter().flat_map(|(_, poses)| poses.map(|pose| pose.position_m[2]));
     let heights = centres.flat_map(|z| [z - radius, z + radius]).chain(bed_in(run, x).into_iter().map(|p| p[1]));
     let [low, high] = range(heights.chain([level])).unwrap_or([0.0, 1.0]);
-    let scene = Scene::new(run, Window::new(x, [low - 0.5 * radius, high + 0.6 * radius]), Eye::Side);
+    let scene = ImpactScene::new(run, Window::new(x, [low - 0.5 * radius, high + 0.6 * radius]), ViewDirection::Side);
     let drawing = scene.still_water()
         + &scene.bed()
         + &scene.units(&poses_at(ends, moment), moment == 1)
@@ -52,7 +53,7 @@ fn top_view(run: &RunFolder, x: [f64; 2], ends: &[(u32, [Pose; 2])]) -> String {
     let [low, high] = range(across.chain([0.0, run.summary.domain_width_m])).unwrap_or([0.0, 1.0]);
     let radius = unit_radius(run);
     let room = if run.summary.side_walls { 0.0 } else { 0.6 * radius };
-    let scene = Scene::new(run, Window::new(x, [low - room, high + room]), Eye::Above);
+    let scene = ImpactScene::new(run, Window::new(x, [low - room, high + room]), ViewDirection::Above);
     let window = &scene.window;
     let [left, top, right, bottom] = window.edges();
     let mut drawing = format!("<path class=\"plan\" d=\"M{left:.1} {top:.1}H{right:.1}V{bottom:.1}H{left:.1}Z\"/>");

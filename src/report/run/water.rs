@@ -6,20 +6,21 @@ use super::super::plot::Axis;
 use super::window::{Window, label};
 use crate::output::WaterSnapshot;
 
-/// Colours from slow to fast: `dense` of cmocean (Thyng et al. 2016), perceptually uniform and dark at high speed.
+/// Colours from slow to fast water: colour map `dense` of cmocean (Thyng et al. 2016), perceptually uniform and dark at
+/// high speed.
 const COLOURS: [&str; 10] =
     ["#c4e0e6", "#9ecbe2", "#80b3e3", "#7498e4", "#767bdb", "#795dc4", "#7642a5", "#6d2b7f", "#5c1956", "#421130"];
-/// Half the thickness of the slab, in particle spacings: one layer of particles at rest, and not too many particles
-/// once they have mixed.
+/// Half the thickness of the slab [particle spacings]. The slab contains one layer of particles at rest, and not too
+/// many particles after mixing.
 const HALF_SLAB: f64 = 0.75;
-/// Diameter of a dot, in particle spacings.
+/// Diameter of a dot [particle spacings].
 const DOT: f64 = 0.95;
-/// Minimum distance between dots; of particles closer together only one is drawn [px].
+/// Minimum distance between dots [px]. If particles are closer together, only one of them is drawn.
 const LEAST_DISTANCE: f64 = 2.0;
-/// Share of the particles within the speed scale; the few faster particles get its last colour [-].
-const HELD: f64 = 0.995;
+/// Share of the particles whose speed is within the colour scale [-]. The faster particles get the last colour.
+const SHARE_IN_SCALE: f64 = 0.995;
 
-/// A particle in the slab.
+/// A water particle in the slab, drawn as a dot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dot {
     /// Position along the flume [m].
@@ -30,28 +31,28 @@ pub struct Dot {
     pub speed: f64,
 }
 
-/// A vertical slab along the flume, one particle layer thick.
+/// A vertical slab of water along the flume, 1.5 particle spacings thick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slab {
-    /// Position of its mid-plane across the flume [m].
+    /// y of the middle plane of the slab [m].
     pub y: f64,
     /// Particle spacing [m].
     pub spacing: f64,
 }
 
 impl Slab {
-    /// Returns the slab around the particle layer nearest to the middle of the flume. The first layer is half a spacing
-    /// from the side.
+    /// Returns the slab around the particle layer nearest to the middle of the flume. The first layer is half a
+    /// particle spacing from the side y = 0.
     pub fn in_the_middle(width: f64, spacing: f64) -> Self {
         Self { y: ((0.5 * width / spacing).floor() + 0.5) * spacing, spacing }
     }
 
-    /// Half the thickness of the slab [m].
+    /// Returns half the thickness of the slab [m].
     pub fn half(&self) -> f64 {
         HALF_SLAB * self.spacing
     }
 
-    /// Returns the particles of the slab between two positions along the flume [m].
+    /// Returns the particles that are in the slab and between two positions along the flume, `x` [m].
     pub fn dots(&self, water: &WaterSnapshot, x: [f64; 2]) -> Vec<Dot> {
         let inside = |p: &[f64; 3]| (p[1] - self.y).abs() < self.half() && x[0] <= p[0] && p[0] <= x[1];
         (water.points_m.iter().zip(&water.velocity_m_s))
@@ -62,19 +63,19 @@ impl Slab {
     }
 }
 
-/// Colour scale: equal speed intervals from zero to a round number, one colour each.
+/// Colour scale of the water speed: equal intervals from zero to a round number, one colour per interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedScale {
     top: f64,
 }
 
 impl SpeedScale {
-    /// Returns a scale for the speeds of all moments.
+    /// Returns the scale that covers the speeds of a share `SHARE_IN_SCALE` of the dots in each moment.
     pub fn holding<'a>(moments: impl IntoIterator<Item = &'a [Dot]>) -> Self {
         let fast = |dots: &[Dot]| {
             let mut speeds: Vec<f64> = dots.iter().map(|dot| dot.speed).filter(|speed| speed.is_finite()).collect();
             speeds.sort_by(f64::total_cmp);
-            speeds.get((HELD * speeds.len() as f64) as usize).copied().unwrap_or(0.0)
+            speeds.get((SHARE_IN_SCALE * speeds.len() as f64) as usize).copied().unwrap_or(0.0)
         };
         Self { top: round_up(moments.into_iter().map(fast).fold(0.0, f64::max)) }
     }
@@ -83,7 +84,7 @@ impl SpeedScale {
         ((speed / self.top * COLOURS.len() as f64) as usize).min(COLOURS.len() - 1)
     }
 
-    /// Draws the dots inside the window, one path per level, fast dots over slow dots.
+    /// Draws the dots inside the window, one SVG path per colour. Fast dots are drawn over slow dots.
     pub fn drawing(&self, dots: &[Dot], window: &Window, spacing: f64) -> String {
         let distance = spacing * window.scale;
         let cell = distance.max(LEAST_DISTANCE);
@@ -95,7 +96,8 @@ impl SpeedScale {
             if distance < LEAST_DISTANCE && !taken.insert(place) {
                 continue;
             }
-            // In tenths of a pixel, sorted by row to keep the steps between dots short.
+            // Coordinates are in tenths of a pixel. The dots are sorted by row, so that the steps between dots are
+            // short.
             let [tx, ty] = [x, y].map(|c| (10.0 * c).round() as i64);
             levels[self.level(dot.speed)].insert([place[0], tx, ty]);
         }
@@ -127,19 +129,20 @@ impl SpeedScale {
     }
 }
 
-/// Path data of the dots: zero-length lines, positioned relative to the previous dot; [row, x, y] in tenths of a pixel.
+/// SVG path data of the dots: lines of zero length, each positioned relative to the previous dot. A dot is [row, x, y],
+/// with x and y in tenths of a pixel.
 fn steps(dots: &BTreeSet<[i64; 3]>) -> String {
     let (mut data, mut from) = (String::new(), [0, 0]);
     for [_, x, y] in dots {
         let (dx, dy) = (x - from[0], y - from[1]);
-        // A minus sign separates two numbers, so no blank is needed.
+        // The minus sign of dy separates the two numbers, so that no blank is needed.
         data += &if dy < 0 { format!("m{dx}{dy}h0") } else { format!("m{dx} {dy}h0") };
         from = [*x, *y];
     }
     data
 }
 
-/// Rounds up to the next round number for the end of a scale; never zero.
+/// Rounds up to the next round number, for the end of a scale; returns at least 0.01.
 fn round_up(value: f64) -> f64 {
     let value = value.max(0.01);
     let power = 10_f64.powf(value.log10().floor());
@@ -152,8 +155,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_slab_holds_one_layer_of_particles_at_rest() {
-        // 12 layers across 0.06 m: the middle lies between two layers.
+    fn the_slab_contains_one_layer_of_particles_at_rest() {
+        // There are 12 layers across 0.06 m, and the middle of the flume is between two layers.
         let slab = Slab::in_the_middle(0.06, 0.005);
         let layers = (0..12).map(|i| 0.005 * (f64::from(i) + 0.5));
         assert_eq!(layers.filter(|y| (y - slab.y).abs() < slab.half()).count(), 1);
@@ -167,7 +170,7 @@ mod tests {
         let scale = SpeedScale::holding([&dots[..4]]);
         assert_eq!(scale.top, 1.0);
         let svg = scale.drawing(&dots, &window, 0.02);
-        // 848 px per metre: 0.02 m are 17 px.
+        // The scale is 848 px per metre, so that 0.02 m are 17 px.
         assert!(svg.contains(&format!("stroke=\"{}\" d=\"m4820 928h0m170 0h0m169 0h0\"", COLOURS[0])), "{svg}");
         assert!(svg.contains(COLOURS[9]) && svg.matches("h0").count() == 4);
         // Of two particles closer than two pixels, only one is drawn.

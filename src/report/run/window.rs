@@ -1,4 +1,4 @@
-//! Part of the flume as a drawing with two axes at equal scale.
+//! Drawing of a part of the flume, with two axes at equal scale.
 
 use super::super::plot::{Axis, escape, short};
 
@@ -6,25 +6,26 @@ use super::super::plot::{Axis, escape, short};
 pub const WIDTH: f64 = 920.0;
 /// Maximum height of a window [px].
 const MAX_HEIGHT: f64 = 560.0;
-/// Space for the vertical axis, and for half a number at the right end of the horizontal axis [px].
+/// Left margin, with the vertical axis, and right margin, with half of the last number of the horizontal axis [px].
 const MARGINS: [f64; 2] = [58.0, 14.0];
-/// Space for half a number above the window, and for the horizontal axis below it [px].
+/// Upper margin, with half of the last number of the vertical axis [px].
 const TOP: f64 = 8.0;
+/// Lower margin, with the horizontal axis [px].
 const BELOW: f64 = 40.0;
 
-/// A part of the flume and its mapping to the drawing.
+/// A part of the flume, and the mapping from positions [m] to the drawing [px].
 pub struct Window {
-    /// Range along the flume [m].
+    /// Range of x along the flume [m].
     pub x: [f64; 2],
     /// Range of the vertical axis of the drawing: z or y [m].
     pub up: [f64; 2],
-    /// Scale [px/m].
+    /// Scale of both axes [px/m].
     pub scale: f64,
     left: f64,
 }
 
 impl Window {
-    /// Creates the largest window that fits for these ranges [m].
+    /// Creates the window for these ranges [m], with the largest scale at which the drawing fits.
     pub fn new(x: [f64; 2], up: [f64; 2]) -> Self {
         let room = WIDTH - MARGINS[0] - MARGINS[1];
         let scale = (room / (x[1] - x[0])).min(MAX_HEIGHT / (up[1] - up[0]));
@@ -37,13 +38,13 @@ impl Window {
         [self.left + (x - self.x[0]) * self.scale, TOP + (self.up[1] - up) * self.scale]
     }
 
-    /// Left, top, right and bottom edge [px].
+    /// Returns the left, top, right and bottom edge of the window in the drawing [px].
     pub fn edges(&self) -> [f64; 4] {
         let ([left, top], [right, bottom]) = (self.at(self.x[0], self.up[1]), self.at(self.x[1], self.up[0]));
         [left, top, right, bottom]
     }
 
-    /// Returns whether a position [m] is in the window.
+    /// Returns true if a position [m] is in the window.
     pub fn holds(&self, x: f64, up: f64) -> bool {
         self.x[0] <= x && x <= self.x[1] && self.up[0] <= up && up <= self.up[1]
     }
@@ -104,12 +105,12 @@ pub fn svg(title: &str, height: f64, content: &str) -> String {
     )
 }
 
-/// Returns a text label for a drawing.
+/// Returns a text label at x, y [px] for a drawing; `class` is its CSS class.
 pub fn label(x: f64, y: f64, class: &str, words: &str) -> String {
     format!("<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escape(words))
 }
 
-/// Formats a point of the drawing as path data.
+/// Formats a point of the drawing [px] as SVG path data.
 pub fn path_point([x, y]: [f64; 2]) -> String {
     format!("{} {}", short(x, 1).replace('\u{2212}', "-"), short(y, 1).replace('\u{2212}', "-"))
 }

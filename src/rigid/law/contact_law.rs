@@ -1,10 +1,10 @@
-//! Contact law of a pair of surfaces: stiffness, Coulomb's limit, rolling resistance.
+//! Contact law of a pair of surfaces: stiffness, damping, Coulomb friction, rolling resistance.
 //!
 //! | law | normal | tangential |
 //! | --- | --- | --- |
 //! | Hertz-Mindlin (default) | [`super::hertz_mindlin`] | spring with history: stores the tangential displacement |
 //! | linear | [`super::linear`], measured stiffness | spring with history |
-//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of a single substep, zero below 0.1 mm/s |
+//! | `chrono4` | Hertz with R = 0.1 m for every contact | spring of one substep, without history; 0 below 0.1 mm/s |
 //!
 //! |F_t| <= mu F_n; both forces are zero where F_n < 0. mu changes from mu_s at rest to mu_k during sliding:
 //! mu = mu_k + (mu_s - mu_k) exp(-(v_t / v_c)^2). Rolling resistance is a spring with a limit (Ai et al. 2011):
@@ -46,7 +46,7 @@ pub struct ContactLaw {
     mass: f64,
     /// Effective radius R of the surfaces [m].
     radius: f64,
-    /// Whether the tangential spring persists over substeps.
+    /// True if the tangential spring is kept from substep to substep; false for `chrono4`.
     keeps_spring: bool,
 }
 
@@ -55,28 +55,28 @@ pub struct ContactLaw {
 pub struct ContactForces {
     /// Normal force F_n [N], never negative.
     pub normal: f64,
-    /// Tangential force on the body whose velocity was passed [N].
+    /// Tangential force on the first body [N].
     pub tangential: DVec3,
-    /// Tangential spring after the friction limit [m].
+    /// Displacement of the tangential spring, reduced to the friction limit [m].
     pub spring: DVec3,
-    /// Whether the friction limit was reached.
+    /// True if the tangential force reached the friction limit, or if the normal force is zero.
     pub sliding: bool,
 }
 
 /// Rolling resistance of a contact in one evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rolling {
-    /// Torque on the body whose angular velocity was passed [N m].
+    /// Torque on the first body [N m].
     pub torque: DVec3,
-    /// Rolling spring after the limit [rad].
+    /// Rotation of the rolling spring, reduced to the rolling limit [rad].
     pub spring: DVec3,
-    /// Whether the limit was reached.
+    /// True if the torque reached the rolling limit.
     pub rolling: bool,
 }
 
 impl ContactLaw {
-    /// Creates the law of two materials with the effective mass [kg] and radius [m] of the pair. Without a restitution
-    /// of the pair, the smaller restitution of the two materials applies.
+    /// Creates the contact law of two materials; `mass` [kg] and `radius` [m] are the effective values of the pair. If
+    /// `resistance` has no restitution, the smaller restitution of the two materials applies.
     pub fn new(
         model: ContactModel,
         a: &Material,
@@ -103,7 +103,7 @@ impl ContactLaw {
         Self { stiffness, beta, resistance, mass, radius, keeps_spring: model != ContactModel::Chrono4 }
     }
 
-    /// Whether the tangential spring persists over substeps.
+    /// Returns true if the tangential spring is kept from substep to substep.
     pub fn keeps_spring(&self) -> bool {
         self.keeps_spring
     }
@@ -139,7 +139,7 @@ impl ContactLaw {
         }
     }
 
-    /// Energy stored by the overlap [J].
+    /// Elastic energy of the normal force at the given overlap [J].
     pub fn normal_energy(&self, overlap: f64) -> f64 {
         let share = match self.stiffness {
             Stiffness::Hertz { .. } => 0.4,
@@ -148,12 +148,12 @@ impl ContactLaw {
         share * self.elastic_force(overlap) * overlap
     }
 
-    /// Energy stored by the tangential spring [J].
+    /// Energy of the tangential spring [J]; 0 if the spring is not kept.
     pub fn tangential_energy(&self, overlap: f64, spring: DVec3) -> f64 {
         if self.keeps_spring { 0.5 * self.tangential_stiffness(overlap) * spring.length_squared() } else { 0.0 }
     }
 
-    /// Largest overlap [m] of an elastic impact at a speed [m/s].
+    /// Largest overlap [m] of an elastic impact with the given normal speed [m/s].
     pub fn impact_overlap(&self, speed: f64) -> f64 {
         match self.stiffness {
             Stiffness::Hertz { e_star, radius, .. } => hertz_mindlin::impact_overlap(e_star, radius, self.mass, speed),
@@ -161,13 +161,14 @@ impl ContactLaw {
         }
     }
 
-    /// Friction coefficient mu at a sliding speed [m/s].
+    /// Friction coefficient mu at the given sliding speed [m/s].
     fn friction(&self, speed: f64) -> f64 {
         let Resistance { static_friction, kinetic_friction, .. } = self.resistance;
         kinetic_friction + (static_friction - kinetic_friction) * (-(speed / TRANSITION_SPEED).powi(2)).exp()
     }
 
-    /// Computes the forces for an overlap d > 0, normal velocity v_n (positive on separation), v_t and spring.
+    /// Computes the forces for an overlap d > 0 [m] and the displacement of the tangential spring [m]. v_n (positive
+    /// when separating) and v_t are velocities of the first body relative to the second [m/s].
     pub fn forces(&self, overlap: f64, v_n: f64, v_t: DVec3, spring: DVec3) -> ContactForces {
         let s_n = self.normal_stiffness(overlap);
         let s_t = self.tangential_stiffness(overlap);
@@ -185,13 +186,14 @@ impl ContactLaw {
         if size <= limit {
             return ContactForces { normal, tangential: -trial, spring, sliding: false };
         }
-        // Spring and dashpot are reduced alike; a spring that took over the dashpot force would create energy.
+        // The same factor reduces spring and dashpot force. A spring that also carried the dashpot force would create
+        // energy.
         let held = limit / size;
         ContactForces { normal, tangential: -trial * held, spring: spring * held, sliding: true }
     }
 
-    /// Computes the rolling resistance under the normal force F_n [N]; the angular velocity [rad/s] and rolling spring
-    /// [rad] are normal to the contact normal. k_r = R^2 S_t, c_r = R^2 g_t. `None` if the coefficient is zero.
+    /// Computes the rolling resistance for the normal force F_n [N]: k_r = R^2 S_t, c_r = R^2 g_t. `omega` [rad/s] and
+    /// `spring` [rad] are perpendicular to the contact normal. `None` if the rolling coefficient is zero.
     pub fn rolling_resistance(&self, overlap: f64, normal: f64, omega: DVec3, spring: DVec3) -> Option<Rolling> {
         if self.resistance.rolling == 0.0 {
             return None;
@@ -207,7 +209,7 @@ impl ContactLaw {
         Some(Rolling { torque: -trial * held, spring: spring * held, rolling: true })
     }
 
-    /// Rolling stiffness k_r = R^2 S_t [N m/rad].
+    /// Rolling stiffness k_r = R^2 S_t at the given overlap [N m/rad].
     pub fn rolling_stiffness(&self, overlap: f64) -> f64 {
         self.radius * self.radius * self.tangential_stiffness(overlap)
     }

@@ -4,9 +4,9 @@
 //! when the bodies separate), tangential spring d_t [m] and tangential velocity v_t [m/s]. [`super::contact_law`]
 //! limits both forces.
 //!
-//! Damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the contact may be in tension at its
-//! end. Here tension is cut off, and that formula would give 0.55 for e = 0.5. [`damping_factor`] therefore inverts the
-//! restitution of the law as it is used.
+//! Damping factor: beta = ln e / sqrt(ln^2 e + pi^2) gives the restitution e if the normal force may become tensile at
+//! the end of the contact. Here a tensile force is set to zero, and this formula would give a restitution of 0.55 for
+//! e = 0.5. [`damping_factor`] therefore computes beta from the law without tension.
 
 use std::f64::consts::PI;
 
@@ -39,12 +39,12 @@ pub fn damping(beta: f64, stiffness: f64, mass: f64) -> f64 {
     2.0 * (5.0f64 / 6.0).sqrt() * beta * (stiffness * mass).sqrt()
 }
 
-/// Largest overlap of an elastic impact at speed v [m/s]: d = (15 m* v^2 / (16 E* sqrt R))^(2/5) [m].
+/// Largest overlap of an elastic impact with speed v [m/s]: d = (15 m* v^2 / (16 E* sqrt R))^(2/5) [m].
 pub fn impact_overlap(e_star: f64, radius: f64, mass: f64, speed: f64) -> f64 {
     (15.0 * mass * speed * speed / (16.0 * e_star * radius.sqrt())).powf(0.4)
 }
 
-/// Damping factor |beta| of Sunday et al., with tension: -ln e / sqrt(ln^2 e + pi^2) [-].
+/// Damping factor |beta| of Sunday et al., if the force may be tensile: -ln e / sqrt(ln^2 e + pi^2) [-].
 pub fn damping_factor_with_tension(e: f64) -> f64 {
     -e.ln() / (e.ln().powi(2) + PI * PI).sqrt()
 }
@@ -54,14 +54,14 @@ pub fn damping_factor(e: f64) -> f64 {
     damping_factor_of(e, |x, v, beta| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v)
 }
 
-/// Damping factor |beta| for which x'' = a(x, x', beta), x >= 0, in units of the impact, has the restitution `e` [-].
+/// Damping factor |beta| for which the dimensionless motion x'' = a(x, x', beta), x >= 0, has the restitution `e` [-].
 pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    // At 4 less than 2 % of the speed is left; smaller restitutions are not distinguished.
+    // With beta = 4, less than 2 % of the speed is left. Smaller restitutions also get beta = 4.
     let (mut low, mut high) = (0.0, 4.0);
-    // 40 bisections: 4e-12.
+    // 40 bisections resolve beta to 4e-12.
     for _ in 0..40 {
         let mid = 0.5 * (low + high);
         if tensionless_restitution(|x, v| acceleration(x, v, mid)) > e { low = mid } else { high = mid }
@@ -69,11 +69,11 @@ pub(super) fn damping_factor_of(e: f64, acceleration: impl Fn(f64, f64, f64) -> 
     0.5 * (low + high)
 }
 
-/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force vanishes. In these units of the
-/// impact the law does not depend on mass, stiffness or speed.
+/// Restitution of x'' = a(x, x'), x(0) = 0, x'(0) = 1, integrated until the force is zero. In this dimensionless form,
+/// the law does not depend on mass, stiffness or speed.
 fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
     let acceleration = |x: f64, v: f64| acceleration(x.max(0.0), v);
-    // A contact lasts about 3.2; with this step the fourth-order error is far below the required 1e-4.
+    // A contact lasts about 3.2 in dimensionless time. With this step, the error is far below the required 1e-4.
     let h = 2e-3;
     let (mut x, mut v) = (0.0, 1.0);
     loop {
@@ -86,7 +86,7 @@ fn tensionless_restitution(acceleration: impl Fn(f64, f64) -> f64) -> f64 {
         if v < 0.0 && (x <= 0.0 || acceleration(x, v) >= 0.0) {
             return -v;
         }
-        // Overdamped: the body creeps back without speed.
+        // Overdamped: the body returns with almost no speed.
         if v.abs() < 1e-4 && acceleration(x, v).abs() < 1e-4 {
             return 0.0;
         }
@@ -99,11 +99,11 @@ mod tests {
 
     #[test]
     fn closed_form_damping_overestimates_tensionless_restitution() {
-        let back = |beta: f64| tensionless_restitution(|x, v| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v);
+        let rebound = |beta: f64| tensionless_restitution(|x, v| -x.powf(1.5) - 5f64.sqrt() * beta * x.powf(0.25) * v);
         for e in [0.1, 0.3, 0.5, 0.8, 0.95] {
-            // 1e-4: a tenth of the tolerance of the impact tests.
-            assert!((back(damping_factor(e)) - e).abs() < 1e-4);
-            assert!(back(damping_factor_with_tension(e)) > e);
+            // 1e-4 is a tenth of the tolerance of the impact tests.
+            assert!((rebound(damping_factor(e)) - e).abs() < 1e-4);
+            assert!(rebound(damping_factor_with_tension(e)) > e);
             assert!(damping_factor(e) > damping_factor_with_tension(e));
         }
         assert_eq!(damping_factor(1.0), 0.0);

@@ -25,8 +25,8 @@ mod tests {
 
     #[test]
     fn damping_matches_the_closed_form_of_schwager_and_poschel() {
-        // Without tension an underdamped impact ends at phase pi - atan(2 b sqrt(1 - b^2)/(2 b^2 - 1)) for b > 1/sqrt
-        // 2. Below: e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))) (Schwager & Poschel 2007).
+        // Closed form without tension for an underdamped impact (Schwager & Poschel 2007), b < 1/sqrt 2:
+        // e = exp(-b/sqrt(1 - b^2) (pi - atan2(2 b sqrt(1 - b^2), 1 - 2 b^2))).
         for b in [0.05f64, 0.2, 0.5, 0.7] {
             let root = (1.0 - b * b).sqrt();
             let e = (-b / root * (std::f64::consts::PI - (2.0 * b * root).atan2(1.0 - 2.0 * b * b))).exp();

@@ -11,15 +11,15 @@ pub struct Material {
     pub restitution: f64,
 }
 
-/// Contact law of all pairs.
+/// Choice of the contact law, the same for all pairs of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ContactModel {
-    /// Hertz-Mindlin with tangential history.
+    /// Hertz-Mindlin law; the tangential spring is kept from substep to substep.
     #[default]
     HertzMindlin,
-    /// Linear springs; every [`Resistance`] needs a stiffness.
+    /// Linear springs; every [`Resistance`] must have a stiffness.
     Linear,
-    /// The law of Chrono 4.0 between meshes.
+    /// Contact law of Chrono 4.0 for contacts between meshes.
     Chrono4,
 }
 
@@ -32,14 +32,14 @@ pub struct Resistance {
     pub kinetic_friction: f64,
     /// Coefficient of rolling resistance [-].
     pub rolling: f64,
-    /// Coefficient of restitution [-]; default: the smaller one of the two materials.
+    /// Coefficient of restitution [-]; `None` selects the smaller restitution of the two materials.
     pub restitution: Option<f64>,
-    /// Stiffness of the linear law [N/m].
+    /// Normal stiffness k_n of the linear law [N/m]; the other laws ignore it.
     pub stiffness: Option<f64>,
 }
 
 impl From<f64> for Resistance {
-    /// The same static and kinetic friction coefficient; no rolling resistance.
+    /// Uses `friction` as static and kinetic friction coefficient, without rolling resistance.
     fn from(friction: f64) -> Self {
         Self { static_friction: friction, kinetic_friction: friction, rolling: 0.0, restitution: None, stiffness: None }
     }

@@ -1,4 +1,4 @@
-//! Records of active contacts, and what is kept of them when they end.
+//! Records of active contacts. When a contact ends, its event is kept, and for a hard impact also the force history.
 
 use glam::DVec3;
 
@@ -11,10 +11,10 @@ use crate::rigid::motion::BodyState;
 /// Records of all contacts of a world.
 #[derive(Debug, Clone, Default)]
 pub struct ContactRecords {
-    /// Records of the active contacts, in the order of the contacts.
-    #[allow(clippy::vec_box, reason = "records move between lists in every substep; boxed, only a pointer moves")]
+    /// Records of the active contacts, in the order of `RigidWorld::contacts`.
+    #[allow(clippy::vec_box, reason = "records move between lists in every substep; with a box, only a pointer moves")]
     pub running: Vec<Box<RecordedContact>>,
-    /// Ended contacts that have not been taken yet.
+    /// Ended contacts that the caller has not taken yet.
     pub ended: EventLog,
     /// The hardest ended contacts.
     pub impacts: ImpactLog,
@@ -27,9 +27,9 @@ pub struct ContactRecords {
 pub struct ContactStart {
     /// Time [s].
     pub time: f64,
-    /// First body.
+    /// State of the first body.
     pub body: BodyState,
-    /// Partner, at the periodic image that the body touches.
+    /// State of the partner, at the periodic image that the first body touches; `None` for ground and walls.
     pub partner: Option<BodyState>,
     /// Normal velocity [m/s], negative when approaching.
     pub v_n: f64,
@@ -97,7 +97,7 @@ impl ContactRecords {
 }
 
 impl RecordedContact {
-    /// Adds a substep at whose end the contact is still active.
+    /// Adds a substep to the record of a contact that is still active.
     pub fn add(&mut self, force_step: ForceStep) {
         let ForceStep { substep, before, now, v_n } = force_step;
         self.add_force(before, now, substep);
@@ -111,7 +111,7 @@ impl RecordedContact {
         event.rebound = v_n;
     }
 
-    /// Adds the mean of the forces at both ends of a substep to impulse and history.
+    /// Adds the mean of the forces at the start and the end of a substep to the impulse and the force history.
     fn add_force(&mut self, before: DVec3, now: DVec3, substep: Substep) {
         let Substep { dt, time, .. } = substep;
         let force = 0.5 * (before + now);

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 use crate::rigid::contact::Feature;
 use crate::rigid::motion::BodyState;
 
-/// A contact that has ended, or its record so far.
+/// Record of a contact that has ended, or of an active contact up to now.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactEvent {
-    /// Number of the contact from 0, in the order of the starts.
+    /// Number of the contact from 0, in the order in which contacts start.
     pub number: u64,
     /// Time of the first overlap [s].
     pub start: f64,
@@ -26,20 +26,20 @@ pub struct ContactEvent {
     pub normal: [f64; 3],
     /// State of the body at the start, before any force of this contact.
     pub before: BodyState,
-    /// State of the partner at the start, at the image that the body touched; none for the bed and walls.
+    /// State of the partner at the start, at the periodic image that the body touched; none for the ground and walls.
     pub partner_before: Option<BodyState>,
     /// Normal velocity at the start [m/s], positive when approaching.
     pub approach_normal: f64,
     /// Tangential velocity at the start [m/s].
     pub approach_tangential: f64,
-    /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2 with the mass of the unit, or half of it between
-    /// two units; 0 without approach.
+    /// Kinetic energy of the approach [J]: (1/2) m approach_normal^2. m is the mass of the unit, or half of this mass
+    /// between two units. 0 if `approach_normal` is negative.
     pub approach_energy: f64,
     /// Normal velocity at the end of the contact [m/s], positive when separating.
     pub rebound: f64,
-    /// Largest force [N].
+    /// Magnitude of the largest force [N].
     pub peak_force: f64,
-    /// Largest force on the body as a vector [N].
+    /// Force vector on the body at `peak_time` [N].
     pub peak: [f64; 3],
     /// Time of the largest force [s].
     pub peak_time: f64,
@@ -48,7 +48,7 @@ pub struct ContactEvent {
 }
 
 impl ContactEvent {
-    /// Number of the other body from 0; none for the bed and walls.
+    /// Number of the other body from 0; `None` for the ground and walls.
     pub fn partner_unit(&self) -> Option<u32> {
         match self.partner {
             Feature::Unit { body, .. } => Some(body),
@@ -57,16 +57,16 @@ impl ContactEvent {
     }
 
     /// Returns the event with all times shifted by `offset` [s].
-    pub fn on_clock(&self, offset: f64) -> Self {
+    pub fn shifted_in_time(&self, offset: f64) -> Self {
         let Self { start, end, peak_time, .. } = *self;
         Self { start: start + offset, end: end + offset, peak_time: peak_time + offset, ..*self }
     }
 }
 
-/// Largest number of ended contacts kept until they are taken; beyond it, the weaker half is dropped.
+/// Largest number of ended contacts that are stored until the caller takes them.
 pub const MAX_EVENTS: usize = 20_000;
 
-/// Ended contacts that have not been taken yet.
+/// Ended contacts that the caller has not taken yet.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EventLog {
     /// Ended contacts, ordered by end time.

@@ -14,11 +14,11 @@ pub const KEPT: usize = 64;
 /// Number of bins that triggers merging.
 const GROWN: usize = 128;
 
-/// A force joins the last bin if it differs from it by less than this fraction of the peak [-]. A body at rest
-/// therefore does not fill the history.
+/// A force is added to the last bin if it differs from the mean force of the bin by at most this fraction of the peak
+/// force [-]. A body at rest therefore needs few bins.
 const SAME: f64 = 1e-3;
 
-/// The bin with the peak is merged only if it keeps at least this fraction of the peak [-].
+/// The bin with the peak force is merged only if the merged bin keeps at least this fraction of the peak force [-].
 const PEAK_KEPT: f64 = 0.98;
 
 /// A bin of a force history.
@@ -39,18 +39,18 @@ impl ForceSample {
         self.impulse / self.duration
     }
 
-    /// Whether the mean force differs from `force` by at most `tolerance` [N].
+    /// Returns true if the mean force differs from `force` by at most `tolerance` [N].
     fn is_about(&self, force: DVec3, tolerance: f64) -> bool {
         (force * self.duration - self.impulse).length_squared() <= (tolerance * self.duration).powi(2)
     }
 
-    /// Returns this sample merged with its successor.
+    /// Returns this bin merged with the next bin.
     fn with(&self, next: &Self) -> Self {
         let duration = self.duration + next.duration;
         Self { start: self.start, duration, impulse: self.impulse + next.impulse }
     }
 
-    /// Least-squares change of the force when merged with the successor [N2 s].
+    /// Least-squares change of the force if this bin is merged with the next bin [N2 s].
     fn cost(&self, next: &Self) -> f64 {
         let shared = self.duration * next.duration / (self.duration + next.duration);
         (self.force() - next.force()).length_squared() * shared
@@ -73,7 +73,7 @@ impl From<ForceSample> for [f64; 5] {
 /// Force on a body against time.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ForceHistory {
-    /// In time order, without gaps.
+    /// Bins in time order, without gaps.
     samples: Vec<ForceSample>,
     /// Largest mean force of a substep [N].
     peak: f64,
@@ -82,7 +82,7 @@ pub struct ForceHistory {
 }
 
 impl ForceHistory {
-    /// The history so far in time order, without gaps: at most 128 samples, 64 after [`Self::shorten`].
+    /// Bins up to now, in time order and without gaps: fewer than 128 bins, at most 64 after [`Self::shorten`].
     pub fn samples(&self) -> &[ForceSample] {
         &self.samples
     }
@@ -129,7 +129,7 @@ impl ForceHistory {
         }
     }
 
-    /// Cost of merging sample `next` with its predecessor [N2 s]; infinite if the peak would be lost.
+    /// Cost of merging bin `next` with the bin before it [N2 s]; infinite if the merged bin would lose the peak.
     fn cost(&self, next: usize) -> f64 {
         let [before, after] = [&self.samples[next - 1], &self.samples[next]];
         let holds_peak = self.peak_bin == next || self.peak_bin + 1 == next;
@@ -168,11 +168,11 @@ mod tests {
         let samples = history.samples();
         assert!(samples.len() <= KEPT);
         let kept: DVec3 = samples.iter().map(|s| s.impulse).sum();
-        // Rounding errors of half a million additions.
+        // 1e-9 allows for the rounding errors of half a million additions.
         assert!((kept - impulse).length() < 1e-9 * impulse.length(), "{kept} {impulse}");
         let hardest = samples.iter().map(|s| s.force().length()).fold(0.0, f64::max);
         assert!((PEAK_KEPT * 1000.0..1004.0).contains(&hardest), "{hardest}");
-        // The spike is reproduced within a twentieth of its height; its bins are about 30 us long.
+        // The error of the spike is below a tenth of its height; its bins are about 30 us long.
         let spike = samples.iter().filter(|s| s.start > 4.9999 && s.start + s.duration < 5.0011);
         let (mut count, mut error) = (0, 0.0_f64);
         for sample in spike {

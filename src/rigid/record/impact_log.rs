@@ -1,6 +1,6 @@
-//! The impacts of each unit that the breakage analysis may re-run: those of the largest force and energy.
+//! The impacts of each unit with the largest peak force and approach energy; the breakage analysis may re-run them.
 //!
-//! An impact needs about 0.5 kB and its history at most 2.5 kB, so a unit needs at most 48 kB for any run length.
+//! An impact needs about 0.5 kB, and its force history at most 2.5 kB. A unit therefore needs at most 48 kB in any run.
 
 use std::collections::BTreeMap;
 
@@ -9,22 +9,22 @@ use serde::{Deserialize, Serialize};
 use super::event::ContactEvent;
 use super::force_history::ForceHistory;
 
-/// Number of impacts kept per unit for their peak force.
+/// Largest number of impacts that are kept per unit because of their peak force.
 pub const MAX_HARDEST: usize = 12;
 
-/// Number of further impacts kept per unit for their approach energy.
+/// Largest number of further impacts that are kept per unit because of their approach energy.
 pub const MAX_MOST_ENERGETIC: usize = 4;
 
 /// A contact with its force history.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RecordedContact {
-    /// The contact.
+    /// Start, peak and end of the contact.
     pub event: ContactEvent,
-    /// Force on `event.body`.
+    /// Force on `event.body` against time.
     pub history: ForceHistory,
 }
 
-/// Rank of an impact: the larger `value` [N or J] comes first; of equal values, the earlier impact.
+/// Rank of an impact. The impact with the larger `value` [N or J] comes first; if values are equal, the earlier impact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Rank {
     value: f64,
@@ -37,7 +37,7 @@ impl Rank {
     }
 }
 
-/// The impacts of one unit in the order of their ranks.
+/// The impacts of one unit, highest rank first.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct UnitRanks {
     by_force: Vec<Rank>,
@@ -51,7 +51,7 @@ pub struct ImpactLog {
     units: Vec<UnitRanks>,
 }
 
-/// Inserts `new` into the ranked list; returns the lowest rank if the list exceeds `room`.
+/// Inserts `new` into the ranked list. If the list exceeds `room` entries, removes and returns the lowest rank.
 fn rank_in(list: &mut Vec<Rank>, room: usize, new: Rank) -> Option<Rank> {
     let index = list.iter().position(|old| new.is_before(old)).unwrap_or(list.len());
     list.insert(index, new);
@@ -62,7 +62,7 @@ fn has_room(list: &[Rank], room: usize, new: Rank) -> bool {
     list.len() < room || list.last().is_some_and(|last| new.is_before(last))
 }
 
-/// Units involved in a contact.
+/// Numbers of the one or two units of a contact, from 0.
 fn units_of(event: &ContactEvent) -> impl Iterator<Item = usize> + use<> {
     let partner = event.partner_unit().filter(|partner| *partner != event.body);
     [Some(event.body), partner].into_iter().flatten().map(|unit| unit as usize)
@@ -73,20 +73,20 @@ fn ranks(event: &ContactEvent) -> [Rank; 2] {
 }
 
 impl ImpactLog {
-    /// The kept impacts in the order of their starts.
+    /// The kept impacts, in the order in which they started.
     pub fn impacts(&self) -> impl Iterator<Item = &RecordedContact> {
         self.impacts.values()
     }
 
-    /// The kept impacts, hardest first.
+    /// The kept impacts, in descending order of peak force.
     pub fn into_hardest_first(self) -> Vec<RecordedContact> {
         let mut impacts: Vec<RecordedContact> = self.impacts.into_values().collect();
-        // The sort is stable: of equal impacts the earlier one comes first.
+        // The sort is stable: of impacts with equal peak force, the earlier impact comes first.
         impacts.sort_by(|a, b| b.event.peak_force.total_cmp(&a.event.peak_force));
         impacts
     }
 
-    /// Whether an impact would be kept with its current force and energy.
+    /// Returns true if the log would keep an impact with its current peak force and approach energy.
     pub fn would_keep(&self, event: &ContactEvent) -> bool {
         let [force, energy] = ranks(event);
         let keeps = |unit: usize| {
@@ -109,27 +109,27 @@ impl ImpactLog {
         out.into_iter().for_each(|number| self.drop_if_unranked(number));
     }
 
-    /// Ranks an impact among those of a unit; returns the number of the impact that leaves the lists.
+    /// Adds an impact to the ranking of a unit. Returns the number of the impact that leaves the ranking, if any.
     fn rank(&mut self, unit: usize, event: &ContactEvent) -> Option<u64> {
         if self.units.len() <= unit {
             self.units.resize_with(unit + 1, UnitRanks::default);
         }
         let [force, _] = ranks(event);
         let lists = &mut self.units[unit];
-        // An impact that leaves the hardest may still be among the most energetic.
+        // An impact that leaves the ranking by force may still enter the ranking by energy.
         let weaker = rank_in(&mut lists.by_force, MAX_HARDEST, force)?;
         let [_, energy] = ranks(&self.impacts[&weaker.number].event);
         rank_in(&mut lists.by_energy, MAX_MOST_ENERGETIC, energy).map(|out| out.number)
     }
 
-    /// Drops an impact that is in no unit's ranking.
+    /// Removes an impact that is in the ranking of no unit.
     fn drop_if_unranked(&mut self, number: u64) {
         let ranked = |unit: usize| {
             let UnitRanks { by_force, by_energy } = &self.units[unit];
             by_force.iter().chain(by_energy).any(|rank| rank.number == number)
         };
-        let no_longer = self.impacts.get(&number).is_some_and(|impact| !units_of(&impact.event).any(ranked));
-        if no_longer {
+        let is_unranked = self.impacts.get(&number).is_some_and(|impact| !units_of(&impact.event).any(ranked));
+        if is_unranked {
             self.impacts.remove(&number);
         }
     }

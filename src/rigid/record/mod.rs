@@ -5,7 +5,7 @@
 //! | `event` | start, peak and end of each contact |
 //! | `force_history` | contact force against time |
 //! | `impact_log` | the hardest impacts of each unit |
-//! | `contact_records` | records of active contacts, and what is kept of them when they end |
+//! | `contact_records` | records of active contacts, stored when a contact ends |
 
 mod contact_records;
 mod event;

@@ -1,4 +1,4 @@
-//! Broad phase: pairs of bodies near each other, found with the bounding volume tree of rapier's broad phase.
+//! Broad phase: pairs of bodies near each other, found with a bounding volume tree of parry3d.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -7,18 +7,18 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 /// Two bodies near each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BodyPair {
-    /// Index of the first body, the lower one.
+    /// Index of the first body, the lower index.
     pub first: usize,
-    /// Index of the second body; equal to `first` for a body and its own image.
+    /// Index of the second body; equal to `first` if a body is near its own image.
     pub second: usize,
-    /// Number of flume widths by which the second body is shifted to be near the first.
+    /// Number of flume widths that shift the second body to its image near the first body.
     pub image: i32,
 }
 
 /// Sorted pairs of bodies whose centres are nearer than `near` [m]. `period` is the width [m] of a periodic flume, in
 /// which a body can also touch images of other bodies and of itself.
 pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair> {
-    // Number of the image that a body is in, and its position in image 0.
+    // Number of the periodic image that contains a body, and the position of the body shifted to image 0.
     let image = |x: &DVec3| period.map_or(0.0, |width| (x.y / width).floor());
     let wrapped: Vec<(DVec3, i32)> = position
         .iter()
@@ -27,11 +27,11 @@ pub fn pairs(position: &[DVec3], near: f64, period: Option<f64>) -> Vec<BodyPair
             (*x - DVec3::Y * (image * period.unwrap_or(0.0)), image as i32)
         })
         .collect();
-    // Half of the distance around each centre, plus 1e-6, so that rounding loses no pair.
+    // Half of the edge of each box is half of `near`; 1e-6 more, because rounding errors must not exclude a pair.
     let half = DVec3::splat(0.5 * near * (1.0 + 1e-6));
     let boxes: Vec<Aabb> = wrapped.iter().map(|(x, _)| Aabb::new(*x - half, *x + half)).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-    // In a narrow flume a body can be near several images.
+    // In a narrow flume, a body can be near several images of another body.
     let shifts = period.map_or(0, |width| (near / width).ceil().min(f64::from(MAX_IMAGES)) as i32);
     let mut pairs = Vec::new();
     for (first, (x, own)) in wrapped.iter().enumerate() {

@@ -1,13 +1,13 @@
 //! Distance from rounded parts to the ground (a profile z(x), uniform in y) and to plane walls.
 //!
-//! The ground is a chain of strips. A part touches a strip if the foot point of its lowest point lies between the
-//! strip's ends. It touches a convex corner if the direction from the corner line to the part lies between the two
-//! normals. The two cases join continuously and exclude each other, so no seam counts twice. In a concave corner both
-//! strips count.
+//! The ground is a chain of strips. A part touches a strip if the foot point of one of its ends ([`ConvexPart::ends`])
+//! lies on the strip. The part touches a convex corner if the direction from the corner line to the part lies between
+//! the normals of the two strips. The two cases join continuously and exclude each other, so no contact counts twice.
+//! In a concave corner, the part touches both strips.
 
 use glam::{DQuat, DVec3};
 
-use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::profile::Profile;
 use crate::rigid::contact::Feature;
 
@@ -16,7 +16,7 @@ use crate::rigid::contact::Feature;
 struct Strip {
     /// Range along x [m].
     x: [f64; 2],
-    /// A point of the plane [m].
+    /// A point of the strip [m].
     origin: DVec3,
     /// Upward normal.
     normal: DVec3,
@@ -34,7 +34,7 @@ pub struct GroundSurface {
 pub struct Approach {
     /// Element of the fixed surface.
     pub feature: Feature,
-    /// Nearest point of the core [m].
+    /// Point of the core that is nearest to the surface [m].
     pub core: DVec3,
     /// Normal from the surface into the body.
     pub normal: DVec3,
@@ -43,7 +43,7 @@ pub struct Approach {
 }
 
 impl GroundSurface {
-    /// Creates the strips of a profile, level beyond its ends.
+    /// Creates the strips of a profile; the ground is level beyond the ends of the profile.
     pub fn new(profile: &Profile) -> Self {
         let points = profile.points();
         let last = points[points.len() - 1];
@@ -57,7 +57,7 @@ impl GroundSurface {
         Self { profile: profile.clone(), strips }
     }
 
-    /// Appends the points where a part of a body at (rotation, position) is nearer than `reach` [m] to the ground.
+    /// Appends the points where the core of a part is nearer than `reach` [m] to the ground.
     pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
         let (centre, radius) = part.bounding_sphere();
         let centre = rotation * centre + position;
@@ -82,7 +82,7 @@ impl GroundSurface {
         }
     }
 
-    /// Approaches of the ends of a part to strip k.
+    /// Points where the ends of a part are near strip k.
     fn strip_approaches<'a>(
         &'a self,
         k: usize,
@@ -97,7 +97,7 @@ impl GroundSurface {
             let distance = (core - strip.origin).dot(strip.normal);
             let foot = core.x - distance * strip.normal.x;
             let above = distance > 0.0 || core.z < self.profile.z(core.x);
-            // Widened by the rounding error, so that no foot point falls between two strips; `keep` drops duplicates.
+            // The tolerance prevents that a foot point falls between two strips; `keep` drops duplicates.
             let inside = (strip.x[0] - SAME_POINT..strip.x[1] + SAME_POINT).contains(&foot);
             let feature = Feature::Ground { place: 2 * k as u32, end: end as u16 };
             (distance < reach && above && inside).then_some(Approach { feature, core, normal: strip.normal, distance })
@@ -110,12 +110,12 @@ const SAME_POINT: f64 = 1e-12;
 /// Sine of the angle below which two strips count as one plane [-].
 const STRAIGHT: f64 = 1e-6;
 
-/// Appends an approach unless an earlier one of this part (index `from` on) has the same foot point and normal. On the
-/// seam of two strips, the nearer one counts.
+/// Appends an approach of a part, unless an approach of this part has the same foot point and normal; then the nearer
+/// approach is kept. The approaches of the part start at index `from`.
 pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
     let foot = |a: &Approach| a.core - a.normal * a.distance;
     let same = |old: &&mut Approach| {
-        // 1e-6 m: within it, two planes at an angle below STRAIGHT differ by less than a picometre.
+        // Over 1e-6 m, two planes at an angle below STRAIGHT differ by less than a picometre.
         foot(old).distance_squared(foot(&new)) < 1e-12 && old.normal.cross(new.normal).length() < STRAIGHT
     };
     match out[from..].iter_mut().find(same) {
@@ -125,7 +125,7 @@ pub(super) fn keep(out: &mut Vec<Approach>, from: usize, new: Approach) {
     }
 }
 
-/// Approach of a part to the convex corner between two strips, if the corner is the nearest element.
+/// Point where a part is near the convex corner between two strips; `None` if a strip is nearer.
 fn corner_approach(
     k: usize,
     left: &Strip,
@@ -159,8 +159,8 @@ fn corner_approach(
 }
 
 /// Finds where a part of a body at (rotation, position) is nearest to the segment from a to b. Returns the position
-/// along the segment, from 0 at a to 1 at b [-], and the nearest point of the part's core [m]; `None` if the two are
-/// farther apart than `reach` [m].
+/// along the segment, from 0 at a to 1 at b [-], and the nearest point of the part's core [m]; `None` if segment and
+/// core are farther apart than `reach` [m].
 pub(super) fn nearest_to_segment(
     part: &ConvexPart,
     rotation: DQuat,
@@ -171,16 +171,16 @@ pub(super) fn nearest_to_segment(
     let back = rotation.inverse();
     let length = a.distance(b);
     let [mut low, mut high] = [0.0, 1.0];
-    // 50 bisections of less than a metre: 1e-15 m.
+    // 50 bisections of a segment shorter than a metre resolve 1e-15 m.
     for _ in 0..50 {
         let middle: f64 = 0.5 * (low + high);
         let on_segment = a.lerp(b, middle);
         let core = rotation * part.nearest(back * (on_segment - position)) + position;
-        // The distance to the part decreases by at most the distance along the segment.
+        // Along the segment, the distance to the part changes by at most the length of the path.
         if on_segment.distance(core) - 0.5 * (high - low) * length > reach {
             return None;
         }
-        // The distance is convex along the segment; the sign of its slope tells on which side the nearest point lies.
+        // The distance is convex along the segment. The sign of its slope shows on which side the nearest point lies.
         if (core - on_segment).dot(b - a) > 0.0 { low = middle } else { high = middle }
     }
     let fraction = 0.5 * (low + high);
@@ -190,7 +190,7 @@ pub(super) fn nearest_to_segment(
 /// A plane wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneWall {
-    /// Number of the wall.
+    /// Number of the wall, as in [`Feature::Wall`].
     pub index: u8,
     /// A point of the plane [m].
     pub origin: DVec3,
@@ -199,7 +199,7 @@ pub struct PlaneWall {
 }
 
 impl PlaneWall {
-    /// Appends the points where a part is nearer than `reach` [m] to the wall.
+    /// Appends the points where the core of a part is nearer than `reach` [m] to the wall.
     pub fn approaches(&self, part: &ConvexPart, rotation: DQuat, position: DVec3, reach: f64, out: &mut Vec<Approach>) {
         for (end, point) in part.ends(rotation.inverse() * -self.normal).enumerate() {
             let core = rotation * point + position;
@@ -233,7 +233,7 @@ mod tests {
         let surface = trapezoid();
         let (mut before, mut turned) = (0.1, 0.0);
         for i in 0..=4000 {
-            // A level path 0.1 above the crest and past the lee edge.
+            // The ball moves horizontally, 0.1 above the crest and beyond its landward edge.
             let at = DVec3::new(0.8 + 1e-4 * f64::from(i), 0.3, 1.1);
             let found = near(&surface, at);
             if found.is_empty() {
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn concave_corners_are_touched_twice_and_straight_seams_once() {
+    fn concave_corner_has_two_contacts_and_straight_joint_has_one() {
         let valley = GroundSurface::new(&Profile::new(vec![[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]));
         assert_eq!(near(&valley, DVec3::new(0.0, 0.0, 0.2)).len(), 2);
         let straight = GroundSurface::new(&Profile::new(vec![[-1.0, -0.5], [0.0, 0.0], [1.0, 0.5]]));
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn far_flank_of_a_mound_is_not_touched_from_behind() {
+    fn ball_does_not_touch_the_far_flank_of_a_mound_from_inside() {
         let found = near(&trapezoid(), DVec3::new(-1.6, 0.0, 0.75));
         assert!(found.iter().all(|a| a.distance > 0.0));
         assert_eq!(found.len(), 1);

@@ -1,15 +1,15 @@
 //! Nearest points of the cores of two rounded parts.
 //!
-//! parry's GJK gives the distance of two convex cores to a relative accuracy of about 5e-8, but the direction only to
-//! the square root of that. A few alternating projections onto the cores, in closed form, make the direction exact. A
-//! contact at rest then has the same normal in every substep.
+//! parry's GJK algorithm gives the distance of two convex cores with a relative error of about 5e-8. The error of the
+//! direction is larger: the square root of this value. A few alternating projections onto the cores, in closed form,
+//! make the direction exact. A contact at rest then has the same normal in every substep.
 
 use glam::{DQuat, DVec3};
 use parry3d_f64::math::Pose;
 use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
-use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::convex::convex_part::ConvexPart;
 
 /// Support function of a part's core for GJK.
 struct CoreMap<'a>(&'a ConvexPart);
@@ -36,7 +36,7 @@ pub type Placement = (DQuat, DVec3);
 
 /// Computes the nearest points of the cores of two parts if their distance is at most `reach` [m].
 pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b): Placement, reach: f64) -> Nearest {
-    // In the axes of the first body.
+    // All points are in the axes of the first body.
     let back = q_a.inverse();
     let relative = Pose::from_parts(back * (x_b - x_a), back * q_b);
     let on_b = |p: DVec3| relative.transform_point(b.nearest(relative.inverse_transform_point(p)));
@@ -47,7 +47,7 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
     let p_b = match gjk::closest_points(&relative, &map_a, &map_b, reach, true, &mut simplex) {
         GJKResult::ClosestPoints(_, p_b, _) => p_b,
         GJKResult::Intersection => return Nearest::Overlap,
-        // The direction X means that GJK ran out of iterations: start from the middle of the first core.
+        // The direction X means that GJK reached its iteration limit: start from the middle of the first core.
         GJKResult::NoIntersection(direction) if direction == DVec3::X => on_b(a.bounding_sphere().0),
         GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => return Nearest::Apart,
     };
@@ -55,9 +55,9 @@ pub fn nearest(a: &ConvexPart, (q_a, x_a): Placement, b: &ConvexPart, (q_b, x_b)
     to_world(points, (q_a, x_a), reach)
 }
 
-/// Computes the nearest points from `start`, the last nearest point of the second core in its own axes [m]. From there,
-/// projections alone mostly converge in a few iterations. `None` if they do not converge, which happens where two legs
-/// are nearly parallel.
+/// Computes the nearest points by projections alone. `start` is the nearest point of the second core in the previous
+/// search, in the axes of the second body [m]. From this point, the projections mostly converge in a few iterations.
+/// Returns `None` if the projections do not converge, for example if two legs are nearly parallel.
 pub fn nearest_from(
     a: &ConvexPart,
     (q_a, x_a): Placement,
@@ -73,21 +73,21 @@ pub fn nearest_from(
     converged.then(|| to_world(points, (q_a, x_a), reach))
 }
 
-/// Alternating projections between two cores, in the axes of the first, starting at a point of the second. Returns
-/// whether they have converged, and the nearest points.
+/// Projects alternately onto two cores, in the axes of the first body, from the point `p_b` of the second core. Returns
+/// true if the projections have converged, and the nearest points [m].
 fn refine_by_projections(a: &ConvexPart, on_b: impl Fn(DVec3) -> DVec3, mut p_b: DVec3) -> (bool, [DVec3; 2]) {
     let mut p_a = a.nearest(p_b);
     let mut step = DVec3::ZERO;
-    for k in 0..POLISH {
+    for k in 0..MAX_PROJECTIONS {
         let before = p_b;
         p_b = on_b(p_a);
         let last = step;
         step = p_b - before;
-        // 1e-14 m: below the rounding of a unit's position.
+        // 1e-14 m is less than the rounding error of a unit's position.
         if step.length_squared() < 1e-28 {
             return (true, [a.nearest(p_b), p_b]);
         }
-        // The steps finally shrink by a constant ratio: every third step extrapolates to the limit of this series.
+        // The steps finally shrink by a constant ratio. Every third step extrapolates to the limit of this series.
         let ratio = step.dot(last) / last.length_squared().max(f64::MIN_POSITIVE);
         let extrapolates = k % 3 == 2 && ratio > 0.0 && ratio < MAX_RATIO;
         p_a = a.nearest(if extrapolates { p_b + step * (ratio / (1.0 - ratio)) } else { p_b });
@@ -107,10 +107,10 @@ fn to_world([p_a, p_b]: [DVec3; 2], (q_a, x_a): Placement, reach: f64) -> Neares
     Nearest::Points(q_a * p_a + x_a, q_a * p_b + x_a)
 }
 
-/// Largest number of alternating projections. Each one reduces the error by the ratio of the rounding to the radii, a
-/// few tens of per cent. 60 are reached only where two sides are parallel and any nearest point will do.
-const POLISH: usize = 60;
-/// Largest ratio of two consecutive steps with which the limit is extrapolated [-].
+/// Largest number of alternating projections. Each projection reduces the error by a few tens of per cent (rounding
+/// radius over radius of the cores). 60 are needed only if two surfaces are parallel; any nearest point is then valid.
+const MAX_PROJECTIONS: usize = 60;
+/// Largest ratio of two consecutive steps for which the limit is extrapolated [-].
 const MAX_RATIO: f64 = 0.95;
 
 #[cfg(test)]
@@ -140,8 +140,8 @@ mod tests {
                 continue;
             };
             let n = (p_b - p_a).normalize();
-            // No point of either core lies beyond the planes through the nearest points, which proves them nearest.
-            // 1e-9 of the height is a thousandth of the overlap at rest.
+            // No point of a core lies beyond the plane through its nearest point. This proves that the points are
+            // nearest. 1e-9 of the height is a thousandth of the overlap at rest.
             assert!(a.support(n).dot(n) - p_a.dot(n) < 1e-9, "{i}");
             let on_b = turn * b.support(turn.inverse() * -n) + shift;
             assert!(p_b.dot(n) - on_b.dot(n) < 1e-9, "{i}");

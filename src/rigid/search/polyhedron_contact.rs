@@ -1,41 +1,41 @@
 //! Contact points of two rounded polyhedra.
 //!
-//! Two polyhedra with parallel faces in contact share a contact patch, so a single pair of nearest points is arbitrary.
-//! The patch is a polygon. Its corners are corners of one body over a face of the other, and crossings of two edges.
-//! Each of them is a contact point. The distances of corners are exact and change smoothly. NearPoint the end of an edge,
-//! the edge is assumed to bend back with the rounding radius: the crossing fades out while the corner takes over.
+//! Two polyhedra with parallel faces touch over a contact patch, where a single pair of nearest points is arbitrary.
+//! The patch is a polygon. Each corner of the patch is a contact point: it is a corner of one body in front of a face
+//! of the other body, or a crossing of two edges. The distances of corners are exact and change smoothly. An edge is
+//! assumed to bend inwards near its ends, with the rounding radius. This reduces the overlap of a crossing smoothly.
 
 use glam::DVec3;
 
 use super::nearest_points::Placement;
-use crate::geometry::polyhedron::Polyhedron;
-use crate::rigid::contact::WHOLE;
+use crate::geometry::convex::polyhedron::Polyhedron;
+use crate::rigid::contact::WHOLE_PART;
 
-/// Squared sine of the angle below which two edges count as parallel [-]: 0.6 degrees; the corners carry the load then.
+/// Squared sine of the angle below which two edges count as parallel [-] (0.6 degrees). Corners then carry the load.
 const PARALLEL: f64 = 1e-4;
-/// Tolerance, as a sine, for the condition that the other edge lies outside both faces of an edge [-].
-const BEHIND: f64 = 0.2;
+/// Tolerance (sine of an angle) of the check that the other edge lies outside both faces of an edge [-].
+const OUTSIDE_TOLERANCE: f64 = 0.2;
 
 /// A point where two bodies are near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearPoint {
-    /// Feature (corner, edge or whole) of the first and of the second body.
+    /// Feature number (corner, edge or [`WHOLE_PART`]) on the first and on the second body.
     pub features: [u16; 2],
-    /// Nearest points of the cores, world axes [m].
+    /// Nearest points of the first and the second core, world axes [m].
     pub points: [DVec3; 2],
-    /// Distance by which the bent edges reduce the overlap here [m].
+    /// Reduction of the overlap near the ends of crossing edges [m]; 0 at a corner.
     pub overlap_reduction: f64,
 }
 
-/// Points where the cores of two polyhedra, rounded by `rounding` [m], are nearer than `reach` [m]. A distance of zero
-/// means that the cores overlap.
+/// Returns the points where the cores of two polyhedra are nearer than `reach` [m]; `rounding` is the rounding radius
+/// [m]. If the two points of an entry are equal, the cores overlap.
 pub fn near_points(
     (a, (q_a, x_a)): (&Polyhedron, Placement),
     (b, (q_b, x_b)): (&Polyhedron, Placement),
     rounding: f64,
     reach: f64,
 ) -> Vec<NearPoint> {
-    // Corners of each body in the axes of the other.
+    // Corners of each body in the body axes of the other body.
     let (back_a, back_b) = (q_a.inverse(), q_b.inverse());
     let a_at_b: Vec<DVec3> = a.corners().iter().map(|c| back_b * (q_a * *c + x_a - x_b)).collect();
     let b_at_a: Vec<DVec3> = b.corners().iter().map(|c| back_a * (q_b * *c + x_b - x_a)).collect();
@@ -51,11 +51,11 @@ pub fn near_points(
     };
     for (number, corner) in a_at_b.iter().enumerate().filter(|(_, corner)| b.least_distance(**corner) < reach) {
         let points = [from_b(*corner), from_b(b.nearest(*corner))];
-        keep(NearPoint { features: [number as u16, WHOLE], points, overlap_reduction: 0.0 });
+        keep(NearPoint { features: [number as u16, WHOLE_PART], points, overlap_reduction: 0.0 });
     }
     for (number, corner) in b_at_a.iter().enumerate().filter(|(_, corner)| a.least_distance(**corner) < reach) {
         let points = [from_a(a.nearest(*corner)), from_a(*corner)];
-        keep(NearPoint { features: [WHOLE, number as u16], points, overlap_reduction: 0.0 });
+        keep(NearPoint { features: [WHOLE_PART, number as u16], points, overlap_reduction: 0.0 });
     }
     let relative = back_a * q_b;
     let edges_of_b: Vec<EdgeAt> = b
@@ -75,33 +75,33 @@ pub fn near_points(
     found
 }
 
-/// Whether a face of the first body separates the corners of the second by more than `reach` [m].
+/// Returns true if all `corners` of the other body lie more than `reach` [m] in front of one face of `body`.
 fn are_apart(body: &Polyhedron, corners: &[DVec3], reach: f64) -> bool {
     body.faces().iter().any(|face| corners.iter().all(|corner| face.plane.distance(*corner) > reach))
 }
 
-/// An edge with its ends [m] and the outward normals of its faces, in the axes of the first body.
+/// An edge in the axes of the first body: ends [m] and outward normals of its two faces.
 struct EdgeAt {
     ends: [DVec3; 2],
     normals: [DVec3; 2],
 }
 
 impl EdgeAt {
-    /// Whether `direction` points out of the body at the edge.
+    /// Returns true if `direction` points out of the body at this edge.
     fn points_out(&self, direction: DVec3) -> bool {
-        self.normals.iter().all(|face| face.dot(direction) > -BEHIND)
+        self.normals.iter().all(|face| face.dot(direction) > -OUTSIDE_TOLERANCE)
     }
 }
 
-/// Nearest points of two edges that cross within `reach` [m], and the reduction of their overlap by bending [m]. `None`
-/// unless each edge lies on the outer side of the other.
+/// Returns the nearest points of two edges [m], and the reduction of the overlap near their ends [m]. `None` if the
+/// edges are parallel, further apart than `reach` [m], do not cross, or if one edge lies inside the other body.
 fn crossing(a: &EdgeAt, b: &EdgeAt, rounding: f64, reach: f64) -> Option<([DVec3; 2], f64)> {
     let ([a_0, a_1], [b_0, b_1]) = (a.ends, b.ends);
     let (length_a, length_b) = (a_0.distance(a_1), b_0.distance(b_1));
     let (u, v) = ((a_1 - a_0) / length_a, (b_1 - b_0) / length_b);
     let (between, cosine) = (a_0 - b_0, u.dot(v));
     let sine_squared = 1.0 - cosine * cosine;
-    // Compares the distance of the lines, multiplied by the sine.
+    // The triple product is the distance of the two lines times the sine of their angle.
     if sine_squared < PARALLEL || between.dot(u.cross(v)).powi(2) > reach * reach * sine_squared {
         return None;
     }
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     const ROUNDING: f64 = 0.05;
-    /// Edges come after the eight corners.
+    /// Feature number of the first edge, after eight corners.
     const FIRST_EDGE: u16 = 8;
 
     fn cube() -> Polyhedron {
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn aligned_boxes_touch_at_the_corners_of_the_contact_patch() {
         let points = above(0.3, 1.0, 0.0);
-        // Two corners of each box lie over the other's face; the others are 0.3 away. Edges that only meet bend back.
+        // Two corners of each box face the other box; the others are 0.3 away. Only edge crossings have a reduction.
         let bearing = points.iter().filter(|near| near.overlap_reduction == 0.0);
         assert_eq!(bearing.clone().count(), 4);
         for near in bearing {
@@ -155,8 +155,8 @@ mod tests {
     #[test]
     fn rotated_boxes_touch_where_their_edges_cross() {
         let points = above(0.0, 1.0, 0.25 * std::f64::consts::PI);
-        // Two squares rotated by 45 degrees share an octagon; no corner of one lies over the other.
-        let crossings = points.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE);
+        // The common area of two squares at 45 degrees is an octagon; no corner of one square lies in the other.
+        let crossings = points.iter().filter(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE_PART);
         assert_eq!((crossings.count(), points.len()), (8, 8));
         for near in points {
             assert!(
@@ -166,14 +166,15 @@ mod tests {
     }
 
     #[test]
-    fn edge_crossing_fades_out_at_the_end_of_an_edge() {
+    fn overlap_of_an_edge_crossing_decreases_near_the_end_of_an_edge() {
         let edge_up = DQuat::from_rotation_x(0.25 * std::f64::consts::PI);
         for shift in [0.0, 0.3, 0.41, 0.4499] {
             let lower = (edge_up, DVec3::ZERO);
             let across = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
             let upper = (across * edge_up, DVec3::new(shift, 0.0, 0.9 * 2f64.sqrt() + 0.1));
             let points = near_points((&cube(), lower), (&cube(), upper), ROUNDING, 0.15);
-            let near = points.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE).unwrap();
+            let near =
+                points.iter().find(|near| near.features[0] >= FIRST_EDGE && near.features[0] != WHOLE_PART).unwrap();
             let past = (shift - 0.4f64).max(0.0);
             assert!((near.overlap_reduction - past * past / 0.1).abs() < 1e-9, "{shift}: {}", near.overlap_reduction);
         }

@@ -1,8 +1,8 @@
 //! Contact points of bodies with each other, with periodic images, with the ground and with walls.
 //!
-//! Bounding spheres give the pairs of bodies, distances of cores the pairs of parts. The list of near parts is reused
-//! until bodies have moved by its margin. Contact points are sorted by key, so sums over them always have the same
-//! order.
+//! Bounding spheres select pairs of bodies; distances between cores select pairs of parts. The list of part pairs
+//! includes a margin and is reused until the bodies have moved by this margin. Contact points are sorted by key, so
+//! sums over contact points always have the same order.
 
 use std::sync::Arc;
 
@@ -14,34 +14,35 @@ use super::ground::{Approach, GroundSurface, PlaneWall};
 use super::nearest_points::{self, Nearest};
 use super::polyhedron_contact::{self, NearPoint};
 use super::terrain_contact;
-use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::terrain::Terrain;
-use crate::rigid::contact::{Contact, ContactKey, ContactPoint, Feature, WHOLE};
+use crate::rigid::contact::{Contact, ContactKey, ContactPoint, Feature, WHOLE_PART};
 use crate::rigid::error::RigidError;
 use crate::rigid::setup::{RigidSetup, Sides};
 
-/// Number of bodies, and of pairs of parts, per task of the thread pool: some tens of microseconds of work.
+/// Number of bodies per task of the thread pool. Each task takes some tens of microseconds.
 const BODIES: usize = 64;
+/// Number of pairs of parts per task of the thread pool.
 const PAIRS: usize = 24;
 
-/// Two parts of different bodies that are near each other.
+/// Two parts near each other, of two bodies or of a body and its periodic image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartPair {
     bodies: BodyPair,
     parts: [usize; 2],
-    /// Gap when the list was made [m], negative for an overlap.
+    /// Gap between the rounded surfaces when the pair list was built [m], negative for an overlap.
     gap: f64,
 }
 
 impl PartPair {
     /// Identity of the contact between two features of the parts.
     fn key(&self, features: [u16; 2]) -> ContactKey {
-        let [part, partner] = [0, 1].map(|k| self.parts[k] as u16 * (WHOLE + 1) + features[k]);
+        let [part, partner] = [0, 1].map(|k| self.parts[k] as u16 * (WHOLE_PART + 1) + features[k]);
         let BodyPair { first, second, image } = self.bodies;
         ContactKey { body: first as u32, part, feature: Feature::Unit { body: second as u32, image, part: partner } }
     }
 
-    /// Whether the parts can be near each other after each body's surface has travelled at most the given distance [m].
+    /// Returns true if the parts can be in contact. `travelled` is the largest motion [m] of the surface of each body.
     pub fn can_be_near(&self, travelled: &[f64]) -> bool {
         self.gap <= travelled[self.bodies.first] + travelled[self.bodies.second]
     }
@@ -50,7 +51,7 @@ impl PartPair {
 /// Rotation and position of every body.
 #[derive(Debug, Clone, Copy)]
 pub struct Placements<'a> {
-    /// Unit quaternions.
+    /// Rotations from body to world axes, unit quaternions.
     pub rotation: &'a [DQuat],
     /// Centres of mass [m].
     pub position: &'a [DVec3],
@@ -111,18 +112,18 @@ impl Surfaces {
         self.reach
     }
 
-    /// Pairs of parts of different bodies that are nearer than `margin` [m], ordered by their numbers.
+    /// Pairs of parts with gaps of at most `margin` [m], ordered by body and part numbers.
     pub fn near_parts(&self, placements: Placements<'_>, margin: f64) -> Vec<PartPair> {
         let bodies = broad_phase::pairs(placements.position, 2.0 * self.reach + margin, self.period);
         let near = map_chunks(&bodies, PAIRS, |pair, out| {
             self.near_parts_of(pair, placements, margin, out);
             Ok(())
         });
-        // The search cannot fail.
+        // This search returns no errors.
         near.unwrap_or_default()
     }
 
-    /// Appends the pairs of parts of two bodies that are nearer than `margin` [m].
+    /// Appends the pairs of parts of two bodies with gaps of at most `margin` [m].
     fn near_parts_of(&self, pair: &BodyPair, placements: Placements<'_>, margin: f64, out: &mut Vec<PartPair>) {
         let [(q_a, x_a), (q_b, x_b)] = self.poses(pair, placements);
         for (i, part_a) in self.parts.iter().enumerate() {
@@ -145,7 +146,7 @@ impl Surfaces {
         }
     }
 
-    /// Rotation and position of both bodies of a pair; the second at the image near the first.
+    /// Rotation and position of both bodies of a pair. The second body is at its image near the first.
     fn poses(&self, pair: &BodyPair, placements: Placements<'_>) -> [(DQuat, DVec3); 2] {
         let Placements { rotation, position } = placements;
         let shift = self.shift(pair);
@@ -157,7 +158,8 @@ impl Surfaces {
         DVec3::Y * (f64::from(pair.image) * self.period.unwrap_or(0.0))
     }
 
-    /// Contact points of the given pairs, the ground and the walls within the bodies' margins [m], sorted by key.
+    /// Contact points of the given pairs of parts, and of all bodies with the ground and the walls, sorted by key.
+    /// Points with gaps up to the margins of the bodies [m] are included.
     pub fn contact_points(
         &self,
         pairs: &[PartPair],
@@ -237,16 +239,18 @@ impl Surfaces {
             let near = polyhedron_contact::near_points((core_a, pose_a), (core_b, pose_b), rounding, reach);
             return near.into_iter().try_for_each(add);
         }
-        let key = pair.key([WHOLE; 2]);
+        let key = pair.key([WHOLE_PART; 2]);
         let last_core = before.binary_search_by_key(&key, |contact| contact.key).ok().map(|index| before[index].core);
         let near_last =
             last_core.and_then(|core| nearest_points::nearest_from(part_a, pose_a, part_b, pose_b, core, reach));
         match near_last.unwrap_or_else(|| nearest_points::nearest(part_a, pose_a, part_b, pose_b, reach)) {
             Nearest::Apart => Ok(()),
-            // Equal points: the distance is zero.
-            Nearest::Overlap => add(NearPoint { features: [WHOLE; 2], points: [pose_a.1; 2], overlap_reduction: 0.0 }),
+            // Two equal points: `unit_contact_point` rejects a distance of zero.
+            Nearest::Overlap => {
+                add(NearPoint { features: [WHOLE_PART; 2], points: [pose_a.1; 2], overlap_reduction: 0.0 })
+            }
             Nearest::Points(p_a, p_b) => {
-                add(NearPoint { features: [WHOLE; 2], points: [p_a, p_b], overlap_reduction: 0.0 })
+                add(NearPoint { features: [WHOLE_PART; 2], points: [p_a, p_b], overlap_reduction: 0.0 })
             }
         }
     }
@@ -273,7 +277,7 @@ fn map_chunks<T: Sync, U: Send>(
     Ok(all)
 }
 
-/// Creates the contact point of parts of two units with the given rounding radii [m].
+/// Creates the contact point of two parts with the given rounding radii [m].
 fn unit_contact_point(
     pair: &PartPair,
     near: NearPoint,
@@ -285,7 +289,7 @@ fn unit_contact_point(
     let distance = (p_a - p_b).length();
     let sum = roundings[0] + roundings[1];
     let overlap = sum - distance;
-    // If the overlap is equal to the sum, the cores touch; gap and normal are defined only for a smaller overlap.
+    // The cores touch when the overlap equals the sum of the radii. The normal is defined only for a smaller overlap.
     let allowed = 0.75 * sum;
     if overlap > allowed {
         let BodyPair { first, second, .. } = pair.bodies;

@@ -1,34 +1,34 @@
 //! Contact points of rounded parts with a triangle surface.
 //!
-//! As with the strips of the ground, an end of a part touches a triangle if its foot point lies in the triangle. The
-//! part touches a ridge or a corner if that is its nearest element, judged by the directions into the neighbouring
-//! triangles. In a flat valley, an end in front of two triangles touches only the nearer one. The contact potential is
-//! then the larger of the two, and the force is continuous, however fine the triangles are.
+//! An end of a part touches a triangle if the foot point of the end lies in the triangle. The part touches a ridge or a
+//! corner if no neighbouring element is nearer; the directions from ridge or corner into its neighbours decide this.
+//! In a flat valley, an end in front of two triangles touches only the nearer triangle. The contact energy is then the
+//! larger one of the two triangles. It is continuous, however fine the triangles are.
 
 use glam::{DQuat, DVec3};
 
 use super::ground::{Approach, keep, nearest_to_segment};
-use crate::geometry::convex_part::ConvexPart;
+use crate::geometry::convex::convex_part::ConvexPart;
 use crate::geometry::terrain::{Corner, Face, Ridge, SurfaceElement, Terrain};
 use crate::rigid::contact::Feature;
 
-/// Distance by which a foot point may lie outside a triangle [m], so that none falls between two triangles; [`keep`]
-/// drops duplicates.
+/// Distance by which a foot point may lie outside a triangle [m]. Without it, rounding errors could place a foot point
+/// between two triangles. [`keep_nearer`] drops duplicates.
 const SAME_PLACE: f64 = 1e-12;
 
-/// Fraction of the rounding radius by which a core in contact with a triangle may lie behind it [-]. A unit moves far
-/// less in a substep; a core further behind belongs to another triangle of a thin body.
-const BEHIND: f64 = 0.25;
+/// Fraction of the rounding radius by which a core may lie behind a triangle that it touches [-]. In a substep, a unit
+/// moves much less. A core further behind touches another side of a thin body.
+const LARGEST_DEPTH_BEHIND: f64 = 0.25;
 
-/// Cosine of the angle between two triangles below which both sides of a valley are touched [-]. From 0.2 rad on, the
-/// second contact starts 0.02 of the rounding radius later than the first. A part with a larger overlap starts the
-/// second contact with an initial overlap, which is subtracted.
+/// Cosine of the angle between two triangles above which an end touches only the nearer triangle [-] (below 0.2 rad).
+/// In a steeper valley, the second contact starts at least 0.02 of the rounding radius later than the first. If it
+/// starts with an overlap, this initial overlap is subtracted.
 const VALLEY: f64 = 0.98;
 
-/// Fraction of a ridge at each end that belongs to the corner there [-]: the resolution of the bisection.
+/// Fraction of a ridge at each end where the corner counts instead of the ridge [-]; the resolution of the bisection.
 const RIDGE_END: f64 = 1e-14;
 
-/// A part of a body with its pose.
+/// A part of a body, with the rotation and position of the body.
 #[derive(Clone, Copy)]
 struct Placed<'a> {
     part: &'a ConvexPart,
@@ -36,7 +36,8 @@ struct Placed<'a> {
     position: DVec3,
 }
 
-/// Appends the points where a part of a body at (rotation, position) is nearer than `reach` [m] to the terrain.
+/// Appends to `out` the points where the core of a part of a body at (rotation, position) is nearer than `reach` [m] to
+/// the terrain.
 pub fn approaches(
     terrain: &Terrain,
     part: &ConvexPart,
@@ -50,7 +51,7 @@ pub fn approaches(
     let placed = Placed { part, rotation, position };
     let from = out.len();
     let mut near: Vec<(u32, &SurfaceElement)> = terrain.near(centre, radius + reach).collect();
-    // Numbers ascend from triangles to ridges to corners.
+    // Elements are numbered in this order: triangles, ridges, corners.
     near.sort_unstable_by_key(|(number, _)| *number);
     for (place, element) in near {
         match element {
@@ -73,7 +74,8 @@ pub fn approaches(
     }
 }
 
-/// Appends an approach to a triangle, unless the same end is nearer to another triangle in almost the same plane.
+/// Appends the approach of an end of the part to a triangle. Of several triangles with almost the same normal, only the
+/// nearest counts. The approaches of the part start at index `from`.
 fn keep_nearer(out: &mut Vec<Approach>, from: usize, new: Approach) {
     let end = |approach: &Approach| match approach.feature {
         Feature::Terrain { end, .. } => Some(end),
@@ -87,10 +89,10 @@ fn keep_nearer(out: &mut Vec<Approach>, from: usize, new: Approach) {
 }
 
 impl<'a> Placed<'a> {
-    /// Approaches of the ends of the part to a triangle.
+    /// Points where the ends of the part are near a triangle.
     fn approaches_to_face(self, face: &'a Face, place: u32, reach: f64) -> impl Iterator<Item = Approach> + 'a {
         let ends = self.part.ends(self.rotation.inverse() * -face.normal).enumerate();
-        let behind = -BEHIND * self.part.rounding();
+        let behind = -LARGEST_DEPTH_BEHIND * self.part.rounding();
         ends.filter_map(move |(end, point)| {
             let core = self.rotation * point + self.position;
             let distance = (core - face.corners[0]).dot(face.normal);
@@ -104,7 +106,7 @@ impl<'a> Placed<'a> {
         })
     }
 
-    /// Approach of the part to a ridge, if no adjacent triangle or corner is nearer.
+    /// Point where the part is near a ridge; `None` if an adjacent triangle or corner is nearer.
     fn approach_to_ridge(self, ridge: &Ridge, place: u32, reach: f64) -> Option<Approach> {
         let [a, b] = ridge.ends;
         let (share, core) = nearest_to_segment(self.part, self.rotation, self.position, ridge.ends, reach)?;
@@ -114,7 +116,7 @@ impl<'a> Placed<'a> {
         within.then(|| self.approach(across, core, place, reach)).flatten()
     }
 
-    /// Approach of the part to a corner, if no adjacent ridge or triangle is nearer.
+    /// Point where the part is near a corner; `None` if an adjacent ridge or triangle is nearer.
     fn approach_to_corner(self, corner: &Corner, place: u32, reach: f64) -> Option<Approach> {
         let core =
             self.rotation * self.part.nearest(self.rotation.inverse() * (corner.at - self.position)) + self.position;
@@ -135,7 +137,7 @@ mod tests {
     use super::*;
     use crate::geometry::profile::Profile;
     use crate::geometry::solid::tests::cuboid;
-    use crate::geometry::terrain::tests::drawn_out;
+    use crate::geometry::terrain::tests::extruded_profile;
     use crate::rigid::search::ground::GroundSurface;
 
     const REACH: f64 = 0.3;
@@ -167,7 +169,7 @@ mod tests {
             }
             let found = near(&terrain, &ball(), DQuat::IDENTITY, at);
             assert_eq!(found.len(), 1, "{at}: {found:?}");
-            // Rounding errors.
+            // 1e-12 allows for rounding errors.
             assert!((found[0].distance - outside).abs() < 1e-12);
             assert!((found[0].core - found[0].normal * outside - at.clamp(DVec3::ZERO, DVec3::ONE)).length() < 1e-12);
         }
@@ -176,9 +178,9 @@ mod tests {
     #[test]
     fn extruded_profile_gives_the_distances_of_the_profile() {
         let points = [[-3.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [3.0, 0.0]];
-        let (terrain, ground) = (drawn_out(&points), GroundSurface::new(&Profile::new(points.to_vec())));
+        let (terrain, ground) = (extruded_profile(&points), GroundSurface::new(&Profile::new(points.to_vec())));
         let leg = ConvexPart::cone(
-            crate::geometry::convex_part::TruncatedCone::new(DVec3::Z, [-0.2, 0.2], [0.1, 0.06]),
+            crate::geometry::convex::convex_part::TruncatedCone::new(DVec3::Z, [-0.2, 0.2], [0.1, 0.06]),
             0.03,
         );
         let mut compared = 0;
@@ -203,20 +205,20 @@ mod tests {
     #[test]
     fn ball_touches_a_fine_valley_once_and_a_steep_valley_twice() {
         let arc: Vec<[f64; 2]> = (-20..=20).map(|i| 0.05 * f64::from(i)).map(|a| [a.sin(), 1.0 - a.cos()]).collect();
-        let bowl = drawn_out(&arc);
+        let bowl = extruded_profile(&arc);
         let mut before = 0.25;
         for i in 0..2000 {
-            // A path 0.25 from the surface of the trough.
+            // The ball moves at a distance of 0.25 from the surface of the trough.
             let angle = -0.9 + 9e-4 * f64::from(i);
             let at = DVec3::new(0.75 * angle.sin(), 0.1, 1.0 - 0.75 * angle.cos());
             let found = near(&bowl, &ball(), DQuat::IDENTITY, at);
             assert_eq!(found.len(), 1, "{at}: {found:?}");
-            // Within the sagitta of a 0.05 rad arc, and continuous: 6.75e-4 m of path, at most 0.025 rad to the normal.
+            // 4e-4: sagitta of a 0.05 rad arc. 2e-5: a step moves 6.75e-4 m, at most 0.025 rad off the triangle.
             assert!((found[0].distance - 0.25).abs() < 4e-4);
             assert!(i == 0 || (found[0].distance - before).abs() < 2e-5);
             before = found[0].distance;
         }
-        let steep = drawn_out(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]);
+        let steep = extruded_profile(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]);
         assert_eq!(near(&steep, &ball(), DQuat::IDENTITY, DVec3::new(0.0, 0.1, 0.2)).len(), 2);
     }
 
@@ -225,7 +227,7 @@ mod tests {
         let (vertices, triangles) = cuboid(DVec3::new(-1.0, -1.0, -0.05), DVec3::new(1.0, 1.0, 0.0));
         let plate = Terrain::new(vertices, triangles).unwrap();
         let (corners, _) = cuboid(DVec3::splat(-0.1), DVec3::splat(0.1));
-        let sharp = crate::geometry::polyhedron::Polyhedron::hull(&corners).unwrap();
+        let sharp = crate::geometry::convex::polyhedron::Polyhedron::hull(&corners).unwrap();
         let cube = ConvexPart::polyhedron(&sharp, 0.02).unwrap();
         let found = near(&plate, &cube, DQuat::IDENTITY, DVec3::new(0.31, 0.17, 0.1));
         let touching: Vec<_> = found.iter().filter(|a| a.distance < 0.021).collect();

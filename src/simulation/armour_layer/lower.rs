@@ -4,13 +4,14 @@ use glam::{DQuat, DVec3};
 
 use crate::rigid::{BodyState, RigidWorld};
 
-/// Step of the search over the height of a unit [-]: less than the thinnest part, so that units cannot pass each other.
+/// Step by which a unit is lowered, over the height of the unit [-]. The step is smaller than the thinnest part of a
+/// unit, so a unit cannot pass through another unit.
 const STEP: f64 = 0.05;
-/// Bisections of the last step: 0.05 H / 2^12 is a hundred-thousandth of the height.
+/// Number of bisections of the last step. The error is then 0.05 H / 2^12, a hundred-thousandth of the height H.
 const BISECTIONS: u32 = 12;
 
-/// Returns a unit at rest where it first touches something on its way down from `from` [m]. Returns `None` if it
-/// overlaps something at `from`, or touches nothing down to one unit height below `ground` [m].
+/// Lowers a unit from `from` [m] until it touches something, and returns its state there, at rest. Returns `None` if
+/// the unit overlaps something at `from`, or touches nothing down to one unit height below the level `ground` [m].
 pub(super) fn lowered(world: &RigidWorld, from: DVec3, rotation: DQuat, ground: f64, height: f64) -> Option<BodyState> {
     let is_free = |z: f64| world.overlap_at(DVec3::new(from.x, from.y, z), rotation) == 0.0;
     if !is_free(from.z) {

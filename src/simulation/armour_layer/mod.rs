@@ -1,8 +1,8 @@
-//! Placing of armour layers: units are lowered onto a slope one by one until they touch, then released, and settle.
+//! Placement of armour layers: units are lowered onto a slope one by one until they touch, then released to settle.
 //!
-//! The order is that of a crane: layer by layer, row by row from the toe upwards. The number of units follows from
-//! the packing density phi: N = phi A / D_n^2 on the area A of the slope. The units are lowered at the nodes of a
-//! staggered grid; contact forces determine where they come to rest.
+//! Like a crane, the program places the units layer by layer, and row by row from the toe upwards. The number of units
+//! follows from the packing density phi: N = phi A / D_n^2 on the area A of the slope. The units are lowered at the
+//! nodes of a staggered grid; contact forces determine where they come to rest.
 
 mod lower;
 mod slots;
@@ -18,18 +18,18 @@ use crate::{
 use lower::lowered;
 use slots::{Slot, rows};
 
-/// Time between two checks of the units [s].
+/// Time between two checks of the unit speeds [s].
 const CHECK_INTERVAL: f64 = 1e-3;
 /// Shortest and longest settling time of a row [s].
 const ROW_TIME: [f64; 2] = [0.05, 1.0];
-/// Speed over sqrt(g H) below which the next row is placed [-].
+/// The next row is placed when all units are slower than this speed, over sqrt(g H) [-].
 const ROW_SPEED: f64 = 0.15;
 /// Longest settling time after the last row [s].
 const LAST_TIME: f64 = 10.0;
-/// Speed over sqrt(g H) below which the units are at rest [-].
+/// Units slower than this speed, over sqrt(g H), are at rest [-].
 const REST_SPEED: f64 = 1e-4;
 
-/// Why a layer cannot be placed.
+/// Reason why an armour layer cannot be placed.
 #[derive(Debug, Error)]
 pub enum PlacementError {
     /// There is no room for a unit.
@@ -38,11 +38,11 @@ pub enum PlacementError {
          move the walls"
     )]
     NoRoom {
-        /// Number from 1.
+        /// Number of the unit, from 1.
         unit: usize,
-        /// Where it was lowered [m].
+        /// x at which the unit was lowered [m].
         x: f64,
-        /// Where it was lowered [m].
+        /// y at which the unit was lowered [m].
         y: f64,
     },
     /// The contact solver became unstable.
@@ -50,18 +50,18 @@ pub enum PlacementError {
     Rigid(#[from] RigidError),
 }
 
-/// A layer that has settled.
+/// An armour layer that has settled.
 #[derive(Debug, Clone)]
 pub struct ArmourLayer {
     /// The units at rest.
     pub units: Vec<BodyState>,
     /// Number of units whose centre came to rest outside the ends of the layers.
     pub rolled_off: usize,
-    /// Units on the slope over A / D_n^2 [-].
+    /// Packing density of the units that stayed on the slope: their number over A / D_n^2 [-].
     pub packing_density: f64,
-    /// Deepest overlap over the height of a unit [-].
+    /// Deepest overlap of a contact at the end, over the height of a unit [-].
     pub deepest_overlap: f64,
-    /// Kinetic energy over the potential energy lost since the units were released [-].
+    /// Kinetic energy at the end, over the potential energy lost since the units were released [-].
     pub unrest: f64,
     /// Speed of the fastest unit at the end [m/s].
     pub fastest: f64,
@@ -74,7 +74,7 @@ pub struct ArmourLayer {
 }
 
 impl ArmourLayer {
-    /// Returns the poses as a placement file.
+    /// Returns the poses of the units as a placement file.
     pub fn file(&self, title: &str) -> PlacementFile {
         let pose = |state: &BodyState| PoseFile {
             centre_m: state.position.to_array(),
@@ -88,7 +88,7 @@ impl ArmourLayer {
     }
 }
 
-/// Places the layers of a job; `report` receives the number of placed units and the simulated time [s].
+/// Places the layers of a job. After each unit, calls `report` with the number of placed units and the time [s].
 ///
 /// # Errors
 /// If there is no room for a unit, or the contact solver becomes unstable.
@@ -142,7 +142,7 @@ fn advance(world: &mut RigidWorld) -> Result<(), RigidError> {
     world.advance(CHECK_INTERVAL, &loads)
 }
 
-/// Returns the largest speed of any unit, including rotation at its tips [m/s].
+/// Returns the largest speed of any unit [m/s]: the speed of the centre plus the speed of the tips by rotation.
 fn fastest(world: &RigidWorld, height: f64) -> f64 {
     let speed = |state: &BodyState| state.velocity.length() + 0.5 * height * state.angular_velocity.length();
     world.states().iter().map(speed).fold(0.0, f64::max)

@@ -17,10 +17,10 @@ pub(super) struct Slot {
     pub rotation: DQuat,
 }
 
-/// Smallest distance of a unit from a wall over its height [-]: the reach of a leg from the centre.
+/// Smallest distance of the centre of a unit from a side wall, over the height of the unit [-]: the reach of a leg.
 const FROM_WALL: f64 = 0.68;
 
-/// Returns the rows in the order of placing: layer by layer, each from its lower end upwards.
+/// Returns the rows of all layers in the order of placement: layer by layer, and in each layer from the toe upwards.
 pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
     let (armour, unit) = (&job.armour, job.units.shape.unit());
     let mut random = SplitMix64::new(armour.seed);
@@ -32,7 +32,7 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
     let length = length_of(&slope);
     let mut rows = Vec::new();
     for layer in 0..layers {
-        // The remainder of the division goes into the first layers.
+        // If the units do not divide evenly, the first layers get one unit more.
         let count = all / layers + usize::from(layer < all % layers);
         let pitch = (length * width / count.max(1) as f64).sqrt();
         let across = ((width / pitch).round() as usize).max(1);
@@ -40,7 +40,7 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
         let mut of_layer: Vec<Vec<Slot>> = Vec::new();
         for row in 0..along {
             let in_row = across.min(count - row * across);
-            // Rows and layers lie over the gaps of the rows below.
+            // Shift every second row and layer by half a pitch: the units then lie over the gaps of the row below.
             let shift = if (row + layer).is_multiple_of(2) { 0.25 } else { 0.75 };
             let x = along_slope(&slope, (row as f64 + 0.5) / along as f64 * length);
             let slot = |column: usize| {
@@ -54,7 +54,8 @@ pub(super) fn rows(job: &LayerJob) -> Vec<Vec<Slot>> {
             };
             of_layer.push((0..in_row).map(slot).collect());
         }
-        // Place from the toe upwards.
+        // If the slope falls towards the shore, its toe is at the last row: reverse the order, to place from the toe
+        // upwards.
         if slope[0][1] > slope[slope.len() - 1][1] {
             of_layer.reverse();
         }
@@ -67,7 +68,7 @@ fn length_of(slope: &[[f64; 2]]) -> f64 {
     slope.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum()
 }
 
-/// Returns x at a distance along the slope from its seaward end [m].
+/// Returns x [m] of the point at `distance` [m] along the slope, measured from the seaward end of the slope.
 fn along_slope(slope: &[[f64; 2]], distance: f64) -> f64 {
     let mut left = distance;
     for piece in slope.windows(2) {
@@ -85,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances_run_along_the_slope() {
+    fn distances_are_measured_along_the_slope() {
         // A horizontal part of 2 m, then a slope with sides 3, 4 and 5 m.
         let slope = [[1.0, 0.0], [3.0, 0.0], [7.0, 3.0]];
         assert!((length_of(&slope) - 7.0).abs() < 1e-12);

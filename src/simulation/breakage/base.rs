@@ -1,67 +1,69 @@
-//! A block of the bed under an impact, and its position.
+//! Block that represents the bed under an impact: mesh and position.
 
 use glam::{DMat3, DVec3};
 
 use crate::femdem::mesh::Mesh;
 use crate::femdem::mesh::block::{Pattern, block};
 
-/// Name of the body.
+/// Name of the block in the mesh.
 pub const NAME: &str = "base";
-/// Name of the set of its fixed underside.
+/// Name of the set of faces at the fixed underside of the block.
 pub const BOTTOM: &str = "base_bottom";
 
-/// Depth of the block over its width [-].
+/// Depth of the block over the width of the block [-].
 const DEPTH: f64 = 0.5;
 
-/// Largest width of the block over the height of the unit [-], where legs reach below the contact plane.
+/// Largest width of the block over the height of the unit [-], if legs reach below the contact plane.
 const WIDEST: f64 = 1.5;
 
-/// Smallest such width [-]; with less room between the legs, the block lies below all of them.
+/// Smallest width of the block over the height of the unit [-]. If the legs leave less room, the block lies below all
+/// legs.
 const NARROWEST: f64 = 0.15;
 
-/// Nodes closer than this to the contact plane belong to feet, over the height of the unit [-].
+/// Nodes below this level above the contact plane belong to feet; level over the height of the unit [-].
 const FOOT: f64 = 0.25;
 
-/// Width of the block over the width that the feet need on a plane bed [-].
+/// Width of the block on a plane bed, over the width that the feet need [-].
 const MARGIN: f64 = 1.1;
 
-/// On a bed that is not plane, the block avoids parts of the unit that are lower than the touching foot by more than
-/// one of these levels, over the height of the unit [-]. The first level that leaves room is used.
+/// Depths below the touching foot, over the height of the unit [-]. On a bed that is not plane, the block avoids parts
+/// of the unit that are deeper than one of these depths. The first depth that leaves enough room is used.
 const LEVELS: [f64; 3] = [0.01, 0.02, 0.05];
 
 /// Initial gap between the bodies over the height of the unit [-].
 pub const GAP: f64 = 1e-4;
 
-/// Depth of the unit's sharp edges below the contact point of its rounded edges, over its height [-].
+/// Depth of the sharp edges of the mesh below the contact point of the rounded unit, over the height of the unit [-].
 pub const ROUNDED_OFF: f64 = 0.05;
 
-/// Nodes closer than this to the contact point count as touching, over the height of the unit [-].
-pub const ABOUT: f64 = 0.12;
+/// Nodes closer than this to the contact point count as touching; distance over the height of the unit [-].
+pub const TOUCHING_DISTANCE: f64 = 0.12;
 
-/// Position of the block relative to the contact point.
+/// Position and size of the block, relative to the contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seat {
-    /// Centre of its upper side, projected onto the contact plane [m].
+pub struct BlockPosition {
+    /// Centre of the upper side, projected onto the contact plane [m].
     pub middle: DVec3,
-    /// Width [m].
+    /// Width of the block [m].
     pub width: f64,
-    /// Level of its upper side along the normal [m].
+    /// Level of the upper side along the contact normal [m].
     pub top: f64,
-    /// Distance of the upper side below the touching foot [m].
+    /// Distance from the upper side up to the touching foot [m].
     pub gap: f64,
 }
 
-impl Seat {
-    /// Returns a seat just below a unit with these nodes, centre and height [m]. `normal` is the contact normal. On a
-    /// plane bed the seat lies under all feet. Where legs reach below the contact plane, it lies around the contact
-    /// point, as wide as the moving legs leave room; `path` gives the displacement of a node [m].
+impl BlockPosition {
+    /// Returns the position of a block just below a unit with these `nodes`, `centre` and `height` [m]; `normal` is the
+    /// contact normal. On a plane bed, the block lies under all feet. If legs reach below the contact plane, the block
+    /// lies around the contact point, and is as wide as the moving legs allow; `path` returns the displacement of a
+    /// node [m].
     pub fn below(nodes: &[DVec3], path: impl Fn(DVec3) -> DVec3, centre: DVec3, normal: DVec3, height: f64) -> Self {
         let level = |node: &DVec3| node.dot(normal);
         let flat = |point: DVec3| point - normal * point.dot(normal);
         let is_plane = nodes.iter().all(|node| level(node) >= -ROUNDED_OFF * height);
-        let about = nodes.iter().filter(|node| node.length() < ABOUT * height);
+        let about = nodes.iter().filter(|node| node.length() < TOUCHING_DISTANCE * height);
         let foot = about.map(level).fold(f64::INFINITY, f64::min).min(ROUNDED_OFF * height);
-        // Half the diagonal of the block must fit into the room.
+        // Half the diagonal of the block must be shorter than the distance to the parts that it avoids.
         let widest_above = |share: f64| {
             let lower = nodes.iter().filter(|node| level(node) < foot - share * height);
             let room = lower.map(|node| distance_of_path(flat(*node), flat(path(*node)))).fold(f64::INFINITY, f64::min);
@@ -81,7 +83,7 @@ impl Seat {
         let over = nodes.iter().filter(|node| flat(**node - middle).length() <= half_diagonal);
         let lowest = over.map(level).fold(f64::INFINITY, f64::min);
         let top = if lowest.is_finite() { lowest } else { 0.0 } - GAP * height;
-        // On a plane bed another foot may be lower because its edges are sharp, and then touches first.
+        // On a plane bed, another foot may be lower because its edges are sharp. That foot then touches first.
         let gap = if is_plane { GAP * height } else { (foot - top).max(GAP * height) };
         Self { middle, width, top, gap }
     }
@@ -92,7 +94,7 @@ impl Seat {
     }
 }
 
-/// Returns the smallest distance from the origin on a straight path from `start` [m].
+/// Returns the smallest distance from the origin on the straight path from `start` to `start + path` [m].
 fn distance_of_path(start: DVec3, path: DVec3) -> f64 {
     let share = (-start.dot(path) / path.length_squared()).clamp(0.0, 1.0);
     // A path of length zero gives NaN.
@@ -121,7 +123,7 @@ fn block_under(middle: DVec3, normal: DVec3, level: f64, width: f64, cell: f64) 
 mod tests {
     use super::*;
 
-    /// Returns the nodes of feet, each a small square of four [m].
+    /// Returns the nodes of feet; each foot is a small square of four nodes [m].
     fn feet(centres: &[[f64; 3]]) -> Vec<DVec3> {
         let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
         let foot =
@@ -133,35 +135,36 @@ mod tests {
     fn on_a_plane_bed_the_block_lies_under_all_feet() {
         // One foot touches; the edge of another one is slightly lower.
         let nodes = feet(&[[0.0, 0.0, 0.0], [0.8, 0.0, -0.03], [0.4, 0.7, 0.02], [0.4, 0.3, 1.0]]);
-        let seat = Seat::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.4, 0.25, 0.4), DVec3::Z, 1.0);
+        let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.4, 0.25, 0.4), DVec3::Z, 1.0);
         assert_eq!((seat.top, seat.gap), (-0.03 - GAP, GAP));
         assert!(seat.width > 0.9 && seat.middle == DVec3::new(0.4, 0.25, 0.0));
     }
 
     #[test]
     fn where_legs_reach_below_the_contact_plane_the_block_lies_under_the_touching_foot() {
-        // The contact plane is a slope; towards the crest the unit reaches below it, first a little, then more.
+        // The contact plane is a slope. Towards the crest, the unit reaches below this plane, first slightly, then
+        // further.
         let nodes = feet(&[[0.0, 0.0, 0.0], [-0.5, 0.0, -0.025], [-0.8, 0.1, -0.13], [0.1, 0.2, 1.0]]);
-        let seat = Seat::below(&nodes, |_| DVec3::ZERO, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
+        let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
         assert_eq!((seat.top, seat.gap, seat.middle), (-GAP, GAP, DVec3::ZERO));
         // Half the diagonal of the block does not reach the second foot, 0.49 m away.
         assert!(seat.width * std::f64::consts::FRAC_1_SQRT_2 < 0.49 && seat.width > 0.5, "{}", seat.width);
-        // The block is narrower if the second foot slides 0.2 m towards it.
-        let slid = Seat::below(&nodes, |_| 0.2 * DVec3::X, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
+        // The block is narrower if the second foot slides 0.2 m towards the contact point.
+        let slid = BlockPosition::below(&nodes, |_| 0.2 * DVec3::X, DVec3::new(-0.3, 0.0, 0.4), DVec3::Z, 1.0);
         assert!(slid.width * std::f64::consts::FRAC_1_SQRT_2 < 0.29 && slid.width > 0.3, "{}", slid.width);
     }
 
     #[test]
-    fn distance_of_a_path_is_smallest_at_an_end_or_between() {
+    fn smallest_distance_of_a_path_is_at_an_end_or_between_the_ends() {
         let start = DVec3::new(3.0, 4.0, 0.0);
         assert_eq!([DVec3::ZERO, DVec3::X, -6.0 * DVec3::X].map(|p| distance_of_path(start, p)), [5.0, 5.0, 4.0]);
         assert_eq!(distance_of_path(start, -start), 0.0);
     }
 
     #[test]
-    fn without_room_the_block_lies_below_all_nodes() {
+    fn if_legs_leave_no_room_the_block_lies_below_all_nodes() {
         let nodes = feet(&[[0.0, 0.0, 0.0], [-0.05, 0.0, -0.2], [0.1, 0.2, 1.0]]);
-        let seat = Seat::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.0, 0.0, 0.4), DVec3::Z, 1.0);
+        let seat = BlockPosition::below(&nodes, |_| DVec3::ZERO, DVec3::new(0.0, 0.0, 0.4), DVec3::Z, 1.0);
         assert!((seat.top + 0.2 + GAP).abs() < 1e-12, "{seat:?}");
         // The gap counts from the lowest node near the contact point, here the lower foot.
         assert!(seat.gap >= GAP && seat.gap <= 0.2 + GAP);

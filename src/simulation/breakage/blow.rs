@@ -1,18 +1,18 @@
-//! An impact at prototype scale.
+//! An impact at prototype scale: motion before the impact, scale factors, and duration.
 
 use glam::DVec3;
 
-use super::froude::{BlowScale, Froude};
+use super::froude::{Froude, ImpactScale};
 use super::model::Model;
 use crate::case::{BreakageSettings, ContactLawName};
 use crate::femdem::mesh::unit_mesh::Pose;
 use crate::output::Impact;
 use crate::rigid::{BodyState, Material, effective_young_modulus, impact_overlap};
 
-/// A recorded impact with its scale factors to the prototype.
+/// A recorded impact, with the factors that scale it to the prototype.
 #[derive(Debug, Clone, Copy)]
-pub struct Blow<'a> {
-    /// The units of the run.
+pub struct ScaledImpact<'a> {
+    /// Properties of the units of the run.
     pub model: &'a Model,
     /// Settings of the breakage analysis.
     pub settings: &'a BreakageSettings,
@@ -20,24 +20,24 @@ pub struct Blow<'a> {
     pub impact: &'a Impact,
     /// Scale factors of lengths, velocities and masses.
     pub froude: Froude,
-    /// Scale factors of force and duration.
-    pub scale: BlowScale,
+    /// Scale factors of the force and the duration of the impact.
+    pub scale: ImpactScale,
     /// Duration of the impact in the prototype by Hertz's law [s].
     pub duration: f64,
 }
 
 /// Motion of a unit just before the impact, at prototype scale; the origin is the contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mover {
+pub struct UnitMotion {
     /// Pose of the unit.
     pub pose: Pose,
-    /// Velocity of its centre of mass [m/s].
+    /// Velocity of the centre of mass [m/s].
     pub velocity: DVec3,
     /// Angular velocity [rad/s].
     pub angular_velocity: DVec3,
 }
 
-/// Mass, momentum and energy of a unit: first of the rigid body at prototype scale, second of the nodes of its mesh.
+/// Mass, momentum and energy of a unit at prototype scale: first value of the rigid body, second of the mesh nodes.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Balance {
     /// Mass [kg].
@@ -48,7 +48,7 @@ pub struct Balance {
     pub kinetic_j: [f64; 2],
 }
 
-impl<'a> Blow<'a> {
+impl<'a> ScaledImpact<'a> {
     /// Scales an impact of a run to the prototype.
     pub fn new(model: &'a Model, settings: &'a BreakageSettings, impact: &'a Impact) -> Self {
         let froude = Froude { scale: settings.scale };
@@ -60,27 +60,27 @@ impl<'a> Blow<'a> {
         let prototype = effective_young_modulus(&unit, if on_unit { &unit } else { &base });
         let scale = match model.law {
             ContactLawName::HertzMindlin => froude.blow(recorded, prototype),
-            // These laws have a given stiffness that does not depend on the prototype's material.
+            // These laws do not follow Hertz's law for the unit, so that only Froude's law remains.
             ContactLawName::Linear | ContactLawName::Chrono4 => {
-                BlowScale { force: froude.mass(), time: froude.velocity() }
+                ImpactScale { force: froude.mass(), time: froude.velocity() }
             }
         };
         let duration = hertz_duration(model, settings, event.approach_normal, on_unit, prototype);
         Self { model, settings, impact, froude, scale, duration }
     }
 
-    /// Returns the recorded unit, and its partner if that is a unit.
-    pub fn movers(&self) -> (Mover, Option<Mover>) {
+    /// Returns the motion of the recorded unit, and of its partner if the partner is a unit.
+    pub fn movers(&self) -> (UnitMotion, Option<UnitMotion>) {
         let event = &self.impact.event;
         (self.mover(&event.before), event.partner_before.as_ref().map(|before| self.mover(before)))
     }
 
-    /// Scales the motion of a body to the prototype.
-    fn mover(&self, before: &BodyState) -> Mover {
+    /// Scales the motion of a unit just before the impact to the prototype.
+    fn mover(&self, before: &BodyState) -> UnitMotion {
         let origin = DVec3::from_array(self.impact.event.point);
         let Froude { scale } = self.froude;
         let position = (before.position - origin) * self.froude.length();
-        Mover {
+        UnitMotion {
             pose: Pose { rotation: before.rotation, position, scale },
             velocity: before.velocity * self.froude.velocity(),
             angular_velocity: before.angular_velocity * self.froude.angular_velocity(),
@@ -92,18 +92,19 @@ impl<'a> Blow<'a> {
         self.model.mass * self.froude.mass()
     }
 
-    /// Returns the density that gives the tetrahedra of a unit its mass [kg/m3].
+    /// Returns the density with which the tetrahedra have the mass of the unit [kg/m3].
     pub fn density(&self) -> f64 {
         self.model.mass / self.settings.mesh.volume()
     }
 
-    /// Returns the angular velocity that gives the nodes the angular momentum of the rigid unit [rad/s].
-    pub fn angular_velocity(&self, mover: &Mover) -> DVec3 {
+    /// Returns the angular velocity with which the nodes have the angular momentum of the rigid unit [rad/s].
+    pub fn angular_velocity(&self, mover: &UnitMotion) -> DVec3 {
         self.settings.mesh.angular_velocity(self.model.gyration, mover.pose.rotation, mover.angular_velocity)
     }
 
-    /// Compares mass, momentum and energy of the rigid body and of the nodes. Only the energy may differ a little.
-    pub fn balance(&self, mover: &Mover) -> Balance {
+    /// Returns mass, momentum and energy of the rigid body and of the mesh nodes. Only the energies may differ
+    /// slightly.
+    pub fn balance(&self, mover: &UnitMotion) -> Balance {
         let mass = self.mass();
         let in_body = mover.pose.rotation.inverse() * mover.angular_velocity;
         let turning = in_body.dot(self.model.gyration * in_body) * self.froude.length().powi(2);
@@ -117,33 +118,34 @@ impl<'a> Blow<'a> {
         }
     }
 
-    /// Returns the time that is simulated after first contact [s].
+    /// Returns the simulated time after first contact [s].
     pub fn time_after(&self) -> f64 {
         let unit = &self.settings.material;
         let celerity = (unit.young_modulus_pa / self.density()).sqrt();
-        let waves = WAVES * self.model.shape.height() * self.froude.length() / celerity;
-        self.settings.duration.unwrap_or((LASTS * self.duration).max(waves))
+        let waves = WAVE_TRAVELS_AFTER_CONTACT * self.model.shape.height() * self.froude.length() / celerity;
+        self.settings.duration.unwrap_or((DURATIONS_AFTER_CONTACT * self.duration).max(waves))
     }
 }
 
-/// Simulated time after first contact over the duration of the impact [-]; three feet share an impact and shorten it.
-const LASTS: f64 = 1.5;
+/// Simulated time after first contact, over the duration of the impact on one foot [-]. An impact that three feet share
+/// is shorter.
+const DURATIONS_AFTER_CONTACT: f64 = 1.5;
 
-/// Simulated time after first contact over the travel time of a wave along the unit, at least [-].
-const WAVES: f64 = 10.0;
+/// Smallest simulated time after first contact, over the travel time of an elastic wave along the unit [-].
+const WAVE_TRAVELS_AFTER_CONTACT: f64 = 10.0;
 
-/// Smallest speed of approach in Hertz's law, over sqrt(g H) [-]: a body that is set down has none.
-const SLOWEST: f64 = 1e-3;
+/// Lower limit of the approach speed in Hertz's law, over sqrt(g H) [-]. At zero speed, the duration would be infinite.
+const MIN_APPROACH_SPEED: f64 = 1e-3;
 
-/// Duration of a Hertzian impact of elastic bodies at a speed v over overlap / v [-] (Johnson 1985, section 11.4).
-const HERTZ: f64 = 2.943;
+/// Duration of a Hertzian impact of elastic bodies, over (overlap / approach speed) [-] (Johnson 1985, section 11.4).
+const HERTZ_DURATION_FACTOR: f64 = 2.943;
 
 fn hertz_duration(model: &Model, settings: &BreakageSettings, approach: f64, on_unit: bool, modulus: f64) -> f64 {
     let froude = Froude { scale: settings.scale };
     let share = if on_unit { 0.5 } else { 1.0 };
-    let speed = approach.max(SLOWEST * (model.gravity * model.shape.height()).sqrt()) * froude.velocity();
+    let speed = approach.max(MIN_APPROACH_SPEED * (model.gravity * model.shape.height()).sqrt()) * froude.velocity();
     let radius = share * model.shape.unit().rounding() * froude.length();
-    HERTZ * impact_overlap(modulus, radius, share * model.mass * froude.mass(), speed) / speed
+    HERTZ_DURATION_FACTOR * impact_overlap(modulus, radius, share * model.mass * froude.mass(), speed) / speed
 }
 
 impl BreakageSettings {

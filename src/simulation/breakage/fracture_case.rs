@@ -1,10 +1,10 @@
-//! The fracture case of a scene: a file that `breakwater fracture` runs and that users can edit.
+//! Writes an impact as a fracture case: a file that `breakwater fracture` runs and that users can edit.
 
 use std::path::Path;
 
 use glam::DVec3;
 
-use super::blow::Blow;
+use super::blow::ScaledImpact;
 use crate::case::file::{
     BodyFrictionFile, ConstraintFile, FractureBodyFile, FractureFile, FractureMaterialFile, FractureOutputFile,
     FractureStopFile, LoadFile, MethodFile, Softening, VelocityFile,
@@ -13,18 +13,18 @@ use crate::femdem::mesh::unit_mesh::UnitMesh;
 use crate::femdem::mesh::{Mesh, msh};
 use crate::output::{OutputError, write_atomically};
 
-/// Name of the other unit.
+/// Name of the body for the other unit of an impact.
 pub const PARTNER: &str = "partner";
 
-/// Number of times at which a run writes its surfaces.
-const PICTURES: f64 = 20.0;
+/// Number of times at which the fracture run writes the surfaces of the bodies.
+const SURFACE_OUTPUTS: f64 = 20.0;
 
-/// Number of rows of its energy balance.
-const ROWS: f64 = 400.0;
+/// Number of rows of the energy balance of the fracture run.
+const ENERGY_ROWS: f64 = 400.0;
 
 /// Bodies, loads and duration of an impact that is re-run; positions are relative to the contact point.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub struct ImpactScene {
     /// Mesh of all bodies.
     pub mesh: Mesh,
     /// Motion of each body.
@@ -35,31 +35,31 @@ pub struct Scene {
     pub duration: f64,
 }
 
-/// A body of a scene.
+/// Motion of one body of a scene.
 #[derive(Debug, Clone)]
 pub struct Part {
-    /// Name in the mesh.
+    /// Name of the body in the mesh.
     pub name: &'static str,
-    /// Velocity of its centre of mass [m/s].
+    /// Velocity of the centre of mass [m/s].
     pub velocity: DVec3,
     /// Angular velocity [rad/s].
     pub angular_velocity: DVec3,
-    /// Centre of mass [m].
+    /// Centre of rotation, which is the centre of mass [m].
     pub pivot: DVec3,
-    /// Fixed set of a block of the bed; `None` for a unit, which is free and can crack.
+    /// Name of the set of fixed faces, for a block of the bed; `None` for a unit, which moves freely and can crack.
     pub held: Option<&'static str>,
 }
 
 impl Part {
-    /// Returns a block of the bed, fixed at a set of faces.
+    /// Returns a block of the bed that is fixed at the faces of `set`.
     pub fn held(name: &'static str, set: &'static str) -> Self {
         let still = DVec3::ZERO;
         Self { name, velocity: still, angular_velocity: still, pivot: still, held: Some(set) }
     }
 }
 
-/// Returns the case of a scene; `mesh` is the name of its mesh file.
-pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFile {
+/// Returns the fracture case of a scene; `mesh` is the name of the mesh file.
+pub fn file(blow: &ScaledImpact, scene: &ImpactScene, title: String, mesh: &str) -> FractureFile {
     let settings = blow.settings;
     let units = settings.material.clone();
     let concrete = FractureMaterialFile {
@@ -125,8 +125,8 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
         friction,
         landmarks: Vec::new(),
         output: FractureOutputFile {
-            surfaces_interval_s: scene.duration / PICTURES,
-            energy_interval_s: scene.duration / ROWS,
+            surfaces_interval_s: scene.duration / SURFACE_OUTPUTS,
+            energy_interval_s: scene.duration / ENERGY_ROWS,
             checkpoint_interval_s: None,
             tets_interval_s: 0.0,
             section: None,
@@ -135,10 +135,11 @@ pub fn file(blow: &Blow, scene: &Scene, title: String, mesh: &str) -> FractureFi
     }
 }
 
-fn assumptions(blow: &Blow) -> Vec<String> {
+fn assumptions(blow: &ScaledImpact) -> Vec<String> {
     let mut assumptions = vec![format!(
-        "Froude's law at the scale {}: lengths by the scale, velocities and times by its root, masses by its cube; \
-         gravity and density as in the model. Contact follows from the prototype's concrete, not from scaled forces.",
+        "Froude's law at the scale {}: lengths grow by the scale, velocities and times by its square root, masses by \
+         its cube; gravity and density are those of the model. If bodies collide, the contact forces follow from the \
+         prototype's concrete.",
         blow.froude.scale
     )];
     let [opening, _] = blow.settings.characteristic_lengths();
@@ -146,18 +147,24 @@ fn assumptions(blow: &Blow) -> Vec<String> {
     if edge > 0.25 * opening {
         assumptions.push(format!(
             "Elements of {edge:.2} m are larger than {:.3} m, a quarter of E G_f / f_t^2: the results show whether and \
-             where the unit cracks, but not how cracks run.",
+             where the unit cracks, but not the path of the cracks.",
             0.25 * opening
         ));
     }
     assumptions
 }
 
-/// Writes case and mesh into a folder; `name` is the file name without extension.
+/// Writes the case and its mesh into the folder `dir`; `name` is the name of both files without extension.
 ///
 /// # Errors
 /// If a file cannot be written.
-pub fn write(blow: &Blow, scene: &Scene, title: String, dir: &Path, name: &str) -> Result<(), OutputError> {
+pub fn write(
+    blow: &ScaledImpact,
+    scene: &ImpactScene,
+    title: String,
+    dir: &Path,
+    name: &str,
+) -> Result<(), OutputError> {
     let mesh = format!("{name}.msh");
     write_atomically(&dir.join(&mesh), &msh::write(&scene.mesh, true))?;
     let path = dir.join(format!("{name}.json"));
@@ -166,7 +173,7 @@ pub fn write(blow: &Blow, scene: &Scene, title: String, dir: &Path, name: &str) 
     write_atomically(&path, text.as_bytes())
 }
 
-/// Returns whether a body of a case is a unit.
+/// Returns true if the body called `name` is a unit, and false for a block of the bed.
 pub fn is_unit(name: &str) -> bool {
     name == UnitMesh::NAME || name == PARTNER
 }

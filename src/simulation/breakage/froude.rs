@@ -1,19 +1,21 @@
 //! Scale factors from the model to the prototype.
 
-/// Froude's law: gravity and water density are the same in model and prototype; lengths are lambda times as large.
+/// Froude's law: gravity and water density are the same in model and prototype; prototype lengths are lambda times the
+/// model lengths.
 ///
-/// Strength, stiffness and fracture energy of concrete do not follow this law: the stresses grow by lambda, but the
-/// strength of the concrete stays the same. The duration of an impact depends on Young's modulus, which Froude's law
-/// would scale by lambda: see [`Self::blow`].
+/// Strength, stiffness and fracture energy of concrete do not follow this law: stresses are multiplied by lambda, but
+/// the strength of the concrete stays the same. The duration of an impact depends on Young's modulus, which is not
+/// lambda times as large in the prototype: see [`Self::blow`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Froude {
     /// Prototype length over model length, lambda [-].
     pub scale: f64,
 }
 
-/// Scale factors of the force and duration of an impact; its impulse follows Froude's law.
+/// Scale factors of the force and the duration of an impact. The product of both, the scale of the impulse, follows
+/// Froude's law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BlowScale {
+pub struct ImpactScale {
     /// Force in the prototype over force in the model [-].
     pub force: f64,
     /// Duration in the prototype over duration in the model [-].
@@ -46,12 +48,12 @@ impl Froude {
         self.scale.powi(4)
     }
 
-    /// Returns the scale factors of an impact by Hertz's law.
-    /// With k = E*_p / (lambda E*_m) for the contact moduli E* [Pa] of prototype and model, overlap and duration are
-    /// k^(-2/5) times the values by Froude's law, and the force is k^(2/5) times that value.
-    pub fn blow(&self, model_modulus: f64, prototype_modulus: f64) -> BlowScale {
+    /// Returns the scale factors of an impact by Hertz's law. Let k = E*_p / (lambda E*_m), with the contact moduli E*
+    /// [Pa] of prototype and model. Overlap and duration are k^(-2/5) times their values by Froude's law; the force is
+    /// k^(2/5) times its value by Froude's law.
+    pub fn blow(&self, model_modulus: f64, prototype_modulus: f64) -> ImpactScale {
         let stiffer = (prototype_modulus / (self.scale * model_modulus)).powf(0.4);
-        BlowScale { force: self.mass() * stiffer, time: self.velocity() / stiffer }
+        ImpactScale { force: self.mass() * stiffer, time: self.velocity() / stiffer }
     }
 }
 
@@ -71,7 +73,7 @@ mod tests {
         // The duration is proportional to overlap / speed. Tolerance: rounding.
         assert!((after / before / froude.velocity() / blow.time - 1.0).abs() < 1e-12);
         assert!((blow.force * blow.time / (froude.mass() * froude.velocity()) - 1.0).abs() < 1e-12);
-        // Concrete as soft as Froude's law requires: the force follows Froude's law alone.
+        // If the concrete is as soft as Froude's law requires, the force follows Froude's law alone.
         let soft = froude.blow(model, 50.0 * model);
         assert!((soft.force / froude.mass() - 1.0).abs() < 1e-12);
     }

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::blow::Blow;
-use super::fracture_case::Scene;
-use super::froude::BlowScale;
+use super::blow::ScaledImpact;
+use super::fracture_case::ImpactScene;
+use super::froude::ImpactScale;
 use super::model::Role;
 use super::reenact::part;
 use super::selection::same_collision;
@@ -13,14 +13,14 @@ use crate::femdem::mesh::unit_mesh::UnitMesh;
 use crate::output::{Impact, Impacts};
 use crate::rigid::ForceSample;
 
-/// Duration of the ramp between two samples over the shorter one [-].
+/// Duration of the ramp between two force samples, over the duration of the shorter sample [-].
 const RAMP: f64 = 0.2;
 
-/// Smallest time between two rows over the duration of the run [-].
-const APART: f64 = 1e-9;
+/// Smallest time between two rows of a load, over the duration of the fracture run [-].
+const MIN_ROW_DISTANCE: f64 = 1e-9;
 
-/// Returns the scene of the unit alone under the loads recorded from the start of the impact.
-pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
+/// Returns mesh and loads of the unit alone. The loads are the forces recorded from the start of the impact.
+pub fn scene(blow: &ScaledImpact, impacts: &Impacts) -> ImpactScene {
     let (mover, _) = blow.movers();
     let duration = blow.time_after();
     let unit = blow.impact.event.body as usize;
@@ -48,23 +48,23 @@ pub fn scene(blow: &Blow, impacts: &Impacts) -> Scene {
         loads.push(LoadFile::Force {
             body: UnitMesh::NAME.to_owned(),
             place_m: mover.pose.position.to_array(),
-            // Large enough for all faces.
+            // A radius that includes all faces of the unit.
             radius_m: 2.0 * blow.model.shape.height() * blow.froude.length(),
             axes: LoadAxes::Space,
             history: vec![row],
         });
     }
     let mesh = blow.settings.mesh.posed(&mover.pose, UnitMesh::NAME);
-    Scene { mesh, parts: vec![part(blow, UnitMesh::NAME, &mover)], loads, duration }
+    ImpactScene { mesh, parts: vec![part(blow, UnitMesh::NAME, &mover)], loads, duration }
 }
 
-/// Returns the time from the start of the impact to that of another contact, in the prototype [s], and its scale
-/// factors. Impacts scale by Hertz's law, those of one collision together. A contact that began earlier carries other
-/// loads and scales by Froude's law.
-fn start_and_scale(blow: &Blow, other: &Impact) -> (f64, BlowScale) {
+/// Returns the start of the contact `other` in the prototype [s], counted from the start of the impact, and the scale
+/// factors of this contact. Impacts scale by Hertz's law; so does the time between two contacts of one collision. A
+/// contact that began before this collision transmits other loads, and scales by Froude's law.
+fn start_and_scale(blow: &ScaledImpact, other: &Impact) -> (f64, ImpactScale) {
     let since = other.event.start - blow.impact.event.start;
-    let own = Blow::new(blow.model, blow.settings, other).scale;
-    let slow = BlowScale { force: blow.froude.mass(), time: blow.froude.velocity() };
+    let own = ScaledImpact::new(blow.model, blow.settings, other).scale;
+    let slow = ImpactScale { force: blow.froude.mass(), time: blow.froude.velocity() };
     if same_collision(blow.impact, other) {
         (since * own.time, own)
     } else {
@@ -72,17 +72,20 @@ fn start_and_scale(blow: &Blow, other: &Impact) -> (f64, BlowScale) {
     }
 }
 
-/// Returns rows of time [s] and force [N] for the samples of a contact that begins at `since` [s]. Each sample has its
-/// mean force; ramps around its ends keep its impulse. Rows before time 0 and samples that begin after `until` are left
-/// out.
-fn rows(samples: &[ForceSample], start: f64, since: f64, scale: BlowScale, sign: f64, until: f64) -> Vec<Vec<f64>> {
+/// Returns rows of time [s] and force [N] for the samples of a contact that begins at `since` [s]. Within a sample, the
+/// force is the mean force of the sample. Ramps around its ends do not change its impulse. Forces before time 0 and
+/// samples that begin after `until` [s] are omitted.
+fn rows(samples: &[ForceSample], start: f64, since: f64, scale: ImpactScale, sign: f64, until: f64) -> Vec<Vec<f64>> {
     let scaled = |sample: &ForceSample| {
         let from = since + (sample.start - start) * scale.time;
         (from.max(0.0), from + sample.duration * scale.time, sample.force() * (sign * scale.force))
     };
-    // Leave out samples that are too short for two rows.
-    let scaled_samples: Vec<(f64, f64, DVec3)> =
-        samples.iter().map(scaled).filter(|(from, to, _)| to - from > APART * until && *from < until).collect();
+    // Omit samples that are too short for two rows.
+    let scaled_samples: Vec<(f64, f64, DVec3)> = samples
+        .iter()
+        .map(scaled)
+        .filter(|(from, to, _)| to - from > MIN_ROW_DISTANCE * until && *from < until)
+        .collect();
     let mut knots: Vec<(f64, DVec3)> = Vec::new();
     for (index, (from, to, force)) in scaled_samples.iter().enumerate() {
         let half = |other: Option<&(f64, f64, DVec3)>| {
@@ -112,13 +115,13 @@ mod tests {
     fn rows_keep_the_impulse_of_the_samples() {
         let sample = |start: f64, duration: f64, z: f64| ForceSample { start, duration, impulse: DVec3::Z * z };
         let samples = [sample(5.0, 0.1, 2.0), sample(5.1, 0.4, 30.0), sample(5.5, 0.2, -1.0)];
-        let scale = BlowScale { force: 7.0, time: 3.0 };
+        let scale = ImpactScale { force: 7.0, time: 3.0 };
         let rows = rows(&samples, 5.0, 0.5, scale, -1.0, 100.0);
         assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]) && rows[0][3] == 0.0);
         let impulse: f64 = rows.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();
-        // Factor of sign, force and time. Tolerance: rounding.
+        // The factor 21 is the product of the scales of force and time; the sign is -1. Tolerance: rounding.
         assert!((impulse / (-31.0 * 21.0) - 1.0).abs() < 1e-9, "{impulse}");
-        // The contact began earlier: 0.9 s of the 1.2 s of the second sample are left.
+        // If the contact began before time 0, 0.9 s of the 1.2 s of the second sample remain.
         let late = super::rows(&samples, 5.0, -0.6, scale, 1.0, 100.0);
         assert!(late[0][0] == 0.0 && late.windows(2).all(|pair| pair[0][0] < pair[1][0]), "{late:?}");
         let impulse: f64 = late.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (p[0][3] + p[1][3])).sum();

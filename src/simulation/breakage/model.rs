@@ -1,4 +1,4 @@
-//! The units of a run, as far as the breakage analysis needs them.
+//! Properties of the units of a run that the breakage analysis needs.
 
 use glam::{DMat3, DVec3};
 
@@ -7,14 +7,14 @@ use crate::case::{ContactLawName, Material as CaseMaterial};
 use crate::output::Impact;
 use crate::rigid::{BodyState, Material};
 
-/// The units of a run; SI units.
+/// Properties of the units of a run.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// Shape of a unit.
     pub shape: UnitShape,
     /// Mass of a unit [kg].
     pub mass: f64,
-    /// Inertia tensor in body axes over the mass [m2].
+    /// Inertia tensor of a unit in body axes, divided by its mass [m2].
     pub gyration: DMat3,
     /// Number of units.
     pub count: usize,
@@ -29,13 +29,13 @@ pub struct Model {
 }
 
 impl Model {
-    /// Returns the units of a flume case; `None` if it has none.
+    /// Returns the properties of the units of a flume case; `None` if the case has no units.
     pub fn of_case(case: &Case) -> Option<Self> {
         let units = case.units.as_ref()?;
         Some(Self::of_units(units, &case.materials, case.contact.law, case.fluid.gravity))
     }
 
-    /// Returns the units of a dry test.
+    /// Returns the properties of the units of a dry test.
     pub fn of_dry(case: &DryTestCase) -> Self {
         Self::of_units(&case.units, &case.materials, case.contact.law, case.gravity)
     }
@@ -57,14 +57,14 @@ impl Model {
         }
     }
 
-    /// Returns whether an impact can belong to these units: all numbers are finite, and the contact point is near the
-    /// units.
-    pub fn can_have(&self, impact: &Impact) -> bool {
+    /// Returns true if an impact can belong to these units: the units exist, all values are finite, and the contact
+    /// point is near the units.
+    pub fn is_plausible(&self, impact: &Impact) -> bool {
         let event = &impact.event;
         let mut states = [Some(event.before), event.partner_before].into_iter().flatten();
         let on_unit = |state: BodyState| {
             let moves = state.velocity.is_finite() && state.angular_velocity.is_finite();
-            // False for NaN.
+            // This comparison is false for NaN.
             let near = (DVec3::from_array(event.point) - state.position).length() < 2.0 * self.shape.height();
             moves && near && state.rotation.is_normalized()
         };
@@ -81,18 +81,18 @@ impl Model {
 /// Role of a unit in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Role {
-    /// Number of the unit from 0.
+    /// Index of the unit, from 0.
     pub unit: usize,
     /// Contact point in body axes [m].
     pub place: DVec3,
-    /// Rotation from space axes to body axes.
+    /// Rotation from world axes to body axes just before the impact.
     pub to_body: glam::DQuat,
-    /// Factor on the recorded force: 1, or -1 for the partner.
+    /// Factor that gives the force on this unit from the recorded force: 1, or -1 for the partner.
     pub sign: f64,
 }
 
 impl Role {
-    /// Returns the roles of the one or two units in an impact.
+    /// Returns the role of the recorded unit, and of its partner if the partner is a unit.
     pub fn of(impact: &Impact) -> impl Iterator<Item = Self> {
         let event = &impact.event;
         let body = Self {

@@ -2,20 +2,21 @@
 
 use glam::DVec3;
 
-use super::base::{self, ABOUT, GAP, ROUNDED_OFF, Seat};
-use super::blow::{Blow, Mover};
-use super::fracture_case::{PARTNER, Part, Scene};
+use super::base::{self, BlockPosition, GAP, ROUNDED_OFF, TOUCHING_DISTANCE};
+use super::blow::{ScaledImpact, UnitMotion};
+use super::fracture_case::{ImpactScene, PARTNER, Part};
 use crate::femdem::mesh::Mesh;
-use crate::femdem::mesh::unit_mesh::{UnitMesh, together};
+use crate::femdem::mesh::unit_mesh::{UnitMesh, combine};
 
-/// Cell length of the bed over the mean edge of the unit's mesh [-]; each cell is cut into 24 tetrahedra.
+/// Cell length of the block of the bed, over the mean edge length of the unit's mesh [-]. Each cell is cut into 24
+/// tetrahedra.
 const BASE_CELL: f64 = 2.0;
 
-/// Largest time before first contact over the time that is simulated after it [-].
+/// Longest simulated time before first contact, over the simulated time after first contact [-].
 const LONGEST_WAIT: f64 = 3.0;
 
-/// Returns the scene of the collision; the origin is the contact point.
-pub fn scene(blow: &Blow) -> Scene {
+/// Returns bodies and meshes of the collision; the origin is the contact point.
+pub fn scene(blow: &ScaledImpact) -> ImpactScene {
     let height = blow.model.shape.height() * blow.froude.length();
     let normal = DVec3::from_array(blow.impact.event.normal).normalize_or(DVec3::Z);
     let (mover, partner) = blow.movers();
@@ -25,35 +26,35 @@ pub fn scene(blow: &Blow) -> Scene {
         Some(partner) => {
             let other = blow.settings.mesh.posed(&partner.pose, PARTNER);
             let levels_near_contact = |mesh: &Mesh| -> Vec<f64> {
-                let within = mesh.nodes.iter().filter(|node| node.length() < ABOUT * height);
+                let within = mesh.nodes.iter().filter(|node| node.length() < TOUCHING_DISTANCE * height);
                 within.map(|node| node.dot(normal)).collect()
             };
             let lowest = levels_near_contact(&mesh).into_iter().fold(f64::INFINITY, f64::min);
             let highest = levels_near_contact(&other).into_iter().fold(f64::NEG_INFINITY, f64::max);
-            // Without nodes near the contact point, the bodies keep their positions.
+            // If no nodes are near the contact point, the bodies keep their positions.
             let overlap = if (highest - lowest).is_finite() { highest - lowest } else { 0.0 };
             let most = ROUNDED_OFF * height;
             let back = (overlap + GAP * height).clamp(-most, most);
             let parts = vec![shifted_part(unit, normal * back), part(blow, PARTNER, &partner)];
-            (together(shifted(mesh, normal * back), other), parts, most)
+            (combine(shifted(mesh, normal * back), other), parts, most)
         }
         None => {
             let velocity = |node: DVec3| mover.velocity + mover.angular_velocity.cross(node - mover.pose.position);
             let path = |node: DVec3| velocity(node) * blow.time_after();
-            let seat = Seat::below(&mesh.nodes, path, mover.pose.position, normal, height);
+            let seat = BlockPosition::below(&mesh.nodes, path, mover.pose.position, normal, height);
             let cell = BASE_CELL * blow.settings.mesh.edge() * blow.froude.length();
             let base = Part::held(base::NAME, base::BOTTOM);
-            (together(mesh, seat.block(normal, cell)), vec![unit, base], seat.gap)
+            (combine(mesh, seat.block(normal, cell)), vec![unit, base], seat.gap)
         }
     };
     let approach = blow.impact.event.approach_normal.max(0.0) * blow.froude.velocity();
-    // Do not wait for a body that hardly approaches.
+    // Limit the time before contact for a body that approaches very slowly.
     let before = if approach > 0.0 { (gap / approach).min(LONGEST_WAIT * blow.time_after()) } else { 0.0 };
-    Scene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
+    ImpactScene { mesh, parts, loads: Vec::new(), duration: before + blow.time_after() }
 }
 
-/// Returns a unit with its recorded motion.
-pub fn part(blow: &Blow, name: &'static str, mover: &Mover) -> Part {
+/// Returns the body called `name` for a unit with the motion `mover`.
+pub fn part(blow: &ScaledImpact, name: &'static str, mover: &UnitMotion) -> Part {
     Part {
         name,
         velocity: mover.velocity,

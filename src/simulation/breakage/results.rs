@@ -1,10 +1,10 @@
-//! Results of the breakage analysis for each unit: displacement, hardest impact, and whether it broke.
+//! Results of the breakage analysis for each unit: displacement, hardest impact, and breakage.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::blow::{Balance, Blow};
+use super::blow::{Balance, ScaledImpact};
 use super::fracture_case::{PARTNER, is_unit};
 use super::model::{Model, Role};
 use crate::case::{BreakageSettings, RerunMethod};
@@ -18,22 +18,22 @@ pub const BROKEN: f64 = 0.95;
 /// Displacement of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
-    /// Displacement [m].
+    /// Displacement in the run [m].
     pub displacement: f64,
-    /// Whether the displacement exceeds the damage distance.
+    /// True if the displacement exceeds the damage distance.
     pub damaged: bool,
 }
 
 /// Content of `breakage.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Breakage {
-    /// Prototype length over length in the run [-].
+    /// Length in the prototype over length in the run [-].
     pub scale: f64,
     /// Share of the units that moved further than the damage distance [-].
     pub damaged_ratio: f64,
-    /// Share of the units that broke [-].
+    /// Share of the units that broke in the re-runs [-].
     pub broken_ratio: f64,
-    /// The units.
+    /// Results for each unit.
     pub units: Vec<UnitBreakage>,
     /// The impacts that were re-run, the hardest first.
     pub impacts: Vec<Outcome>,
@@ -42,11 +42,11 @@ pub struct Breakage {
 /// Breakage of a unit. Forces, stresses and areas are at prototype scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitBreakage {
-    /// Number from 1.
+    /// Number of the unit, from 1.
     pub unit: usize,
     /// Displacement in the run [m].
     pub displacement_m: f64,
-    /// Whether the displacement exceeds the damage distance.
+    /// True if the displacement exceeds the damage distance.
     pub damaged: bool,
     /// Largest force of the recorded impacts, scaled by Hertz's law [N]; 0 without impacts.
     pub peak_force_n: f64,
@@ -54,30 +54,30 @@ pub struct UnitBreakage {
     pub nominal_stress_pa: Option<f64>,
     /// Largest computed first principal stress [Pa]; none if no impact of the unit was re-run.
     pub sigma_1_pa: Option<f64>,
-    /// Largest crack area of all impacts [m2].
+    /// Largest crack area in the re-runs of the unit's impacts [m2]; none if no impact of the unit was re-run.
     pub crack_area_m2: Option<f64>,
-    /// Largest number of pieces of all impacts.
+    /// Largest number of pieces in the re-runs of the unit's impacts.
     pub pieces: Option<usize>,
-    /// Mass of the heaviest piece over the mass of the unit, the smallest of all impacts [-].
+    /// Mass of the heaviest piece over the mass of the unit [-]: smallest value in the re-runs of the unit's impacts.
     pub heaviest_share: Option<f64>,
-    /// Whether the unit broke: `heaviest_share` is below 0.95.
+    /// True if the unit broke, that is, if `heaviest_share` is below 0.95.
     pub broken: Option<bool>,
 }
 
 /// An impact that was re-run at prototype scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// Name of its case and folder in `impacts/`.
+    /// Name of the fracture case, and of its result folder in `impacts/`.
     pub name: String,
-    /// How it was re-run.
+    /// Method of the re-run: collision or recorded forces.
     pub way: RerunMethod,
-    /// Number of the unit from 1.
+    /// Number of the unit, from 1.
     pub unit: usize,
-    /// Number of the other unit from 1; none for bed and walls.
+    /// Number of the other unit, from 1; none for bed and walls.
     pub partner: Option<usize>,
-    /// Time in the run [s].
+    /// Time in the run at which the contact began [s].
     pub t_s: f64,
-    /// Velocity of approach in the run [m/s].
+    /// Normal velocity of approach in the run [m/s].
     pub approach_m_s: f64,
     /// Largest force in the run [N].
     pub peak_force_n: f64,
@@ -87,18 +87,18 @@ pub struct Outcome {
     pub blow_s: f64,
     /// Mass, momentum and energy of the unit in the run and in the fracture run, at prototype scale.
     pub balance: Balance,
-    /// Results for the unit and its partner.
+    /// Results for the unit, and for its partner if the partner is a unit that was part of the re-run.
     pub found: Vec<Found>,
     /// Largest residual of the energy balance over the largest kinetic energy [-].
     pub energy_residual_ratio: Option<f64>,
-    /// Why the fracture run failed, if it did.
+    /// Reason why the fracture run failed; none if it succeeded.
     pub failure: Option<String>,
 }
 
-/// Effect of an impact on a unit of the prototype.
+/// Result of a re-run for one unit of the prototype.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// Number from 1.
+    /// Number of the unit, from 1.
     pub unit: usize,
     /// Largest first principal stress [Pa].
     pub sigma_1_pa: f64,
@@ -108,7 +108,7 @@ pub struct Found {
     pub pieces: usize,
     /// Mass of the heaviest piece over the mass of the unit [-].
     pub heaviest_share: f64,
-    /// Change of momentum until the end of the fracture run [N s].
+    /// Change of momentum from just before the impact to the end of the fracture run [N s].
     pub impulse_n_s: [f64; 3],
 }
 
@@ -124,13 +124,13 @@ impl Outcome {
     pub fn of(
         name: &str,
         way: RerunMethod,
-        blow: &Blow,
+        blow: &ScaledImpact,
         balance: Balance,
         ended: Result<FractureSummary, String>,
     ) -> Self {
         let touched = |summary: &FractureSummary| way == RerunMethod::LoadHistory || summary.impact_s.is_some();
         let ended = match ended {
-            Ok(summary) if !touched(&summary) => Err("the bodies did not touch: increase duration_s".to_owned()),
+            Ok(summary) if !touched(&summary) => Err("the bodies did not touch: raise breakage.duration_s".to_owned()),
             ended => ended,
         };
         let event = &blow.impact.event;
@@ -203,9 +203,9 @@ pub fn state_in_words(broken: bool, crack_area: f64) -> &'static str {
 }
 
 impl Breakage {
-    /// Name of the file in a run's folder.
+    /// Name of the result file in the run folder.
     pub const FILE: &str = "breakage.json";
-    /// Name of the table in a run's folder.
+    /// Name of the result table in the run folder.
     pub const TABLE: &str = "breakage.csv";
 
     /// Collects the results of the impacts for each unit of a run.
@@ -218,7 +218,7 @@ impl Breakage {
     ) -> Self {
         let mut peaks = vec![0.0f64; moved.len()];
         for impact in &impacts.impacts {
-            let force = impact.event.peak_force * Blow::new(model, settings, impact).scale.force;
+            let force = impact.event.peak_force * ScaledImpact::new(model, settings, impact).scale.force;
             for role in Role::of(impact) {
                 peaks[role.unit] = peaks[role.unit].max(force);
             }

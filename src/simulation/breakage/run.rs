@@ -1,4 +1,4 @@
-//! The breakage analysis: writes the hardest impacts of a finished run as fracture cases, and runs these.
+//! The breakage analysis: writes the hardest impacts of a finished run as fracture cases, and runs these cases.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use thiserror::Error;
 
-use super::blow::Blow;
-use super::fracture_case::{self, Scene};
+use super::blow::ScaledImpact;
+use super::fracture_case::{self, ImpactScene};
 use super::model::Model;
 use super::selection::select;
 use super::{load_history, reenact};
@@ -21,7 +21,7 @@ use crate::simulation::fracture::summary::FractureSummary;
 /// Subfolder of a run folder for the fracture cases and their results.
 pub const FOLDER: &str = "impacts";
 
-/// Why a breakage analysis ended without a result.
+/// Reason why a breakage analysis ended without a result.
 #[derive(Debug, Error)]
 pub enum BreakageError {
     /// A file cannot be written or read.
@@ -40,17 +40,18 @@ pub enum BreakageError {
 
 /// One impact to re-run.
 struct Job<'a> {
-    blow: Blow<'a>,
+    blow: ScaledImpact<'a>,
     way: RerunMethod,
     name: String,
 }
 
-/// Re-runs impacts of the run in `dir` at prototype scale. Cases and results go to its subfolder `impacts`, the summary
-/// to `breakage.json` and `breakage.csv`. Existing results of the same case are kept. `moved` are the displacements of
-/// the units.
+/// Re-runs the hardest impacts of the run in `dir` at prototype scale. Writes cases and results into the subfolder
+/// `impacts`, and the summary into `breakage.json` and `breakage.csv`. Existing results of an unchanged case are used
+/// again. `moved` is the displacement of each unit.
 ///
 /// # Errors
-/// If a file cannot be read or written. The result lists fracture runs that failed.
+/// If a file cannot be read or written, or the user stops the analysis. A fracture run that fails is no error; the
+/// result lists it.
 pub fn analyse_breakage(
     model: &Model,
     settings: &BreakageSettings,
@@ -64,7 +65,7 @@ pub fn analyse_breakage(
         let what = format!("lists {} units, but the case has {}; rerun the case", moved.len(), model.count);
         return Err(OutputError::content(&dir.join("summary.json"), what).into());
     }
-    if !impacts.impacts.iter().all(|impact| model.can_have(impact)) {
+    if !impacts.impacts.iter().all(|impact| model.is_plausible(impact)) {
         let what = "has impacts that do not fit the units of this case; rerun the case";
         return Err(OutputError::content(&file, what).into());
     }
@@ -90,7 +91,7 @@ fn jobs<'a>(model: &'a Model, settings: &'a BreakageSettings, impacts: &'a Impac
     };
     let chosen = select(impacts, &settings.select);
     let jobs_of_impact = |(rank, index): (usize, usize)| {
-        let blow = Blow::new(model, settings, &impacts.impacts[index]);
+        let blow = ScaledImpact::new(model, settings, &impacts.impacts[index]);
         let unit = blow.impact.event.body + 1;
         ways.iter().map(move |way| {
             let by_loads = if *way == RerunMethod::LoadHistory { "-loads" } else { "" };
@@ -101,7 +102,7 @@ fn jobs<'a>(model: &'a Model, settings: &'a BreakageSettings, impacts: &'a Impac
 }
 
 impl Job<'_> {
-    fn scene(&self, impacts: &Impacts) -> Scene {
+    fn scene(&self, impacts: &Impacts) -> ImpactScene {
         match self.way {
             RerunMethod::LoadHistory => load_history::scene(&self.blow, impacts),
             RerunMethod::ReEnact | RerunMethod::Both => reenact::scene(&self.blow),
@@ -158,7 +159,7 @@ impl Job<'_> {
     }
 }
 
-/// Makes an empty folder.
+/// Makes an empty folder; deletes an existing folder with its content.
 fn make_empty_folder(dir: &Path) -> Result<(), OutputError> {
     if dir.exists() {
         fs::remove_dir_all(dir).map_err(OutputError::io(dir))?;
@@ -166,7 +167,8 @@ fn make_empty_folder(dir: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(dir).map_err(OutputError::io(dir))
 }
 
-/// Computes all jobs, `at_once` at a time with `threads` threads each; returns the results in the order of the jobs.
+/// Computes all jobs, `at_once` of them at a time and each with `threads` threads. Returns the results in the order of
+/// the jobs.
 fn compute(
     jobs: &[Job],
     folder: &Path,

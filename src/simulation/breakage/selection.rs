@@ -4,7 +4,7 @@ use crate::case::{ImpactMeasure, Selection};
 use crate::output::{Impact, Impacts};
 use crate::rigid::Feature;
 
-/// Returns the quantity by which impacts are ranked.
+/// Returns the quantity by which impacts are ranked: force [N], velocity [m/s] or energy [J].
 pub fn hardness(impact: &Impact, by: ImpactMeasure) -> f64 {
     match by {
         ImpactMeasure::PeakForce => impact.event.peak_force,
@@ -13,13 +13,13 @@ pub fn hardness(impact: &Impact, by: ImpactMeasure) -> f64 {
     }
 }
 
-/// Returns the impacts to re-run as indices into the list, the hardest first.
-/// When a unit lands on three feet, only the hardest contact counts: re-running the collision includes all of them.
+/// Returns the impacts to re-run as indices into the list, the hardest first. When a unit lands on three feet, only the
+/// hardest contact is selected, because its re-run includes the other contacts.
 pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
     let all = &impacts.impacts;
     let score = |index: &usize| hardness(&all[*index], selection.by);
     let mut order: Vec<usize> = (0..all.len()).filter(|index| score(index) >= selection.at_least).collect();
-    // The sort is stable: of equal impacts, the first in the file comes first, which has the larger force.
+    // The sort is stable: equal impacts keep the order of the file, in which larger forces come first.
     order.sort_by(|a, b| score(b).total_cmp(&score(a)));
     let mut chosen: Vec<usize> = Vec::new();
     for index in order {
@@ -33,7 +33,7 @@ pub fn select(impacts: &Impacts, selection: &Selection) -> Vec<usize> {
     chosen
 }
 
-/// Returns whether two contacts belong to the same bodies and begin within the duration of the longer impact.
+/// Returns true if two contacts are between the same bodies and begin within the duration of the longer impact.
 pub fn same_collision(a: &Impact, b: &Impact) -> bool {
     let bodies = |impact: &Impact| {
         let (body, partner) = (Some(impact.event.body), impact.event.partner_unit());

@@ -2,8 +2,8 @@
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | this one | state, time step and measurements |
-//! | [`run`] | the loop with outputs, checkpoints and stop rules |
+//! | this file | state, time step and measurements |
+//! | [`run`] | the loop with outputs, checkpoints and stop criteria |
 //! | [`recorder`] | tables and surfaces |
 //! | [`summary`] | `summary.json` |
 
@@ -22,48 +22,48 @@ use crate::{
     simulation::bodies::rigid_setup,
 };
 
-/// Time between two measurements of the units [s]; the substeps of the contact are far shorter.
+/// Time between two measurements of the units [s]; the substeps of the contact solver are much shorter.
 const MEASUREMENT_INTERVAL: f64 = 1e-3;
 
 /// Time for which the bed stays level before it is tilted [s].
 const LEVEL_TIME: f64 = 0.5;
 
-/// State of a dry test.
+/// A dry test: case, bodies and measurements.
 pub struct DryTest {
     /// The case.
     pub case: Arc<DryTestCase>,
-    /// The units.
+    /// Solver of the rigid bodies: units, bed and contacts.
     pub world: RigidWorld,
     /// Poses of the units at the start.
     pub start: Vec<BodyState>,
-    /// Measurements so far.
+    /// Measurements since the start.
     pub measured: Measured,
 }
 
-/// Measurements besides the series; part of every checkpoint.
+/// Measurements that the tables do not contain; part of every checkpoint.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measured {
-    /// Slope at which each unit began to slide [rad].
+    /// Slope of the bed at which each unit began to slide [rad]; `None` for a unit that has not slid.
     pub slides_at: Vec<Option<f64>>,
-    /// Kinetic, potential and elastic energy at the start [J].
+    /// Mechanical energy at the start: sum of kinetic, potential and elastic energy [J].
     pub energy_start: f64,
-    /// The same energy at the last measurement [J].
+    /// Mechanical energy at the last measurement [J].
     pub energy: f64,
-    /// Largest rise of this energy between two measurements under constant gravity [J].
+    /// Largest rise of the mechanical energy between two successive measurements [J]; not measured in a tilt test.
     pub largest_rise: f64,
-    /// Time since which all units have been at rest [s].
+    /// Time at which all units came to rest [s]; `None` while a unit moves or if the case has no rest criterion.
     pub at_rest_since: Option<f64>,
-    /// Number of contacts that have ended, with the ground and between units.
+    /// Number of recorded contacts: first with bed and walls, then between units.
     pub contacts: [u64; 2],
-    /// Largest force of a contact [N].
+    /// Largest force of any recorded contact [N].
     pub peak_force: f64,
 }
 
 impl DryTest {
-    /// Places the units of a case at their start.
+    /// Places the units of a case at their start positions.
     ///
     /// # Errors
-    /// If they overlap each other or the ground too much.
+    /// If units overlap each other or the ground too much.
     pub fn new(case: Arc<DryTestCase>) -> Result<Self, RigidError> {
         let setup = Self::setup(&case);
         let start = setup.bodies.clone();
@@ -74,7 +74,7 @@ impl DryTest {
         Ok(Self { case, world, start, measured })
     }
 
-    /// Returns the set-up of the rigid world of a case.
+    /// Returns the set-up of the rigid-body solver for a case.
     pub fn setup(case: &DryTestCase) -> RigidSetup {
         rigid_setup(&case.units, &case.site, &case.materials, case.contact.law, case.gravity)
     }
@@ -84,7 +84,7 @@ impl DryTest {
         self.world.time()
     }
 
-    /// Returns the present slope of the bed [rad].
+    /// Returns the current slope of the bed [rad].
     pub fn slope(&self) -> f64 {
         match self.case.test {
             DryTestKind::Tilt { rate, to, .. } => (rate * (self.time() - LEVEL_TIME)).clamp(0.0, to),
@@ -92,16 +92,16 @@ impl DryTest {
         }
     }
 
-    /// Advances to the next measurement, or to the time `until` [s] if that is earlier.
+    /// Advances to the next measurement, or to the time `until` [s] if this time is earlier.
     ///
     /// # Errors
-    /// If the units overlap each other or the ground too much.
+    /// If units overlap each other or the ground too much.
     pub fn advance(&mut self, until: f64) -> Result<(), RigidError> {
         let loads = vec![Load::default(); self.start.len()];
         let dt = MEASUREMENT_INTERVAL.min(until - self.time()).max(0.0);
         if let DryTestKind::Tilt { .. } = self.case.test {
             let slope = self.slope();
-            // In the axes of the bed, gravity turns towards the shore.
+            // The axes are fixed to the bed. Tilting the bed therefore turns gravity towards the shore.
             self.world.set_gravity(self.case.gravity * DVec3::new(slope.sin(), 0.0, -slope.cos()));
         }
         self.world.advance(dt, &loads)?;
@@ -132,7 +132,8 @@ impl DryTest {
         }
     }
 
-    /// Returns the speed of the fastest unit [m/s], with rotation taken at its tips, half its height from the centre.
+    /// Returns the speed of the fastest unit [m/s]: the speed of the centre plus the speed of the tips by rotation. The
+    /// tips are half a unit height from the centre.
     pub fn fastest(&self) -> f64 {
         let tips = 0.5 * self.case.units.shape.height();
         let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
@@ -140,7 +141,7 @@ impl DryTest {
     }
 }
 
-/// Returns kinetic, potential and elastic energy [J].
+/// Returns the sum of kinetic, potential and elastic energy [J].
 fn mechanical_energy(world: &RigidWorld) -> f64 {
     let energy = world.energy();
     energy.kinetic + energy.potential + energy.elastic

@@ -11,10 +11,10 @@ use crate::{
         Cells, CsvSeries, Impact, Impacts, OutputError, PolyDataSeries, UnitSurface, columns, is_due, write_atomically,
     },
     rigid::{ContactEvent, RigidSnapshot},
-    simulation::flume::snapshots::{Frame, UNIT_FIELDS},
+    simulation::flume::outputs::snapshots::{Frame, UNIT_FIELDS},
 };
 
-/// Progress of each output.
+/// Number of times that each output was written, and lengths of the tables.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Counts {
     series: u64,
@@ -24,7 +24,7 @@ struct Counts {
     bytes: [u64; 3],
 }
 
-/// State from which a run can resume.
+/// State from which a dry test can resume.
 #[derive(Debug, Serialize, Deserialize)]
 struct Checkpoint {
     version: u32,
@@ -34,7 +34,7 @@ struct Checkpoint {
     counts: Counts,
 }
 
-/// Version of the checkpoint layout; raised when the layout changes.
+/// Version of the checkpoint layout; increased when the layout changes.
 const VERSION: u32 = 3;
 
 const UNITS_FILE: &str = "units.csv";
@@ -56,10 +56,10 @@ impl DryTestRecorder {
     /// File name of the checkpoint in the run folder.
     pub const CHECKPOINT: &str = "checkpoint.json";
 
-    /// File name of the state at which a run failed.
+    /// File name of the state that is saved when a run fails.
     pub const FAILED: &str = "failed.json";
 
-    /// Creates the files in the run folder, and writes those that do not change.
+    /// Creates the output files in the run folder, and writes the files that do not change during the run.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -90,10 +90,11 @@ impl DryTestRecorder {
         Ok(recorder)
     }
 
-    /// Restores a run from its checkpoint, and truncates its files to their lengths at that time.
+    /// Restores a run from its checkpoint, and truncates its output files to their lengths at the checkpoint.
     ///
     /// # Errors
-    /// If the checkpoint is missing, damaged or of another case; if a file is missing or shorter than it was then.
+    /// If the checkpoint is missing, damaged or of another case, or if an output file is missing or shorter than at the
+    /// checkpoint.
     pub fn reopen(run: &mut DryTest, dir: &Path) -> Result<Self, OutputError> {
         let path = dir.join(Self::CHECKPOINT);
         let bytes = std::fs::read(&path).map_err(OutputError::io(&path))?;
@@ -106,7 +107,7 @@ impl DryTestRecorder {
             return Err(OutputError::content(&path, what));
         }
         if state.case_hash != run.case.hash {
-            return Err(OutputError::content(&path, "belongs to another case than case.json next to it".to_owned()));
+            return Err(OutputError::content(&path, "belongs to another case than case.json in its folder".to_owned()));
         }
         run.world.restore(&state.world).map_err(|error| OutputError::content(&path, error.to_string()))?;
         run.measured = state.measured;
@@ -131,7 +132,7 @@ impl DryTestRecorder {
         &self.dir
     }
 
-    /// Writes the outputs that are due now.
+    /// Writes the outputs that are due at the current time.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -168,7 +169,7 @@ impl DryTestRecorder {
         Impacts { places: Vec::new(), impacts }.write(&self.dir.join(Impacts::FILE))
     }
 
-    /// Writes the state of the run to `file` in its folder.
+    /// Writes the state of the run to the file `file` in the run folder.
     ///
     /// # Errors
     /// If the file cannot be written.

@@ -1,4 +1,4 @@
-//! A dry test from its case, or from a checkpoint, to its summary.
+//! Runs a dry test: starts from the case or a checkpoint, and ends with the summary.
 
 use std::{
     path::{Path, PathBuf},
@@ -27,14 +27,14 @@ pub fn run(case: Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<DryT
 /// Continues a dry test from its last checkpoint.
 ///
 /// # Errors
-/// As [`run`], and if the checkpoint does not belong to the case.
+/// As for [`run`], and if the checkpoint does not belong to the case.
 pub fn resume(case: Arc<DryTestCase>, dir: &Path, control: &Control) -> Result<DryTestSummary, RunError> {
     let mut run = DryTest::new(case).map_err(RunError::setup)?;
     let recorder = DryTestRecorder::reopen(&mut run, dir)?;
     drive(RecordedRun { run, recorder }, dir, control)
 }
 
-/// A dry test with its open files.
+/// A dry test with its open output files.
 struct RecordedRun {
     run: DryTest,
     recorder: DryTestRecorder,
@@ -60,7 +60,7 @@ impl Run for RecordedRun {
         }
         self.recorder.record_due(&mut self.run)?;
         self.run.advance(self.run.case.stop.duration).map_err(StepFailure::failure)?;
-        Ok(Step::Made)
+        Ok(Step::Continues)
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
@@ -74,10 +74,10 @@ impl Run for RecordedRun {
     }
 }
 
-/// Returns why the run is over, if it is.
+/// Returns the reason to end the run, or `None` if the run continues.
 fn stop_rule(run: &DryTest) -> Option<Stopped> {
     let (stop, time) = (&run.case.stop, run.time());
-    // The sum of the steps may fall short of the duration by rounding.
+    // Because of rounding, the sum of the steps may be slightly less than the duration.
     if time >= stop.duration - 1e-9 {
         return Some(Stopped::Duration);
     }

@@ -18,27 +18,28 @@ pub struct DryTestSummary {
     pub case_hash: String,
     /// Simulated time [s].
     pub simulated_s: f64,
-    /// Why the run ended.
+    /// Reason why the run ended.
     pub stopped: Stopped,
-    /// Number of substeps.
+    /// Number of substeps of the contact solver.
     pub substeps: u64,
     /// Number of contacts at the end.
     pub contacts_now: usize,
-    /// Number of contacts since the start: with bed and walls, between units.
+    /// Number of contacts since the start: first with bed and walls, then between units.
     pub contacts: [u64; 2],
-    /// Largest force of a contact [N].
+    /// Largest force of any contact [N].
     pub peak_force_n: f64,
-    /// Deepest overlap at the end over the height of a unit [-].
+    /// Deepest overlap of a contact at the end, over the height of a unit [-].
     pub deepest_overlap: f64,
     /// Kinetic energy at the end [J].
     pub kinetic_j: f64,
-    /// Kinetic, potential and elastic energy at the start [J].
+    /// Mechanical energy at the start: sum of kinetic, potential and elastic energy [J].
     pub energy_start_j: f64,
-    /// The same energy at the end [J].
+    /// Mechanical energy at the end [J].
     pub energy_end_j: f64,
-    /// Largest rise of this energy within a millisecond [J]; none in a tilt test, where the bed does work.
+    /// Largest rise of the mechanical energy within a millisecond [J]; none in a tilt test, because the bed does work
+    /// there.
     pub largest_rise_j: Option<f64>,
-    /// Time since which the units have been at rest [s], if they are.
+    /// Time at which all units came to rest [s]; none if a unit still moves or the case has no rest criterion.
     pub at_rest_since_s: Option<f64>,
     /// The units.
     pub units: Vec<DryUnit>,
@@ -53,20 +54,20 @@ pub struct DryTestSummary {
 /// Result for one unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DryUnit {
-    /// Number from 1.
+    /// Number of the unit, from 1.
     pub unit: usize,
     /// Centre at the start [m].
     pub start_m: [f64; 3],
     /// Centre at the end [m].
     pub end_m: [f64; 3],
-    /// Displacement [m].
+    /// Displacement of the centre [m].
     pub moved_m: f64,
-    /// Rotation [degrees].
+    /// Rotation from start to end [degrees].
     pub turned_deg: f64,
     /// Slope at which the unit began to slide in a tilt test [degrees].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slides_at_deg: Option<f64>,
-    /// Tangent of this slope, the friction coefficient [-].
+    /// Friction coefficient: the tangent of `slides_at_deg` [-].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
 }
@@ -75,7 +76,7 @@ impl DryTestSummary {
     /// File name in the run folder.
     pub const FILE: &str = "summary.json";
 
-    /// Summarises a run that has ended after the wall time `wall_s` [s].
+    /// Summarises a dry test that has ended; `wall_s` is the wall time of the current session [s].
     pub fn of(run: &DryTest, stopped: Stopped, wall_s: f64) -> Self {
         let (measured, energy) = (&run.measured, run.world.energy());
         let unit = |number: usize| {

@@ -1,4 +1,4 @@
-//! Runs that begin at the checkpoint of another run with the same flume and wave, before any unit has moved.
+//! Runs that start from the checkpoint of another run with the same flume and wave, before any unit has moved.
 
 use std::{path::Path, sync::Arc};
 
@@ -6,10 +6,12 @@ use serde_json::{Map, Value};
 
 use super::{
     Simulation, Units,
-    checkpoint::{self, Checkpoint},
-    recorder::Recorder,
-    recorder_state::RecorderState,
-    rest::Rest,
+    measures::rest::Rest,
+    outputs::{
+        checkpoint::{self, Checkpoint},
+        recorder::Recorder,
+        recorder_state::RecorderState,
+    },
     run::{FlumeRun, RunOptions},
     setup::SetupError,
 };
@@ -21,10 +23,11 @@ use crate::{
     },
 };
 
-/// Units that moved less than this share of their height [-] count as still; rolling and sliding move them further.
+/// Largest displacement at which a unit counts as still, over the height of the unit [-]. A unit that rolls or slides
+/// moves further.
 pub const STILL: f64 = 0.01;
 
-/// A case in the state of another run with the same wave.
+/// A simulation that starts from the state of another run with the same flume and wave.
 pub struct Start<'a> {
     simulation: Simulation,
     outputs: RecorderState,
@@ -32,8 +35,8 @@ pub struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// Puts a case into the state of the checkpoint in the folder of another run. The cases may differ only in
-    /// [`Case::KEYS_FREE_AT_START`]. Nothing is written.
+    /// Sets up a case, and restores the checkpoint of another run in the folder `from`. The two cases may differ only
+    /// in the keys [`Case::KEYS_FREE_AT_START`]. Writes no file.
     ///
     /// # Errors
     /// If the other run has no checkpoint, its case differs too much, or its units have moved.
@@ -60,15 +63,16 @@ impl<'a> Start<'a> {
         }
         simulation.statistics.rest = Rest::default();
         let warning =
-            format!("computed with the friction of another run until {time:.3} s, while the units were still");
+            format!("computed until {time:.3} s with the friction of another run; the units had not moved by then");
         simulation.statistics.warnings.push(warning);
         Ok(Self { simulation, outputs, from })
     }
 
-    /// Runs the case from there into an existing, empty folder. The outputs of the other run until then are copied.
+    /// Runs the case from this state into an existing, empty folder. Copies the outputs of the other run up to this
+    /// state.
     ///
     /// # Errors
-    /// As [`super::run::run`].
+    /// As for [`super::run::run`].
     pub fn run(self, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
         let Self { simulation, outputs, from } = self;
         let recorder = Recorder::branch(&simulation, from, dir, outputs)?;
@@ -77,12 +81,12 @@ impl<'a> Start<'a> {
     }
 }
 
-/// Describes the differences of two case files that are not allowed.
+/// Returns a message that lists the keys in which two case files differ but must not differ.
 pub fn difference(one: &str, other: &str) -> String {
     let keys = differing_keys(one, other);
     let allowed = Case::KEYS_FREE_AT_START.join(", ");
     if keys.is_empty() {
-        return "a file named in both cases has changed".to_owned();
+        return "a file that both cases use has changed".to_owned();
     }
     format!("the cases differ in {}; only {allowed} may differ", keys.join(", "))
 }
@@ -111,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_keys_that_do_not_matter_to_still_units_may_differ() {
+    fn only_keys_without_effect_on_still_units_may_differ() {
         let case = r#"{ "title": "a", "friction": [0.3], "stop": { "duration_s": 1 }, "wave": { "height_m": 0.1 } }"#;
         let other = r#"{ "title": "b", "friction": [0.5], "stop": { "duration_s": 1, "at_rest": {} },
             "wave": { "height_m": 0.1 } }"#;

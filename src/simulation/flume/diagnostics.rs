@@ -1,27 +1,27 @@
-//! Rows of `diagnostics.csv`, and warnings about doubtful water.
+//! Rows of `diagnostics.csv`, checks of the water, and warnings about fast water.
 
 use glam::DVec3;
 
 use super::{
     Simulation,
-    extremes::Extremes,
     failure::{self, Failure, LARGEST_COMPRESSION, Particle},
+    measures::extremes::Extremes,
 };
 use crate::sph::solver::backend::WaterExtremes;
 
-/// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is its
-/// square; weakly compressible SPH allows 1 % (Monaghan 1994).
+/// Mach number above which the water is no longer nearly incompressible [-]. The relative change of density is the
+/// square of the Mach number; weakly compressible SPH allows 1 % (Monaghan 1994).
 pub const LARGEST_MACH: f64 = 0.1;
 
 impl Simulation {
     /// Checks the water at the end of a time step: fails if it is unstable, records its extremes, warns of fast water.
     ///
     /// # Errors
-    /// If a particle has left the domain, or its density is impossible.
+    /// If a particle has left the domain or has an impossible density, or the device is lost.
     pub(super) fn watch_water(&mut self) -> Result<(), Failure> {
         if let Some(memory) = self.solver.device_memory() {
             let water = memory.water_extremes()?;
-            return self.judge(&water);
+            return self.check_device_extremes(&water);
         }
         if let Some(failure) = failure::find_escape(self) {
             return Err(failure);
@@ -38,8 +38,9 @@ impl Simulation {
         Ok(())
     }
 
-    /// The same for water that a device has checked; particles are fetched only if a message names them.
-    fn judge(&mut self, water: &WaterExtremes) -> Result<(), Failure> {
+    /// Like [`Self::watch_water`], for extremes that a device has computed. Particles are fetched only if a message
+    /// names a particle.
+    fn check_device_extremes(&mut self, water: &WaterExtremes) -> Result<(), Failure> {
         let mach = water.largest_speed / self.case.fluid.sound_speed;
         let rho0 = self.case.fluid.rho0;
         let compressed = [water.lowest_density, water.highest_density]
@@ -55,7 +56,7 @@ impl Simulation {
             if let Some(failure) = failure::find_wrong_density(self, &extremes) {
                 return Err(failure);
             }
-            // The card checks before the velocities into surfaces are removed.
+            // The graphics card computes its extremes before velocities into surfaces are removed.
             if fast && extremes.fastest.0 > LARGEST_MACH * self.case.fluid.sound_speed {
                 self.statistics.warnings.push(mach_warning(self, &Particle::of(&self.water, extremes.fastest.1)));
             }
@@ -64,8 +65,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns a row of `diagnostics.csv`; `dt` is the length of the next time step [s], `divergence` is that of
-    /// [`crate::sph::solver::power::Powers`] [1/s]. Mach number and densities are the extremes since the last row.
+    /// Returns a row of `diagnostics.csv`; `dt` is the length of the next time step [s], `divergence` [1/s] comes from
+    /// [`crate::sph::solver::power::Powers`]. Mach number and densities in the row are the extremes since the last row.
     pub(super) fn diagnostics_row(&mut self, dt: f64, divergence: f64) -> [f64; 10] {
         let volume = self.water_volume();
         let start = *self.statistics.water_start.get_or_insert((volume, self.water.len() as u64));
@@ -89,7 +90,7 @@ impl Simulation {
 
 fn mach_warning(simulation: &Simulation, fastest: &Particle) -> String {
     let (case, DVec3 { x, y, z }) = (&simulation.case, fastest.place);
-    // As written in the case: three decimals remove the rounding error.
+    // Round to three decimals, to get the number of the case file without rounding errors.
     let factor = case.fluid.sound_speed / (case.fluid.gravity * case.domain.depth).sqrt();
     let factor = (1e3 * factor).round() / 1e3;
     format!(
@@ -130,13 +131,13 @@ mod tests {
     }
 
     #[test]
-    fn a_row_holds_the_extremes_since_the_previous_row() {
+    fn a_diagnostics_row_has_the_extremes_since_the_previous_row() {
         let mut simulation = tank();
         let sound = simulation.case.fluid.sound_speed;
         let [_, volume, change, mach, lowest, highest, divergence, steps, dt, lost] =
             simulation.diagnostics_row(1e-4, 0.3);
         assert_eq!((change, mach, divergence, steps, dt, lost), (0.0, 0.0, 0.3, 0.0, 1e-4, 0.0));
-        // 0.5 m x 0.2 m x 0.2 m of water, compressed a little; the mass is that of the water at rest.
+        // 0.5 m x 0.2 m x 0.2 m of water, slightly compressed by its weight.
         assert!((volume / 0.02 - 1.0).abs() < 0.01, "{volume}");
         assert!(lowest <= highest && lowest > 990.0);
         simulation.water.velocity[3] = DVec3::Y * 0.05 * sound;

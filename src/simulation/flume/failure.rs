@@ -1,24 +1,24 @@
-//! Failures of a time step: their causes and positions, and what to do.
+//! Failures of a time step: cause, position, and advice to the user.
 
 use std::fmt;
 
 use glam::DVec3;
 use thiserror::Error;
 
-use super::{Simulation, extremes::Extremes};
+use super::{Simulation, measures::extremes::Extremes};
 use crate::{
     rigid::RigidError,
     sph::{particles::water::Water, solver::backend::DeviceError},
 };
 
-/// Relative change of density above which a run fails [-]. DualSPHysics drops particles outside 700 to 1300 kg/m3 by
-/// default. A coarse dam break that hit a unit at Mach 0.17 stayed within 5 %.
+/// Relative change of density above which a run fails [-]. DualSPHysics removes particles outside 700 to 1300 kg/m3 by
+/// default. In a coarse dam break that hits a unit at Mach 0.17, the change stays within 5 %.
 pub(super) const LARGEST_COMPRESSION: f64 = 0.3;
 
 /// Usual causes of unstable water.
 const UNSTABLE_ADVICE: &str = "likely causes: the time step is too long (lower numerics.cfl), the speed of sound is \
      too low for the flow (raise fluid.sound_speed_factor), or the particles are too coarse for the geometry there \
-     (lower domain.dp_m); diagnostics.csv shows whether speeds and densities were already unusual before";
+     (lower domain.dp_m); diagnostics.csv shows whether speeds and densities were already unusual before this time";
 
 /// A water particle in a message; unknown values are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,16 +50,16 @@ impl fmt::Display for Particle {
         let DVec3 { x, y, z } = self.place;
         write!(
             out,
-            "water particle {} at x = {x:.3}, y = {y:.3}, z = {z:.3} m, with {:.2} m/s and {:.1} kg/m3",
+            "water particle {} at x = {x:.3}, y = {y:.3}, z = {z:.3} m, with speed {:.2} m/s and density {:.1} kg/m3",
             self.id, self.speed, self.density
         )
     }
 }
 
-/// Why a run failed. Times [s] count from the start of the particles; lengths [m], speeds [m/s].
+/// Reason why a flume run failed. Times [s] count from the start of the particles; lengths [m], speeds [m/s].
 #[derive(Debug, Error)]
 pub enum Failure {
-    /// A number is no longer finite.
+    /// A position, velocity, density or rate of the water is not finite.
     #[error("the water has become unstable after {time:.4} s (step {step}): {what}: {particle}; {UNSTABLE_ADVICE}")]
     Unstable { time: f64, step: u64, what: &'static str, particle: Particle },
     /// The density of the water is impossible.
@@ -71,12 +71,12 @@ pub enum Failure {
     /// A particle has left the domain.
     #[error("after {time:.4} s (step {step}) {particle} has left the domain: {advice}")]
     Escaped { time: f64, step: u64, particle: Particle, advice: &'static str },
-    /// A unit overlaps something more than its contact law allows.
+    /// A unit overlaps another body more than the contact law allows.
     #[error(
         "after {time:.4} s (step {step}) unit {unit} at x = {:.3}, y = {:.3}, z = {:.3} m, with {speed:.2} m/s, \
-         overlaps {partner} by {:.3} mm; its rounding allows {:.3} mm. The contact is too soft for this impact: raise \
-         young_modulus_pa of the material or contact.rounding_share, and check in diagnostics.csv whether the water \
-         around the unit is stable", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
+         overlaps {partner} by {:.3} mm; its rounding radius allows {:.3} mm. The contact is too soft for this impact: \
+         raise young_modulus_pa of the material or contact.rounding_share, and check in diagnostics.csv whether the \
+         water around the unit is stable", place.x, place.y, place.z, depth * 1e3, allowed * 1e3
     )]
     TooDeep {
         time: f64,
@@ -92,20 +92,21 @@ pub enum Failure {
     /// The motion of a unit is not a finite number.
     #[error(
         "after {time:.4} s (step {step}) the motion of unit {unit}, last at x = {:.3}, y = {:.3}, z = {:.3} m with \
-         {speed:.2} m/s, is no longer a finite number; the water around it is probably unstable; {UNSTABLE_ADVICE}",
+         speed {speed:.2} m/s, is no longer a finite number; the water around the unit is probably unstable; \
+         {UNSTABLE_ADVICE}",
         place.x, place.y, place.z
     )]
     UnitNotFinite { time: f64, step: u64, unit: usize, place: DVec3, speed: f64 },
     /// The device that computes the water has failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// The units have failed for another reason.
+    /// The rigid-body solver has failed for another reason.
     #[error("after {time:.4} s (step {step}): {source}")]
     Units { time: f64, step: u64, source: RigidError },
 }
 
-/// Returns the failure for a particle whose state is not finite, if possible one with a finite position. If all states
-/// are finite, and only a rate is not, it names the fastest particle.
+/// Returns the failure for a particle whose state is not finite, if possible for a particle with a finite position. If
+/// only a rate is not finite, the failure names the fastest particle.
 pub(super) fn not_finite(simulation: &Simulation) -> Failure {
     let water = &simulation.water;
     let first = |bad: &dyn Fn(usize) -> bool| (0..water.len()).find(|&i| bad(i));
@@ -128,7 +129,8 @@ fn is_finite(water: &Water, i: usize) -> bool {
     water.position[i].is_finite() && water.velocity[i].is_finite() && water.density[i].is_finite()
 }
 
-/// Returns the failure for the first particle outside the domain or without a finite state, if any.
+/// Returns the failure for the first particle that is outside the domain or whose state is not finite; `None` if there
+/// is no such particle.
 pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
     use rayon::prelude::*;
     let [low, high] = simulation.bounds;
@@ -142,8 +144,8 @@ pub(super) fn find_escape(simulation: &Simulation) -> Option<Failure> {
     let advice = if water.position[i].z > high.z {
         "the splash is higher than the walls: raise domain.top_z_m"
     } else {
-        "it went through a wall or the bed: lower domain.dp_m, raise numerics.boundary_layers, or check that the walls \
-         reach above the water"
+        "the particle went through a wall or the bed: lower domain.dp_m, raise numerics.boundary_layers, or check \
+         that the walls reach above the water"
     };
     let (time, step) = (simulation.time, simulation.steps);
     Some(Failure::Escaped { time, step, particle: Particle::of(water, i), advice })
@@ -164,7 +166,8 @@ pub(super) fn find_wrong_density(simulation: &Simulation, extremes: &Extremes) -
     })
 }
 
-/// Turns an error of the rigid bodies into a failure of the run. The clock of the bodies starts at their release.
+/// Converts an error of the rigid-body solver to a failure of the run. The failure has the time of the run, because the
+/// time of the solver starts at the release of the units.
 pub(super) fn of_units(simulation: &Simulation, error: RigidError) -> Failure {
     let (time, step) = (simulation.time, simulation.steps);
     let last = |body: usize| {
@@ -193,7 +196,7 @@ pub(super) mod tests {
     use super::*;
     use crate::case::Case;
 
-    /// A tank of still water, 25 x 10 x 10 particles.
+    /// Returns the case of a tank of still water with 25 x 10 x 10 particles.
     fn tank_case() -> Value {
         json!({
             "title": "Still water",
@@ -215,7 +218,7 @@ pub(super) mod tests {
         simulation(&tank_case())
     }
 
-    /// The same tank with a Tetrapod that is free from the start.
+    /// Returns the tank with a Tetrapod that can move from the start.
     fn tank_with_unit() -> Simulation {
         let mut case = tank_case();
         case["units"] = json!({
@@ -225,7 +228,7 @@ pub(super) mod tests {
         simulation(&case)
     }
 
-    /// Makes time steps until the run fails; returns the message.
+    /// Makes time steps until the run fails; returns the error message.
     fn failure(simulation: &mut Simulation) -> String {
         for _ in 0..3 {
             let done = simulation.step();
@@ -246,11 +249,12 @@ pub(super) mod tests {
         simulation.step().unwrap();
         let (id, place) = (simulation.water.id[400], simulation.water.position[400]);
         let named = format!("water particle {id} at x = {:.3}, y = {:.3}, z = {:.3} m", place.x, place.y, place.z);
-        // The velocity of one particle and the position of another: the message names the one with a known position.
+        // One particle has no valid velocity, another no valid position: the message names the particle with a valid
+        // position.
         simulation.water.velocity[400].x = f64::NAN;
         simulation.water.position[100].y = f64::NAN;
         let message = simulation.watch_water().unwrap_err().to_string();
-        assert_names(&message, &["after 0.0", "(step 1)", &named, "NaN m/s", "lower numerics.cfl"]);
+        assert_names(&message, &["after 0.0", "(step 1)", &named, "speed NaN m/s", "lower numerics.cfl"]);
     }
 
     #[test]
@@ -261,7 +265,7 @@ pub(super) mod tests {
         let message = failure(&mut simulation);
         assert_names(
             &message,
-            &["(step 0)", &format!("water particle {id} at x = "), "inf kg/m3", "lower domain.dp_m"],
+            &["(step 0)", &format!("water particle {id} at x = "), "density inf kg/m3", "lower domain.dp_m"],
         );
     }
 
@@ -290,7 +294,7 @@ pub(super) mod tests {
             simulation.water.density[30] = density;
             let message = simulation.watch_water().unwrap_err().to_string();
             let particle = format!("water particle {id} at x = ");
-            let has = format!("0.00 m/s and {density:.1} kg/m3, {change} from the 1000 kg/m3");
+            let has = format!("speed 0.00 m/s and density {density:.1} kg/m3, {change} from the 1000 kg/m3");
             assert_names(&message, &["after 0.0000 s (step 0)", &particle, &has, "raise fluid.sound_speed_factor"]);
         }
     }
@@ -298,7 +302,7 @@ pub(super) mod tests {
     #[test]
     fn a_unit_that_overlaps_the_bed_too_much_stops_the_run() {
         let mut simulation = tank_with_unit();
-        // Accelerated into the bed by 1e5 times gravity.
+        // Accelerate the unit into the bed with 1e5 times gravity.
         let units = simulation.units.as_mut().unwrap();
         units.world.set_gravity(DVec3::NEG_Z * 1e6);
         let message = failure(&mut simulation);

@@ -1,18 +1,18 @@
 //! Impermeable surfaces: water does not flow through solids.
 //!
-//! mDBC gives a boundary the pressure of the water in front of it, but no barrier. A water particle that hits an edge
-//! or enters the wedge under a unit can pass through. Therefore the kinematic condition of an impermeable surface is
-//! imposed on the few particles nearer to a surface than [`NEAREST`]: the part of their relative velocity towards the
-//! surface is removed. In calm water no particle is affected: the particles stay half a particle spacing away. A unit
-//! receives the momentum that is removed from the water as an impulse.
+//! mDBC gives a boundary the pressure of the nearby water, but it is no barrier for particles. A water particle that
+//! hits an edge or enters the wedge under a unit can pass through the surface. Therefore the few particles nearer to a
+//! surface than [`NEAREST`] obey the kinematic condition of an impermeable surface: the part of their relative velocity
+//! towards the surface is removed. In calm water no particle is affected, because particles stay half a particle
+//! spacing away from surfaces. A unit receives the momentum that is removed from the water as an impulse.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{Simulation, Units, absorb::rows};
+use super::{Simulation, Units, wave::absorb::rows};
 use crate::{
     case::{Case, Sides},
-    geometry::{axis_box::AxisBox, convex_part::ConvexPart},
+    geometry::{axis_box::AxisBox, convex::convex_part::ConvexPart},
     rigid::{BodyState, Load},
     sph::{
         neighbours::grid::{Bins, Grid},
@@ -22,17 +22,17 @@ use crate::{
     waves::generation::wavemaker::Wavemaker,
 };
 
-/// Distance from a surface, in particle spacings, at which the approach of a particle ends: half the distance in calm
-/// water.
+/// Water particles nearer to a surface than this cannot approach it further; distance in particle spacings. In calm
+/// water, their distance is twice as large.
 pub const NEAREST: f64 = 0.25;
 
 impl Simulation {
-    /// Removes velocities into bed, walls, wavemaker and units at the end of a time step of length `dt` [s]; adds the
-    /// impulses on the units to their loads.
+    /// Removes the velocities of water particles into bed, walls, obstacles, wavemaker and units, at the end of a time
+    /// step of length `dt` [s]. Adds the impulses on the units to the loads of the water on the units.
     ///
     /// # Errors
     /// If the device is lost.
-    pub(super) fn keep_water_out(&mut self, dt: f64) -> Result<(), DeviceError> {
+    pub(super) fn remove_velocities_into_solids(&mut self, dt: f64) -> Result<(), DeviceError> {
         let flume_time = self.flume_time() + dt;
         let rows = self.wavemaker.as_ref().map(|wavemaker| rows(wavemaker, &self.absorbed, flume_time, 0.0));
         let rows = rows.unwrap_or_default();
@@ -46,7 +46,7 @@ impl Simulation {
         };
         let dp = case.domain.dp;
         let nearest = NEAREST * dp;
-        // Particles from a device are already near a surface; otherwise the bins find those near the units.
+        // A device returns only particles near surfaces. Without a device, the bins find the particles near the units.
         let mut keep_out = |water: &mut Water, bins: Option<&Bins>| {
             keep_out_of_walls(water, outline, nearest);
             if case.domain.sides == Sides::Walls {
@@ -78,7 +78,7 @@ impl Simulation {
     }
 }
 
-/// Returns the impermeable surfaces, with the wavemaker's rows displaced by `rows`.
+/// Returns the impermeable surfaces. `rows` has the displacement [m] and velocity [m/s] of each row of the wavemaker.
 fn surfaces(
     case: &Case,
     outline: &Outline,
@@ -109,7 +109,7 @@ fn surfaces(
     }
 }
 
-/// Returns the velocity without its part against the unit vector `normal`.
+/// Returns the velocity; a component opposite to the unit vector `normal` is removed.
 fn without_approach(velocity: DVec3, normal: DVec3) -> DVec3 {
     velocity - velocity.dot(normal).min(0.0) * normal
 }
@@ -125,7 +125,7 @@ fn keep_out_of_walls(water: &mut Water, outline: &Outline, nearest: f64) {
 
 fn keep_out_of_obstacle(water: &mut Water, obstacle: &AxisBox, nearest: f64) {
     (&water.position, &mut water.velocity).into_par_iter().with_min_len(4096).for_each(|(position, velocity)| {
-        // A cheap test for the many particles far away.
+        // A fast check skips the many particles that are far away.
         if (*position - obstacle.nearest(*position)).length_squared() >= nearest * nearest {
             return;
         }
@@ -164,7 +164,8 @@ fn keep_out_of_wavemaker(water: &mut Water, wavemaker: &Wavemaker, rows: &[[f64;
     });
 }
 
-/// Removes velocities into units; returns the impulse on each [N s] and its moment about the centre of mass [N m s].
+/// Removes velocities of water particles into units. Returns the impulse on each unit [N s] and its moment about the
+/// centre of mass [N m s].
 fn keep_out_of_units(water: &mut Water, units: &Units, grid: &Grid, bins: Option<&Bins>, nearest: f64) -> Vec<Load> {
     let reach = units.shape.parts().iter().map(reach_of).fold(0.0, f64::max) + nearest;
     let keep_out = |state: &BodyState| {
@@ -204,12 +205,13 @@ fn normal_within(parts: &[ConvexPart], state: &BodyState, arm: DVec3, nearest: f
     let local = state.rotation.inverse() * arm;
     let distances = parts.iter().map(|part| (part, part.distance(local)));
     let (part, distance) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    // Away from the part's core; inside the core, away from the centre of mass.
+    // The normal points away from the core of the part or, inside the core, away from the centre of mass.
     let outwards = (local - part.nearest(local)).try_normalize().or(local.try_normalize())?;
     (distance < nearest).then(|| state.rotation * outwards)
 }
 
-/// Returns the water particles in the bins around `centre`; they have hardly moved since they were sorted.
+/// Returns the water particles in the bins around `centre`. The particles have moved little since they were sorted into
+/// bins.
 fn candidates<'a>(grid: &Grid, bins: &'a Bins, centre: DVec3, reach: f64) -> impl Iterator<Item = usize> + use<'a> {
     let [nx, ny, _] = grid.count;
     let margin = reach + 0.5 * grid.size.x;

@@ -1,51 +1,29 @@
 //! Flume runs: water, wavemaker, units and contact, coupled.
 //!
-//! | file | what it does |
+//! | entry | what it does |
 //! | --- | --- |
 //! | [`setup`], [`scheme`] | simulation and SPH scheme of a case |
-//! | [`incoming`] | wave of a case, from the flume model or a paddle |
 //! | [`step`] | one time step, in the order of the algorithm |
-//! | `impermeable` | impermeable surfaces of the solids |
-//! | `zones` | damping and relaxation zones at the ends of the domain |
-//! | `absorb` | active absorption of returning waves by a piston |
-//! | [`failure`] | failures of a time step: cause, position, advice |
-//! | [`energy`], [`balance`] | energy and energy balance of water and units |
-//! | [`extremes`] | extremes of speed and density of the water |
-//! | `diagnostics` | rows of `diagnostics.csv` and warnings |
-//! | [`mean_loads`] | mean loads on the units over the interval of the series |
-//! | [`water_at_impacts`] | water loads on the units at the peaks of their hardest impacts |
-//! | [`statistics`] | extremes and counts of a run |
-//! | [`rest`] | rest criterion |
-//! | [`recorder`] | series, snapshots and checkpoints |
-//! | [`snapshots`] | snapshots of water and units for ParaView |
-//! | [`checkpoint`] | state of a run in an HDF5 file |
-//! | [`run`] | the loop with outputs, checkpoints and stop rules |
+//! | [`run`] | the run of a case: outputs, checkpoints, rest criterion |
 //! | [`branch`] | runs that begin at the checkpoint of another run |
-//! | [`summary`] | `summary.json` |
+//! | [`failure`] | failures of a time step: cause, position, advice |
+//! | `diagnostics` | rows of `diagnostics.csv`, and warnings about doubtful water |
+//! | `impermeable` | impermeable surfaces of the solids |
+//! | [`wave`] | wave of a case, absorption at the wavemaker, zones at the ends of the domain |
+//! | [`measures`] | energy balance, extremes, mean loads, rest criterion: quantities that a run accumulates |
+//! | [`outputs`] | tables, ParaView files, checkpoints, summary |
 
-mod absorb;
-pub mod balance;
 pub mod branch;
-pub mod checkpoint;
 mod diagnostics;
-pub mod energy;
-pub mod extremes;
 pub mod failure;
 mod impermeable;
-pub mod incoming;
-pub mod mean_loads;
-pub mod recorder;
-pub mod recorder_state;
-pub mod rest;
+pub mod measures;
+pub mod outputs;
 pub mod run;
 pub mod scheme;
 pub mod setup;
-pub mod snapshots;
-pub mod statistics;
 pub mod step;
-pub mod summary;
-pub mod water_at_impacts;
-mod zones;
+pub mod wave;
 
 use std::sync::Arc;
 
@@ -64,22 +42,20 @@ use crate::{
         flume_model::record::FlumeRecord, generation::absorption::AbsorptionState, generation::wavemaker::Wavemaker,
     },
 };
-use absorb::move_wavemaker;
-use mean_loads::MeanLoads;
-use statistics::Statistics;
-use water_at_impacts::WaterAtImpacts;
+use measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts};
+use wave::absorb::move_wavemaker;
 
 /// State of a flume run.
 pub struct Simulation {
     /// The case.
     pub case: Arc<Case>,
-    /// Record of the flume model, if the wave comes from it.
+    /// Recorded flow of the flume model; `None` if the wave does not come from the flume model.
     pub flume: Option<FlumeRecord>,
     /// The water.
     pub water: Water,
     /// Bed, walls, wavemaker and units as particles.
     pub boundary: Boundary,
-    /// The units as bodies, if there are any.
+    /// The armour units; `None` if the case has no units.
     pub units: Option<Units>,
     /// Time since the particles started [s].
     pub time: f64,
@@ -87,16 +63,17 @@ pub struct Simulation {
     pub steps: u64,
     /// Flume time at which the particles started [s].
     pub start: f64,
-    /// Time since the particles started at which the crest of a solitary wave has reached all units in the flume model
-    /// [s]; 0 for other waves.
+    /// Time since the particles started at which, in the flume model, the crest of a solitary wave has reached all
+    /// units [s]; 0 for other waves.
     pub crest: f64,
     /// Extremes and counts of the run.
     pub statistics: Statistics,
     solver: Box<dyn Backend>,
+    /// Wavemaker of the particle domain; `None` if the case has no wave.
     pub wavemaker: Option<Wavemaker>,
-    /// Displacement of the wavemaker by absorption.
+    /// Additional motion of the wavemaker by active absorption.
     pub absorbed: AbsorptionState,
-    /// Bed, mound and end walls.
+    /// Outline of bed, mound and end walls.
     outline: Outline,
     /// Box that no particle may leave [m].
     bounds: [DVec3; 2],
@@ -106,20 +83,20 @@ pub struct Simulation {
 pub struct Units {
     /// Shape of the units.
     pub shape: Arc<ArmourUnit>,
-    /// Rigid bodies of the units.
+    /// Solver of the rigid bodies: units, bed and contacts.
     pub world: RigidWorld,
     /// Poses of the units at the start.
     pub start: Vec<BodyState>,
-    /// Force and torque of the water on each unit at the last half step.
+    /// Force and torque of the water on each unit in the last time step.
     pub fluid_loads: Vec<Load>,
-    /// Mean loads for the next row of the series.
+    /// Mean loads for the next rows of `units.csv`.
     pub mean_loads: MeanLoads,
-    /// Water loads at the peaks of the hardest impacts.
+    /// Water loads at the force peaks of the hardest impacts.
     pub water_at_impacts: WaterAtImpacts,
 }
 
 impl Simulation {
-    /// Moves the particles of wavemaker and units to their present positions.
+    /// Moves the particles of wavemaker and units to their current positions.
     pub fn place_boundary(&mut self) {
         let flume_time = self.flume_time();
         move_wavemaker(&mut self.boundary, self.wavemaker.as_ref(), &self.absorbed, flume_time, 0.0);
@@ -128,20 +105,20 @@ impl Simulation {
         }
     }
 
-    /// Returns the time of the flume model [s].
+    /// Returns the flume time [s]: the time since the start of the flume model.
     pub fn flume_time(&self) -> f64 {
         self.start + self.time
     }
 
-    /// Returns the position of the foremost row of the wavemaker [m], if there is one.
+    /// Returns x of the foremost row of the wavemaker [m]; `None` without a wavemaker.
     pub fn wavemaker_front(&self) -> Option<f64> {
         let front =
             |wavemaker: &Wavemaker| wavemaker.foremost_row_x_m(self.flume_time()) + self.absorbed.displacement_m;
         self.wavemaker.as_ref().map(front)
     }
 
-    /// Returns the present position of a gauge [m].
-    pub fn place_of(&self, gauge: &Gauge) -> DVec3 {
+    /// Returns the current position of a gauge [m].
+    pub fn gauge_position(&self, gauge: &Gauge) -> DVec3 {
         let at = DVec3::from_array(gauge.at);
         match (&gauge.motion, &self.units) {
             (Motion::OnUnit(unit), Some(units)) => {
@@ -157,7 +134,8 @@ impl Simulation {
         &*self.solver
     }
 
-    /// Returns the last rates of the water, in the order of its arrays after [`Self::fetch`].
+    /// Returns the rates that the solver computed last for the water particles, in the order of [`Self::water`] after
+    /// [`Self::fetch`].
     ///
     /// # Errors
     /// If the device is lost.
@@ -165,7 +143,8 @@ impl Simulation {
         self.solver.water_rates()
     }
 
-    /// Updates water and boundary in the host's arrays; allowed between time steps and between their halves.
+    /// Copies water and boundary from the device to the host's arrays. Allowed between time steps and between the two
+    /// halves of a time step.
     ///
     /// # Errors
     /// If the device is lost.
@@ -174,8 +153,8 @@ impl Simulation {
         solver.device_memory().map_or(Ok(()), |memory| memory.fetch(water, boundary))
     }
 
-    /// Returns whether a device, and not the host, holds the water.
-    pub fn is_on_card(&mut self) -> bool {
+    /// Returns true if the current water is in the memory of a graphics card, not of the host.
+    pub fn is_on_gpu(&mut self) -> bool {
         self.solver.device_memory().is_some()
     }
 

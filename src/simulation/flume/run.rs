@@ -1,4 +1,4 @@
-//! A flume run from its case, or from a checkpoint, to its summary.
+//! Runs a flume case: starts from the case or a checkpoint, and ends with the summary.
 
 use std::{
     path::{Path, PathBuf},
@@ -7,11 +7,13 @@ use std::{
 
 use super::{
     Simulation,
-    checkpoint::{self, Checkpoint},
     failure::Failure,
-    recorder::Recorder,
+    outputs::{
+        checkpoint::{self, Checkpoint},
+        recorder::Recorder,
+        summary::summarise,
+    },
     setup::SetupError,
-    summary::summarise,
 };
 use crate::{
     case::Case,
@@ -30,7 +32,8 @@ pub struct RunOptions {
     pub control: Control,
     /// Device that computes the water.
     pub device: Device,
-    /// Simulated time at which the run ends before its case does [s]: other runs begin there.
+    /// Simulated time at which the run ends early [s], so that other runs can start from this state; `None` to run the
+    /// whole case.
     pub until: Option<f64>,
 }
 
@@ -47,7 +50,7 @@ pub fn run(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary,
 /// Continues a run from its last checkpoint.
 ///
 /// # Errors
-/// As [`run`], and if the checkpoint does not belong to the case.
+/// As for [`run`], and if the checkpoint does not belong to the case.
 pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summary, RunError> {
     let mut simulation = Simulation::on(&options.device, case).map_err(RunError::setup)?;
     let state = checkpoint::read(&mut simulation, dir)?;
@@ -56,7 +59,7 @@ pub fn resume(case: Arc<Case>, dir: &Path, options: &RunOptions) -> Result<Summa
     drive(FlumeRun::new(simulation, recorder, dir, options.until), dir, &options.control)
 }
 
-/// A simulation with its open files.
+/// A simulation with its open output files.
 pub(super) struct FlumeRun {
     simulation: Simulation,
     recorder: Recorder,
@@ -70,7 +73,7 @@ pub(super) struct FlumeRun {
 }
 
 impl FlumeRun {
-    /// Returns a run that ends at the end of its case, or at `until` [s] if that is earlier.
+    /// Returns a run that ends at the end of its case, or at the simulated time `until` [s] if this time is earlier.
     pub(super) fn new(mut simulation: Simulation, recorder: Recorder, dir: &Path, until: Option<f64>) -> Self {
         let energy_start = simulation.statistics.energy_start.unwrap_or_else(|| simulation.energy().total());
         simulation.statistics.energy_start = Some(energy_start);
@@ -107,15 +110,15 @@ impl Run for FlumeRun {
         }
         let checkpoints = self.recorder.state().checkpoints;
         self.recorder.record_due(&mut now)?;
-        if now.is_on_card() && self.recorder.state().checkpoints > checkpoints {
-            // The checkpoint does not hold the positions on the graphics card exactly. Load the host's positions, as a
-            // resumed run does, so that both runs continue alike.
+        if now.is_on_gpu() && self.recorder.state().checkpoints > checkpoints {
+            // The positions in the checkpoint differ slightly from those on the graphics card. Load the host's
+            // positions, as a resumed run does, so that both runs give the same results.
             now.load().map_err(|error| StepFailure::failure(Failure::from(error)))?;
             now = self.simulation.begin_step().map_err(StepFailure::failure)?;
         }
         self.dt = now.dt();
         now.finish().map_err(StepFailure::failure)?;
-        Ok(Step::Made)
+        Ok(Step::Continues)
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
@@ -139,19 +142,19 @@ impl Run for FlumeRun {
     }
 }
 
-/// Returns why the run is over, if it is; it ends at `end` [s] at the latest.
+/// Returns the reason to end the run, or `None` if the run continues. The run ends at `end` [s] at the latest.
 fn stop_rule(simulation: &mut Simulation, end: f64) -> Option<Stopped> {
     if simulation.time >= end {
         return Some(Stopped::Duration);
     }
     let (rule, units) = (simulation.case.stop.at_rest.as_ref()?, simulation.units.as_ref()?);
-    // The tips of a unit are about half its height away from its centre.
+    // The tips of a unit are about half a unit height from its centre.
     let tips = 0.5 * units.shape.height();
     let speed = |state: &BodyState| state.velocity.length() + tips * state.angular_velocity.length();
-    // Both speed and displacement count: units that begin to move have no displacement yet.
+    // Check both speed and displacement: units that begin to move have no displacement yet.
     let slow = units.states().iter().all(|state| speed(state) < rule.speed);
     let stayed = simulation.statistics.rest.look(simulation.time, units.states(), tips, rule.speed * rule.hold);
-    // Before the wave reaches the units, they are at rest as well.
+    // Units are also at rest before the wave reaches them: do not stop then.
     let reached = simulation.time >= rule.not_before.max(simulation.crest);
     (reached && slow && stayed >= rule.hold).then_some(Stopped::AtRest)
 }

@@ -62,13 +62,13 @@ pub fn parameters(case: &Case) -> Parameters {
     }
 }
 
-/// Returns a feature of the case that graphics cards cannot compute, if any.
+/// Returns a feature of the case that graphics cards do not support; `None` if they support the whole case.
 pub fn unsupported_on_gpu(case: &Case) -> Option<&'static str> {
     if case.domain.damping_zone.is_some() || case.domain.relaxation_zone.is_some() {
         return Some("damping and relaxation zones (domain.damping_zone, domain.relaxation_zone)");
     }
     if case.wavemaker.absorption_gauge().is_some() {
-        return Some("wavemakers that absorb (wavemaker.absorption)");
+        return Some("active absorption by the wavemaker (wavemaker.absorption_gauge_m)");
     }
     backend::unsupported_on_gpu(&parameters(case))
 }

@@ -7,11 +7,9 @@ use thiserror::Error;
 
 use super::{
     Simulation, Units,
-    incoming::{crest_time, particle_start, run_flume, wavemaker},
-    mean_loads::MeanLoads,
+    measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
     scheme::{parameters, tait},
-    statistics::Statistics,
-    water_at_impacts::WaterAtImpacts,
+    wave::incoming::{crest_time, particle_start, run_flume, wavemaker},
 };
 use crate::simulation::bodies::rigid_setup;
 use crate::{
@@ -25,7 +23,7 @@ use crate::{
             boundary::{Boundary, BoundaryParticle},
             fill::{Basin, clear_solid},
             obstacle::{box_particles, cover},
-            unit::{LEAST_DEPTH, unit_particles},
+            unit::{MIN_DEPTH, unit_particles},
             water::Water,
         },
         solver::backend::DeviceError,
@@ -37,10 +35,10 @@ use crate::{
 };
 
 /// Narrowest gap between a unit and its periodic image that lets water through, in particle spacings. In a narrower
-/// gap, water particles at rest would touch both.
+/// gap, water particles at rest would touch both surfaces.
 const NARROWEST_GAP: f64 = 0.5;
 
-/// Why a case cannot be set up.
+/// Reason why a case cannot be set up.
 #[derive(Debug, Error)]
 pub enum SetupError {
     /// The flume model failed.
@@ -59,17 +57,17 @@ pub enum SetupError {
         /// Position of the toe of the mound or of the seaward face of an obstacle [m].
         toe: f64,
     },
-    /// The files with the wave end too early.
+    /// The wave files end before the end of the run.
     #[error(
-        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, the particles start at \
-         {start:.3} s; use a duration of {:.3} s, an earlier `domain.start_s`, or longer files", end - start
+        "stop.duration_s = {duration}: the files of `wave.source` end at {end:.3} s, but the particles start \
+         at {start:.3} s; use a duration of at most {:.3} s, an earlier `domain.start_s`, or longer files", end - start
     )]
     WaveEnds {
         /// Duration of the run [s].
         duration: f64,
-        /// Start of the particles [s].
+        /// Start of the particles, in the time of the wave files [s].
         start: f64,
-        /// End of the files [s].
+        /// End of the wave files [s].
         end: f64,
     },
     /// The units overlap each other or the bed too much.
@@ -81,7 +79,7 @@ pub enum SetupError {
 }
 
 impl Simulation {
-    /// Sets up a case at its start, on the processor.
+    /// Sets up the simulation of a case at its start; the CPU computes the water.
     ///
     /// # Errors
     /// If the flume model fails, or the units overlap each other or the bed too much.
@@ -89,10 +87,10 @@ impl Simulation {
         Self::on(&Device::Cpu, case)
     }
 
-    /// Sets up a case at its start, on a device.
+    /// Sets up the simulation of a case at its start; `device` computes the water.
     ///
     /// # Errors
-    /// As [`Self::new`], and if the device does not support the scheme of the case or has too little memory.
+    /// As for [`Self::new`], and if the device does not support the scheme of the case or has too little memory.
     pub fn on(device: &Device, case: Arc<Case>) -> Result<Self, SetupError> {
         let flume = run_flume(&case)?;
         let start = particle_start(&case, flume.as_ref());
@@ -102,7 +100,7 @@ impl Simulation {
             check_travel(&case, wavemaker)?;
         }
         let seaward_reach = wavemaker.as_ref().map(Wavemaker::max_seaward_displacement_m);
-        let units = case.units.as_ref().map(|units| stand_units(&case, units)).transpose()?;
+        let units = case.units.as_ref().map(|units| set_up_units(&case, units)).transpose()?;
 
         let (across, outline) = (across(&case), outline(&case, seaward_reach));
         let shape_particles = units.as_ref().map_or_else(Vec::new, |units| unit_in_place(&units.shape, &case));
@@ -116,7 +114,7 @@ impl Simulation {
         );
         let mut water = fill(&case, &across, flume.as_ref(), start);
         for obstacle in &case.domain.obstacles {
-            clear_solid(&mut water, LEAST_DEPTH * case.domain.dp, |point| obstacle.locate(point));
+            clear_solid(&mut water, MIN_DEPTH * case.domain.dp, |point| obstacle.locate(point));
         }
         if let Some(units) = &units {
             clear_units(&mut water, units, &case);
@@ -149,17 +147,17 @@ impl Simulation {
     }
 }
 
-/// Refuses a run that lasts longer than the files with its wave; its particles start at `start` [s] of the files.
+/// Checks that the wave files do not end before the run. The particles start at the file time `start` [s].
 ///
 /// # Errors
-/// If the files end before the run.
+/// If the wave files end before the run.
 pub fn check_times(case: &Case, start: f64) -> Result<(), SetupError> {
     let case::Wave::External(wave) = &case.wave else { return Ok(()) };
     let ([_, end], duration) = (wave.times(), case.stop.duration);
     if start + duration <= end { Ok(()) } else { Err(SetupError::WaveEnds { duration, start, end }) }
 }
 
-/// Refuses a wavemaker that would reach the mound or an obstacle before the run ends.
+/// Checks that the wavemaker does not reach the mound or an obstacle during the run.
 fn check_travel(case: &Case, wavemaker: &Wavemaker) -> Result<(), SetupError> {
     let place = case.domain.x[0];
     let toe_of = |mound: &case::Mound| {
@@ -176,7 +174,8 @@ fn across(case: &Case) -> Across {
     Across { width: case.domain.width, count: case.domain.ny as u32, walls: case.domain.sides == case::Sides::Walls }
 }
 
-/// Returns the box around all water and boundary particles [m]; the wavemaker moves seaward by its reach [m].
+/// Returns the box around all water and boundary particles [m]. `seaward_reach` is the largest seaward displacement of
+/// the wavemaker [m].
 fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
     let margin = (case.numerics.boundary_layers as f64 + 2.0) * case.domain.dp;
     let beyond = if case.domain.sides == case::Sides::Walls { margin } else { 0.0 };
@@ -187,7 +186,7 @@ fn bounds(case: &Case, seaward_reach: Option<f64>) -> [DVec3; 2] {
     ]
 }
 
-/// Returns the corner points of the bed between two x, with both ends.
+/// Returns the corner points of the bed from x = `from` to x = `to` [m], including the points at both ends.
 fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DVec2> {
     let inner = profile.points().iter().filter(move |p| p[0] > from && p[0] < to);
     let points: Vec<DVec2> = inner.map(|&p| DVec2::from_array(p)).collect();
@@ -195,8 +194,8 @@ fn bed_between(profile: &Profile, from: f64, to: f64) -> impl Iterator<Item = DV
     [end(from)].into_iter().chain(points).chain([end(to)])
 }
 
-/// Returns the outline of bed, mound and end walls. A wavemaker replaces the seaward wall; the bed then continues under
-/// its layers over their reach [m].
+/// Returns the outline of bed, mound and end walls. A wavemaker replaces the seaward wall. The bed then extends seaward
+/// below the wavemaker, which moves seaward by at most `seaward_reach` [m].
 fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     let ([x0, x1], top) = (case.domain.x, case.domain.top_z);
     let thickness = case.numerics.boundary_layers as f64 * case.domain.dp;
@@ -210,7 +209,8 @@ fn outline(case: &Case, seaward_reach: Option<f64>) -> Outline {
     Outline::new(points)
 }
 
-/// Returns the particles of bed, mound, walls and obstacles; side walls extend seaward by the wavemaker's reach [m].
+/// Returns the particles of bed, mound, walls and obstacles; the side walls extend seaward by `seaward_reach` [m], the
+/// largest seaward displacement of the wavemaker.
 fn fixed_particles(
     case: &Case,
     outline: &Outline,
@@ -230,13 +230,13 @@ fn fixed_particles(
     let thickness = f64::from(layers) * domain.dp;
     for obstacle in &domain.obstacles {
         let solid = box_particles(obstacle, domain.dp, thickness).into_iter();
-        // On a slope the lower corner of the box is below the bed, which has particles of its own.
+        // On a slope, the lower corner of the box is below the bed. The bed already has particles there.
         particles.extend(solid.filter(|particle| particle.position.z > bed(particle.position.x)));
     }
     particles
 }
 
-/// Returns the particles of the wavemaker with their rows.
+/// Returns the particles of the wavemaker, each with the index of its row.
 fn wavemaker_particles(case: &Case, across: &Across, wavemaker: &Wavemaker) -> Vec<(u32, BoundaryParticle)> {
     let (dp, layers) = (case.domain.dp, case.numerics.boundary_layers as u32);
     let mut particles = Vec::new();
@@ -273,7 +273,7 @@ fn basin<'a>(
     Basin { x, across: *across, dp: case.domain.dp, bed, surface, velocity, gravity: case.fluid.gravity }
 }
 
-/// Returns the water: a block, still water, or the flow of the flume model at the start.
+/// Returns the water at the start: a block, still water, or the flow of the flume model.
 fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -> Water {
     let bed = |x: f64| case.flume.profile.z(x);
     let surface = |x: f64| match (case.domain.water, flume) {
@@ -285,8 +285,8 @@ fn fill(case: &Case, across: &Across, flume: Option<&FlumeRecord>, start: f64) -
     basin(case, across, &bed, &surface, &velocity).fill(&tait(case))
 }
 
-/// Returns the units as they are at the start of the run.
-fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
+/// Returns the units at their start positions.
+fn set_up_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     let shape = units.shape.unit().clone();
     let setup = rigid_setup(units, &case.site(), &case.materials, case.contact.law, case.fluid.gravity);
     let start = setup.bodies.clone();
@@ -295,8 +295,9 @@ fn stand_units(case: &Case, units: &case::Units) -> Result<Units, SetupError> {
     Ok(Units { shape, world, start, fluid_loads, mean_loads, water_at_impacts: WaterAtImpacts::default() })
 }
 
-/// Returns the particles of a unit in its own axes. In two dimensions they are those of its slice. If a cuboid fills
-/// the width of a periodic flume, no particle refers to the side faces, which touch the periodic image.
+/// Returns the particles of a unit in body axes; in two dimensions, the particles of a slice of the unit. If a cuboid
+/// fills the width of a periodic flume, its side faces touch the periodic image. No particle then has its nearest
+/// surface point on a side face.
 fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     let case::Domain { dp, width, sides, .. } = case.domain;
     let mut particles = match (shape.as_box(), sides) {
@@ -310,7 +311,7 @@ fn unit_in_place(shape: &ArmourUnit, case: &Case) -> Vec<BoundaryParticle> {
     particles
 }
 
-/// Returns the particles of a unit in its own axes.
+/// Returns the particles of a unit in body axes.
 pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
     if let Some(bounds) = shape.as_box() {
         return box_particles(&bounds, dp, f64::INFINITY);
@@ -322,7 +323,7 @@ pub fn particles_of(shape: &ArmourUnit, dp: f64) -> Vec<BoundaryParticle> {
 
 /// Removes the water inside the units and their periodic images.
 fn clear_units(water: &mut Water, units: &Units, case: &Case) {
-    let (solid, least) = (units.shape.solid(), LEAST_DEPTH * case.domain.dp);
+    let (solid, least) = (units.shape.solid(), MIN_DEPTH * case.domain.dp);
     let reach = solid.bounds().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max) * 2.0 + least;
     let images = if case.domain.sides == case::Sides::Periodic { vec![-1.0, 0.0, 1.0] } else { vec![0.0] };
     for state in units.states() {
@@ -345,7 +346,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_have_free_slip_only_if_the_case_says_so() {
+    fn units_have_free_slip_only_if_the_case_sets_slip_on_units() {
         let given = include_str!("../../../cases/fudo/H4.5-slice.json");
         for slides in [false, true] {
             let wanted = format!(r#""wall_slip": "free_slip", "slip_on_units": {slides}"#);

@@ -1,23 +1,23 @@
 //! One time step of the coupled run, in the order of the algorithm.
 //!
-//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations 7 to 9) evaluates the rates of the water
-//! twice: at the present state and at the half step. Outputs are written after the first evaluation.
+//! The symplectic position Verlet scheme (Mitsui et al. 2023, equations 7 to 9) evaluates the rates of the water twice:
+//! at the current state and at the half step. The run writes its outputs after the first evaluation.
 
 use std::ops::{Deref, DerefMut};
 
 use glam::DVec3;
 
-use super::{Simulation, Units, absorb::move_wavemaker, failure, failure::Failure};
+use super::{Simulation, Units, failure, failure::Failure, wave::absorb::move_wavemaker};
 use crate::{
     rigid::BodyState,
     sph::solver::{backend::DeviceError, power::Powers, sampling::Sampler},
 };
 
-/// A simulation with the rates of its present state: ready for measurements and for the time step.
+/// A simulation with the rates of its current state, ready for measurements and for the time step.
 pub struct PreparedStep<'a> {
     simulation: &'a mut Simulation,
     dt: f64,
-    /// Whether the host's arrays hold the present state.
+    /// True if the host's arrays contain the current state.
     is_fetched: bool,
 }
 
@@ -36,10 +36,10 @@ impl DerefMut for PreparedStep<'_> {
 }
 
 impl Simulation {
-    /// Evaluates the present state: neighbours, boundary densities, rates and length of the time step.
+    /// Evaluates the current state: neighbours, boundary densities, rates and length of the time step.
     ///
     /// # Errors
-    /// If a rate is not finite.
+    /// If a rate is not finite, or the device is lost.
     pub fn begin_step(&mut self) -> Result<PreparedStep<'_>, Failure> {
         self.solver.sort(&mut self.water, &self.boundary);
         self.solver.build_neighbour_lists(&self.water, &self.boundary);
@@ -52,13 +52,13 @@ impl Simulation {
             return Err(failure::not_finite(self));
         }
         if self.steps == 0 {
-            // The first row of the series needs loads before any half step: sum them at the start.
+            // The first row of the tables needs loads before the first half step: sum the loads at the start.
             self.sum_unit_loads(0.0)?;
         }
         Ok(PreparedStep { simulation: self, dt, is_fetched: false })
     }
 
-    /// Makes one time step; returns its length [s].
+    /// Makes one time step; returns the length of the time step [s].
     ///
     /// # Errors
     /// As [`Self::begin_step`] and [`PreparedStep::finish`].
@@ -92,7 +92,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Advances the units by a time step under the loads of the water; until their release they are held.
+    /// Moves the units over a time step under the loads of the water. Units do not move before `numerics.hold_units_s`.
     fn advance_units(&mut self, dt: f64) -> Result<(), Failure> {
         let Some(units) = &mut self.units else { return Ok(()) };
         if self.time >= self.case.numerics.hold_units {
@@ -114,7 +114,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns the sampler of the water; needs the evaluated state in the host's arrays.
+    /// Returns a sampler of the water. The state must be evaluated, and the host's arrays must contain it.
     pub(super) fn sampler(&self) -> Sampler<'_> {
         let parameters = self.solver.parameters();
         Sampler {
@@ -133,7 +133,7 @@ impl PreparedStep<'_> {
         self.dt
     }
 
-    /// Updates water and boundary in the host's arrays, if necessary.
+    /// Copies water and boundary from the device to the host's arrays, if this was not done in this time step.
     ///
     /// # Errors
     /// If the device is lost.
@@ -145,7 +145,7 @@ impl PreparedStep<'_> {
         Ok(())
     }
 
-    /// Returns the sampler of pressure, velocity and free surface at any point.
+    /// Returns a sampler of pressure, velocity and free surface at any point.
     ///
     /// # Errors
     /// If the device is lost.
@@ -154,7 +154,7 @@ impl PreparedStep<'_> {
         Ok(self.simulation.sampler())
     }
 
-    /// Returns the present powers on the water: boundaries, viscosity, diffusion [W].
+    /// Returns the current powers that the water receives from boundaries, viscosity and density diffusion [W].
     ///
     /// # Errors
     /// If the device is lost.
@@ -168,7 +168,8 @@ impl PreparedStep<'_> {
     /// motion of the units.
     ///
     /// # Errors
-    /// If a particle has left the domain, its density is impossible, or units overlap each other or the bed too much.
+    /// If a particle has left the domain or has an impossible density, if units overlap each other or the bed too much,
+    /// or if the device is lost.
     pub fn finish(self) -> Result<(), Failure> {
         let (simulation, dt) = (self.simulation, self.dt);
         simulation.absorb(dt);
@@ -177,7 +178,7 @@ impl PreparedStep<'_> {
         simulation.solver.correct(dt, &mut simulation.water, &mut simulation.boundary);
         simulation.relax_in_zones(dt);
         simulation.sum_unit_loads(dt)?;
-        simulation.keep_water_out(dt)?;
+        simulation.remove_velocities_into_solids(dt)?;
         if let Some(memory) = simulation.solver.device_memory() {
             memory.sort_ahead();
         }
@@ -190,7 +191,7 @@ impl PreparedStep<'_> {
     }
 }
 
-/// Returns a body after a time [s] at its present velocities.
+/// Returns the state of a body after a time `dt` [s] at constant velocity and angular velocity.
 fn drifted(state: &BodyState, dt: f64) -> BodyState {
     let turn = glam::DQuat::from_scaled_axis(state.angular_velocity * dt);
     BodyState {

@@ -1,6 +1,7 @@
 //! Writes the state of a fracture run to HDF5 and reads it back bit for bit.
 //!
-//! Arrays are datasets; the rest is one JSON text. Each number in it is the shortest text that gives the same bits.
+//! Arrays are datasets; all other state is one JSON text. Each number in this text has the fewest digits that give the
+//! same bits.
 
 use std::path::Path;
 
@@ -25,16 +26,16 @@ use crate::{
     },
 };
 
-/// Name of the checkpoint in a run folder.
+/// File name of the checkpoint in the run folder.
 pub const FILE: &str = "checkpoint.h5";
 
-/// Name of the state at which a run failed.
+/// File name of the state that is saved when a run fails.
 pub const FAILED_FILE: &str = "failed.h5";
 
-/// Version of the file layout; incremented when the layout changes.
+/// Version of the file layout; increased when the layout changes.
 const VERSION: u32 = 3;
 
-/// Everything but the arrays.
+/// All state except the arrays.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,
@@ -54,7 +55,7 @@ pub fn write(case: &FractureCase, world: &World, run: &RunState, path: &Path) ->
     write_state(path, &text, |file| write_arrays(file, &state))
 }
 
-/// Restores a checkpoint of the same case into a world at its start; returns the state of the run.
+/// Restores `world`, the solver at the start of the case, from a checkpoint of this case; returns the state of the run.
 ///
 /// # Errors
 /// If the checkpoint is missing, damaged or of another case.
@@ -63,11 +64,11 @@ pub fn read(case: &FractureCase, world: &mut World, path: &Path) -> Result<RunSt
     let Header { version, case_hash, run, world: scalars } =
         serde_json::from_str(&text).map_err(OutputError::json(path))?;
     if version != VERSION {
-        let what = format!("was written by another version of breakwater (layout {version})");
+        let what = format!("was written by another version of breakwater (layout {version}); rerun the case");
         return Err(OutputError::content(path, what));
     }
     if case_hash != case.hash {
-        return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh next to it"));
+        return Err(OutputError::content(path, "belongs to another case than case.json and mesh.msh in its folder"));
     }
     state.scalars = scalars;
     let damaged = |what| OutputError::content(path, format!("is damaged: {what}; rerun the case"));

@@ -1,4 +1,4 @@
-//! Outputs of a fracture run besides energy and surfaces: table of failed faces, cut plane, all tetrahedra.
+//! Outputs of a fracture run in addition to energies and surfaces: failed faces, cut plane and tetrahedra.
 
 use std::path::Path;
 
@@ -26,13 +26,13 @@ const TET_FIELDS: [(&str, FieldKind); 5] = [
     ("body", FieldKind::Integer),
     ("fragment", FieldKind::Integer),
 ];
-/// Bytes per tetrahedron and output time in `tets.vtkhdf`: fields, offset and type, and its share of node positions and
-/// velocities. Meshes of tools/mesh have one node per five tetrahedra.
+/// Bytes per tetrahedron and output time in `tets.vtkhdf`: fields, offset and type, and its share of the positions and
+/// velocities of the nodes. Meshes of tools/mesh have one node per five tetrahedra.
 const TET_BYTES: f64 = 40.0 + 9.0 + 24.0 / 5.0;
 /// Bytes of connectivity per tetrahedron.
 const CONNECTIVITY_BYTES: f64 = 32.0;
 
-/// Open output files.
+/// Open output files of failed faces, cut plane and tetrahedra.
 pub struct DetailRecorder {
     cracks: CsvSeries,
     /// Number of failed faces in the table.
@@ -57,7 +57,7 @@ impl DetailRecorder {
         })
     }
 
-    /// Opens the files of an interrupted run and cuts them to their lengths at a checkpoint.
+    /// Opens the files of an interrupted run, and truncates them to their lengths at a checkpoint.
     ///
     /// # Errors
     /// If a file cannot be opened, or is shorter than at the checkpoint.
@@ -110,7 +110,7 @@ impl DetailRecorder {
         self.section.as_mut().map_or(Ok(()), |(section, series)| section.record(world, series))
     }
 
-    /// Appends the current state of all tetrahedra if the output interval has passed or the run is `over`.
+    /// Appends the current state of all tetrahedra if the output interval has passed, or if the run is `over`.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -124,7 +124,8 @@ impl DetailRecorder {
     }
 }
 
-/// Estimates the size of `tets.vtkhdf` without cracks [bytes]; 0 if the case does not request the file.
+/// Estimates the size of `tets.vtkhdf` for a run in which nothing cracks [bytes]; 0 if the case does not request the
+/// file.
 pub fn tets_bytes(case: &FractureCase) -> f64 {
     let moments = case.tets_interval.map_or(0.0, |interval| (case.duration / interval).ceil() + 1.0);
     let tets = case.setup.tets.len() as f64;

@@ -1,4 +1,4 @@
-//! Messages for fracture runs that fail: which part of the mesh, where, when, and the likely cause.
+//! Messages for fracture runs that fail: part of the mesh, position, time, and likely cause.
 
 use std::fmt;
 
@@ -10,8 +10,8 @@ use crate::{
     femdem::world::{World, limits::StepError},
 };
 
-/// Speed over wave speed [-] that no impact of units reaches: the strains would be 10 %.
-const FAST: f64 = 0.1;
+/// Speed over wave speed [-] that no impact of units reaches, because the strains would be 10 %.
+const MAX_SPEED_RATIO: f64 = 0.1;
 
 /// Usual causes of an unstable run.
 const UNSTABLE: &str = "likely causes: velocities in the case that are too high for units, a time step too long for \
@@ -50,7 +50,7 @@ impl fmt::Display for Part {
     }
 }
 
-/// Why a run failed. Times are simulated times [s].
+/// Reason why a fracture run failed. Times are simulated times [s].
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Failure {
     /// A tetrahedron is inverted.
@@ -65,18 +65,18 @@ pub enum Failure {
         time * 1e3
     )]
     NotFinite { time: f64, step: u64, node: Part },
-    /// A node is faster than any wave.
+    /// A node is faster than any wave in the material.
     #[error(
         "after {:.5} ms (step {step}) {node} moves at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s from \
          twice the wave speed and the motion of the case: the run is unstable; {UNSTABLE}", time * 1e3
     )]
     TooFast { time: f64, step: u64, node: Part, speed: f64, limit: f64 },
-    /// A node is far from the mesh.
+    /// A node is too far from the middle of the mesh.
     #[error(
         "after {:.5} ms (step {step}) {node} is {distance:.3} m from the middle of the mesh, more than the limit of \
-         {limit:.3} m from 50 mesh diagonals and the motion of the case: a piece flies off freely (end the run earlier \
-         with stop.duration_s), a body that should stop it is missing, or a contact threw it out (lower \
-         fracture.step_share)", time * 1e3
+         {limit:.3} m from 50 mesh diagonals and the motion of the case: a piece moves away freely (end the run \
+         earlier with stop.duration_s), a body that should stop the piece is missing, or a contact ejected the node \
+         (lower fracture.step_share)", time * 1e3
     )]
     Escaped { time: f64, step: u64, node: Part, distance: f64, limit: f64 },
     /// Two tetrahedra overlap too much.
@@ -89,7 +89,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Turns an error of the solver into a message about the case; `step` is the number of the time step.
+    /// Converts an error of the solver to a message about the case; `step` is the number of the time step.
     pub fn of(case: &FractureCase, world: &World, step: u64, error: StepError) -> Self {
         let node = |number| Part::node(case, world, number);
         match error {
@@ -116,7 +116,7 @@ impl Failure {
 
 fn cause_of_inversion(world: &World, tet: usize, speed: f64) -> &'static str {
     let body = &world.setup().bodies[usize::from(world.tets.body[tet])];
-    if speed > FAST * body.elastic.celerity() {
+    if speed > MAX_SPEED_RATIO * body.elastic.celerity() {
         "that is more than a tenth of the wave speed; the velocities of the case are too high for units, or the time \
          step is too long (lower fracture.step_share)"
     } else if world.contacts.is_in_contact(tet as u32) {

@@ -25,24 +25,24 @@ pub struct Fragment {
     pub velocity: DVec3,
 }
 
-/// The pieces of a world.
+/// The pieces of all bodies of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pieces {
     /// Pieces of the bodies that can crack, the heaviest first.
     pub fragments: Vec<Fragment>,
-    /// Piece of each tetrahedron, counted from 1; 0 in bodies that cannot crack.
+    /// Number of the piece to which each tetrahedron belongs, from 1; 0 in bodies that cannot crack.
     pub of_tet: Vec<u32>,
 }
 
-/// Finds the pieces of the bodies that can crack: tetrahedra connected by unbroken faces. The heaviest piece comes
-/// first.
+/// Finds the pieces of the bodies that can crack: sets of tetrahedra that are connected by unbroken faces. The heaviest
+/// piece comes first.
 pub fn pieces(world: &World) -> Pieces {
     let setup = world.setup();
     let mut leader: Vec<u32> = (0..setup.tets.len() as u32).collect();
     for (interface, bond) in setup.interfaces.iter().zip(&world.joints.bond) {
         if *bond != Bond::Broken {
             let [a, b] = interface.tets.map(|tet| first_of(&mut leader, tet));
-            // The lower index leads, so that the result does not depend on the order.
+            // The lower index leads, so that the result does not depend on the order of the faces.
             leader[a.max(b) as usize] = a.min(b);
         }
     }
@@ -73,7 +73,7 @@ pub fn pieces(world: &World) -> Pieces {
     Pieces { fragments: fragments.into_iter().map(|(_, fragment)| fragment).collect(), of_tet }
 }
 
-/// Writes `fragments.csv` into the run folder: the pieces at the end of a run.
+/// Writes the pieces at the end of a run to `fragments.csv` in the run folder.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -86,7 +86,7 @@ pub fn write_fragments(fragments: &[Fragment], dir: &Path) -> Result<(), OutputE
     CsvSeries::create(&dir.join(FILE), &columns::FRAGMENTS)?.append_rows(fragments.iter().enumerate().map(row))
 }
 
-/// Returns the first tetrahedron of a piece (union-find with path halving).
+/// Returns the first tetrahedron of the piece that contains `tet` (union-find with path halving).
 fn first_of(leader: &mut [u32], tet: u32) -> u32 {
     let mut current = tet;
     while leader[current as usize] != current {

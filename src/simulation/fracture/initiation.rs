@@ -4,14 +4,14 @@ use glam::DVec3;
 
 use crate::femdem::world::{Failure, World};
 
-/// Distance from the nearest failed face over the edge length [-] beyond which a new crack begins. A growing crack
-/// advances by one element at a time.
-const APART: f64 = 4.0;
+/// A failed face that is further than this from all earlier failed faces begins a new crack; distance over edge length
+/// [-]. A growing crack advances by one element at a time.
+const NEW_CRACK_DISTANCE: f64 = 4.0;
 
 /// Beginning of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Initiation {
-    /// The first face that failed there.
+    /// The face of this crack that failed first.
     pub first: Failure,
     /// Index of the body.
     pub body: usize,
@@ -19,13 +19,14 @@ pub struct Initiation {
     pub area: f64,
 }
 
-/// Finds the beginnings of the cracks. Faces that fail one after another within four edge lengths belong to one crack.
+/// Returns the beginnings of the cracks, in order of time. A face that fails within four edge lengths of an earlier
+/// failed face belongs to the same crack.
 pub fn initiations(world: &World) -> Vec<Initiation> {
     let setup = world.setup();
     let mut found: Vec<(Initiation, Vec<DVec3>)> = Vec::new();
     for failure in &world.failures {
         // Edge length of an equilateral triangle of the same area.
-        let reach = APART * (failure.area * 4.0 / 3f64.sqrt()).sqrt();
+        let reach = NEW_CRACK_DISTANCE * (failure.area * 4.0 / 3f64.sqrt()).sqrt();
         let distance = |(_, places): &(Initiation, Vec<DVec3>)| {
             places.iter().map(|place| place.distance(failure.centroid)).fold(f64::MAX, f64::min)
         };

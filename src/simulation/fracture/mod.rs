@@ -1,13 +1,13 @@
-//! Fracture runs: the work of `breakwater fracture`.
+//! Fracture runs, which the command `breakwater fracture` starts.
 //!
 //! | file | what it does |
 //! | --- | --- |
 //! | [`run`] | a run from its case or checkpoint to its summary |
 //! | [`recorder`] | tables, surfaces and cracks |
-//! | [`run_state`] | state of a run in addition to its world |
-//! | [`checkpoint`] | writes and reads the state of a run, for resuming it |
+//! | [`run_state`] | state of a run that its solver does not contain |
+//! | [`checkpoint`] | writes the state of a run, and reads it to resume the run |
 //! | [`failure`] | messages for runs that fail |
-//! | [`detail`] | table of failed faces, cut plane, tetrahedra |
+//! | [`detail`] | outputs of failed faces, cut plane and tetrahedra |
 //! | [`section`] | intersection of the cut plane with the tetrahedra |
 //! | [`fragments`] | pieces into which the bodies broke |
 //! | [`initiation`] | positions at which cracks began |

@@ -1,4 +1,4 @@
-//! Position and time of the largest tension.
+//! Value, position and time of the largest tension in each body.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -10,15 +10,16 @@ use crate::femdem::world::World;
 /// Largest first principal stress of a body over all rows of the energy balance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PeakStress {
-    /// sigma_1 of a tetrahedron, tension positive [Pa].
+    /// First principal stress sigma_1 of a tetrahedron, tension positive [Pa].
     pub sigma_1_pa: f64,
-    /// Time [s].
+    /// Time of this stress [s].
     pub t_s: f64,
     /// Centroid of the tetrahedron in the undeformed body [m].
     pub place_m: [f64; 3],
 }
 
-/// Returns the largest first principal stress in each body now: elastic Cauchy stress [Pa], and its tetrahedron.
+/// Returns, for each body, the largest first principal stress at the current time (elastic Cauchy stress) [Pa], and the
+/// index of its tetrahedron.
 pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
     let largest = |body: &crate::femdem::setup::Body| {
         let moduli = Moduli::from(&body.elastic);
@@ -26,7 +27,7 @@ pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
             let places = world.tets.nodes[tet].map(|node| world.nodes.position[node as usize]);
             (principal_stresses(element::stress(&world.tets.shape[tet], &moduli, &places))[0], tet)
         };
-        // Of equal stresses the first tetrahedron, so that the result does not depend on the threads.
+        // Of equal stresses, take the first tetrahedron, so that the result does not depend on the number of threads.
         let larger = |a: (f64, usize), b: (f64, usize)| {
             if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) { b } else { a }
         };
@@ -35,8 +36,8 @@ pub fn largest_stresses(world: &World) -> Vec<(f64, usize)> {
     world.setup().bodies.iter().map(largest).collect()
 }
 
-/// Updates the largest stresses of the bodies with those at the time `time` [s].
-pub fn carry_on(peaks: &mut Vec<PeakStress>, world: &World, now: &[(f64, usize)], time: f64) {
+/// Updates `peaks`, the largest stress of each body since the start, with `now`, the largest stresses at `time` [s].
+pub fn update_peaks(peaks: &mut Vec<PeakStress>, world: &World, now: &[(f64, usize)], time: f64) {
     let setup = world.setup();
     let peak = |(sigma_1, tet): &(f64, usize)| {
         let places = setup.tets[*tet].map(|node| setup.nodes[node as usize]);

@@ -1,4 +1,4 @@
-//! Writes the tables of a fracture run, and its surfaces and cracks for ParaView.
+//! Writes the tables of a fracture run, and files of its surfaces and cracks for ParaView.
 
 use std::path::Path;
 
@@ -38,7 +38,7 @@ pub struct FractureRecorder {
 }
 
 impl FractureRecorder {
-    /// Creates the files in the run folder and writes those that do not change.
+    /// Creates the files in the run folder, and writes the files that do not change during the run.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -59,7 +59,7 @@ impl FractureRecorder {
         })
     }
 
-    /// Opens the files of an interrupted run and cuts them to their lengths at its checkpoint.
+    /// Opens the files of an interrupted run, and truncates them to their lengths at its checkpoint.
     ///
     /// # Errors
     /// If a file is missing or shorter than at the checkpoint.
@@ -84,7 +84,7 @@ impl FractureRecorder {
         [&self.energy, &self.bodies].map(CsvSeries::bytes)
     }
 
-    /// Appends a row for each body at a time [s], with its energies and its largest stress.
+    /// Appends a row for each body at `time` [s], with its energies and its largest first principal stress.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -100,7 +100,7 @@ impl FractureRecorder {
         })
     }
 
-    /// Appends a row of the energy balance at a time [s], and the faces that failed since the last row.
+    /// Appends a row of the energy balance at `time` [s], and the faces that failed since the last row.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -108,23 +108,23 @@ impl FractureRecorder {
         &mut self,
         world: &World,
         time: f64,
-        book: &EnergyBalance,
+        balance: &EnergyBalance,
         residual: f64,
     ) -> Result<(), OutputError> {
         self.detail.record_cracks(world)?;
         let area = world.crack_area();
         self.energy.append(&[
             time,
-            book.kinetic,
-            book.strain,
-            book.joint,
-            book.contact,
-            book.gravity,
-            book.viscous,
-            book.fracture,
-            book.friction,
-            book.work,
-            book.released,
+            balance.kinetic,
+            balance.strain,
+            balance.joint,
+            balance.contact,
+            balance.gravity,
+            balance.viscous,
+            balance.fracture,
+            balance.friction,
+            balance.work,
+            balance.released,
             residual,
             area,
             world.contacts.scalars.touching as f64,
@@ -184,7 +184,7 @@ impl FractureRecorder {
     }
 }
 
-/// Returns triangles of three successive points each.
+/// Returns triangles that each connect three successive points.
 fn corners_in_threes(points: usize) -> Vec<[u32; 3]> {
     (0..points as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()
 }

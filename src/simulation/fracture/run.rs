@@ -1,4 +1,4 @@
-//! A fracture run from its case, or from a checkpoint, to its summary.
+//! Runs a fracture case: starts from the case or a checkpoint, and ends with the summary.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use super::{
     checkpoint,
     failure::Failure,
     fragments::{pieces, write_fragments},
-    peak_stress::{carry_on, largest_stresses},
+    peak_stress::{largest_stresses, update_peaks},
     recorder::FractureRecorder,
     run_state::RunState,
     summary::FractureSummary,
@@ -26,7 +26,7 @@ use crate::{
 /// The time step of the case is longer than the mesh allows.
 #[derive(Debug, Error)]
 #[error(
-    "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable step of this mesh; leave it out"
+    "fracture.dt_s = {given:.3e}: must be at most {longest:.3e} s, the longest stable time step of this mesh; leave the key out"
 )]
 pub struct UnstableStep {
     /// Time step of the case [s].
@@ -35,7 +35,7 @@ pub struct UnstableStep {
     pub longest: f64,
 }
 
-/// Builds the world of a case at its start.
+/// Sets up the FEMDEM solver of a case at its start.
 ///
 /// # Errors
 /// If the time step of the case is not stable.
@@ -51,10 +51,10 @@ pub fn world(case: &FractureCase) -> Result<World, UnstableStep> {
     Ok(world)
 }
 
-/// Time steps between two checks of positions and contacts; a check costs a tenth of a time step.
+/// Number of time steps between two checks of positions and contacts. A check takes a tenth of the time of a time step.
 const STEPS_BETWEEN_CHECKS: u64 = 100;
 
-/// Runs a fracture case into an existing, empty folder; `world` is that of its start.
+/// Runs a fracture case into an existing, empty folder; `world` is the solver at its start.
 ///
 /// # Errors
 /// If a file cannot be written, the run becomes unstable, or the user stops it.
@@ -63,10 +63,10 @@ pub fn run(case: &FractureCase, world: World, dir: &Path, control: &Control) -> 
     drive(FractureRun::new(case, world, recorder, RunState::default(), dir), dir, control)
 }
 
-/// Continues a fracture run from its last checkpoint; `world` is that of the start of its case.
+/// Continues a fracture run from its last checkpoint; `world` is the solver at the start of the case.
 ///
 /// # Errors
-/// As [`run`], and if the checkpoint is damaged or does not belong to the case.
+/// As for [`run`], and if the checkpoint is damaged or does not belong to the case.
 pub fn resume(
     case: &FractureCase,
     mut world: World,
@@ -78,7 +78,7 @@ pub fn resume(
     drive(FractureRun::new(case, world, recorder, state, dir), dir, control)
 }
 
-/// A world with its open files.
+/// A solver with the open output files of its run.
 struct FractureRun<'a> {
     case: &'a FractureCase,
     world: World,
@@ -99,14 +99,14 @@ impl<'a> FractureRun<'a> {
         StepFailure::failure(Box::new(Failure::of(self.case, &self.world, self.state.watched.steps, error)))
     }
 
-    /// Makes a time step with energies, and writes their rows.
+    /// Makes a time step and computes the energies; appends rows to `energy.csv` and `bodies.csv`.
     fn step_with_row(&mut self) -> Result<EnergyBalance, StepFailure> {
         let time = self.world.time;
         let (energies, bodies) = self.world.step_with_body_energies().map_err(|error| self.failure(error))?;
         let residual = self.state.note(&energies);
         self.recorder.record_energy(&self.world, time, &energies, residual)?;
         let stresses = largest_stresses(&self.world);
-        carry_on(&mut self.state.watched.peaks, &self.world, &stresses, time);
+        update_peaks(&mut self.state.watched.peaks, &self.world, &stresses, time);
         self.recorder.record_bodies(time, &bodies, &stresses)?;
         (self.state.rows, self.state.bytes) = (self.state.rows + 1, self.recorder.bytes());
         Ok(energies)
@@ -134,7 +134,7 @@ impl<'a> FractureRun<'a> {
         if self.state.watched.impact.is_none() && self.world.contacts.touches_other_body(&self.world.tets) {
             self.state.watched.impact = Some(self.world.time - self.world.dt);
         }
-        // The first checkpoint is due after the first interval: the case itself holds the start.
+        // The first checkpoint is due after the first interval, because the case file defines the start.
         let checkpoint_due = is_due(self.state.checkpoints + 1, self.case.checkpoint_interval, self.world.time);
         if checkpoint_due || self.state.watched.steps.is_multiple_of(STEPS_BETWEEN_CHECKS) {
             self.world.check_limits().map_err(|error| self.failure(error))?;
@@ -146,7 +146,7 @@ impl<'a> FractureRun<'a> {
         Ok(())
     }
 
-    /// Writes the last outputs; the final energies take one more time step.
+    /// Writes the last outputs. The final energies need one more time step.
     fn finish(&mut self) -> Result<FractureSummary, StepFailure> {
         if self.case.surfaces_interval.is_some() {
             self.record_surfaces()?;
@@ -183,7 +183,7 @@ impl Run for FractureRun<'_> {
             return Ok(Step::Stopped);
         }
         self.advance()?;
-        Ok(Step::Made)
+        Ok(Step::Continues)
     }
 
     fn keep_failed_state(&mut self) -> Result<PathBuf, OutputError> {
@@ -193,6 +193,7 @@ impl Run for FractureRun<'_> {
     }
 
     fn details(&self) -> String {
-        format!("{} faces failed, {} pairs touch", self.world.failures.len(), self.world.contacts.scalars.touching)
+        let (failed, pairs) = (self.world.failures.len(), self.world.contacts.scalars.touching);
+        format!("{failed} faces failed, {pairs} pairs of tetrahedra touch")
     }
 }

@@ -1,69 +1,70 @@
-//! State of a fracture run in addition to its world, for tables, summary and checkpoints.
+//! State of a fracture run that its solver does not contain, for tables, summary and checkpoints.
 
 use serde::{Deserialize, Serialize};
 
 use super::peak_stress::PeakStress;
 use crate::femdem::world::energy_balance::EnergyBalance;
 
-/// State of a run in addition to its world.
+/// State of a run that its [`World`](crate::femdem::world::World) does not contain.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RunState {
-    /// Quantities that the loop tracks.
+    /// Extremes and counts since the start.
     pub watched: Watched,
-    /// Total of the energy balance at the start [J].
+    /// Total of the energy balance at the start [J]; `None` before its first row.
     pub total_at_start: Option<f64>,
     /// Number of rows of the energy balance.
     pub rows: u64,
-    /// Number of time steps in each of the ParaView files.
+    /// Number of output times in `surfaces.vtkhdf` and `cracks.vtkhdf`.
     pub frames: u64,
     /// Number of checkpoints.
     pub checkpoints: u64,
     /// Lengths of the tables of the energy balance and of the bodies [bytes].
     pub bytes: [u64; 2],
-    /// Lengths of the other files.
+    /// Lengths of the files of failed faces, cut plane and tetrahedra.
     pub detail: DetailLengths,
 }
 
 impl RunState {
-    /// Records a row of the energy balance; returns its residual relative to the start [J].
-    pub fn note(&mut self, book: &EnergyBalance) -> f64 {
-        let residual = book.total() - *self.total_at_start.get_or_insert(book.total());
+    /// Updates the extremes with a row of the energy balance. Returns the residual: the total of this row minus the
+    /// total at the start [J].
+    pub fn note(&mut self, balance: &EnergyBalance) -> f64 {
+        let residual = balance.total() - *self.total_at_start.get_or_insert(balance.total());
         let watched = &mut self.watched;
         if watched.steps == 0 {
-            watched.kinetic[0] = book.kinetic;
+            watched.kinetic[0] = balance.kinetic;
         }
-        watched.kinetic[1] = watched.kinetic[1].max(book.kinetic);
+        watched.kinetic[1] = watched.kinetic[1].max(balance.kinetic);
         watched.residual = watched.residual.max(residual.abs());
         residual
     }
 }
 
-/// Quantities that the loop tracks.
+/// Extremes and counts of a fracture run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Watched {
     /// Number of time steps.
     pub steps: u64,
-    /// Largest residual of the energy balance [J].
+    /// Largest magnitude of the residual of the energy balance [J].
     pub residual: f64,
-    /// Kinetic energy at the start, and the largest one [J].
+    /// Kinetic energy at the start, and largest kinetic energy [J].
     pub kinetic: [f64; 2],
-    /// Time at which two bodies first touched [s].
+    /// Time at which two bodies first touched [s]; `None` before.
     pub impact: Option<f64>,
     /// Largest tension in each body.
     pub peaks: Vec<PeakStress>,
-    /// Wall-clock time, including the time before interruptions [s].
+    /// Wall-clock time of the run, including all earlier sessions [s].
     pub wall: f64,
 }
 
-/// Lengths of the files at a checkpoint.
+/// Lengths of the files of failed faces, cut plane and tetrahedra at a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct DetailLengths {
     /// Length of `cracks.csv` [bytes].
     pub cracks_bytes: u64,
     /// Number of rows of `cracks.csv`.
     pub cracks: usize,
-    /// Number of time steps in `section.vtkhdf`; 0 without this file.
+    /// Number of output times in `section.vtkhdf`; 0 without this file.
     pub section_steps: usize,
-    /// Number of time steps in `tets.vtkhdf`; 0 without this file.
+    /// Number of output times in `tets.vtkhdf`; 0 without this file.
     pub tets_steps: usize,
 }

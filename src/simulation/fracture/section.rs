@@ -1,4 +1,4 @@
-//! The cut plane of a fracture run: a plane through the undeformed bodies that deforms with them.
+//! The cut plane of a fracture run: a plane through the undeformed bodies that deforms with the bodies.
 
 use glam::DVec3;
 
@@ -20,20 +20,21 @@ pub const SECTION_FIELDS: [(&str, FieldKind); 4] = [
 /// A point on an edge of a tetrahedron.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct EdgePoint {
-    /// The two vertices.
+    /// Indices, 0 to 3, of the two vertices at the ends of the edge.
     ends: [u8; 2],
-    /// Position between them, 0 to 1.
+    /// Position between the two vertices: 0 at the first, 1 at the second.
     share: f64,
 }
 
-/// Triangles in which the plane cuts the tetrahedra.
+/// Triangles of the intersection of the plane with the tetrahedra.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
     triangles: Vec<(u32, [EdgePoint; 3])>,
 }
 
 impl Section {
-    /// Cuts the undeformed bodies. Triangles run anticlockwise seen against the normal.
+    /// Cuts the undeformed bodies. The corners of a triangle run anticlockwise, as seen against the normal of the
+    /// plane.
     pub fn new(setup: &Setup, plane: &Plane) -> Self {
         let mut triangles = Vec::new();
         for (number, tet) in setup.tets.iter().enumerate() {
@@ -56,7 +57,7 @@ impl Section {
                 if normal.dot(plane.normal) < 0.0 {
                     triangle.swap(1, 2);
                 }
-                // A plane through an edge gives triangles without area.
+                // A plane that contains an edge gives triangles without area: omit these.
                 if normal.length() > 1e-9 * (corners[1] - corners[0]).length_squared() {
                     triangles.push((number as u32, triangle));
                 }
@@ -65,7 +66,7 @@ impl Section {
         Self { triangles }
     }
 
-    /// Appends the current state of the cut.
+    /// Appends the current state of the cut plane to the file.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -134,10 +135,10 @@ mod tests {
         let through = |point: [f64; 3], normal: DVec3| {
             area(Plane { point: DVec3::from_array(point), normal: normal.normalize() })
         };
-        // Tolerance: rounding. The second plane lies in faces of tetrahedra; only those of one side count.
+        // Tolerance: rounding. The second plane contains faces of tetrahedra; only the tetrahedra on one side count.
         assert!((through([0.0, 0.13, 0.0], DVec3::Y) - 0.08).abs() < 1e-12);
         assert!((through([0.0, 0.1, 0.0], DVec3::Y) - 0.08).abs() < 1e-12);
-        // Along the diagonal of x and z.
+        // This plane contains the diagonal of the box in x and z.
         assert!((through([0.2, 0.0, 0.1], DVec3::new(1.0, 0.0, -2.0)) - 0.3 * 0.2f64.hypot(0.4)).abs() < 1e-12);
         assert_eq!(through([0.0, 0.0, 0.7], DVec3::Z), 0.0);
     }

@@ -18,9 +18,9 @@ const SUMMARY_FILE: &str = "summary.json";
 pub struct FractureSummary {
     /// Title of the case.
     pub title: String,
-    /// Version that made the run.
+    /// Version of breakwater that computed the run.
     pub breakwater_version: String,
-    /// Fingerprint of case and mesh.
+    /// Hash of case and mesh.
     pub case_hash: String,
     /// Number of tetrahedra.
     pub tets: usize,
@@ -32,19 +32,19 @@ pub struct FractureSummary {
     pub dt_s: f64,
     /// Number of time steps.
     pub steps: u64,
-    /// Tetrahedra times time steps per wall-clock time [1/s].
+    /// Number of tetrahedra times number of time steps, per wall-clock time [1/s].
     pub tet_steps_per_s: f64,
     /// Largest residual of the energy balance over the largest kinetic energy [-].
     pub energy_residual_ratio: f64,
     /// Largest residual of the energy balance over the kinetic energy at the start [-]; none if the bodies were at
     /// rest.
     pub energy_residual_of_start: Option<f64>,
-    /// Time at which two bodies first touched [s]; none if they did not.
+    /// Time at which two bodies first touched [s]; none if no two bodies touched.
     pub impact_s: Option<f64>,
     /// Area of the faces that failed [m2].
     pub crack_area_m2: f64,
-    /// Energy dissipated in failed faces, less the energy of their springs on release, over their area times G_f [-];
-    /// none if nothing failed.
+    /// Energy dissipated in failed faces, minus the energy of their springs on release, over the failed area times G_f
+    /// [-]; none if no face failed.
     pub energy_over_g_f: Option<f64>,
     /// Energies at the end [J].
     pub energy_j: EnergyAtEnd,
@@ -71,15 +71,15 @@ pub struct EnergyAtEnd {
     pub stored: f64,
     /// Potential energy in gravity, zero at the start.
     pub gravity: f64,
-    /// Dissipated by viscosity.
+    /// Energy dissipated by viscosity.
     pub viscous: f64,
-    /// Dissipated by fracture.
+    /// Energy dissipated by fracture.
     pub fracture: f64,
-    /// Dissipated by friction.
+    /// Energy dissipated by friction.
     pub friction: f64,
     /// Work of constraints and loads.
     pub work: f64,
-    /// Energy of the springs of tied joints on release.
+    /// Energy of the springs of tied joints at the moment of their release.
     #[serde(rename = "freed")]
     pub released: f64,
 }
@@ -87,15 +87,15 @@ pub struct EnergyAtEnd {
 /// Summary of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodySummary {
-    /// Name.
+    /// Name of the body.
     pub name: String,
     /// Mass [kg].
     pub mass_kg: f64,
     /// Velocity of the centre of mass at the end [m/s].
     pub velocity_m_s: [f64; 3],
-    /// Largest tension.
+    /// Largest tension in the body: stress, time and position.
     pub peak: PeakStress,
-    /// Area of the failed faces [m2].
+    /// Area of the failed faces of the body [m2].
     pub crack_area_m2: f64,
 }
 
@@ -110,24 +110,24 @@ pub struct FragmentSummary {
     pub mass_kg: f64,
     /// Centre of mass at the end [m].
     pub centre_m: [f64; 3],
-    /// Velocity of the centre at the end [m/s].
+    /// Velocity of the centre of mass at the end [m/s].
     pub velocity_m_s: [f64; 3],
 }
 
 /// Summary of the beginning of a crack.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InitiationSummary {
-    /// Time [s].
+    /// Time at which the first face of the crack failed [s].
     pub t_s: f64,
-    /// Time since two bodies first touched [s].
+    /// Time from the first contact of two bodies to this failure [s]; none if no two bodies touched.
     pub since_impact_s: Option<f64>,
     /// Name of the body.
     pub body: String,
-    /// Position in the undeformed body [m].
+    /// Position of this face in the undeformed body [m].
     pub place: [f64; 3],
-    /// Nearest landmark of the case.
+    /// Name of the nearest landmark; none if the case has no landmarks.
     pub near: Option<String>,
-    /// Distance from the landmark [m]; zero inside its box.
+    /// Distance from this landmark [m]; zero inside the box of the landmark.
     pub distance_m: Option<f64>,
     /// `opening` (mode I) or `sliding` (mode II).
     pub mode: String,
@@ -136,11 +136,11 @@ pub struct InitiationSummary {
 }
 
 impl FractureSummary {
-    /// Summarizes a run that ended with these fragments.
+    /// Summarises a run that has ended with these fragments.
     pub fn of(
         case: &FractureCase,
         world: &World,
-        book: &EnergyBalance,
+        balance: &EnergyBalance,
         watched: &Watched,
         fragments: &[Fragment],
     ) -> Self {
@@ -201,14 +201,14 @@ impl FractureSummary {
             crack_area_m2: area,
             energy_over_g_f: (area > 0.0).then_some(taken / (area * g_f)),
             energy_j: EnergyAtEnd {
-                kinetic: book.kinetic,
-                stored: book.strain + book.joint + book.contact,
-                gravity: book.gravity,
-                viscous: book.viscous,
-                fracture: book.fracture,
-                friction: book.friction,
-                work: book.work,
-                released: book.released,
+                kinetic: balance.kinetic,
+                stored: balance.strain + balance.joint + balance.contact,
+                gravity: balance.gravity,
+                viscous: balance.viscous,
+                fracture: balance.fracture,
+                friction: balance.friction,
+                work: balance.work,
+                released: balance.released,
             },
             bodies: watched.peaks.iter().enumerate().map(body).collect(),
             fragments: fragments.iter().map(fragment).collect(),
@@ -219,7 +219,7 @@ impl FractureSummary {
         }
     }
 
-    /// Returns the body called `name`.
+    /// Returns the summary of the body called `name`.
     pub fn body(&self, name: &str) -> Option<&BodySummary> {
         self.bodies.iter().find(|body| body.name == name)
     }

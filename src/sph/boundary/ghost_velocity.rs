@@ -1,8 +1,9 @@
-//! Velocity of the water at the ghost nodes of mDBC, for walls with no slip or free slip. It uses the same corrected
-//! interpolation as the density.
+//! Velocity of the water at the ghost nodes of mDBC, for no-slip and free-slip walls. The corrected interpolation is
+//! the same as for the density.
 //!
-//! The interpolation is linear in the interpolated field. The equations are solved for the weights of their left-hand
-//! sides; the velocity is then one weighted sum over the water, v = sum_b (a W + b . r_b g) V_b v_b.
+//! The interpolated value is a linear function of the field. Therefore the four equations are solved once per node for
+//! the weights of their left-hand sides, the number a and the vector b. The velocity is then one weighted sum over the
+//! water, v = sum_b (a W + b . r_b g) V_b v_b. Here g = -h^2 G, and r_b is in h.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -19,10 +20,11 @@ use crate::sph::terms::wall_slip::GhostVelocity;
 /// Velocities of the water at the ghost nodes.
 #[derive(Debug, Default)]
 pub struct GhostVelocities {
-    /// Weights of the water's velocities, and the velocity sums, in the order of the nodes.
+    /// Weights a and b of each node, in the order of the sorted nodes.
     weights: Vec<[f32; 4]>,
+    /// Weighted sum of the velocities around each node, in the same order.
     sums: Vec<VelocitySum>,
-    /// Velocity at the node of each boundary particle; empty until it is computed.
+    /// Velocity at the ghost node of each boundary particle; empty before the first computation.
     of_particles: Vec<Option<GhostVelocity>>,
 }
 
@@ -58,7 +60,8 @@ impl GhostVelocities {
         }
     }
 
-    /// Returns the velocity at the ghost node of a boundary particle; `None` if the node is dry or nothing is computed.
+    /// Returns the velocity at the ghost node of a boundary particle; `None` if the node is dry or no velocities are
+    /// computed.
     pub fn at_node_of(&self, particle: usize) -> Option<GhostVelocity> {
         self.of_particles.get(particle).copied().flatten()
     }
@@ -69,8 +72,9 @@ impl GhostVelocities {
     }
 }
 
-/// Returns the weights of W V and of r g V for the velocity, without the constant factors of W and g. Trust blends the
-/// weighted mean with the four equations. `to_surface` [m] is half the vector from boundary particle to node.
+/// Returns the weights of the velocity sum; they include the constant factors of W and g. Trust 0 gives the weighted
+/// mean of the water velocities, trust 1 the solution of the four equations. `to_surface` [m] is half the vector from
+/// the boundary particle to the node.
 fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVec3) -> [f32; 4] {
     let occupied = f64::from(sums.value[0]);
     if occupied < DRY_LIMIT {
@@ -79,7 +83,7 @@ fn velocity_weights_of(sums: &NodeSums, parameters: &Parameters, to_surface: DVe
     let (mean, trust) = ([1.0 / occupied, 0.0, 0.0, 0.0], sums.trust(to_surface));
     let fitted = (trust > 0.0).then(|| sums.weights()).flatten().unwrap_or(mean);
     let kernel = &parameters.kernel;
-    // g = -G h^2, r in h.
+    // Constant factor of g r, with g = -G h^2 and r in h.
     let (w, g) = (f64::from(kernel.scale()), -f64::from(kernel.gradient_scale()) * kernel.h);
     std::array::from_fn(|k| {
         let weight = mean[k] + trust * (fitted[k] - mean[k]);

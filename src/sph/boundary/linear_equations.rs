@@ -1,6 +1,7 @@
-//! Solution of four linear equations, for the first-order consistent corrections.
+//! Solves four linear equations, for the first-order consistent corrections.
 
-/// Solves four linear equations [A | b] by Gaussian elimination with pivoting; `None` if |det A| is below `least`.
+/// Solves A x = b by Gaussian elimination with pivoting; `rows` are [A | b]. Returns `None` if |det A| is below
+/// `least`.
 pub fn solve(mut rows: [[f64; 5]; 4], least: f64) -> Option<[f64; 4]> {
     let mut determinant = 1.0;
     for column in 0..4 {
@@ -34,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn solution_satisfies_the_equations_and_singular_systems_are_refused() {
+    fn solution_satisfies_the_equations_and_singular_systems_return_none() {
         let rows = [
             [2.0, 1.0, 0.0, 0.5, 1.0],
             [0.0, 3.0, 1.0, 0.0, 2.0],

@@ -1,20 +1,20 @@
 //! Modified dynamic boundary condition (English et al. 2022; section 2.2 of Mitsui et al. 2023).
 //!
-//! Each boundary particle has a ghost node, its mirror image in the boundary surface. The density and its gradient at
-//! the ghost node come from the water particles around it by the first-order consistent correction of Liu & Liu (2006):
-//! the four equations
+//! Each boundary particle has a ghost node: its mirror image in the boundary surface. The density f and its gradient at
+//! the ghost node follow from the surrounding water particles, by the first-order consistent correction of Liu & Liu
+//! (2006). The four equations
 //!
 //!   sum_b f_b W V_b      = f sum_b W V_b      + grad f . sum_b r_b W V_b
 //!   sum_b f_b grad W V_b = f sum_b grad W V_b + grad f . sum_b r_b (x) grad W V_b,   r_b from the ghost node to b,
 //!
 //! are solved for f and grad f, and the density is extrapolated along the line from the node to the particle.
 //!
-//! Where too few particles surround the node, the matrix is ill-conditioned. The published fallback is the mean density
-//! of the neighbours, extrapolated from their centroid to the boundary particle by the hydrostatic gradient. It is also
-//! used for thin sheets on a dry bed, where all the water lies between node and boundary: a gradient fitted to one or
-//! two layers would be extrapolated far behind them, and its errors would drive the sheet apart. A node without
-//! neighbours gives its particle the reference density, which is also the lower bound: a wall exerts pressure on the
-//! water but no suction.
+//! If too few particles surround the node, the matrix is ill-conditioned. The published fallback is the mean density of
+//! the neighbours, extrapolated from their centroid to the boundary particle with the hydrostatic gradient. The code
+//! also uses this fallback for thin sheets of water on a dry bed, where all water lies between node and boundary.
+//! There, a gradient fitted to one or two layers would be extrapolated far behind the sheet, and its errors would drive
+//! the sheet apart. If a node has no neighbours, its boundary particle has the reference density. No boundary density
+//! is lower, because a wall exerts pressure on the water but no suction.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -28,29 +28,31 @@ use crate::sph::neighbours::records::{Record, split_position};
 use crate::sph::parameters::Parameters;
 use crate::sph::particles::boundary::Boundary;
 
-/// Smallest determinant of the scaled matrix for which the gradient is fitted, relative to a full neighbourhood with
-/// the same sum of W V. Half a neighbourhood has 0.1; a single layer or a corner with few particles is below the limit.
-pub(in crate::sph) const LEAST_DETERMINANT: f64 = 0.01;
+/// Smallest determinant of the scaled matrix for which the gradient is fitted [-], relative to a full neighbourhood
+/// with the same sum of W V. Half a neighbourhood has 0.1. A single layer, or a corner with few particles, is below the
+/// limit.
+pub(in crate::sph) const MIN_DETERMINANT: f64 = 0.01;
 
-/// Distance of the water's centroid from the node towards the boundary [h]: at the first value trust in the fitted
-/// gradient starts to decrease, at the second it is zero. The distance is 0.42 h for a node at the surface of deep
-/// water on a bed. It is negative for a node inside the water or next to it, at a surface-piercing wall. Calibrated:
-/// with 0.2 and 0.4 the thin tip of a dam break on a dry bed was still driven apart (three cubes, dp = 0.03 m).
+/// Distance from the node to the centroid of the water, positive towards the boundary [h]. From the first to the second
+/// value, the trust in the fitted gradient decreases from 1 to 0. The distance is 0.42 h for a node at the surface of
+/// deep water on a bed. It is negative for a node inside the water, or next to the water at a wall that pierces the
+/// surface. The values are calibrated: with 0.2 and 0.4, the thin tip of a dam break on a dry bed was still driven
+/// apart (three cubes, dp = 0.03 m).
 pub(in crate::sph) const CENTROID_LIMITS: [f64; 2] = [0.1, 0.2];
 
-/// Spread of the water along the wall's normal, sum g V r_n^2 / sum W V [h2]: below the first value trust in the fitted
-/// gradient is zero, from the second on it is full. At the node nearest to the wall two layers of particles give 0.2 to
-/// 0.3, three layers 0.5 to 0.65, deep water 0.74. Calibrated with still water on a beach: a gradient from two layers
-/// is mostly noise, which the walls amplify.
+/// Spread of the water along the wall normal, sum g V r_n^2 / sum W V [h2]. From the first to the second value, the
+/// trust in the fitted gradient increases from 0 to 1. At the node nearest to the wall, the spread is 0.2 to 0.3 for
+/// two layers of particles, 0.5 to 0.65 for three layers and 0.74 for deep water. The values are calibrated with still
+/// water on a beach: a gradient from two layers is mostly noise, and the walls amplify this noise.
 pub(in crate::sph) const SPREAD_LIMITS: [f64; 2] = [0.4, 0.7];
 
-/// Smallest chunk of an array that is worth a task of the thread pool.
+/// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 pub(super) const MIN_CHUNK: usize = 1024;
 
-/// Sum of W V below which a node is dry: less than the contribution of one particle at the distance dp.
+/// Sum of W V below which a node is dry [-]. One particle at the distance dp contributes more.
 pub(in crate::sph) const DRY_LIMIT: f64 = 0.01;
 
-/// Ghost nodes, sorted into bins, with their neighbour lists and sums.
+/// All ghost nodes, sorted into bins, with their neighbour lists and sums.
 #[derive(Debug, Default)]
 pub struct GhostNodes {
     points: Vec<DVec3>,
@@ -63,7 +65,7 @@ pub struct GhostNodes {
     densities: Vec<f64>,
 }
 
-/// Sums over the water around one ghost node, lengths in h.
+/// Sums over the water particles around one ghost node, with lengths in h; f is rho - rho0 [kg/m3].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NodeSums {
     /// sum W V (1, x, y, z).
@@ -79,7 +81,7 @@ pub struct NodeSums {
 }
 
 impl GhostNodes {
-    /// Creates an empty set of ghost nodes; their sums are computed with the given instruction set.
+    /// Creates an empty set of ghost nodes that uses the given instruction set for its sums.
     pub fn new(instructions: InstructionSet) -> Self {
         Self { lists: NeighbourLists::new(instructions), ..Self::default() }
     }
@@ -185,7 +187,8 @@ impl NodeTerms<17, 0> for NodeSums {
 }
 
 impl NodeSums {
-    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from it to this node.
+    /// Returns the density of the boundary particle [kg/m3]; `to_surface` [m] is half the vector from the particle to
+    /// this node.
     fn density_at(&self, parameters: &Parameters, to_surface: DVec3) -> f64 {
         let rho0 = parameters.tait.rho0;
         let occupied = f64::from(self.value[0]);
@@ -203,12 +206,12 @@ impl NodeSums {
             Some([f, fx, fy, fz]) => mean + trust * (f + DVec3::new(fx, fy, fz).dot(back) - mean),
             None => mean,
         };
-        // No suction: air enters between a wall and water that separates from it.
+        // No suction: air enters between a wall and water that separates from the wall.
         rho0 + excess.max(0.0)
     }
 
-    /// Returns the trust in a fitted gradient, from 0 to 1; `to_surface` [m] is half the vector from the boundary
-    /// particle to this node.
+    /// Returns the trust in the fitted gradient, from 0 (only the fallback) to 1 (only the four equations);
+    /// `to_surface` [m] is half the vector from the boundary particle to this node.
     pub(super) fn trust(&self, to_surface: DVec3) -> f64 {
         let [occupied, x, y, z] = self.value.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
@@ -226,14 +229,16 @@ impl NodeSums {
         position_trust * layer_trust
     }
 
-    /// Returns the solution [f, h grad f] of the four equations for the given left-hand sides, if well conditioned.
+    /// Returns the solution [f, h grad f] of the four equations for the given left-hand sides; `None` if
+    /// ill-conditioned.
     fn value_and_gradient(&self, value_f: f64, [fx, fy, fz]: [f64; 3]) -> Option<[f64; 4]> {
         let [a, b, c, d] = self.matrix();
         let append = |[k, x, y, z]: [f64; 4], right: f64| [k, x, y, z, right];
         self.solve([append(a, value_f), append(b, fx), append(c, fy), append(d, fz)])
     }
 
-    /// Returns the weights of the four left-hand sides in f, from the transposed equations; they hold for any field.
+    /// Returns the weights with which the four left-hand sides add up to f, from the transposed equations. The weights
+    /// are the same for every field.
     pub(super) fn weights(&self) -> Option<[f64; 4]> {
         let matrix = self.matrix();
         let column = |k: usize| [matrix[0][k], matrix[1][k], matrix[2][k], matrix[3][k], f64::from(u8::from(k == 0))];
@@ -241,7 +246,7 @@ impl NodeSums {
     }
 
     fn solve(&self, rows: [[f64; 5]; 4]) -> Option<[f64; 4]> {
-        solve(rows, LEAST_DETERMINANT * f64::from(self.value[0]).powi(4))
+        solve(rows, MIN_DETERMINANT * f64::from(self.value[0]).powi(4))
     }
 
     /// Returns the matrix of the four equations.
@@ -249,7 +254,8 @@ impl NodeSums {
         let [w, wx, wy, wz] = self.value.map(f64::from);
         let [gx, gy, gz] = self.first.map(f64::from);
         let [xx, yy, zz, xy, xz, yz] = self.second.map(f64::from);
-        // In a two-dimensional flume all neighbours lie in the node's plane; use the value of a full neighbourhood.
+        // In a two-dimensional flume all neighbours lie in the plane of the node; use the value of a full
+        // neighbourhood.
         let yy = if yy == 0.0 { w } else { yy };
         [[w, wx, wy, wz], [gx, xx, xy, xz], [gy, xy, yy, yz], [gz, xz, yz, zz]]
     }
@@ -259,8 +265,8 @@ impl NodeSums {
 mod tests {
     use super::*;
 
-    /// Returns sums over water with its centroid at (0, 0, z) h from the node, its spread along z [h2] and the excess
-    /// density f [kg/m3].
+    /// Returns sums over water that has its centroid at (0, 0, z) h from the node, the `spread` along z [h2] and the
+    /// excess density `f` [kg/m3].
     fn layer(z: f32, spread: f32, f: f32) -> NodeSums {
         let second = [0.3, 0.3, 0.3 * spread, 0.0, 0.0, 0.0];
         NodeSums { value: [0.3, 0.0, 0.0, 0.3 * z], value_f: 0.3 * f, second, ..NodeSums::default() }
@@ -272,7 +278,7 @@ mod tests {
         for (z, trust) in [(0.3, 1.0), (-0.1, 1.0), (-0.15, 0.5), (-0.2, 0.0), (-0.5, 0.0)] {
             assert!((layer(z, 0.74, 0.0).trust(bed) - trust).abs() < 1e-6, "{z}");
         }
-        // The direction of the wall matters: water below a ceiling lies on the far side of the node.
+        // The direction to the wall matters: below a ceiling, the water lies on the far side of the node.
         assert_eq!(layer(-0.5, 0.74, 0.0).trust(-bed), 1.0);
         // Two layers, three layers and deep water.
         for (spread, trust) in [(0.3, 0.0), (0.55, 0.5), (0.74, 1.0)] {
@@ -301,7 +307,7 @@ mod tests {
         let to_surface = DVec3::new(0.0, 0.0, 0.005);
         let rho0 = parameters.tait.rho0;
         let pressed = layer(-0.5, 0.0, 3.0).density_at(&parameters, to_surface);
-        // Height of the centroid above the boundary particle: it lies h / 2 below the ghost node.
+        // Height of the centroid above the boundary particle; the centroid lies h / 2 below the ghost node.
         let height = 2.0 * to_surface.z - 0.5 * parameters.kernel.h;
         let expected = 3.0 + rho0 * parameters.gravity / parameters.tait.c0.powi(2) * height;
         assert!((pressed - rho0 - expected).abs() < 1e-6);

@@ -9,7 +9,7 @@
 // rho - rho0 of the boundary [kg/m3].
 @group(0) @binding(7) var<storage, read_write> density: array<f32>;
 
-// Sums over the water around a node, lengths in h; f is rho - rho0.
+// Sums over the water particles around a ghost node, with lengths in h and g = -G h^2; f is rho - rho0 [kg/m3].
 struct NodeSums {
     // W V (x, y, z, 1).
     value: vec4<f32>,
@@ -23,7 +23,7 @@ struct NodeSums {
     products: vec3<f32>,
 }
 
-fn sum_round(node: vec4<f32>) -> NodeSums {
+fn sum_around_node(node: vec4<f32>) -> NodeSums {
     var sums: NodeSums;
     let reach = 1.0 / parameters.inv_2h;
     let rows = rows_within(node, reach);
@@ -65,7 +65,8 @@ fn sum_round(node: vec4<f32>) -> NodeSums {
     return sums;
 }
 
-// Returns the trust in the fitted gradient, from the position of the water's centroid and its spread along the normal.
+// Returns the trust in the fitted gradient (0 to 1). It depends on the centroid of the water and on the spread of the
+// water along the wall normal.
 fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
     let far = length(surface);
     var normal = vec3<f32>(0.0);
@@ -85,10 +86,10 @@ fn trust_in(sums: NodeSums, surface: vec3<f32>) -> f32 {
         * clamp((spread - layers.x) / (layers.y - layers.x), 0.0, 1.0);
 }
 
-// Returns the fitted excess density at `back` [h] from the node, or `mean` where the equations are ill-conditioned.
+// Returns the fitted rho - rho0 at the vector `back` [h] from the node, or `mean` if the equations are ill-conditioned.
 fn fitted(sums: NodeSums, back: vec3<f32>, mean: f32) -> f32 {
     var s = sums.squares;
-    // In a two-dimensional flume use the value of a full neighbourhood across the width.
+    // In a two-dimensional flume s.y is zero; use the value of a full neighbourhood instead.
     s.y = select(s.y, sums.value.w, s.y == 0.0);
     let p = sums.products;
     var rows = array<vec4<f32>, 4>(
@@ -147,7 +148,7 @@ fn excess_density(sums: NodeSums, surface: vec3<f32>) -> f32 {
     if trust > 0.0 {
         excess += trust * (fitted(sums, back, mean) - mean);
     }
-    // No suction by walls.
+    // Walls exert no suction on the water.
     return max(excess, 0.0);
 }
 
@@ -164,5 +165,5 @@ fn densities(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     if PERIODIC {
         node.z -= parameters.width * round(node.z / parameters.width);
     }
-    density[i] = excess_density(sum_round(node), surface);
+    density[i] = excess_density(sum_around_node(node), surface);
 }

@@ -3,8 +3,8 @@
 //! | file | contents |
 //! | --- | --- |
 //! | [`mdbc`] | section 2.2: ghost nodes, and the density of boundary particles |
-//! | [`ghost_velocity`] | velocity of the water at the ghost nodes, for the wall slip conditions |
-//! | [`node_sums`] | sums over the water around each node |
+//! | [`ghost_velocity`] | velocity of the water at the ghost nodes, for the no-slip and free-slip conditions |
+//! | [`node_sums`] | sums over the water particles around each ghost node |
 //! | [`linear_equations`] | solution of the four equations of a first-order consistent correction |
 
 pub mod ghost_velocity;

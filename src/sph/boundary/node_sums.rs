@@ -1,4 +1,4 @@
-//! Sums over the water around each ghost node: one loop for all kinds of sums.
+//! Sums over the water particles around each ghost node. One generic loop serves all kinds of sums.
 
 use rayon::prelude::*;
 
@@ -11,27 +11,28 @@ use crate::sph::parameters::Parameters;
 pub struct Pair<L> {
     /// Vector from the node to the particle [m].
     pub r: [L; 3],
-    /// W V without the constant factor of W.
+    /// W V, the kernel times the volume of the particle, without the constant factor of W.
     pub wv: L,
-    /// G V without the constant factor of G.
+    /// G V, with grad W = G r, without the constant factor of G.
     pub gv: L,
 }
 
-/// `N` sums over the water around a node; the terms use `G` given numbers of the node.
+/// `N` sums over the water particles around a ghost node. Their terms may use `G` numbers that are known for each node.
 pub trait NodeTerms<const N: usize, const G: usize>: Copy + Default + Send {
-    /// Adds the contribution of a particle, without constant factors.
+    /// Adds the contribution of the water particle `b` to the sums, without constant factors.
     fn add<L: Lanes>(sums: &mut [L; N], node: &[L; G], pair: &Pair<L>, b: &Record);
 
-    /// Returns the constant factors of the sums from those of W and -G h^2; lengths are in units of h [m].
+    /// Returns the constant factors of the sums. `w` and `g` are the constant factors of W and -G h^2; `h` [m] is the
+    /// unit of all lengths in the sums.
     fn factors(w: f32, g: f32, h: f32) -> [f32; N];
 
-    /// Creates the value from the sums, in the order of [`NodeTerms::add`].
+    /// Creates the result from the sums, which are in the order of [`NodeTerms::add`].
     fn of_sums(sums: [f32; N]) -> Self;
 }
 
 /// Computes the sums of all nodes. `nodes` are split positions (see
-/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the given numbers of each node,
-/// `lists` its neighbours in the records. `bin_x` is the length of a bin [m].
+/// [`split_position`](crate::sph::neighbours::records::split_position)); `known` has the known numbers of each node;
+/// `lists` has the neighbours of each node as indices in `records`. `bin_x` is the length of a bin along x [m].
 pub fn sum_around_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     parameters: &Parameters,
     bin_x: f32,
@@ -49,7 +50,7 @@ pub fn sum_around_nodes<S: NodeTerms<N, G>, const N: usize, const G: usize>(
     });
 }
 
-/// Computation of the sums of one chunk of nodes.
+/// Computation of the sums for one chunk of nodes.
 struct ChunkSums<'a, S, const N: usize, const G: usize> {
     parameters: &'a Parameters,
     bin_x: f32,

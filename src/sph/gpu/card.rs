@@ -1,4 +1,4 @@
-//! Graphics cards: detection, opening, buffers, reading back.
+//! Graphics cards: detection, opening, buffers and reading of results.
 
 use std::{
     fmt,
@@ -12,20 +12,20 @@ use wgpu::{Backends, BufferDescriptor, BufferUsages, DeviceDescriptor, DeviceTyp
 use crate::sph::solver::backend::DeviceError;
 
 /// Largest number of workgroups of a dispatch in one dimension that every card supports.
-const MOST_GROUPS: u64 = 65_535;
+const MAX_GROUPS: u64 = 65_535;
 
 /// `VK_MEMORY_HEAP_DEVICE_LOCAL_BIT`.
 #[cfg(not(target_vendor = "apple"))]
 const DEVICE_LOCAL: u32 = 1;
 
-/// Properties of a card, known without opening it.
+/// Properties of a card that are known before the card is opened.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CardInfo {
     /// Name of the card.
     pub name: String,
     /// Graphics interface (Vulkan, Metal or Dx12) and driver.
     pub interface: String,
-    /// Whether it is a software renderer on the processor.
+    /// True if the card is a software renderer, which runs on the processor.
     pub is_software: bool,
     /// Largest buffer that a shader can bind [bytes].
     pub largest_binding: u64,
@@ -42,7 +42,7 @@ pub struct Card {
     pub(super) queue: wgpu::Queue,
     info: Arc<CardInfo>,
     /// First failure since the card was opened.
-    trouble: Arc<Mutex<Option<Trouble>>>,
+    failure: Arc<Mutex<Option<Trouble>>>,
 }
 
 #[derive(Debug, Clone)]
@@ -100,15 +100,15 @@ fn memory_of(adapter: &wgpu::Adapter) -> Option<u64> {
 }
 
 impl Card {
-    /// Returns all cards of the system, hardware first; the index of a card is its number.
+    /// Returns all cards of the system, hardware first. The index of a card is the number N in `--device gpu:N`.
     pub fn all() -> Vec<CardInfo> {
         adapters().iter().map(describe).collect()
     }
 
-    /// Opens a card by its number.
+    /// Opens the card with this number, see [`Self::all`].
     ///
     /// # Errors
-    /// If there is no such card, or it does not open.
+    /// If there is no such card, or if it cannot be opened.
     pub fn open(number: usize) -> Result<Self, DeviceError> {
         let adapters = adapters();
         let adapter = adapters.get(number).ok_or_else(|| {
@@ -133,36 +133,36 @@ impl Card {
             ..DeviceDescriptor::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
-            .map_err(|error| DeviceError::Missing(format!("{}: {error}", info.name)))?;
-        let trouble = Arc::new(Mutex::new(None));
-        let recorder = |trouble: &Arc<Mutex<Option<Trouble>>>| {
-            let trouble = trouble.clone();
+            .map_err(|error| DeviceError::Missing(format!("cannot open {}: {error}", info.name)))?;
+        let failure = Arc::new(Mutex::new(None));
+        let recorder = |failure: &Arc<Mutex<Option<Trouble>>>| {
+            let failure = failure.clone();
             move |what: Trouble| {
-                trouble.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(what);
+                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(what);
             }
         };
-        let on_error = recorder(&trouble);
+        let on_error = recorder(&failure);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             on_error(match error {
                 wgpu::Error::OutOfMemory { .. } => Trouble::Memory("an allocation failed".to_owned()),
                 error => Trouble::Lost(error.to_string()),
             });
         }));
-        let on_loss = recorder(&trouble);
+        let on_loss = recorder(&failure);
         device.set_device_lost_callback(move |reason, message| {
             if reason != wgpu::DeviceLostReason::Destroyed {
                 on_loss(Trouble::Lost(message));
             }
         });
-        Ok(Self { device, queue, info: Arc::new(info), trouble })
+        Ok(Self { device, queue, info: Arc::new(info), failure })
     }
 
-    /// Returns its name.
+    /// Returns the name of the card.
     pub fn name(&self) -> &str {
         &self.info.name
     }
 
-    /// Returns its properties.
+    /// Returns the properties of the card.
     pub fn info(&self) -> &CardInfo {
         &self.info
     }
@@ -170,17 +170,17 @@ impl Card {
     /// Checks that the card has not failed since it was opened.
     ///
     /// # Errors
-    /// The first failure.
+    /// The first failure of the card.
     pub(super) fn check(&self) -> Result<(), DeviceError> {
         let device = self.info.name.clone();
-        match self.trouble.lock().unwrap_or_else(PoisonError::into_inner).clone() {
+        match self.failure.lock().unwrap_or_else(PoisonError::into_inner).clone() {
             None => Ok(()),
             Some(Trouble::Memory(what)) => Err(DeviceError::Memory { device, what }),
             Some(Trouble::Lost(what)) => Err(DeviceError::Lost { device, what }),
         }
     }
 
-    /// Creates a buffer of `count` values for shaders to read and write; the host can write it and read it back.
+    /// Creates a buffer of `count` values that shaders and host can read and write.
     ///
     /// # Errors
     /// If the card does not support a buffer of this size or has too little memory left.
@@ -205,14 +205,14 @@ impl Card {
     /// Creates a buffer filled with `values`.
     ///
     /// # Errors
-    /// As [`Self::buffer`].
+    /// The same errors as [`Self::buffer`].
     pub(crate) fn filled<T: Pod>(&self, label: &'static str, values: &[T]) -> Result<wgpu::Buffer, DeviceError> {
         let buffer = self.buffer::<T>(label, values.len())?;
         self.write(&buffer, 0, values);
         Ok(buffer)
     }
 
-    /// Creates a uniform buffer that holds `value`.
+    /// Creates a uniform buffer with the content `value`.
     pub(super) fn uniform<T: Pod>(&self, label: &'static str, value: &T) -> wgpu::Buffer {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let size = size_of::<T>() as u64;
@@ -222,7 +222,8 @@ impl Card {
         buffer
     }
 
-    /// Writes values from index `first` on, before any command that is submitted later.
+    /// Writes `values` to a buffer from index `first` on. The card does this before any command that is submitted
+    /// later.
     pub(super) fn write<T: Pod>(&self, buffer: &wgpu::Buffer, first: usize, values: &[T]) {
         if !values.is_empty() {
             self.queue.write_buffer(buffer, (first * size_of::<T>()) as u64, bytemuck::cast_slice(values));
@@ -292,10 +293,11 @@ impl Card {
     }
 }
 
-/// Returns the number of workgroups of `size` for `threads`, in two dimensions where one dimension is too short.
+/// Returns the number of workgroups of `size` threads for at least `threads` threads, in two dimensions if they exceed
+/// the limit of one dimension.
 pub(crate) fn groups(threads: usize, size: usize) -> [u32; 2] {
     let all = (threads.div_ceil(size) as u64).max(1);
-    let rows = all.div_ceil(MOST_GROUPS);
+    let rows = all.div_ceil(MAX_GROUPS);
     [all.div_ceil(rows) as u32, rows as u32]
 }
 
@@ -323,7 +325,7 @@ mod tests {
     fn dispatches_cover_all_threads_within_the_limit() {
         for threads in [0, 1, 64, 65, 64 * 65_535, 64 * 65_535 + 1, 2_000_000_000] {
             let [x, y] = groups(threads, 64);
-            assert!(u64::from(x) <= MOST_GROUPS && u64::from(y) <= MOST_GROUPS);
+            assert!(u64::from(x) <= MAX_GROUPS && u64::from(y) <= MAX_GROUPS);
             let all = u64::from(x) * u64::from(y) * 64;
             assert!(all >= threads as u64 && all < threads as u64 + 64 * (u64::from(y) + 1));
         }

@@ -4,13 +4,13 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 use crate::sph::{
-    boundary::mdbc::{CENTROID_LIMITS, DRY_LIMIT, LEAST_DETERMINANT, SPREAD_LIMITS},
+    boundary::mdbc::{CENTROID_LIMITS, DRY_LIMIT, MIN_DETERMINANT, SPREAD_LIMITS},
     neighbours::grid::Grid,
     parameters::Parameters,
     terms::{density_diffusion::Diffusion, equation_of_state::Tait, viscosity::Viscosity},
 };
 
-/// `Parameters` of the shaders, with the same fields in the same order.
+/// The struct `Parameters` of the shaders, with the same fields in the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Constants {
@@ -44,7 +44,7 @@ pub struct Constants {
     sound: [f32; 8],
 }
 
-/// `Step` of the shaders.
+/// The struct `Step` of the shaders, with the same fields in the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct StepConstants {
@@ -55,8 +55,8 @@ pub struct StepConstants {
 }
 
 impl Constants {
-    /// Creates the constants. `particles` counts the water, the boundary, and within it bed, walls and wavemaker. No
-    /// particle may leave the box `bounds` [m].
+    /// Creates the constants. `particles` are the numbers of water particles, of all boundary particles, and of the
+    /// boundary particles of bed, walls and wavemaker. No particle may leave the box `bounds` [m].
     pub fn new(parameters: &Parameters, grid: &Grid, bounds: [DVec3; 2], particles: [usize; 3]) -> Self {
         let [water, boundary, walls] = particles.map(|n| n as u32);
         let Parameters { kernel, tait, gravity, .. } = *parameters;
@@ -84,7 +84,7 @@ impl Constants {
             padding: 0.0,
             centroid_limits: CENTROID_LIMITS.map(|t| t as f32),
             spread_limits: SPREAD_LIMITS.map(|t| t as f32),
-            least_determinant: LEAST_DETERMINANT as f32,
+            least_determinant: MIN_DETERMINANT as f32,
             dry: DRY_LIMIT as f32,
             bounds_low: low,
             padding_low: 0.0,
@@ -95,12 +95,13 @@ impl Constants {
         }
     }
 
-    /// Returns whether the flume is periodic across its width.
+    /// Returns true if the flume is periodic across its width.
     pub fn is_periodic(&self) -> bool {
         self.width > 0.0
     }
 
-    /// Returns the constants for the pressure on the water alone: no viscosity, no diffusion, no boundary targets.
+    /// Returns the constants for rates of the water from pressure alone, without viscosity and diffusion. With
+    /// `boundary` = 0, the shader computes no rates of boundary particles.
     pub fn of_pressure_alone(self) -> Self {
         let [hydrostatic, curvature] = Diffusion::none().hydrostatic();
         Self { boundary: 0, alpha: 0.0, diffusion: 0.0, hydrostatic, curvature, ..self }

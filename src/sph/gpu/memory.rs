@@ -1,4 +1,4 @@
-//! Buffers on a card, and the kernels bound to them.
+//! Buffers on a card, and the kernels bound to these buffers.
 
 use super::card::{Card, CardInfo};
 use super::constants::{Constants, StepConstants};
@@ -10,24 +10,24 @@ use crate::sph::solver::backend::DeviceError;
 /// Size of a record [bytes].
 const RECORD: usize = 48;
 
-/// Memory per water particle on the card [bytes]: offset, bin, velocity, half step, rates, record, sorting and its
-/// share of the bins. If half of the domain is air, there are about as many bins as particles.
+/// Memory per water particle on the card [bytes]: offset, bin, velocity, half step, rates, record, sorting and bins. It
+/// assumes as many bins as particles.
 const BYTES_PER_PARTICLE: usize = 6 * 16 + RECORD + 3 * 4 + 2 * 2 * 4;
 
-/// Returns the number of particles that fit on a card.
-pub fn most_particles(card: &CardInfo) -> u64 {
+/// Returns the largest number of particles that fits into the memory of a card.
+pub fn max_particles(card: &CardInfo) -> u64 {
     let in_one_buffer = card.largest_binding.min(card.largest_buffer) / RECORD as u64;
     // A tenth of the memory is reserved for the system.
     card.memory.map_or(in_one_buffer, |bytes| in_one_buffer.min(bytes / 10 * 9 / BYTES_PER_PARTICLE as u64))
 }
 
-/// Buffers on the card and kernels bound to them.
+/// Buffers on the card, and kernels bound to these buffers.
 pub(super) struct Memory {
     pub is_periodic: bool,
     pub water: usize,
     pub boundary: usize,
     walls: usize,
-    /// Total memory on the card [bytes].
+    /// Total size of the buffers on the card [bytes].
     pub bytes: usize,
     pub parameters: wgpu::Buffer,
     pub step: wgpu::Buffer,
@@ -36,7 +36,7 @@ pub(super) struct Memory {
     pub motion: wgpu::Buffer,
     pub half_offset: wgpu::Buffer,
     half_motion: wgpu::Buffer,
-    /// Rates of the water, then of the boundary in its own order.
+    /// Rates of the water, then of the boundary in unsorted order.
     pub rates: wgpu::Buffer,
     pub limits: wgpu::Buffer,
     pub extremes: wgpu::Buffer,
@@ -60,7 +60,8 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Creates the buffers. The particle counts are those of the water, the boundary, and within it the walls.
+    /// Creates the buffers for the numbers of water particles, of all boundary particles, and of the boundary particles
+    /// of walls (with bed and wavemaker).
     pub fn new(
         card: &Card,
         constants: &Constants,
@@ -71,7 +72,7 @@ impl Memory {
         let parameters = card.uniform("parameters", constants);
         let pressure_alone = card.uniform("parameters of pressure alone", &constants.of_pressure_alone());
         let step = card.uniform("step", &StepConstants { dt: 0.0, reach: 0.0 });
-        // The largest buffer first: if any buffer is too large, this one is.
+        // Create the largest buffer first: if any buffer is too large, this buffer is.
         let records = card.buffer::<[f32; RECORD / 4]>("particle records", water + boundary)?;
         let offset = card.buffer::<[f32; 4]>("water positions", water)?;
         let cell = card.buffer::<[i32; 4]>("water bins", water)?;
@@ -150,7 +151,8 @@ impl Memory {
             shader.kernel("correct").bind(card, &[&state_of_step[..], &[(3, &cell), (8, &extremes)]].concat());
         card.check()?;
 
-        // Offset, bin, velocity, half step, rates, record; for the boundary also vector to the surface and density.
+        // Offset, bin, velocity, half step, rates, record; for the boundary no half step, but vector to the surface and
+        // density.
         let of_water = water * (6 * 16 + RECORD) + Sort::bytes(water, bins);
         let of_boundary = boundary * (5 * 16 + 4 + RECORD) + Sort::bytes(boundary, bins);
         Ok(Self {
@@ -188,7 +190,7 @@ impl Memory {
         })
     }
 
-    /// Returns whether the buffers were created for these numbers of particles.
+    /// Returns true if the buffers were created for these numbers of particles.
     pub fn holds(&self, particles: [usize; 3]) -> bool {
         [self.water, self.boundary, self.walls] == particles
     }
@@ -212,8 +214,9 @@ impl Memory {
     }
 
     /// Returns the minimum memory traffic of a time step [bytes].
-    pub fn least_traffic(&self) -> f64 {
-        // Vectors of four numbers: twelve to sort and copy back, five in the predictor, seven in the corrector.
+    pub fn min_traffic(&self) -> f64 {
+        // Vectors of four numbers per particle: twelve to sort and copy back, five in the predictor, seven in the
+        // corrector.
         let of_water = self.water * (24 * 16 + 2 * 2 * RECORD + 4 * 16);
         let of_boundary = self.boundary * (2 * 2 * RECORD + 6 * 16);
         (of_water + of_boundary) as f64

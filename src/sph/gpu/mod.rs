@@ -2,18 +2,18 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | [`card`] | detecting and opening cards, buffers, reading back |
+//! | [`card`] | detects and opens cards, creates buffers, reads results |
 //! | [`constants`] | constants of the scheme in the layout of the shaders |
-//! | [`state`] | positions as bins and offsets, to and from the card |
-//! | [`shaders`] | the shaders, each next to the Rust file of its stage |
+//! | [`state`] | state of the particles on the card, and its conversion |
+//! | [`shaders`] | the shaders and their compilation |
 //! | [`sort`] | the counting sort |
-//! | `memory` | buffers on the card, and the kernels bound to them |
-//! | `near` | the water near surfaces |
+//! | `memory` | buffers on the card, and the shader functions bound to these buffers |
+//! | `near` | search for the water particles near surfaces |
 //! | [`solver`] | the operations of a time step |
 //!
-//! The water stays on the card in single precision. A position is a bin and an offset in it; for bins of centimetres
-//! the last bit of the offset is a nanometre, so that slow particles still move. There are no neighbour lists: each
-//! particle searches the bins row by row.
+//! The water stays on the card in single precision. A position is a bin and an offset in this bin. For bins of
+//! centimetres, the last bit of the offset is a nanometre, so that slow particles still move. The card has no neighbour
+//! lists: each particle searches the bins around it row by row.
 
 pub mod card;
 pub mod constants;

@@ -1,4 +1,5 @@
-//! The water near surfaces. The card finds it; the host, which knows the shapes, keeps it out of the surfaces.
+//! Water particles near surfaces. The card finds these particles. The host, which knows the exact shapes, removes their
+//! velocities towards the surfaces.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
@@ -13,10 +14,10 @@ use crate::sph::solver::backend::{DeviceError, NearWater, Surfaces};
 /// Initial capacity for particles near surfaces.
 const INITIAL_ROOM: usize = 4096;
 
-/// Allowance for single-precision positions along the flume, in particle spacings.
+/// Allowance for rounding errors of single-precision positions along the flume [dp].
 const ALLOWANCE: f64 = 0.01;
 
-/// `Surfaces` of the shader.
+/// The struct `Surfaces` of `near.wgsl`, with the same fields in the same order.
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct SurfaceConstants {
@@ -34,7 +35,7 @@ pub(super) struct SurfaceConstants {
     padding: u32,
 }
 
-/// A particle in the layout of the shader.
+/// The struct `Near` of `near.wgsl`: a particle near a surface.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct NearParticle {
@@ -53,7 +54,7 @@ pub(super) struct NearSearch {
     memory: SearchMemory,
 }
 
-/// Buffers that grow on demand, and the kernels bound to them.
+/// Buffers that grow on demand, and the kernels bound to these buffers.
 struct SearchMemory {
     shapes: wgpu::Buffer,
     shapes_room: usize,
@@ -65,7 +66,7 @@ struct SearchMemory {
 }
 
 impl NearSearch {
-    /// Creates a search in the water of `memory`.
+    /// Creates a search among the water particles of `memory`.
     pub fn new(card: &Card, memory: &Memory) -> Result<Self, DeviceError> {
         let shader = Shader::new(card, NEAR).periodic(memory.is_periodic);
         let [find, put] = ["find_near", "put_velocities"].map(|name| shader.kernel(name));
@@ -81,8 +82,8 @@ impl NearSearch {
         Ok(())
     }
 
-    /// Executes the commands in `encoder` and finds the water near surfaces. Returns the extremes of the time step (see
-    /// `step.wgsl`) and the particles in ascending order of their indices.
+    /// Executes the commands in `encoder` and finds the water near surfaces. Returns the extreme values of the time
+    /// step (see `step.wgsl`) and the particles near surfaces in ascending order of their indices.
     pub fn find(
         &mut self,
         card: &Card,
@@ -106,7 +107,7 @@ impl NearSearch {
             let count = extremes[4] as usize;
             if count <= self.memory.room {
                 let mut near: Vec<NearParticle> = card.read(card.encoder(), &self.memory.near, 0, count)?;
-                // The card lists them in no fixed order.
+                // The card lists the particles in no fixed order.
                 near.sort_unstable_by_key(|particle| particle.cell[3]);
                 return Ok((
                     extremes,
@@ -162,7 +163,7 @@ impl SearchMemory {
     }
 }
 
-/// Returns the surfaces in the layout of the shader, relative to the low corner of the grid.
+/// Returns the surfaces in the layout of the shader, relative to the low corner of the grid [m].
 fn shapes_of(grid: &Grid, dp: f64, surfaces: &Surfaces) -> (SurfaceConstants, Vec<[f32; 4]>) {
     let vector = |point: DVec3, w: f64| (point - grid.low).as_vec3().extend(w as f32).to_array();
     let (low_x, low_z) = (grid.low.x, grid.low.z);

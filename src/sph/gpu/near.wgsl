@@ -1,31 +1,32 @@
-// The water near surfaces (near.rs): gathered for the host, which knows all shapes and changes the velocities.
+// Collects the water particles near surfaces for the host (near.rs), which knows the exact shapes and changes the
+// velocities.
 
-// Numbers of each kind of shape, which follow each other in `shapes`.
+// Number of shapes of each kind, in the order of the kinds in `shapes`, and dimensions of the surfaces.
 struct Surfaces {
-    // Segments of the outline, x and z of both ends [m].
+    // Segments of the outline; `shapes` has x and z of both ends [m].
     segments: u32,
-    // Low and high corners of obstacles [m].
+    // Obstacles; `shapes` has the low and the high corner [m].
     obstacles: u32,
-    // Bounding spheres of the units' parts, radius with the distance [m].
+    // Spheres around the units' parts; `shapes` has the centre, and the radius including min_distance [m].
     spheres: u32,
-    // Displacements of the rows of the wavemaker [m].
+    // Rows of the wavemaker; `shapes` has the displacement along x [m].
     rows: u32,
-    // Distance from a surface at which the approach ends, and a little [m].
+    // Distance from a surface below which a particle is near the surface, with an allowance for rounding [m].
     min_distance: f32,
-    // Rows of the wavemaker: place, height of the lowest, distance of one from the next [m].
+    // Rows of the wavemaker: x position at rest, z of the lowest row, spacing of the rows [m].
     place: f32,
     lowest: f32,
     dp: f32,
     // Width between side walls; negative if there are none [m].
     sides: f32,
-    // Side walls begin here [m].
+    // y of the first side wall [m].
     low_side: f32,
-    // Particles that there is room for.
+    // Capacity of `near` for find_near; number of changes for put_velocities.
     room: u32,
 }
 
 struct Near {
-    // Cell and number.
+    // Cell, and index in the water arrays.
     cell: vec4<i32>,
     offset: vec4<f32>,
     motion: vec4<f32>,
@@ -35,15 +36,16 @@ struct Near {
 @group(0) @binding(2) var<storage, read> offset: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> cell: array<vec4<i32>>;
 @group(0) @binding(4) var<storage, read_write> motion: array<vec4<f32>>;
-// From the low corner of the grid.
+// Relative to the low corner of the grid [m].
 @group(0) @binding(5) var<storage, read> shapes: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> near: array<Near>;
-// The last one counts the near particles; for the others see step.wgsl.
+// The last value counts the particles near surfaces; for the other values see step.wgsl.
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>, 5>;
-// Bits of a velocity, and the particle's place. As whole numbers: small ones would be lost as bits of a number.
+// Bit pattern of a velocity, and index of the particle. They are integers, because a small index would be lost as the
+// bit pattern of an f32.
 @group(0) @binding(8) var<storage, read> changes: array<vec4<u32>>;
 
-// Within the distance of the outline or behind it.
+// Returns true if a point (x, z) is nearer to the outline than min_distance, or behind the outline.
 fn is_near_outline(at: vec2<f32>) -> bool {
     var least = 1e30;
     var behind = false;
@@ -53,7 +55,7 @@ fn is_near_outline(at: vec2<f32>) -> bool {
         let from_start = at - piece.xy;
         let t = clamp(dot(from_start, along) / dot(along, along), 0.0, 1.0);
         let away = length(from_start - t * along);
-        // Where two segments meet in the nearest corner, being behind one of them is enough.
+        // If two segments meet in the nearest corner, a point behind one of the segments is behind the outline.
         if away < least + 1e-6 {
             let is_behind = dot(from_start, vec2<f32>(-along.y, along.x)) < 0.0;
             behind = is_behind || (behind && away > least - 1e-6);

@@ -1,4 +1,4 @@
-//! The shaders. Each is in the folder of the Rust file of its stage; common code is prepended.
+//! The shaders. Each source file is in the folder of the Rust file with the same equations. Common code is prepended.
 
 use super::card::Card;
 
@@ -7,19 +7,19 @@ macro_rules! shader {
     ($($file:literal),+) => { concat!($(include_str!($file), "\n"),+) };
 }
 
-/// The counting sort.
+/// Shader of the counting sort.
 pub const GRID: &str = shader!("../parameters.wgsl", "../neighbours/grid.wgsl");
-/// Particle records.
+/// Shader that creates the particle records.
 pub const RECORDS: &str = shader!("../parameters.wgsl", "../neighbours/records.wgsl");
-/// Boundary densities (mDBC).
+/// Shader of the boundary densities (mDBC).
 pub const MDBC: &str =
     shader!("../parameters.wgsl", "../terms/kernel.wgsl", "../neighbours/lists.wgsl", "../boundary/mdbc.wgsl");
-/// Rates.
+/// Shader of the rates (equations 1 and 2).
 pub const RATES: &str =
     shader!("../parameters.wgsl", "../terms/kernel.wgsl", "../neighbours/lists.wgsl", "../pairs/rates.wgsl");
-/// Predictor and corrector.
+/// Shader of predictor and corrector.
 pub const STEP: &str = shader!("../parameters.wgsl", "../solver/step.wgsl");
-/// Water near surfaces.
+/// Shader that finds the water near surfaces.
 pub const NEAR: &str = shader!("../parameters.wgsl", "near.wgsl");
 
 /// A compiled function of a shader.
@@ -29,14 +29,14 @@ pub struct Kernel {
     name: &'static str,
 }
 
-/// A compiled function with its buffers.
+/// A compiled function of a shader with its buffers.
 #[derive(Debug)]
 pub struct Bound {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
 }
 
-/// A shader on a card.
+/// A shader, ready for compilation on a card.
 pub struct Shader<'a> {
     card: &'a Card,
     module: wgpu::ShaderModule,
@@ -44,7 +44,7 @@ pub struct Shader<'a> {
 }
 
 impl<'a> Shader<'a> {
-    /// Compiles one of the shaders above.
+    /// Creates a shader from one of the sources above.
     pub fn new(card: &'a Card, source: &'static str) -> Self {
         let descriptor = wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) };
         // SAFETY: the shaders are part of this crate. Threads beyond the last particle return, indices stay within
@@ -60,12 +60,12 @@ impl<'a> Shader<'a> {
         Self { card, module, constants: &[] }
     }
 
-    /// Sets whether the flume is periodic across its width.
+    /// Sets the shader constant `PERIODIC`: true if the flume is periodic across its width.
     pub fn periodic(self, is_periodic: bool) -> Self {
         Self { constants: if is_periodic { &[("PERIODIC", 1.0)] } else { &[] }, ..self }
     }
 
-    /// Compiles one of its functions.
+    /// Compiles the function `name` of the shader.
     pub fn kernel(&self, name: &'static str) -> Kernel {
         let pipeline = self.card.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(name),
@@ -99,7 +99,7 @@ impl Kernel {
 }
 
 impl Bound {
-    /// Runs the function over workgroups.
+    /// Adds a command to `encoder` that runs the function with x times y workgroups.
     pub fn run(&self, encoder: &mut wgpu::CommandEncoder, [x, y]: [u32; 2]) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&self.pipeline);
@@ -162,7 +162,7 @@ mod tests {
         assert_eq!(size_of_struct(RATES, "Parameters"), size_of::<Constants>());
         assert_eq!(size_of_struct(RATES, "Step"), size_of::<StepConstants>());
         assert_eq!(size_of_struct(NEAR, "Near"), size_of::<NearParticle>());
-        // Rounded up to whole vectors; the shaders do not declare the trailing padding.
+        // Sizes are rounded up to whole vectors, because the shaders do not declare the trailing padding.
         assert_eq!(size_of_struct(GRID, "Sort").next_multiple_of(16), size_of::<SortConstants>());
         assert_eq!(size_of_struct(NEAR, "Surfaces").next_multiple_of(16), size_of::<SurfaceConstants>());
     }

@@ -1,7 +1,8 @@
 //! The operations of a time step on a card.
 //!
-//! Operations append commands to a list; the card executes it when a result is read back. Results are the time step
-//! limits after the first rates, and the unit rates and the water near surfaces after the corrector.
+//! Operations append commands to a list, which the card executes when the host reads a result. The host reads the time
+//! step limits after the first evaluation of the rates. After the corrector, it reads the rates of the units and the
+//! water near surfaces.
 
 use glam::DVec3;
 
@@ -22,10 +23,10 @@ use crate::sph::solver::backend::{
 use crate::sph::solver::power::Powers;
 use crate::sph::solver::time_step::Limits;
 
-/// Initial values of the extremes; see `step.wgsl`.
+/// Initial values of the buffer `extremes`; see `step.wgsl`.
 const INITIAL_EXTREMES: [u32; 5] = [0, u32::MAX, 0, 0, 0];
 
-/// Allowance for rounding in the distance that particles can have moved since sorting.
+/// Factor on the search radius, an allowance for rounding errors [-].
 const ROUNDING: f64 = 1.001;
 
 /// The solver on a card.
@@ -36,23 +37,23 @@ pub struct GpuSolver {
     /// Box that no particle may leave [m].
     bounds: [DVec3; 2],
     loaded: Option<Loaded>,
-    /// Start of each bin of the water, as last fetched.
+    /// Bins of the sorted water; only `start` is set, by the last fetch.
     bins: Bins,
     /// Commands that are not submitted yet.
     encoder: Option<wgpu::CommandEncoder>,
-    /// Error of an operation that returns no result.
-    trouble: Option<DeviceError>,
+    /// Error of an operation that has no return value; the next operation with a result returns this error.
+    failure: Option<DeviceError>,
 }
 
-/// State on the card, created when the numbers of particles are known.
+/// Buffers and state on the card, created when the numbers of particles are known.
 struct Loaded {
     memory: Memory,
     near: NearSearch,
     /// Largest speed of water and of boundary at the start of the time step [m/s].
     largest_speeds: [f64; 2],
-    /// Extremes, as last read.
+    /// Extreme values of the water, as last read from the card.
     extremes: WaterExtremes,
-    /// Whether the water is already sorted, while the host moved the units.
+    /// True if the water is already sorted for the next time step, see [`DeviceMemory::sort_ahead`].
     is_sorted: bool,
 }
 
@@ -70,7 +71,7 @@ impl GpuSolver {
     /// Creates a solver with bins in the box from `low` to `high`; no particle may leave the box `bounds` [m].
     ///
     /// # Errors
-    /// If cards do not support the scheme.
+    /// If graphics cards do not support the numerical scheme.
     pub fn new(
         card: Card,
         parameters: Parameters,
@@ -81,7 +82,7 @@ impl GpuSolver {
             return Err(DeviceError::Scheme(what));
         }
         let grid = Grid::new(low, high, parameters.dp, parameters.periodic_width);
-        Ok(Self { card, parameters, grid, bounds, loaded: None, bins: Bins::default(), encoder: None, trouble: None })
+        Ok(Self { card, parameters, grid, bounds, loaded: None, bins: Bins::default(), encoder: None, failure: None })
     }
 
     /// Submits all commands and waits until the card has finished, for time measurements.
@@ -94,10 +95,10 @@ impl GpuSolver {
         self.card.wait()
     }
 
-    /// Returns the minimum memory traffic of a time step [bytes]: the water's state to be sorted, predicted and
-    /// corrected, the records, which are written and read twice, and the rates.
-    pub fn least_traffic(&self) -> f64 {
-        self.loaded.as_ref().map_or(0.0, |loaded| loaded.memory.least_traffic())
+    /// Returns the minimum memory traffic of a time step [bytes]. The card must sort, predict and correct the state of
+    /// the water, write and read the records twice, and write and read the rates.
+    pub fn min_traffic(&self) -> f64 {
+        self.loaded.as_ref().map_or(0.0, |loaded| loaded.memory.min_traffic())
     }
 
     /// Returns the memory in use on the card [bytes].
@@ -110,8 +111,8 @@ impl GpuSolver {
     }
 
     fn loaded(&mut self) -> Result<&mut Loaded, DeviceError> {
-        if let Some(trouble) = self.trouble.clone() {
-            return Err(trouble);
+        if let Some(failure) = self.failure.clone() {
+            return Err(failure);
         }
         self.loaded.as_mut().ok_or_else(|| DeviceError::Missing("no water has been loaded onto the card".to_owned()))
     }
@@ -202,7 +203,7 @@ impl Backend for GpuSolver {
         self.upload_moving(boundary);
         let (support, h) = (self.parameters.kernel.support(), self.parameters.kernel.h);
         self.enqueue(|card, Loaded { memory, largest_speeds, .. }, encoder| {
-            // After its approach to a surface is removed, water can have its own speed plus that of the surface.
+            // Water that is stopped at a moving surface can reach its own speed plus the speed of the surface.
             let speed = largest_speeds[0] + largest_speeds[1];
             let moved = (0.5 * dt * speed).min(h);
             let reach = (support + moved) * ROUNDING;
@@ -280,7 +281,7 @@ impl DeviceMemory for GpuSolver {
         loaded.largest_speeds = [largest(&water.velocity), largest(&boundary.velocity)];
         loaded.is_sorted = false;
         self.encoder = None;
-        self.trouble = None;
+        self.failure = None;
         self.card.check()
     }
 
@@ -296,7 +297,7 @@ impl DeviceMemory for GpuSolver {
         let cell = card.read(card.encoder(), &cell, 0, count)?;
         let motion = card.read(card.encoder(), &motion, 0, count)?;
         let rho0 = self.parameters.tait.rho0;
-        CardState { offset, cell, motion }.put_into(&self.grid, rho0, water);
+        CardState { offset, cell, motion }.write_to(&self.grid, rho0, water);
         self.bins.start = card.read(card.encoder(), &start, 0, bins)?;
         self.fetch_boundary_densities(boundary)
     }
@@ -322,15 +323,15 @@ impl DeviceMemory for GpuSolver {
         *extremes = decode_extremes(encoded, rho0);
         largest_speeds[0] = extremes.largest_speed;
         let mut water = Water::default();
-        found.put_into(grid, rho0, &mut water);
+        found.write_to(grid, rho0, &mut water);
         Ok(NearWater { indices: water.id.clone(), water })
     }
 
     fn write_near_velocities(&mut self, near: &NearWater) {
         let Some(Loaded { near: search, .. }) = &mut self.loaded else { return };
         let mut encoder = self.encoder.take().unwrap_or_else(|| self.card.encoder());
-        if let Err(trouble) = search.put(&self.card, near, &mut encoder) {
-            self.trouble = Some(trouble);
+        if let Err(failure) = search.put(&self.card, near, &mut encoder) {
+            self.failure = Some(failure);
         }
         self.encoder = Some(encoder);
     }
@@ -356,7 +357,7 @@ fn largest(vectors: &[DVec3]) -> f64 {
     vectors.iter().map(|v| v.length_squared()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a }).sqrt()
 }
 
-/// Converts the extremes that `step.wgsl` collects.
+/// Converts the values of the buffer `extremes`; see `step.wgsl`.
 fn decode_extremes([speed, lowest, highest, unstable, _]: [u32; 5], rho0: f64) -> WaterExtremes {
     let decode_density = |ordered: u32| {
         let bits = if ordered & 0x8000_0000 == 0 { !ordered } else { ordered & 0x7fff_ffff };
@@ -376,7 +377,7 @@ mod tests {
 
     #[test]
     fn extremes_of_the_shader_are_decoded() {
-        // Same encoding as `ordered` in the shader.
+        // Same encoding as in the function `ordered` of `step.wgsl`.
         let ordered = |value: f32| {
             let bits = value.to_bits();
             if bits & 0x8000_0000 == 0 { bits | 0x8000_0000 } else { !bits }

@@ -1,4 +1,4 @@
-//! Stable counting sort of particles into bins on a card; it gives the same order as [`crate::sph::neighbours::grid`].
+//! Stable counting sort of particles into bins on a card. It gives the same order as [`crate::sph::neighbours::grid`].
 
 use bytemuck::{Pod, Zeroable};
 
@@ -9,7 +9,7 @@ use crate::sph::solver::backend::DeviceError;
 /// Number of bins that a workgroup scans.
 const SCANNED: usize = 1024;
 
-/// `Sort` of the shader.
+/// The struct `Sort` of `grid.wgsl`, with the same fields in the same order.
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct SortConstants {
@@ -38,7 +38,8 @@ pub struct Sort {
 }
 
 impl Sort {
-    /// Creates a sort of the `points` points in `cells` into `bins` bins.
+    /// Creates buffers and kernels that sort `points` particles into `bins` bins. `cells` has the bin indices of the
+    /// particles.
     ///
     /// # Errors
     /// If the card does not have enough memory.
@@ -86,7 +87,7 @@ impl Sort {
         self.rank.run(encoder, groups(self.points, 64));
     }
 
-    /// Returns the memory in use on the card [bytes].
+    /// Returns the memory that a sort uses on the card [bytes].
     pub fn bytes(points: usize, bins: usize) -> usize {
         4 * (3 * points + 2 * bins + bins / SCANNED)
     }
@@ -106,13 +107,13 @@ mod tests {
         let size = DVec3::new(1.4, 1.0, 1.2);
         let parameters = Parameters::published(0.01, 0.02, 30.0, 9.81, None);
         let grid = Grid::new(DVec3::ZERO, size, parameters.dp, None);
-        // More blocks of bins than a workgroup scans at once, and points that share bins.
+        // The test needs more blocks of bins than a workgroup scans at once, and points that share bins.
         assert!(grid.bins() > 300 * SCANNED);
         let spread = |i: u32, factor: u32| f64::from(i.wrapping_mul(factor) % 9973) / 9973.0;
         let mut points: Vec<DVec3> =
             (0..7000).map(|i| DVec3::new(spread(i, 7919), spread(i, 104_729), spread(i, 1_299_709)) * size).collect();
         points.extend((0..500).map(|i| DVec3::splat(0.5 + 1e-6 * f64::from(i % 7))));
-        // Outside the grid.
+        // A point outside the grid.
         points.push(DVec3::new(-1.0, 0.5, 9.0));
         let cells: Vec<[i32; 4]> = points
             .iter()
@@ -125,7 +126,7 @@ mod tests {
         let (constants, cells) = (card.uniform("parameters", &constants), card.filled("cells", &cells).unwrap());
         let sort = Sort::new(&card, &constants, &cells, points.len(), grid.bins()).unwrap();
         let mut encoder = card.encoder();
-        // Twice, to check that the first sort leaves nothing behind.
+        // Sort twice, to check that data of the first sort do not change the second sort.
         sort.run(&mut encoder);
         sort.run(&mut encoder);
         let order: Vec<u32> = card.read(encoder, &sort.order, 0, points.len()).unwrap();

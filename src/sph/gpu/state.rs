@@ -1,4 +1,4 @@
-//! State of particles on a card, in single precision: a position is a bin and an offset in it.
+//! State of particles on a card, in single precision: a position is a bin and an offset in this bin.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -7,7 +7,7 @@ use crate::sph::neighbours::grid::Grid;
 use crate::sph::particles::boundary::Boundary;
 use crate::sph::particles::water::Water;
 
-/// Smallest chunk of an array that is worth a task of the thread pool.
+/// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 const MIN_CHUNK: usize = 4096;
 
 /// Particles in the layout of a card, one entry per particle in every array.
@@ -15,20 +15,21 @@ const MIN_CHUNK: usize = 4096;
 pub struct CardState {
     /// Offset in the bin [m], and rho - rho0 [kg/m3].
     pub offset: Vec<[f32; 4]>,
-    /// Bin along x, y, z, and identification number of the particle.
+    /// Index of the bin along x, y and z, and identification number of the particle.
     pub cell: Vec<[i32; 4]>,
     /// Velocity [m/s] and mass [kg].
     pub motion: Vec<[f32; 4]>,
 }
 
-/// Returns the bin along x, y and z of a point, also outside the grid, and the offset from the bin's low corner [m].
+/// Returns the bin indices of a point along x, y and z, also outside the grid, and the offset from the low corner of
+/// the bin [m].
 pub fn to_cell(grid: &Grid, point: DVec3) -> ([i32; 3], [f32; 3]) {
     let from_low = grid.wrap(point) - grid.low;
     let cell = (from_low / grid.size).floor();
     ([cell.x as i32, cell.y as i32, cell.z as i32], (from_low - cell * grid.size).as_vec3().to_array())
 }
 
-/// Returns the point at an offset in a bin [m].
+/// Returns the point [m] at an offset [m] in a bin.
 pub fn to_point(grid: &Grid, cell: [i32; 4], offset: [f32; 4]) -> DVec3 {
     let [x, y, z, _] = cell.map(f64::from);
     grid.low + DVec3::new(x, y, z) * grid.size + Vec3::from_slice(&offset).as_dvec3()
@@ -75,8 +76,8 @@ impl CardState {
         Self { offset, cell, motion }
     }
 
-    /// Writes the state to the host's arrays, which are resized to the number of particles.
-    pub fn put_into(&self, grid: &Grid, rho0: f64, water: &mut Water) {
+    /// Writes the state to the arrays of `water`, which are resized to the number of particles.
+    pub fn write_to(&self, grid: &Grid, rho0: f64, water: &mut Water) {
         let count = self.cell.len();
         water.position.resize(count, DVec3::ZERO);
         water.velocity.resize(count, DVec3::ZERO);
@@ -121,7 +122,7 @@ mod tests {
         {
             let ([x, y, z], [dx, dy, dz]) = to_cell(&grid, point);
             let back = to_point(&grid, [x, y, z, 0], [dx, dy, dz, 0.0]);
-            // Half the last bit of an offset below 18 mm.
+            // 1e-9: half the last bit of an offset below 18 mm.
             assert!((back - point).abs().max_element() < 1e-9, "{point} {back}");
         }
     }

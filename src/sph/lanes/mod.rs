@@ -1,7 +1,7 @@
 //! Single-precision SIMD lanes, and the traits for physical terms that are written once for scalars and lanes of any
 //! width.
 //!
-//! [`InstructionSet::dispatch`] is the only function that selects code for the processor it runs on.
+//! [`InstructionSet::dispatch`] is the only function that selects code for the present processor.
 
 mod portable;
 #[cfg(target_arch = "x86_64")]
@@ -12,7 +12,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 pub use portable::Portable;
 
 /// Largest number of lanes of any instruction set.
-pub const MOST_LANES: usize = 16;
+pub const MAX_LANES: usize = 16;
 
 /// Number type of the physical terms: a scalar or SIMD lanes.
 pub trait Real:
@@ -28,7 +28,7 @@ pub trait Real:
     fn splat(value: f32) -> Self;
     /// Returns self * a + b.
     fn mul_add(self, a: Self, b: Self) -> Self;
-    /// Returns the square root to one unit in the last place; of zero, zero or a tiny number.
+    /// Returns the square root, accurate to one unit in the last place. The root of zero is zero or a tiny number.
     fn sqrt(self) -> Self;
     /// Returns the larger value.
     fn max(self, other: Self) -> Self;
@@ -38,7 +38,7 @@ pub trait Real:
     fn abs(self) -> Self;
     /// Returns the nearest integer, ties to even.
     fn round(self) -> Self;
-    /// Returns self where `switch` > 0, zero elsewhere.
+    /// Returns self in lanes where `switch` > 0, and zero in the other lanes.
     fn where_positive(self, switch: Self) -> Self;
 }
 
@@ -76,33 +76,33 @@ pub trait Lanes: Real {
     /// Loads the first [`Self::COUNT`] values; panics if there are fewer.
     fn load(values: &[f32]) -> Self;
     /// Returns the values of the lanes, followed by zeros.
-    fn to_array(self) -> [f32; MOST_LANES];
-    /// Returns a bit mask: bit k is set where lane k is at most `limit`.
+    fn to_array(self) -> [f32; MAX_LANES];
+    /// Returns a bit mask: bit k is set if lane k of `self` is at most lane k of `limit`.
     fn at_most(self, limit: Self) -> u32;
-    /// Writes `base` + k for each set bit k, lowest first, to the front of `out`, which holds at least
-    /// [`Self::COUNT`] numbers. The rest of those [`Self::COUNT`] entries is undefined.
+    /// Writes `base` + k for each set bit k to the front of `out`, lowest k first. `out` must have at least
+    /// [`Self::COUNT`] entries. The remaining entries up to [`Self::COUNT`] are undefined.
     fn list_set_bits(bits: u32, base: u32, out: &mut [u32]);
 
     /// Returns lanes whose values are `f` of the lane index.
     #[inline(always)]
     fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
-        Self::load(&std::array::from_fn::<f32, MOST_LANES, _>(f))
+        Self::load(&std::array::from_fn::<f32, MAX_LANES, _>(f))
     }
 }
 
-/// A computation that is generic over the lanes. Its `run` must be `#[inline(always)]`: only then is it compiled for
-/// the instruction set that it is dispatched to.
+/// A computation that is generic over the lanes. Its `run` must be `#[inline(always)]`, because only an inlined
+/// function is compiled for the instruction set of [`InstructionSet::dispatch`].
 pub trait WithLanes {
     /// Result of the computation.
     type Output;
-    /// Runs the computation with the given lanes.
+    /// Runs the computation with lanes of the type `L`.
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
 /// SIMD instruction set of the lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InstructionSet {
-    /// Arrays of eight, vectorised by the compiler.
+    /// Arrays of eight numbers, vectorised by the compiler.
     #[default]
     Portable,
     /// Eight lanes of AVX2 with FMA.
@@ -112,7 +112,7 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// Returns the instruction sets that this processor supports, best last.
+    /// Returns the instruction sets that this processor supports, the set with the most lanes last.
     pub fn available() -> Vec<Self> {
         let mut sets = vec![Self::Portable];
         #[cfg(target_arch = "x86_64")]
@@ -145,7 +145,7 @@ impl InstructionSet {
     pub fn dispatch<W: WithLanes>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         match self {
-            // SAFETY: the guard checks that the processor supports it; the standard library caches the result.
+            // SAFETY: the guard checks that the processor supports the set; the standard library caches the result.
             Self::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
                 return unsafe { x86::with_avx2(work) };
             }
@@ -205,7 +205,7 @@ mod tests {
                 assert_eq!(lane_of(a * b), x * y);
                 assert!((lane_of(a / b) - x / y).abs() <= f32::EPSILON * (x / y).abs());
                 assert_eq!(lane_of(-a), -x);
-                // `mul_add` rounds once or twice.
+                // `mul_add` rounds once or twice, depending on the instruction set.
                 assert!((lane_of(a.mul_add(b, a)) - (x * y + x)).abs() <= f32::EPSILON * (x * y).abs().max(x.abs()));
                 assert_eq!(lane_of(a.max(b)), x.max(y));
                 assert_eq!(lane_of(a.min(b)), x.min(y));
@@ -217,7 +217,7 @@ mod tests {
                 assert_eq!(a.at_most(b) >> lane & 1 == 1, x <= y);
             }
             assert_eq!(a.at_most(b) >> (L::COUNT - 1) >> 1, 0);
-            let mut out = [0; MOST_LANES];
+            let mut out = [0; MAX_LANES];
             let bits = 0b1000_0001_0010_1101 & ((1 << L::COUNT) - 1);
             L::list_set_bits(bits, 100, &mut out);
             let expected: Vec<u32> = (0..32).filter(|k| bits >> k & 1 == 1).map(|k| 100 + k).collect();

@@ -1,6 +1,6 @@
-//! Portable lanes for any processor.
+//! Lanes that run on any processor.
 
-use super::{Lanes, MOST_LANES, Real, arithmetic};
+use super::{Lanes, MAX_LANES, Real, arithmetic};
 
 const COUNT: usize = 8;
 
@@ -29,7 +29,7 @@ impl Lanes for Portable {
         Self(std::array::from_fn(|lane| values[lane]))
     }
     #[inline(always)]
-    fn to_array(self) -> [f32; MOST_LANES] {
+    fn to_array(self) -> [f32; MAX_LANES] {
         std::array::from_fn(|lane| self.0.get(lane).copied().unwrap_or(0.0))
     }
     #[inline(always)]
@@ -50,7 +50,7 @@ pub(super) fn list_set_bits_of_byte(bits: u32, base: u32, out: &mut [u32]) {
     }
 }
 
-/// Positions of the set bits of each byte, lowest first.
+/// Positions of the set bits of every possible byte, lowest bit first.
 static SET_BITS: [[u8; 8]; 256] = set_bits();
 
 const fn set_bits() -> [[u8; 8]; 256] {

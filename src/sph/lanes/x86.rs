@@ -1,12 +1,12 @@
-//! Lanes of AVX2 and AVX-512 registers. Plain arrays reach a third of the speed: the compiler turns half of their
-//! operations into scalar instructions.
+//! Lanes of AVX2 and AVX-512 registers. Plain arrays reach only a third of their speed, because the compiler turns half
+//! of the array operations into scalar instructions.
 //!
 //! SAFETY of every intrinsic in this file: [`Avx2`] and [`Avx512`] are used only through [`with_avx2`] and
 //! [`with_avx512`], whose callers have checked that the processor supports them.
 
 use std::arch::x86_64::*;
 
-use super::{Lanes, MOST_LANES, Real, WithLanes, arithmetic, portable::list_set_bits_of_byte};
+use super::{Lanes, MAX_LANES, Real, WithLanes, arithmetic, portable::list_set_bits_of_byte};
 
 /// Runs `work` with AVX2 and FMA.
 #[target_feature(enable = "avx2,fma")]
@@ -34,8 +34,8 @@ impl Lanes for Avx2 {
         Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
     }
     #[inline(always)]
-    fn to_array(self) -> [f32; MOST_LANES] {
-        let mut values = [0.0; MOST_LANES];
+    fn to_array(self) -> [f32; MAX_LANES] {
+        let mut values = [0.0; MAX_LANES];
         // The array has room for eight values.
         unsafe { _mm256_storeu_ps(values.as_mut_ptr(), self.0) };
         values
@@ -93,8 +93,9 @@ arithmetic!(
     Div div |a: Avx2, b: Avx2| Avx2(unsafe { _mm256_div_ps(a.0, b.0) })
 );
 
-/// Sixteen lanes of an AVX-512 register. Roots and quotients are estimates with one correction by the residual; the
-/// error is at most one unit in the last place. The exact instructions take longer than all other terms of a pair.
+/// Sixteen lanes of an AVX-512 register. Square roots and quotients are estimates, corrected once by the residual.
+/// Their error is at most one unit in the last place. The exact instructions take longer than all other terms of a
+/// pair.
 #[derive(Debug, Clone, Copy)]
 pub struct Avx512(__m512);
 
@@ -108,8 +109,8 @@ impl Lanes for Avx512 {
         Self(unsafe { _mm512_loadu_ps(values.as_ptr()) })
     }
     #[inline(always)]
-    fn to_array(self) -> [f32; MOST_LANES] {
-        let mut values = [0.0; MOST_LANES];
+    fn to_array(self) -> [f32; MAX_LANES] {
+        let mut values = [0.0; MAX_LANES];
         // The array has room for sixteen values.
         unsafe { _mm512_storeu_ps(values.as_mut_ptr(), self.0) };
         values
@@ -142,7 +143,7 @@ impl Real for Avx512 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(unsafe {
-            // The bound keeps the estimate finite; below it the root is practically zero.
+            // The lower bound keeps the estimate finite. Below this bound the root is practically zero.
             let x = _mm512_max_ps(self.0, _mm512_set1_ps(1e-30));
             let estimate = _mm512_rsqrt14_ps(x);
             let root = _mm512_mul_ps(x, estimate);

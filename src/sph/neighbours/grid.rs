@@ -1,7 +1,7 @@
-//! Cell list: rectangular bins and the stable counting sort of particles into them.
+//! Cell list: rectangular bins, and the stable counting sort of particles into these bins.
 //!
-//! A bin is dp long and 2dp wide and high; the bins of one row follow each other in x. Eight consecutive particles of a
-//! row then form a compact cluster for the SIMD lanes.
+//! A bin is dp long, and 2dp wide and high. The bins of one row follow each other in x. Therefore eight consecutive
+//! particles of a row form a compact cluster for the SIMD lanes.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,10 +9,10 @@ use rayon::prelude::*;
 /// Number of points per chunk.
 const CHUNK: usize = 4096;
 
-/// Number of bin ranges per thread: more than one balances the load, because bins above the water are empty.
+/// Number of bin ranges per thread. More than one range balances the load, because bins above the water are empty.
 const RANGES_PER_THREAD: usize = 4;
 
-/// Rectangular bins over the particle domain. Particles outside belong to the nearest bin.
+/// Rectangular bins over the particle domain. Particles outside the domain belong to the nearest bin.
 #[derive(Debug, Clone)]
 pub struct Grid {
     /// Low corner [m].
@@ -21,14 +21,15 @@ pub struct Grid {
     pub size: DVec3,
     /// 1 / size [1/m].
     per_size: DVec3,
-    /// Bins along x, y, z.
+    /// Number of bins along x, y and z.
     pub count: [usize; 3],
     /// Width of the domain if it is periodic in y [m].
     pub periodic_width: Option<f64>,
 }
 
 impl Grid {
-    /// Creates bins for the box from `low` to `high` [m]; a periodic domain is `periodic_width` wide from `low.y` on.
+    /// Creates bins for the box from `low` to `high` and the particle spacing `dp` [m]. A domain that is periodic in y
+    /// starts at `low.y` and is `periodic_width` [m] wide.
     pub fn new(low: DVec3, high: DVec3, dp: f64, periodic_width: Option<f64>) -> Self {
         let extent = high - low;
         let bins = |length: f64, size: f64| ((length / size).ceil() as usize).max(1);
@@ -49,13 +50,14 @@ impl Grid {
         self.count[0] * self.count[1] * self.count[2]
     }
 
-    /// Returns the bin index along one axis, clamped to the grid.
+    /// Returns the index along one axis of the bin at the coordinate `value` [m], or of the nearest bin outside the
+    /// grid.
     pub fn along(&self, axis: usize, value: f64) -> usize {
         // The cast gives 0, the first bin, for a value below the grid and for NaN.
         (((value - self.low[axis]) * self.per_size[axis]) as usize).min(self.count[axis] - 1)
     }
 
-    /// Returns the point, or its image inside a periodic domain.
+    /// Returns the point; in a periodic domain, its periodic image inside the domain.
     pub fn wrap(&self, point: DVec3) -> DVec3 {
         let Some(width) = self.periodic_width else { return point };
         DVec3 { y: point.y - width * ((point.y - self.low.y) / width).floor(), ..point }
@@ -93,8 +95,9 @@ impl Bins {
 
     /// Sorts the points stably into the bins of `grid`.
     ///
-    /// Each task owns a range of bins and scans only the chunks with points in that range. These are few, because the
-    /// points are nearly sorted from the previous time step. The order does not depend on the number of tasks.
+    /// Each task fills a range of bins and scans only the chunks with points in this range. Such chunks are few,
+    /// because the points are still nearly sorted from the previous time step. The order does not depend on the number
+    /// of tasks.
     pub fn sort(&mut self, grid: &Grid, points: &[DVec3]) {
         self.bin_of.resize(points.len(), 0);
         self.order.resize(points.len(), 0);
@@ -112,8 +115,8 @@ impl Bins {
         let chunks = Chunks { bin_of: &self.bin_of, extents: &self.extents };
         let ranges = RANGES_PER_THREAD * rayon::current_num_threads();
         let span = grid.bins().div_ceil(ranges);
-        // start[b + 1] first counts the points in bin b, then holds the index of its next point, and finally the bin's
-        // end.
+        // start[b + 1] is first the number of points in bin b, then the index for the next point of bin b, and finally
+        // the end of bin b.
         let (first, cursors) = self.start.split_first_mut().expect("a grid has a bin");
         *first = 0;
         cursors.par_chunks_mut(span).enumerate().for_each(|(range, counts)| {
@@ -129,7 +132,7 @@ impl Bins {
     }
 }
 
-/// Bins of the points, with the range of bins in each chunk.
+/// Bin of each point, and the lowest and highest bin of each chunk.
 #[derive(Clone, Copy)]
 struct Chunks<'a> {
     bin_of: &'a [u32],
@@ -137,7 +140,7 @@ struct Chunks<'a> {
 }
 
 impl Chunks<'_> {
-    /// Calls `f` with each point in a range of bins and its bin.
+    /// Calls `f` with the index and the bin of each point in a range of bins.
     fn for_each_in(self, bins: std::ops::Range<usize>, mut f: impl FnMut(u32, u32)) {
         for (chunk, (members, [lowest, highest])) in self.bin_of.chunks(CHUNK).zip(self.extents).enumerate() {
             if bins.start > *highest as usize || bins.end <= *lowest as usize {
@@ -151,8 +154,9 @@ impl Chunks<'_> {
         }
     }
 
-    /// Writes the points of the bins from `first_bin` on, and their bins, to `order` and `bin_at`. `cursors` belong to
-    /// these bins; index 0 of `order` and `bin_at` is the sorted index `begin`.
+    /// Writes the points of the bins from `first_bin` on to `order`, and their bins to `bin_at`. `cursors` has the next
+    /// sorted index for each of these bins. Entry 0 of `order` and `bin_at` has the sorted index `begin`. A task fills
+    /// at most `span` bins.
     fn place(
         self,
         span: usize,
@@ -189,7 +193,7 @@ impl Chunks<'_> {
 mod tests {
     use super::*;
 
-    /// More than two chunks.
+    /// Number of points, more than two chunks.
     const COUNT: u32 = 9000;
 
     #[test]

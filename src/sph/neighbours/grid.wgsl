@@ -1,9 +1,9 @@
-// Stable counting sort into bins (grid.rs): count, scan, scatter, then rank each point in its bin.
+// Stable counting sort of points into bins (grid.rs): count, scan, scatter, then rank each point in its bin.
 
 struct Sort {
     points: u32,
     bins: u32,
-    // Blocks of SCANNED bins.
+    // Number of blocks of SCANNED bins.
     blocks: u32,
 }
 
@@ -33,7 +33,7 @@ fn count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
     atomicAdd(&counts[bin], 1u);
 }
 
-// Returns the sum of the values of all threads before this one; partial[255] holds the total.
+// Returns the sum of the values of all threads before this thread. Afterwards partial[255] is the sum of all values.
 fn scan_group(local: u32, value: u32) -> u32 {
     partial[local] = value;
     workgroupBarrier();
@@ -104,7 +104,7 @@ fn add_sums(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
         return;
     }
     start[bin] += block_sums[bin / SCANNED];
-    // From here on, counts holds the number of points already scattered into the bin.
+    // From here on, `counts` has the number of points already scattered into each bin.
     atomicStore(&counts[bin], 0u);
 }
 

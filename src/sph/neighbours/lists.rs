@@ -1,35 +1,37 @@
-//! Clusters of neighbouring particles, one per SIMD lane, and their shared neighbour lists.
+//! Clusters of neighbouring particles (one particle per SIMD lane), and the neighbour list of each cluster.
 //!
-//! A candidate enters a cluster's list if it is near the cluster's bounding box; lanes outside its support only
-//! multiply by zero. The list is built once per time step and serves both rate evaluations. It therefore extends beyond
-//! the kernel support by the distance that two particles can approach each other in half a time step.
+//! The list of a cluster contains all particles near its bounding box. In the lane of a member that is too far from a
+//! listed particle, the kernel is zero. The lists are built once per time step and serve both evaluations of the rates.
+//! Therefore they extend beyond the kernel support by the distance that two particles can approach each other in half a
+//! time step.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::grid::{Bins, Grid};
-use crate::sph::lanes::{InstructionSet, Lanes, MOST_LANES, WithLanes};
+use crate::sph::lanes::{InstructionSet, Lanes, MAX_LANES, WithLanes};
 
-/// Smallest chunk of an array that is worth a task of the thread pool.
+/// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 const MIN_CHUNK: usize = 4096;
 
-/// Number of targets per task of the thread pool; clusters do not cross the ends of a chunk.
+/// Number of targets (particles that need neighbours) in a chunk, which is one task of the thread pool. A cluster lies
+/// within one chunk.
 pub const CHUNK: usize = 512;
 
-/// Largest number of bins between the first and last particle of a cluster, per lane. It keeps the box of a sparse row
-/// small. Where water fills the bins, each contains four particles.
+/// Largest number of bins that a cluster spans, per lane. The limit keeps the bounding box small in a sparse row. A bin
+/// that is full of water contains four particles.
 const CLUSTER_BINS_PER_LANE: f32 = 0.5;
 
-/// Consecutive targets, at most as many as there are lanes, and the end of their neighbour list.
+/// A cluster: consecutive targets, at most as many as there are lanes, that share one neighbour list.
 #[derive(Debug, Clone, Copy)]
 pub struct Cluster {
     /// Index of the first target in the chunk.
     pub first: u32,
     /// Number of targets, at least 1.
     pub len: u32,
-    /// Whether neighbours may lie beyond the sides of a periodic flume.
+    /// True if neighbours may lie beyond the sides of a periodic flume.
     pub crosses_sides: bool,
-    /// End of its neighbours in the chunk's list; they start where those of the previous cluster end.
+    /// End of the cluster's neighbours in the list of the chunk; they start at the end of the previous cluster.
     pub list_end: u32,
 }
 
@@ -52,25 +54,25 @@ impl Chunk {
     }
 }
 
-/// Returns `f` of the members of a cluster, one per lane; surplus lanes repeat the last member.
+/// Returns `f` of the members of a cluster, one member per lane. Unused lanes repeat the last member.
 #[inline(always)]
 pub(in crate::sph) fn lanes_of<L: Lanes, T>(cluster: &Cluster, targets: &[T], f: impl Fn(&T) -> f32) -> L {
     let members = &targets[cluster.first as usize..][..cluster.len as usize];
-    let mut values = [0.0; MOST_LANES];
+    let mut values = [0.0; MAX_LANES];
     values.iter_mut().zip(members).for_each(|(value, member)| *value = f(member));
     let last = values[members.len() - 1];
     values[members.len()..].fill(last);
     L::load(&values)
 }
 
-/// Sorted particles that are candidates for neighbours.
+/// Sorted particles among which the neighbours of the targets are searched.
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
-    /// Their bins.
+    /// Bins of the particles.
     pub bins: &'a Bins,
-    /// Their positions in the order of the bins.
+    /// Positions of the particles, in the order of the bins.
     pub positions: &'a SortedPositions,
-    /// Index of the first particle in the records.
+    /// Index of the first of these particles in the records.
     pub first_record: u32,
 }
 
@@ -81,10 +83,10 @@ pub struct SortedPositions {
 }
 
 impl SortedPositions {
-    /// Copies the positions; the arrays are padded so that a whole register can be read from any index.
+    /// Copies the positions `points`. The arrays are padded, so that a whole SIMD register can be read from any index.
     pub fn set(&mut self, grid: &Grid, points: &[DVec3]) {
         for (axis, values) in self.axes.iter_mut().enumerate() {
-            values.resize(points.len() + MOST_LANES, 0.0);
+            values.resize(points.len() + MAX_LANES, 0.0);
             let pairs = values.par_iter_mut().zip(points).with_min_len(MIN_CHUNK);
             pairs.for_each(|(value, point)| *value = (point[axis] - grid.low[axis]) as f32);
         }
@@ -109,12 +111,12 @@ pub struct NeighbourLists {
 }
 
 impl NeighbourLists {
-    /// Creates empty lists; clusters will fill the lanes of the instruction set.
+    /// Creates empty lists, for clusters of as many targets as the instruction set has lanes.
     pub fn new(instructions: InstructionSet) -> Self {
         Self { chunks: Vec::new(), instructions }
     }
 
-    /// Returns the instruction set whose lanes the clusters fill.
+    /// Returns the instruction set for which the clusters are built.
     pub fn instructions(&self) -> InstructionSet {
         self.instructions
     }
@@ -137,9 +139,10 @@ impl NeighbourLists {
         (listed * self.instructions.lanes()) as f64 / f64::from(targets.max(1))
     }
 
-    /// Clusters the targets and lists, for each cluster, the sources within `reach` [m] of its box.
+    /// Divides the targets into clusters, and lists for each cluster the sources within `reach` [m] of its bounding
+    /// box.
     ///
-    /// `targets` are in the order of `bins`.
+    /// `targets` are the positions of the targets [m], in the order of `bins`.
     pub fn build(&mut self, grid: &Grid, bins: &Bins, targets: &[DVec3], sources: &[Sources], reach: f64) {
         self.chunks.resize_with(targets.len().div_ceil(CHUNK), Chunk::default);
         let instructions = self.instructions;
@@ -151,7 +154,7 @@ impl NeighbourLists {
     }
 }
 
-/// Construction of the clusters and lists of one chunk.
+/// Construction of the clusters and neighbour lists of one chunk.
 struct Build<'a> {
     chunk: &'a mut Chunk,
     grid: &'a Grid,
@@ -188,7 +191,8 @@ impl WithLanes for Build<'_> {
     }
 }
 
-/// Returns the end of the cluster that starts at `first`: one row, at most `lanes` targets, a limited number of bins.
+/// Returns the end index of the cluster that starts at `first`. A cluster has at most `lanes` targets, in one row of
+/// bins and within a limited number of bins.
 fn cluster_end(grid: &Grid, bin_at: &[u32], first: usize, lanes: usize) -> usize {
     let nx = grid.count[0] as u32;
     let row = bin_at[first] / nx;
@@ -211,7 +215,7 @@ impl BoundingBox {
         Self { low: low - grid.low, high: high - grid.low }
     }
 
-    /// Appends the records of `source` within `reach` of the box.
+    /// Appends to `list` the record indices of the particles of `source` within `reach` [m] of the box.
     #[inline(always)]
     fn list_near<L: Lanes>(&self, grid: &Grid, source: &Sources, reach: f64, list: &mut Vec<u32>) {
         let [nx, ny, nz] = grid.count;
@@ -234,19 +238,19 @@ impl BoundingBox {
         }
     }
 
-    /// Returns whether the box can reach across the sides of a periodic flume.
+    /// Returns true if a side of a periodic flume is within `reach` [m] of the box.
     fn crosses_sides(&self, grid: &Grid, reach: f64) -> bool {
         grid.periodic_width.is_some_and(|width| self.low.y < reach || self.high.y > width - reach)
     }
 
-    /// Returns the bins along an axis that the box can reach.
+    /// Returns the range of bins along an axis within `reach` [m] of the box.
     fn bins(&self, grid: &Grid, axis: usize, reach: f64) -> std::ops::RangeInclusive<usize> {
         let from = grid.along(axis, self.low[axis] - reach + grid.low[axis]);
         from..=grid.along(axis, self.high[axis] + reach + grid.low[axis])
     }
 
-    /// Returns the rows of bins across the flume that the box can reach, each at most once. In a periodic flume the
-    /// caller takes the indices modulo the number of rows.
+    /// Returns the range of bins along y within `reach` [m] of the box, each at most once. In a periodic flume an index
+    /// can exceed the number of bins along y; the caller must take it modulo this number.
     fn rows_across(&self, grid: &Grid, reach: f64) -> std::ops::RangeInclusive<usize> {
         if grid.periodic_width.is_none() {
             return self.bins(grid, 1, reach);
@@ -259,7 +263,8 @@ impl BoundingBox {
         first..=first + more
     }
 
-    /// Returns the distance along an axis from the box to a bin [m]; bins at open ends of the grid extend to infinity.
+    /// Returns the distance along an axis between the box and a bin [m]. A bin at an open end of the grid (`first` or
+    /// `last`) extends to infinity.
     fn gap(&self, grid: &Grid, axis: usize, bin: usize, first: bool, last: bool) -> f64 {
         let size = grid.size[axis];
         let (mut low, mut high) = (bin as f64 * size, (bin + 1) as f64 * size);
@@ -274,8 +279,8 @@ impl BoundingBox {
     }
 }
 
-/// Single-precision test whether points lie within reach of a box, one point per lane. The reach includes an allowance
-/// for rounding.
+/// Test for points within reach of a box, in single precision and with one point per lane. The reach includes an
+/// allowance for rounding errors.
 struct Near<L> {
     low: [L; 3],
     high: [L; 3],
@@ -302,8 +307,8 @@ impl<L: Lanes> Near<L> {
         }
     }
 
-    /// Appends the indices of the near points. Branch-free: it writes as many indices as lanes, the near ones first;
-    /// the next write overwrites the others.
+    /// Appends the indices of the points within reach. To avoid branches, each write has as many indices as there are
+    /// lanes, with the points within reach first. The next write overwrites the other indices.
     #[inline(always)]
     fn append(&self, positions: &SortedPositions, members: std::ops::Range<usize>, offset: u32, list: &mut Vec<u32>) {
         let mut len = list.len();
@@ -311,7 +316,7 @@ impl<L: Lanes> Near<L> {
         for first in members.clone().step_by(L::COUNT) {
             let x = positions.load::<L>(0, first);
             let mut y = positions.load::<L>(1, first);
-            // In a periodic flume, use the image nearest to the box.
+            // In a periodic flume, use the periodic image that is nearest to the box.
             y += self.width * ((self.middle_y - y) * self.per_width).round();
             let z = positions.load::<L>(2, first);
             let (dx, dy, dz) = (self.distance_along(0, x), self.distance_along(1, y), self.distance_along(2, z));
@@ -324,7 +329,7 @@ impl<L: Lanes> Near<L> {
         list.truncate(len);
     }
 
-    /// Returns the distance along an axis from the box [m].
+    /// Returns the distance of points from the box along an axis [m]; zero inside.
     #[inline(always)]
     fn distance_along(&self, axis: usize, value: L) -> L {
         (self.low[axis] - value).max(value - self.high[axis]).max(L::splat(0.0))

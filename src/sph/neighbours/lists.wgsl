@@ -1,6 +1,7 @@
 // Bins within reach of a point, row by row (lists.rs).
 
-// Rows of bins within reach of a point; in a periodic flume, take the indices across modulo the number of rows.
+// Rows of bins within reach of a point, with indices (across the flume, up). In a periodic flume the indices across can
+// lie outside the grid; `bins_within` takes them modulo the number of rows.
 struct Rows {
     first: vec2<i32>,
     last: vec2<i32>,
@@ -21,7 +22,7 @@ fn rows_within(place: vec4<f32>, reach: f32) -> Rows {
     return rows;
 }
 
-// Returns the first and last bin of a row (across, up) within reach of a point, or an empty range.
+// Returns the first and the last bin of a row (across, up) within reach of a point; first > last if there is none.
 fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
     var middle = (vec2<f32>(row) + 0.5 - 0.5 * vec2<f32>(parameters.count.yz)) * parameters.size.yz - place.zw;
     let last = parameters.count.yz - 1;
@@ -49,7 +50,7 @@ fn bins_within(place: vec4<f32>, reach: f32, row: vec2<i32>) -> vec2<u32> {
     return vec2<u32>(begin + clamped);
 }
 
-// Returns the vector from b to a [m]; in a periodic flume, from the nearest image.
+// Returns the vector from b to a [m]; in a periodic flume, from the nearest periodic image of b.
 fn difference(a: vec4<f32>, b: vec4<f32>) -> vec3<f32> {
     var r = vec3<f32>((a.x - b.x) * parameters.size.x + (a.y - b.y), a.zw - b.zw);
     if PERIODIC {

@@ -2,9 +2,9 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | [`grid`] | cell list: bins, and the sort of particles into them |
+//! | [`grid`] | cell list: bins, and sorting of particles into these bins |
 //! | [`lists`] | clusters of particles and their neighbour lists |
-//! | [`records`] | the data of a particle that its neighbours need |
+//! | [`records`] | data of a particle that its neighbours need |
 
 pub mod grid;
 pub mod lists;

@@ -7,14 +7,14 @@ use crate::sph::parameters::Parameters;
 
 /// Data of a particle that its neighbours need, in single precision, 48 bytes.
 ///
-/// x is split into a bin index and an offset, so that differences keep their precision in flumes of any length; y and z
-/// are relative to the middle of the grid.
+/// x is split into a bin index and an offset in the bin, so that differences keep their precision in flumes of any
+/// length. y and z are relative to the middle of the grid.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Record {
-    /// Bin along x, an integer.
+    /// Index of the bin along x, a whole number.
     pub bin_x: f32,
-    /// Offset from the bin's low end [m].
+    /// Offset along x from the low end of the bin [m].
     pub x: f32,
     /// y relative to the middle of the grid [m].
     pub y: f32,
@@ -22,7 +22,7 @@ pub struct Record {
     pub z: f32,
     /// Velocity [m/s].
     pub velocity: [f32; 3],
-    /// m / rho [m3].
+    /// Volume, m / rho [m3].
     pub volume: f32,
     /// rho - rho0 [kg/m3].
     pub excess_density: f32,
@@ -30,12 +30,12 @@ pub struct Record {
     pub pressure: f32,
     /// Speed of sound [m/s].
     pub sound_speed: f32,
-    /// Volume of the particle in density diffusion [m3]; zero for boundary particles of the dynamic boundary condition,
-    /// whose density is not that of the water.
+    /// Volume of the particle in density diffusion [m3]. Zero for boundary particles under DBC, because their density
+    /// is not the density of the water.
     pub diffusive_volume: f32,
 }
 
-/// Splits a position as in [`Record`]: bin along x, offset, y, z.
+/// Splits a position [m] into the first four numbers of [`Record`]: bin along x, offset in the bin, y and z.
 pub fn split_position(grid: &Grid, point: DVec3) -> [f32; 4] {
     let from_low = point - grid.low;
     let bin = (from_low.x / grid.size.x).floor();
@@ -48,7 +48,8 @@ pub fn split_position(grid: &Grid, point: DVec3) -> [f32; 4] {
     ]
 }
 
-/// Returns the record of a particle from its double-precision state.
+/// Returns the record of a particle from its double-precision state. `diffuses` is true if
+/// the particle takes part in density diffusion.
 pub fn record(
     grid: &Grid,
     parameters: &Parameters,

@@ -1,4 +1,4 @@
-// Packed records of the particles from their state (records.rs), and the permutation of the water into bin order.
+// Creates the packed records of the particles (records.rs), and sorts the water arrays into the order of the bins.
 
 @group(0) @binding(1) var<storage, read> offset: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> cell: array<vec4<i32>>;
@@ -11,7 +11,7 @@
 // rho - rho0 of the boundary [kg/m3].
 @group(0) @binding(9) var<storage, read> boundary_density: array<f32>;
 
-// Equation 6 and its derivative are evaluated as binomial series to keep precision near rho0.
+// Pressure (equation 6) and speed of sound are evaluated as binomial series, which keep their precision near rho0.
 fn record(cell: vec3<i32>, offset: vec4<f32>, motion: vec4<f32>, kind: f32) -> Record {
     let e = offset.w / parameters.rho0;
     let p = parameters.pressure;

@@ -1,10 +1,10 @@
 //! Pressure on units in gaps too narrow for water particles.
 //!
-//! No particle fits below a unit's foot on the bed. Pressure from water particles alone would act on the foot only from
-//! above and hold the unit down with several times its weight. Real water fills such gaps, and its pressure is
-//! continuous through them. Therefore bed, walls and other units act on a unit with the pressure term of equation 1;
-//! their densities come from the nearby water (see [`mdbc`](crate::sph::boundary::mdbc)). Viscosity is excluded: the
-//! contact law provides dry friction.
+//! No water particle fits between the bed and the foot of a unit. The pressure of water particles alone would act on
+//! the foot only from above, and would press the unit down with several times its weight. Real water fills such a gap,
+//! and the pressure is continuous through the gap. Therefore bed, walls and other units act on a unit through the
+//! pressure term of equation 1. Their densities come from the nearby water (see [`mdbc`](crate::sph::boundary::mdbc)).
+//! They exert no viscous force on a unit, because the contact law provides the friction.
 
 use rayon::prelude::*;
 
@@ -14,10 +14,10 @@ use crate::sph::neighbours::records::Record;
 use crate::sph::terms::momentum::pair_stress;
 
 impl PairLoop {
-    /// Adds the pressure of bed, walls and other units across gaps to the units' accelerations; arguments as in
-    /// [`Self::rates`].
+    /// Adds the pressure of bed, walls and other units across gaps to the accelerations of the unit particles. The
+    /// arguments are as in [`Self::rates`].
     ///
-    /// The lists also contain the unit's own particles: the forces between them cancel.
+    /// The lists also contain the particles of the same unit, but the forces between these particles cancel.
     pub fn add_gap_pressure(
         &self,
         lists: &NeighbourLists,
@@ -39,7 +39,8 @@ impl PairLoop {
         });
     }
 
-    /// Returns the pressure term of equation 1 for one target [m/s2]. In double precision internal forces cancel.
+    /// Returns the pressure term of equation 1 for one target [m/s2]. The sum is in double precision, so that the
+    /// internal forces of a unit cancel.
     fn pressure_acceleration(&self, a: &Record, neighbours: &[u32], records: &[Record]) -> [f64; 3] {
         let kernel = &self.parameters.kernel;
         let mut sum = [0.0; 3];

@@ -16,44 +16,47 @@ use crate::sph::parameters::Parameters;
 use crate::sph::terms::density_diffusion::DensityDiffusion;
 use crate::sph::terms::viscosity::Viscosity;
 
-/// Smallest determinant of M for which M is inverted: that of a quarter of a neighbourhood.
-const LEAST_DETERMINANT: f64 = 0.05;
+/// Smallest determinant of M for which M is inverted [-]. A quarter of a neighbourhood has this determinant.
+const MIN_DETERMINANT: f64 = 0.05;
 
-/// Data of a particle that neighbours need in addition to its record; empty for boundary particles.
+/// Data of a particle that its neighbours need in addition to its record. Boundary particles have no gradient and
+/// stress.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct NeighbourData {
     /// Renormalised gradient of the density [kg/m4].
     pub density_gradient: [f32; 3],
-    /// Share of the target's gradient that replaces the neighbour's: 1 for boundary particles, which have none.
-    pub borrowed: f32,
+    /// Share of the target's gradient that replaces the gradient of this particle: 1 for boundary particles, 0 for
+    /// water.
+    pub uses_target_gradient: f32,
     /// Sub-particle-scale stress tau / rho^2: xx, yy, zz, xy, xz, yz [m5/(kg s2)].
     pub stress: [f32; 6],
 }
 
 impl NeighbourData {
     /// Value for a boundary particle.
-    pub(super) const OF_BOUNDARY: Self = Self { density_gradient: [0.0; 3], borrowed: 1.0, stress: [0.0; 6] };
+    pub(super) const OF_BOUNDARY: Self =
+        Self { density_gradient: [0.0; 3], uses_target_gradient: 1.0, stress: [0.0; 6] };
 }
 
-/// Distribution of the particles around a target.
+/// Measures of the particle distribution around a target.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Order {
     /// grad C [1/m].
     pub concentration_gradient: DVec3,
-    /// div r [-].
+    /// div r [-]; the number of dimensions in a full neighbourhood.
     pub divergence: f64,
 }
 
-/// The gradients of the water.
+/// Gradients at the water particles.
 #[derive(Debug, Default)]
 pub struct Gradients {
     sums: Vec<Sums>,
-    /// One entry per record; empty if the scheme does not need it.
+    /// One entry per record; empty if the scheme does not need these data.
     neighbour_data: Vec<NeighbourData>,
 }
 
-/// Sums of one target.
+/// Sums over the neighbours of one target.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     /// M: xx, yy, zz, xy, xz, yz.
@@ -67,7 +70,7 @@ struct Sums {
 }
 
 impl Gradients {
-    /// Returns whether a scheme needs the gradients.
+    /// Returns true if a scheme needs the gradients.
     pub fn are_needed(parameters: &Parameters) -> bool {
         Self::needs_neighbour_data(parameters) || parameters.shifting.is_some()
     }
@@ -77,7 +80,7 @@ impl Gradients {
         turbulent || parameters.diffusion.kind == DensityDiffusion::Antuono
     }
 
-    /// Computes the gradients of the water, which is the first `targets` of the records.
+    /// Computes the gradients at the water particles, which are the first `targets` of the `records`.
     pub fn compute(&mut self, pairs: &PairLoop, lists: &NeighbourLists, records: &[Record], targets: usize) {
         self.sums.resize(targets, Sums::default());
         self.sums.par_chunks_mut(CHUNK).zip(lists.chunks()).enumerate().for_each(|(number, (sums, chunk))| {
@@ -96,12 +99,12 @@ impl Gradients {
         }
     }
 
-    /// Returns the additional data of all records.
+    /// Returns the additional data of each record; empty if the scheme does not need these data.
     pub fn neighbour_data(&self) -> &[NeighbourData] {
         &self.neighbour_data
     }
 
-    /// Returns the distribution of the particles around a target.
+    /// Returns the measures of the particle distribution around a target.
     pub fn order(&self, target: usize) -> Order {
         let sums = &self.sums[target];
         Order {
@@ -117,13 +120,13 @@ impl Gradients {
 }
 
 impl Sums {
-    /// Returns M^-1, or the identity where the neighbourhood is too one-sided.
+    /// Returns M^-1, or the identity if the determinant of M is too small because the neighbours lie on one side.
     fn renormalisation(&self) -> DMat3 {
         let [xx, yy, zz, xy, xz, yz] = self.moments.map(f64::from);
-        // In a two-dimensional flume all neighbours lie in one plane; fields do not vary across it.
+        // In a two-dimensional flume all neighbours lie in one plane, and fields do not vary normal to this plane.
         let yy = if yy == 0.0 { 1.0 } else { yy };
         let moments = DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz));
-        if moments.determinant() > LEAST_DETERMINANT { moments.inverse() } else { DMat3::IDENTITY }
+        if moments.determinant() > MIN_DETERMINANT { moments.inverse() } else { DMat3::IDENTITY }
     }
 
     fn neighbour_data(&self, parameters: &Parameters, record: &Record) -> NeighbourData {
@@ -138,13 +141,13 @@ impl Sums {
         };
         NeighbourData {
             density_gradient: corrected(self.density).as_vec3().to_array(),
-            borrowed: 0.0,
+            uses_target_gradient: 0.0,
             stress: stress.map(|component| component as f32),
         }
     }
 }
 
-/// The sums of one chunk of targets.
+/// Computation of the sums for one chunk of targets.
 struct ChunkSums<'a> {
     pairs: &'a PairLoop,
     chunk: &'a Chunk,
@@ -194,7 +197,7 @@ impl ChunkSums<'_> {
             let b = &self.records[j as usize];
             let [x, y, z] = self.pairs.difference::<L, PERIODIC>(a, b);
             let closeness = kernel.closeness(x.mul_add(x, y.mul_add(y, z * z)).sqrt());
-            // The constant factor is applied once at the end.
+            // The constant factor of G is applied once, after the loop.
             let gv = kernel.gradient_shape(closeness) * splat(b.volume);
             let (gx, gy, gz) = (gv * x, gv * y, gv * z);
             // Minus because r_ba = -r_ab.

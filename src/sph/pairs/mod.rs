@@ -1,12 +1,12 @@
-//! Sums over pairs of neighbours.
+//! Sums over pairs of a target (the particle for which a sum is computed) and one of its neighbours.
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | [`pair_loop`] | constants of a loop over pairs, distance of a pair |
+//! | [`pair_loop`] | constants of a loop over pairs, distance between two particles |
 //! | [`rate`] | result of the loop: acceleration and density rate of a particle |
 //! | [`rates`] | right-hand sides of equations 1 and 2 for all targets |
-//! | `pair_sums` | the terms of a pair, added for a cluster at once |
-//! | [`gradients`] | gradients of density and velocity, particle distribution |
+//! | `pair_sums` | terms of a pair, added for all members of a cluster at once |
+//! | [`gradients`] | gradients of density and velocity, measures of the particle distribution |
 //! | `gap_pressure` | pressure on units through gaps without water particles |
 
 mod gap_pressure;

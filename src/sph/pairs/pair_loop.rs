@@ -1,4 +1,4 @@
-//! Constants of a loop over pairs, and the distance of a pair.
+//! Constants of a loop over pairs, and the distance between the particles of a pair.
 
 use rayon::prelude::*;
 
@@ -7,7 +7,7 @@ use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes
 use crate::sph::neighbours::records::Record;
 use crate::sph::parameters::Parameters;
 
-/// Loop over pairs: its constants besides the records.
+/// Constants that a loop over pairs needs in addition to the records.
 #[derive(Debug, Clone, Copy)]
 pub struct PairLoop {
     /// Constants of the scheme.
@@ -28,7 +28,8 @@ impl PairLoop {
         Self { parameters, ..self }
     }
 
-    /// Counts the pairs of a target and a neighbour within the kernel support; the targets are the first `records`.
+    /// Counts the pairs of target and neighbour that are within the kernel support. The targets are the first
+    /// `records`.
     pub fn count_within_support(&self, lists: &NeighbourLists, records: &[Record]) -> u64 {
         let count_chunk = |(number, chunk): (usize, &Chunk)| {
             let count_cluster = |(cluster, neighbours): (&Cluster, &[u32])| {
@@ -51,7 +52,8 @@ impl PairLoop {
         fields.map(|f| lanes_of(cluster, targets, f))
     }
 
-    /// Returns r_ab [m] of the members of a cluster and a neighbour, or of its nearest image if `PERIODIC`.
+    /// Returns r_ab [m] from a neighbour b to each member a of a cluster; if `PERIODIC`, from the nearest periodic
+    /// image of b.
     #[inline(always)]
     pub(super) fn difference<L: Lanes, const PERIODIC: bool>(&self, a: [L; 4], b: &Record) -> [L; 3] {
         let splat = L::splat;
@@ -63,7 +65,7 @@ impl PairLoop {
         [x, y, a[3] - splat(b.z)]
     }
 
-    /// Returns the vector from b to a and its length [m]; in a periodic flume, from the nearest image.
+    /// Returns the vector from b to a and its length [m]; in a periodic flume, from the nearest periodic image of b.
     pub(super) fn distance(&self, a: &Record, b: &Record) -> ([f64; 3], f64) {
         let difference = |a: f32, b: f32| f64::from(a) - f64::from(b);
         let mut r = [

@@ -1,7 +1,7 @@
 //! Sums of equations 1 and 2 over the neighbours of a cluster, one member per lane.
 
 use super::{gradients::NeighbourData, rate::Rate};
-use crate::sph::lanes::{Lanes, MOST_LANES};
+use crate::sph::lanes::{Lanes, MAX_LANES};
 use crate::sph::neighbours::lists::{Cluster, lanes_of};
 use crate::sph::neighbours::records::Record;
 use crate::sph::parameters::Parameters;
@@ -13,16 +13,17 @@ use crate::sph::terms::viscosity::{Viscosity, approach_rate, laminar_factor, mon
 
 /// Viscosity model; the pair loop is compiled once per model.
 pub(super) trait Resistance {
-    /// Whether the model includes a sub-particle-scale stress.
+    /// True if the model includes a sub-particle-scale stress.
     const TURBULENT: bool = false;
 
-    /// Returns rho_a rho_b Pi_ab [Pa]: viscosity along the line between the particles.
+    /// Returns rho_a rho_b Pi_ab [Pa], for a viscous force along the line between the particles.
     #[inline(always)]
     fn stress<L: Lanes>(_: &Constants, _approach: L, _a: &Members<L>, _b: &Record, _rho_b: L) -> L {
         L::splat(0.0)
     }
 
-    /// Returns the factor of v_ab [Pa s]: viscosity along the velocity difference, if the model has it.
+    /// Returns the factor of v_ab [Pa s], for a viscous force along the velocity difference, if the model has such a
+    /// force.
     #[inline(always)]
     fn shear<L: Lanes>(_: &Constants, _rho_a: L, _rho_b: L) -> Option<L> {
         None
@@ -91,7 +92,7 @@ pub(super) struct Members<L> {
     density: L,
     pressure: L,
     sound_speed: L,
-    /// One where density diffusion acts, otherwise zero.
+    /// 1 for members on which density diffusion acts, otherwise 0.
     pub(super) diffuses: L,
     density_gradient: [L; 3],
     stress: [L; 6],
@@ -107,11 +108,12 @@ pub(super) struct Near<L> {
     pub(super) closeness: L,
 }
 
-/// Sums of the members, without constant factors; [`Sums::rates`] applies them.
+/// Sums over the neighbours of each member, without constant factors. [`Sums::rates`] applies these factors.
 pub(super) struct Sums<L> {
     /// Force along the lines between the particles.
     force: [L; 3],
-    /// Laminar and turbulent stress. It is small compared with the pressure and would lose precision in the same sum.
+    /// Laminar and turbulent force. It is small compared with the pressure force and would lose precision in the same
+    /// sum.
     shear: [L; 3],
     compression: L,
     diffusion: L,
@@ -178,7 +180,7 @@ impl<L: Lanes> Sums<L> {
         Self { force: [zero; 3], shear: [zero; 3], compression: zero, diffusion: zero, fastest: zero }
     }
 
-    /// Adds the neighbour `near` with the record `b`.
+    /// Adds the contribution of a neighbour with the relative position `near`, the record `b` and the data `data_b`.
     #[inline(always)]
     pub(super) fn add<R: Resistance, const ANTUONO: bool>(
         &mut self,
@@ -233,7 +235,7 @@ impl<L: Lanes> Sums<L> {
 
     /// Returns the rates of the members.
     #[inline(always)]
-    pub(super) fn rates(&self, constants: &Constants, a: &Members<L>) -> [Rate; MOST_LANES] {
+    pub(super) fn rates(&self, constants: &Constants, a: &Members<L>) -> [Rate; MAX_LANES] {
         let scale = L::splat(constants.kernel.gradient_scale());
         let minus_per_mass = -scale / a.density;
         let [ax, ay, az]: [_; 3] =
@@ -249,10 +251,11 @@ impl<L: Lanes> Sums<L> {
     }
 }
 
-/// Returns (grad rho_a + grad rho_b) . r_ab / 2 [kg/m3], the part excluded from diffusion by Antuono et al. (2010).
+/// Returns (grad rho_a + grad rho_b) . r_ab / 2 [kg/m3]. Added to rho_b - rho_a, it removes the part of the difference
+/// that the gradients explain (Antuono et al. 2010).
 #[inline(always)]
 fn explained_by_gradients<L: Lanes>(a: &Members<L>, near: &Near<L>, b: &NeighbourData) -> L {
-    let share = L::splat(0.5 * (1.0 + b.borrowed));
+    let share = L::splat(0.5 * (1.0 + b.uses_target_gradient));
     let slope = |k: usize| share.mul_add(a.density_gradient[k], L::splat(0.5 * b.density_gradient[k]));
     let [x, y, z] = near.r;
     slope(0).mul_add(x, slope(1).mul_add(y, slope(2) * z))

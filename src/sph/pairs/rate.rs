@@ -1,6 +1,6 @@
 //! Result of a loop over pairs.
 
-/// Rates of one target.
+/// Acceleration and density rate of one target.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Rate {
     /// Acceleration without gravity [m/s2].

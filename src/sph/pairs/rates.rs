@@ -7,7 +7,7 @@ use super::gradients::NeighbourData;
 use super::pair_loop::PairLoop;
 use super::pair_sums::{Artificial, Constants, Laminar, Members, MonaghanGingold, Resistance, Sums, Turbulent};
 use super::rate::Rate;
-use crate::sph::lanes::{Lanes, MOST_LANES, WithLanes};
+use crate::sph::lanes::{Lanes, MAX_LANES, WithLanes};
 use crate::sph::neighbours::lists::{CHUNK, Chunk, Cluster, NeighbourLists, lanes_of};
 use crate::sph::neighbours::records::Record;
 use crate::sph::parameters::BoundaryCondition;
@@ -19,7 +19,7 @@ const BLOCK: usize = 32;
 
 impl PairLoop {
     /// Computes the rates of the targets, which are consecutive `records` from `first_target` on. `data` has one entry
-    /// per record, or is empty if the scheme needs none.
+    /// per record; it is empty if the scheme needs no such data.
     pub fn rates(
         &self,
         lists: &NeighbourLists,
@@ -36,7 +36,7 @@ impl PairLoop {
     }
 }
 
-/// Computation of the rates of one chunk of targets.
+/// Computation of the rates for one chunk of targets.
 struct ChunkRates<'a> {
     pairs: &'a PairLoop,
     chunk: &'a Chunk,
@@ -93,13 +93,13 @@ impl ChunkRates<'_> {
         constants: &Constants,
         cluster: &Cluster,
         neighbours: &[u32],
-    ) -> [Rate; MOST_LANES] {
+    ) -> [Rate; MAX_LANES] {
         let Self { pairs, targets, records, .. } = self;
         let place = pairs.split_positions(cluster, targets);
         let data = self.data.get(self.begin..).unwrap_or_default();
         let mut a = Members::<L>::new::<R, ANTUONO>(constants, cluster, targets, data);
         if pairs.parameters.boundary == BoundaryCondition::Dynamic {
-            a.diffuses = self.out_of_reach_of_walls::<L, PERIODIC>(constants, cluster, neighbours);
+            a.diffuses = self.diffusion_factors::<L, PERIODIC>(constants, cluster, neighbours);
         }
         let Some(&first) = neighbours.first() else { return Sums::zero().rates(constants, &a) };
         let mut sums = Sums::zero();
@@ -120,10 +120,10 @@ impl ChunkRates<'_> {
         sums.rates(constants, &a)
     }
 
-    /// Returns zero for members that are boundary particles of the dynamic boundary condition or have one within their
-    /// support, and one for all other members.
+    /// Returns the factor of density diffusion under DBC for each member: 0 for a boundary particle and for water with
+    /// a boundary particle within its support, 1 for other water.
     #[inline(always)]
-    fn out_of_reach_of_walls<L: Lanes, const PERIODIC: bool>(
+    fn diffusion_factors<L: Lanes, const PERIODIC: bool>(
         &self,
         constants: &Constants,
         cluster: &Cluster,

@@ -5,9 +5,10 @@
 @group(0) @binding(3) var<storage, read> water_start: array<u32>;
 @group(0) @binding(4) var<storage, read> boundary_start: array<u32>;
 @group(0) @binding(5) var<storage, read> boundary_order: array<u32>;
-// Acceleration without gravity [m/s2] and d rho / dt [kg/(m3 s)] of the water, then of the boundary in its own order.
+// Acceleration without gravity [m/s2] and d rho / dt [kg/(m3 s)] of the water, then of the boundary particles in
+// unsorted order.
 @group(0) @binding(6) var<storage, read_write> rates: array<vec4<f32>>;
-// Bits of the largest |dv/dt| [m/s2] and c + |mu| [m/s] of the water.
+// Bit patterns of the largest |dv/dt| [m/s2] and of the largest c + |mu| [m/s] of the water.
 @group(0) @binding(7) var<storage, read_write> limits: array<atomic<u32>, 2>;
 
 // Sums over neighbours without constant factors.
@@ -18,7 +19,7 @@ struct Sums {
     fastest: f32,
 }
 
-// Adds the contribution of `b` to the sums of `a`; solids act on a unit only by pressure (gap_pressure.rs).
+// Adds the contribution of `b` to the sums of `a`. Solids act on a unit only by pressure (gap_pressure.rs).
 fn pair(sums: ptr<function, Sums>, a: Record, b: Record, r: vec3<f32>, r2: f32, closeness: f32) {
     let g = gradient_shape(closeness);
     let gv = g * b.motion.w;
@@ -76,7 +77,8 @@ fn sum_over_neighbours(a: Record) -> Sums {
 var<workgroup> largest_acceleration: array<u32, 64>;
 var<workgroup> largest_signal: array<u32, 64>;
 
-// Maxima of the bits of non-negative numbers; the bits of NaN are larger than those of any number.
+// Reduces both limits to their maxima by comparing the bit patterns of non-negative numbers. The bit pattern of NaN is
+// larger than the bit pattern of any number.
 fn reduce_limits(local: u32, acceleration: u32, signal: u32) {
     largest_acceleration[local] = acceleration;
     largest_signal[local] = signal;

@@ -1,16 +1,17 @@
-//! Layers of boundary particles behind bed and walls, and their distances to the surface.
+//! Layers of boundary particles behind bed and walls, with their vectors to the surface.
 //!
-//! The wetted outline of the flume (end wall, bed and mound, end wall) is a polyline in x and z. Layer k holds points
-//! at the distance (k + 1/2) dp behind it. The layer consists of parallels to the straight segments: trimmed under a
-//! crest, where another segment is nearer, and joined by arcs behind a concave corner. The trimmed parallels are then
-//! divided evenly, so that the particle volumes fill the layers exactly. Every particle stores the exact vector to the
-//! true surface; behind a corner this vector points at the corner (English et al. 2022).
+//! The wetted outline of the flume (end wall, bed and mound, end wall) is a polyline in x and z. Layer k consists of
+//! points at the distance (k + 1/2) dp behind this outline, on parallels to its straight segments. Under a crest, a
+//! parallel ends where another segment is nearer. Behind a concave corner, an arc joins two parallels. Parallels and
+//! arcs are divided evenly, so that the particle volumes fill the layers exactly. Every particle stores the exact
+//! vector to the outline. Behind a corner, this vector points to the corner (English et al. 2022).
 
 use glam::{DVec2, DVec3};
 
 use super::boundary::BoundaryParticle;
 
-/// Rounding tolerance: relative to the depth for the distance to the outline, relative to dp for a stretch's length.
+/// Rounding tolerance [-] for the distance to the outline, relative to the depth, and for the length of a stretch,
+/// relative to dp.
 const ROUNDING: f64 = 1e-6;
 
 /// Spacing of the points at which the distance from a parallel to the outline is checked [dp].
@@ -19,15 +20,16 @@ const CHECK_SPACING: f64 = 0.1;
 /// Smallest turn of the outline at which a convex corner counts as an edge [rad]: 20 degrees.
 const EDGE_TURN: f64 = 0.35;
 
-/// A bed at least this far from both horizontal and vertical has no free slip [rad]: 14 degrees, 1:4. With free slip on
-/// the 1:1 flanks of a wedge, still water begins to circulate: after ten seconds its kinetic energy doubles every
-/// second. Without free slip it decays. Waves travel along flatter beds.
+/// A bed whose slope differs by at least this angle from both horizontal and vertical has no free slip [rad]: 14
+/// degrees, 1:4. With free slip on the 1:1 flanks of a wedge, still water begins to circulate, and after ten seconds
+/// its kinetic energy doubles every second. Without free slip its kinetic energy decays. Beds along which waves travel
+/// are flatter.
 const FLANK_ANGLE: f64 = 0.245;
 
-/// Number of bisections; they locate the end of a stretch to 1e-7 dp.
+/// Number of bisection steps, which locate the end of a stretch to 1e-7 dp.
 const BISECTIONS: u32 = 20;
 
-/// The outline of bed and walls in x and z; the water lies to its left.
+/// The outline of bed and walls in x and z. Seen along the outline, the water lies on the left.
 #[derive(Debug, Clone)]
 pub struct Outline {
     points: Vec<DVec2>,
@@ -56,8 +58,8 @@ impl Outline {
             .expect("an outline has at least one segment")
     }
 
-    /// Returns the normal into the water at the outline's point nearest to `point`. `None` if `point` is in the water
-    /// and at least `max_distance` [m] away.
+    /// Returns the unit normal, directed into the water, at the outline point nearest to `point`. Returns `None` if
+    /// `point` is in the water and at least `max_distance` [m] from the outline.
     pub fn normal_within(&self, point: DVec2, max_distance: f64) -> Option<DVec2> {
         let is_far = |segment: &[DVec2]| {
             let normal = left_normal(segment);
@@ -72,7 +74,7 @@ impl Outline {
             let along = segment[1] - segment[0];
             let t = ((point - segment[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
             let offset = point - (segment[0] + t * along);
-            // Of two segments that meet in the nearest corner, the one that the point is further behind decides.
+            // If the nearest point is the corner of two segments, the first segment decides.
             let side = offset.dot(left_normal(segment));
             let signed = if side < 0.0 { -offset.length() } else { offset.length() };
             if best.is_none_or(|(nearest, _)| signed.abs() < f64::abs(nearest) - 1e-12) {
@@ -82,7 +84,7 @@ impl Outline {
         best.filter(|(signed, _)| *signed < max_distance).map(|(_, normal)| normal)
     }
 
-    /// Returns whether a point of the outline is nearer than `reach` [m] to a convex edge.
+    /// Returns true if a point of the outline is nearer than `reach` [m] to a convex edge.
     fn is_at_edge(&self, point: DVec2, reach: f64) -> bool {
         self.points.windows(3).any(|corner| {
             let turn = left_normal(&corner[0..2]).angle_to(left_normal(&corner[1..3]));
@@ -90,8 +92,8 @@ impl Outline {
         })
     }
 
-    /// Returns points about dp apart at the distances (k + 1/2) dp behind the outline, k < `layers`. Each has the
-    /// length of layer that it represents [m].
+    /// Returns points about `dp` [m] apart in all layers, (k + 1/2) dp behind the outline for k < `layers`. Each point
+    /// has the length of the layer that it represents [m].
     fn layers(&self, dp: f64, layers: u32) -> Vec<(DVec2, f64)> {
         let mut all = Vec::new();
         for depth in (0..layers).map(|k| (f64::from(k) + 0.5) * dp) {
@@ -101,7 +103,7 @@ impl Outline {
             }
             for corner in self.points.windows(3) {
                 let (before, after) = (left_normal(&corner[0..2]), left_normal(&corner[1..3]));
-                // At a convex corner the two parallels intersect, so there is no arc.
+                // Behind a convex corner the two parallels intersect, so there is no arc.
                 let length = before.angle_to(after).max(0.0) * depth;
                 let arc = |s: f64| corner[1] - DVec2::from_angle(s / depth).rotate(before) * depth;
                 self.divide(depth, dp, length, arc, &mut all);
@@ -110,12 +112,14 @@ impl Outline {
         all
     }
 
-    /// Divides the part of a parallel that belongs to its layer into equal lengths of about dp. Appends the midpoint
-    /// and length of each [m]. `point_at` returns the point at an arc length; the parallel lies `depth` [m] behind.
+    /// Divides the part of a parallel that belongs to its layer into equal pieces about `dp` [m] long. Appends the
+    /// midpoint and the length of each piece [m] to `all`. The parallel is `length` [m] long and lies `depth` [m]
+    /// behind the outline. `point_at` returns the point at an arc length [m].
     ///
-    /// The lengths must sum exactly to the length of the layer, also at edges: sum_b V_b grad W_ab vanishes only if the
-    /// volumes fill the space behind the surface. With whole particles kept or dropped at a 45 degree wedge, apex and
-    /// toes repelled the water with 2.5 g and attracted it with 1 g (error: half a dp^2 per layer and flank).
+    /// The lengths must sum exactly to the length of the layer, also at edges, because sum_b V_b grad W_ab vanishes
+    /// only if the volumes fill the space behind the surface. With whole particles kept or dropped at a 45 degree
+    /// wedge, the error was half a dp^2 per layer and flank. The apex then repelled the water with 2.5 g, and the toes
+    /// attracted it with 1 g.
     fn divide(&self, depth: f64, dp: f64, length: f64, point_at: impl Fn(f64) -> DVec2, all: &mut Vec<(DVec2, f64)>) {
         for [from, to] in self.stretches(depth, dp, length, &point_at) {
             let count = ((to - from) / dp).round().max(1.0);
@@ -126,7 +130,8 @@ impl Outline {
         }
     }
 
-    /// Returns the stretches of a parallel on which no point is nearer to the outline than `depth` [m].
+    /// Returns start and end [m] of each stretch of a parallel on which no point is nearer to the outline than `depth`
+    /// [m].
     fn stretches(&self, depth: f64, dp: f64, length: f64, point_at: &impl Fn(f64) -> DVec2) -> Vec<[f64; 2]> {
         let is_in_layer = |s: f64| {
             let point = point_at(s);
@@ -151,7 +156,7 @@ impl Outline {
     }
 }
 
-/// Finds by bisection where a condition changes that holds at `inside` but not at `outside`.
+/// Finds by bisection where a condition changes that is true at `inside` and false at `outside`.
 fn find_change(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (inside + outside);
@@ -164,7 +169,7 @@ fn find_change(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -
     inside
 }
 
-/// Returns the unit normal to the left of a segment, which points into the water.
+/// Returns the unit normal on the left of a segment, the side of the water.
 fn left_normal(segment: &[DVec2]) -> DVec2 {
     (segment[1] - segment[0]).normalize().perp()
 }
@@ -176,7 +181,7 @@ pub struct Across {
     pub width: f64,
     /// Number of particles across the width.
     pub count: u32,
-    /// Whether there are walls at y = 0 and y = width; otherwise the flume is periodic.
+    /// True if there are walls at y = 0 and y = width; false if the flume is periodic.
     pub walls: bool,
 }
 
@@ -186,7 +191,7 @@ impl Across {
         self.width / f64::from(self.count)
     }
 
-    /// Returns the offset from y to the nearest position between the sides [m].
+    /// Returns the signed distance from `y` to the nearest position between the sides [m]; zero between the sides.
     pub fn to_inside(&self, y: f64) -> f64 {
         y.clamp(0.0, self.width) - y
     }
@@ -198,9 +203,9 @@ impl Across {
     }
 }
 
-/// Returns the boundary particles behind the outline, across the whole flume and into the corners behind side walls.
-/// Particles nearer to an edge than `reach` [m], the kernel support radius, represent both of its faces and have no
-/// free slip.
+/// Returns the boundary particles behind the outline, across the whole flume and in the corners behind side walls.
+/// `reach` is the kernel support radius [m]. Particles nearer to an edge than `reach` represent both faces of the edge,
+/// so they have no free slip.
 pub fn outline_particles(
     outline: &Outline,
     across: &Across,
@@ -265,7 +270,7 @@ mod tests {
         let (outline, dp) = (tank_with_mound(), 0.02);
         for (point, _) in outline.layers(dp, 3) {
             let layers = outline.nearest(point).distance(point) / dp - 0.5;
-            // 1e-5: trimming allows 1e-6 of the depth.
+            // 1e-5: the end of a parallel has a tolerance of 1e-6 of the depth.
             assert!((layers - layers.round()).abs() < 1e-5, "{point} {layers}");
         }
     }
@@ -279,7 +284,7 @@ mod tests {
             let area: f64 = outline.layers(dp, 3).iter().map(|(_, length)| length * dp).sum();
             let length: f64 = outline.points.windows(2).map(|p| p[0].distance(p[1])).sum();
             let turns = outline.points.windows(3).map(|p| left_normal(&p[0..2]).angle_to(left_normal(&p[1..3])));
-            // Down to the depth d, a concave corner with turn t adds the sector t d^2 / 2; a convex one loses
+            // Down to the depth d, a concave corner of turn t adds the area t d^2 / 2, and a convex corner removes
             // tan(t / 2) d^2.
             let at_corners: f64 = turns.map(|t| if t > 0.0 { 0.5 * t } else { (0.5 * t).tan() }).sum();
             let depth = 3.0 * dp;
@@ -290,8 +295,8 @@ mod tests {
     }
 
     #[test]
-    fn free_slip_holds_on_flat_beds_and_walls_but_not_at_edges_and_flanks() {
-        // A quay: an edge at (1, 0.5), concave corners at its foot and at the walls.
+    fn free_slip_is_allowed_on_flat_beds_and_walls_but_not_at_edges_and_flanks() {
+        // A quay with an edge at (1, 0.5), and with concave corners at its foot and at the end walls.
         let quay = [[0.0, 1.0], [0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]];
         let outline = Outline::new(quay.map(DVec2::from_array).to_vec());
         let across = Across { width: 0.02, count: 1, walls: false };
@@ -299,20 +304,20 @@ mod tests {
         for particle in outline_particles(&outline, &across, 0.02, 3, reach) {
             let foot = particle.position + particle.to_surface;
             let from_edge = foot.distance(DVec3::new(1.0, foot.y, 0.5));
-            // Behind a concave corner the vector to the surface has any direction.
+            // Behind a concave corner, the vector to the surface can have any direction.
             let behind_corner = particle.to_surface.x.abs().min(particle.to_surface.z.abs()) > 1e-9;
             assert!(behind_corner || particle.allows_free_slip == (from_edge >= reach), "{foot}");
         }
         let flank = Outline::new([[0.0, 0.0], [1.0, 0.5], [9.0, 1.5]].map(DVec2::from_array).to_vec());
         for particle in outline_particles(&flank, &across, 0.02, 3, reach) {
-            // No free slip at 1:2, free slip at 1:8; the layers overlap near x = 1.
+            // No free slip on the 1:2 slope, free slip on the 1:8 slope. Near x = 1 the layers of both slopes meet.
             let x = particle.position.x + particle.to_surface.x;
             assert!((x - 1.0).abs() < 0.1 || particle.allows_free_slip == (x > 1.0), "{x}");
         }
     }
 
     #[test]
-    fn particles_behind_a_corner_point_at_the_corner() {
+    fn surface_vectors_behind_a_corner_point_to_the_corner() {
         let across = Across { width: 0.2, count: 10, walls: true };
         let particles = outline_particles(&tank_with_mound(), &across, 0.02, 3, 0.083);
         let behind = particles.iter().filter(|p| p.position.x < 0.0 && p.position.z < 0.0 && p.position.y < 0.0);

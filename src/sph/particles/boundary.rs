@@ -1,4 +1,4 @@
-//! Boundary particles of fixed bed and walls, of the wavemaker's rows and of the armour units.
+//! Boundary particles of the fixed bed and walls, of the piston (wavemaker) and of the armour units.
 
 use std::ops::Range;
 
@@ -6,51 +6,52 @@ use glam::DVec3;
 
 use crate::mechanics::{BodyState, Load};
 
-/// Boundary particles in a fixed order: bed and walls, then the piston, then one unit after the other.
+/// All boundary particles in a fixed order: bed and walls, then the piston, then one unit after the other.
 #[derive(Debug, Clone, Default)]
 pub struct Boundary {
     /// Position [m].
     pub position: Vec<DVec3>,
     /// Velocity [m/s].
     pub velocity: Vec<DVec3>,
-    /// Vector from the particle to the wetted surface [m]; twice this vector leads to the ghost node.
+    /// Vector from the particle to the wetted surface [m]. Twice this vector leads from the particle to its ghost node.
     pub to_surface: Vec<DVec3>,
     /// Volume [m3].
     pub volume: Vec<f64>,
-    /// Whether the particle allows free slip: on beds flatter than 1:4 and on walls. Particles at convex edges, of
-    /// units and of obstacles represent surfaces of several directions. Free slip along all of them would let water
-    /// converge inside the solid.
+    /// True if the water may slip freely along the particle: on beds flatter than 1:4 and on walls. False at convex
+    /// edges, on obstacles and, by default, on units, because such a particle represents surfaces of several
+    /// directions. Free slip along all these surfaces would let water converge inside the solid.
     pub allows_free_slip: Vec<bool>,
     /// Density [kg/m3].
     pub density: Vec<f64>,
-    /// Particles of the piston.
+    /// Index range of the piston particles.
     piston: Range<usize>,
-    /// Row of each particle of the piston.
+    /// Piston row of each piston particle.
     piston_row: Vec<u32>,
-    /// Particles of each unit.
+    /// Index range of the particles of each unit.
     units: Vec<Range<usize>>,
-    /// Position of a piston particle at zero displacement; of a unit particle in the unit's axes [m].
+    /// Reference position [m]: of a piston particle at zero displacement, of a unit particle in the unit's axes.
     anchor: Vec<DVec3>,
-    /// `to_surface` in the unit's axes [m].
+    /// Reference value of `to_surface` [m]; for a unit particle in the unit's axes.
     anchor_to_surface: Vec<DVec3>,
 }
 
-/// One boundary particle to be added.
+/// Data from which one boundary particle is created.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryParticle {
-    /// Position; for units in the unit's axes [m].
+    /// Position [m]; for a unit particle in the unit's axes.
     pub position: DVec3,
     /// Vector from the particle to the surface [m].
     pub to_surface: DVec3,
     /// Volume [m3].
     pub volume: f64,
-    /// Whether the particle allows free slip, see [`Boundary::allows_free_slip`].
+    /// True if the water may slip freely along the particle; see [`Boundary::allows_free_slip`].
     pub allows_free_slip: bool,
 }
 
 impl Boundary {
-    /// Creates bed and walls, then the piston with the row of each of its particles, then `units` copies of `unit`.
-    /// All start at the density `rho0` [kg/m3]; the units lie at the origin until [`Self::move_unit`] moves them.
+    /// Creates the `fixed` particles of bed and walls, the `piston` particles with their row numbers, and `units`
+    /// copies of the particles of one `unit`. All particles start with the density `rho0` [kg/m3]. The units lie at the
+    /// origin until [`Self::move_unit`] moves them.
     pub fn new(
         fixed: &[BoundaryParticle],
         piston: &[(u32, BoundaryParticle)],
@@ -88,34 +89,35 @@ impl Boundary {
         self.position.len()
     }
 
-    /// Returns whether there are no particles.
+    /// Returns true if there are no particles.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
 
-    /// Returns the particles of bed, walls and piston; those of the units follow.
+    /// Returns the index range of the bed, wall and piston particles. The unit particles follow this range.
     pub fn walls(&self) -> Range<usize> {
         0..self.piston.end
     }
 
-    /// Returns the particles of the piston.
+    /// Returns the index range of the piston particles.
     pub fn piston(&self) -> Range<usize> {
         self.piston.clone()
     }
 
-    /// Returns the particles of each unit.
+    /// Returns the index range of the particles of each unit.
     pub fn units(&self) -> &[Range<usize>] {
         &self.units
     }
 
-    /// Returns position and vector to the surface of each unit particle, in the unit's axes [m]; all units share them.
+    /// Returns the position of each particle of a unit and its vector to the surface [m], in the unit's axes. They are
+    /// the same for all units.
     pub fn positions_in_unit(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let unit = self.units.first().cloned().unwrap_or_default();
         unit.map(|particle| (self.anchor[particle], self.anchor_to_surface[particle]))
     }
 
-    /// Returns the load on each unit about its centre [m], from the force on each boundary particle [N]. The order of
-    /// summation over particles is fixed.
+    /// Returns the force on each unit and the torque about its centre of mass. `centres` are these centres [m];
+    /// `force_on` returns the force on a boundary particle [N]. The particles are summed in a fixed order.
     pub fn unit_loads(&self, centres: &[DVec3], force_on: impl Fn(usize) -> DVec3) -> Vec<Load> {
         let load = |(unit, centre): (&Range<usize>, &DVec3)| {
             let mut load = Load::default();
@@ -125,7 +127,7 @@ impl Boundary {
         self.units.iter().zip(centres).map(load).collect()
     }
 
-    /// Moves the piston; `rows` gives the displacement [m] and velocity [m/s] of each row along x.
+    /// Moves the piston particles. `rows` gives the displacement [m] and the velocity [m/s] of each piston row along x.
     pub fn move_piston(&mut self, rows: &[[f64; 2]]) {
         for (particle, &row) in self.piston.clone().zip(&self.piston_row) {
             let [displacement, velocity] = rows[row as usize];
@@ -134,7 +136,7 @@ impl Boundary {
         }
     }
 
-    /// Moves a unit to the state of its rigid body.
+    /// Moves the particles of a unit according to the position, rotation and velocities of its rigid body.
     pub fn move_unit(&mut self, unit: usize, motion: &BodyState) {
         for particle in self.units[unit].clone() {
             let arm = motion.rotation * self.anchor[particle];

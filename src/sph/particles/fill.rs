@@ -1,9 +1,9 @@
-//! Filling the flume with water particles.
+//! Fills the flume with water particles.
 //!
-//! The particles form columns from the bed to the free surface. Each column is divided evenly at about dp; its first
-//! and last particle lie half a spacing from bed and surface. Each particle has the mass of its share, so the volume
-//! is exact. There is no gap above a sloping bed: water falling into such a gap would drive particles into the wall,
-//! because mDBC has no barrier of its own. The density is hydrostatic.
+//! The particles form columns from the bed to the free surface. Each column is divided into equal parts about dp high,
+//! with one particle in the middle of each part. A particle has the mass of the water in its part, so the total volume
+//! is exact. No gap remains above a sloping bed. Water that fell into such a gap would drive particles into the bed,
+//! because mDBC alone does not stop them. The density is hydrostatic.
 
 use glam::{DVec2, DVec3};
 
@@ -12,7 +12,7 @@ use crate::sph::terms::equation_of_state::Tait;
 
 /// The region to be filled with water.
 pub struct Basin<'a> {
-    /// x of the seaward and shoreward end [m].
+    /// x of the seaward and of the shoreward end [m].
     pub x: [f64; 2],
     /// Arrangement of the particles across the flume.
     pub across: Across,
@@ -37,16 +37,16 @@ impl Basin<'_> {
         ((0..count as u32).map(|i| self.x[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
     }
 
-    /// Returns the heights of the particles of a column between two levels and their spacing [m]; there are none if the
-    /// column is lower than dp / 2.
+    /// Returns the z levels of the particles in a column from `bed` to `top`, and their spacing [m]. A column lower
+    /// than dp / 2 has no particles.
     fn column(&self, bed: f64, top: f64) -> (impl Iterator<Item = f64> + use<>, f64) {
         let count = ((top - bed) / self.dp).round().max(0.0);
         let spacing = (top - bed) / count.max(1.0);
         ((0..count as u32).map(move |k| bed + (f64::from(k) + 0.5) * spacing), spacing)
     }
 
-    /// Returns points (x, z) of the side walls' wetted face from the bed up to the level `top` [m]. Each has the area
-    /// that it represents [m2].
+    /// Returns points (x, z) on the wetted face of a side wall, from the bed up to the level `top` [m], each with the
+    /// area that it represents [m2].
     pub fn side_section(&self, top: f64) -> Vec<(DVec2, f64)> {
         let (columns, dx) = self.columns();
         let mut points = Vec::new();
@@ -57,7 +57,7 @@ impl Basin<'_> {
         points
     }
 
-    /// Creates the water with hydrostatic density and the velocity given by `velocity`.
+    /// Creates the water particles with hydrostatic density and with the velocity field `self.velocity`.
     pub fn fill(&self, tait: &Tait) -> Water {
         let (columns, dx) = self.columns();
         let mut water = Water::default();
@@ -71,8 +71,9 @@ impl Basin<'_> {
                     water.position.push(DVec3::new(x, (f64::from(j) + 0.5) * self.across.spacing(), z));
                     water.velocity.push(DVec3::new(velocity.x, 0.0, velocity.y));
                     water.density.push(density);
-                    // The local density makes the volumes m / rho fill the basin. With rho0 the mass would be too small
-                    // for the pressure; the water would sink until the pressure gradient is too steep.
+                    // With the local density, the volumes m / rho fill the basin. With rho0, the mass would be too
+                    // small for the hydrostatic pressure, and the water would sink until its pressure gradient is too
+                    // steep.
                     water.mass.push(density * dx * self.across.spacing() * dz);
                 }
             }
@@ -82,13 +83,15 @@ impl Basin<'_> {
     }
 }
 
-/// A particle nearer to a surface than this share of `least` counts as on the surface: rounding leaves no reliable side
-/// and no direction in which to move it.
+/// A particle nearer to a surface than this share of `least` counts as on the surface. At such a small distance,
+/// rounding errors hide the side on which it lies and the direction in which to move it.
 const ON_SURFACE: f64 = 1e-6;
 
-/// Removes the water inside a solid or on its surface; moves particles nearer than `least` [m] away to that distance.
+/// Removes the water particles inside a solid or on its surface. Moves the other particles that are nearer than `least`
+/// [m] outwards to this distance.
 ///
-/// `locate` returns the nearest point of the solid's surface and the distance to it, negative inside [m].
+/// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
+/// solid.
 pub fn clear_solid(water: &mut Water, least: f64, locate: impl Fn(DVec3) -> (DVec3, f64)) {
     let mut keep = vec![true; water.len()];
     for (position, keep) in water.position.iter_mut().zip(&mut keep) {
@@ -129,17 +132,17 @@ mod tests {
         };
         let water = basin.fill(&TAIT);
         let volume: f64 = water.mass.iter().zip(&water.density).map(|(m, rho)| m / rho).sum();
-        // 1e-9: the midpoint rule is exact for straight lines.
+        // 1e-9: rounding only, because the midpoint rule is exact for straight lines.
         assert!((volume / (0.1 * (0.3 * 2.0 - 0.2)) - 1.0).abs() < 1e-9);
-        // The shallowest column, 0.1 m, holds five particles: a share differs from rho0 dp^3 by at most a tenth, and
-        // the density from rho0 by at most 1 %.
+        // The shallowest column is 0.1 m high and has five particles. The volume of a particle differs from dp^3 by at
+        // most a tenth, and its density from rho0 by at most 1 %.
         assert!(water.mass.iter().all(|m| (m / (1000.0 * 0.02_f64.powi(3)) - 1.0).abs() < 0.12));
         let deepest = water.position.iter().zip(&water.density).min_by(|a, b| a.0.z.total_cmp(&b.0.z)).unwrap();
         assert!((TAIT.pressure(*deepest.1) - 9810.0 * (0.3 - deepest.0.z)).abs() < 1e-6);
     }
 
     #[test]
-    fn water_is_removed_from_solids_and_kept_at_least_distance() {
+    fn water_inside_a_solid_is_removed_and_water_near_it_is_moved_away() {
         let mut water = Water::default();
         for i in 0..100 {
             water.position.push(DVec3::X * f64::from(i) * 0.01);
@@ -161,7 +164,7 @@ mod tests {
             mass: vec![1.0; 2],
             ..Water::default()
         };
-        // A face at x = 0 after rounding: the distance is too small to give a direction.
+        // A face at x = 0 with a rounding error: the distance is too small to define a direction.
         clear_solid(&mut water, 0.02, |p| (p + DVec3::Y * 1e-17, if p.x > 0.0 { p.x } else { 1e-17 }));
         assert_eq!(water.position, [DVec3::X]);
     }

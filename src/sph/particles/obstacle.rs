@@ -1,15 +1,16 @@
 //! Boxes of boundary particles: fixed obstacles and cuboid units.
 //!
-//! The particles form a lattice that divides each edge evenly at about dp; the outermost lie half a spacing behind the
-//! faces, as in bed and walls. Particles behind an edge or corner point at it, so that their ghost nodes lie on the
-//! diagonals (English et al. 2022).
+//! The particles form a lattice of spacing about dp that divides each edge of the box evenly. The outermost particles
+//! lie half a spacing behind the faces, as in bed and walls. If two or three faces are equally near, the surface vector
+//! of a particle leads to their edge or corner. Its ghost node then lies on the diagonal (English et al. 2022).
 
 use glam::DVec3;
 
 use super::boundary::BoundaryParticle;
 use crate::geometry::axis_box::AxisBox;
 
-/// Returns the particles of a box, about dp [m] apart and less than `thickness` [m] behind an open face.
+/// Returns the boundary particles of a box. They are about `dp` [m] apart and less than `thickness` [m] behind an open
+/// face.
 pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryParticle> {
     let count = (bounds.edges() / dp).round().max(DVec3::ONE);
     let spacing = bounds.edges() / count;
@@ -30,7 +31,8 @@ pub fn box_particles(bounds: &AxisBox, dp: f64, thickness: f64) -> Vec<BoundaryP
     particles
 }
 
-/// Redirects bed and wall particles that an obstacle covers: their nearest surface is the foot of the obstacle.
+/// Redirects the surface vectors of the bed and wall particles that an obstacle covers. They then lead to the foot of
+/// the obstacle, the nearest wetted surface.
 pub fn cover(particles: &mut [BoundaryParticle], obstacle: &AxisBox) {
     for particle in particles {
         let surface = particle.position + particle.to_surface;
@@ -45,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thin_boxes_are_solid_and_thick_boxes_are_hollow() {
+    fn thin_boxes_are_filled_and_thick_boxes_are_hollow() {
         let thin = AxisBox::free(DVec3::ZERO, DVec3::new(0.15, 0.15, 0.1));
         let particles = box_particles(&thin, 0.02, 0.06);
         // 0.15 / 0.02 rounds to 8.
@@ -67,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn bed_particles_below_an_obstacle_point_at_its_foot() {
+    fn surface_vectors_of_covered_bed_particles_lead_to_the_foot_of_the_obstacle() {
         let open = [[true; 2], [true; 2], [false, true]];
         let obstacle = AxisBox { low: DVec3::ZERO, high: DVec3::splat(0.2), open };
         let below = |x: f64| BoundaryParticle {

@@ -1,21 +1,22 @@
-//! Filling an armour unit with boundary particles.
+//! Fills an armour unit with boundary particles.
 
 use glam::DVec3;
 
 use super::boundary::BoundaryParticle;
 
-/// Smallest depth of a particle below the surface, as a share of dp. Shallower particles are moved inwards, so that no
-/// water particle meets one on the surface.
-pub const LEAST_DEPTH: f64 = 0.35;
+/// Smallest depth of a boundary particle below the surface of the unit, as a share of dp. Shallower particles are moved
+/// inwards to this depth, so that no water particle touches them.
+pub const MIN_DEPTH: f64 = 0.35;
 
 /// Number of lattice offsets that are tried along each axis.
 const OFFSETS: u32 = 4;
 
-/// Returns the particles of a cubic lattice with spacing `dp` [m] inside a solid, in the solid's axes.
+/// Returns boundary particles that fill a solid on a cubic lattice with spacing `dp` [m], in the axes of the solid.
 ///
-/// `locate` returns the nearest point of the surface and the distance to it, negative inside [m]; `low` and `high`
-/// bound the solid [m]. Of several lattice offsets, the one whose particle count is nearest to `volume` / dp^3 is used.
-/// The particles share the volume [m3] equally.
+/// `locate` returns the surface point nearest to a given point and the distance between them [m], negative inside the
+/// solid. `low` and `high` are the corners of a box around the solid [m]. The function tries several lattice offsets
+/// and uses the one whose particle count is nearest to `volume` / dp^3. Each particle has an equal share of `volume`
+/// [m3].
 pub fn unit_particles(
     locate: impl Fn(DVec3) -> (DVec3, f64),
     low: DVec3,
@@ -35,8 +36,8 @@ pub fn unit_particles(
     let to_particle = |point: DVec3| {
         let (nearest, distance) = locate(point);
         let depth = -distance;
-        let position = if depth < LEAST_DEPTH * dp && depth > 1e-9 * dp {
-            nearest + (point - nearest) * (LEAST_DEPTH * dp / depth)
+        let position = if depth < MIN_DEPTH * dp && depth > 1e-9 * dp {
+            nearest + (point - nearest) * (MIN_DEPTH * dp / depth)
         } else {
             point
         };
@@ -45,7 +46,7 @@ pub fn unit_particles(
     points.into_iter().map(to_particle).collect()
 }
 
-/// Returns the lattice points inside the solid.
+/// Returns the points inside the solid of the lattice with spacing `dp` [m] that starts at `origin`.
 fn points_inside(locate: &impl Fn(DVec3) -> (DVec3, f64), origin: DVec3, high: DVec3, dp: f64) -> Vec<DVec3> {
     let count = ((high - origin) / dp).ceil();
     let mut points = Vec::new();
@@ -67,13 +68,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn particles_of_a_ball_fill_its_volume_and_know_their_depth() {
+    fn particles_of_a_ball_fill_its_volume_and_store_their_depth() {
         let ball = |p: DVec3| (p.normalize_or(DVec3::X) * 0.05, p.length() - 0.05);
         let volume = 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
         let particles = unit_particles(ball, DVec3::splat(-0.05), DVec3::splat(0.05), volume, 0.01);
         let total: f64 = particles.iter().map(|p| p.volume).sum();
         assert!((total / volume - 1.0).abs() < 1e-12);
-        // The best of 64 offsets: the count differs from volume / dp^3 by less than 1 %.
+        // With the best of the 64 offsets, the particle count differs from volume / dp^3 by less than 1 %.
         assert!((particles[0].volume / 1e-6 - 1.0).abs() < 0.01);
         for particle in &particles {
             let depth = 0.05 - particle.position.length();

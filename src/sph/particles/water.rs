@@ -30,7 +30,7 @@ impl Water {
         vectors + numbers + self.id.capacity() * size_of::<u32>()
     }
 
-    /// Returns whether there are no particles.
+    /// Returns true if there are no particles.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

@@ -1,7 +1,7 @@
 //! The operations of a time step, for the processor ([`Solver`]) and for a graphics card.
 //!
-//! The processor works on the host's water arrays. A card keeps its own arrays ([`DeviceMemory`]); it executes queued
-//! commands when a result is read back.
+//! The processor works on the water arrays of the host. A card keeps the water in its own memory ([`DeviceMemory`]). It
+//! executes the queued commands when the host reads a result.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -22,22 +22,22 @@ pub const PROCESSOR: &str = "CPU";
 /// Reason why a device cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DeviceError {
-    /// There is no such device, or it does not open.
+    /// The device does not exist or cannot be opened.
     #[error("{0}")]
     Missing(String),
-    /// It does not have enough memory.
+    /// The device does not have enough memory.
     #[error("{device} does not have enough memory: {what}; raise domain.dp_m, or run with --device cpu")]
     Memory {
         /// Name of the device.
         device: String,
-        /// Requested and available memory.
+        /// Reason, for example the requested and the allowed memory.
         what: String,
     },
-    /// It does not support the numerical scheme of the case.
+    /// The device does not support the numerical scheme of the case.
     #[error("the GPU does not support {0}; run with --device cpu")]
     Scheme(&'static str),
-    /// It failed during the computation.
-    #[error("{device} failed: {what}; the last checkpoint is intact: run breakwater resume on this or another device")]
+    /// The device failed during the computation.
+    #[error("{device} failed: {what}; to continue from the last checkpoint, run breakwater resume on any device")]
     Lost {
         /// Name of the device.
         device: String,
@@ -46,7 +46,7 @@ pub enum DeviceError {
     },
 }
 
-/// Extremes of the water at the end of a time step.
+/// Extreme values of the water at the end of a time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaterExtremes {
     /// Largest speed [m/s].
@@ -55,24 +55,25 @@ pub struct WaterExtremes {
     pub lowest_density: f64,
     /// Highest density [kg/m3].
     pub highest_density: f64,
-    /// Whether a particle has left the domain or has a state that is not finite.
+    /// True if a particle has left the domain or has a state that is not finite.
     pub is_unstable: bool,
 }
 
-/// Surfaces that water must not penetrate, at the end of a time step (see [`crate::simulation::flume`]). Lengths [m].
+/// Surfaces that water must not penetrate, at the end of a time step (see [`crate::simulation::flume`]). All lengths in
+/// [m].
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
-    /// Smallest distance of a particle; nearer particles lose their approach velocity.
+    /// Smallest distance of a water particle from a surface; nearer particles lose their velocity towards the surface.
     pub min_distance: f64,
-    /// Segments of the outline of bed and walls, x and z of both ends.
+    /// x and z of both ends of each segment of the outline of bed and walls.
     pub outline: Vec<[f64; 4]>,
-    /// Obstacles: low and high corner.
+    /// Low and high corner of each obstacle.
     pub obstacles: Vec<[DVec3; 2]>,
-    /// Bounding spheres of the units' parts: centre and radius.
+    /// Centre and radius of a sphere around each part of the units; the radius includes `min_distance`.
     pub bounding_spheres: Vec<(DVec3, f64)>,
-    /// Position of the wavemaker at rest, height of its lowest row, and the displacement of each row.
+    /// Wavemaker: x position at rest, z of its lowest row, and displacement of each row along x.
     pub wavemaker: Option<(f64, f64, Vec<f64>)>,
-    /// Width between the side walls; the first one stands at y = 0.
+    /// Width between the side walls, if there are any; the first side wall stands at y = 0.
     pub sides: Option<f64>,
 }
 
@@ -96,16 +97,16 @@ pub trait Backend: Send {
     /// Returns the bins of the cell list.
     fn grid(&self) -> &Grid;
 
-    /// Returns where each bin of the water begins, as last sorted and fetched.
+    /// Returns the bins of the sorted water. For a card, only `start` is set, by the last [`DeviceMemory::fetch`].
     fn water_bins(&self) -> &Bins;
 
-    /// Returns the device's own memory; `None` if it works on the arrays of the host.
+    /// Returns the interface to the memory of the device; `None` if the device works on the arrays of the host.
     fn device_memory(&mut self) -> Option<&mut dyn DeviceMemory>;
 
-    /// Sorts the particles into bins and the water's arrays into the order of the bins.
+    /// Sorts all particles into bins, and the arrays of `water` into the order of the bins.
     fn sort(&mut self, water: &mut Water, boundary: &Boundary);
 
-    /// Builds the neighbour lists of this time step.
+    /// Builds the neighbour lists for this time step.
     fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary);
 
     /// Computes the densities of the boundary particles from their ghost nodes.
@@ -129,39 +130,40 @@ pub trait Backend: Send {
     /// Corrector, equations 8.3, 8.4 and 9.2: computes the state at the end of the time step.
     fn correct(&mut self, dt: f64, water: &mut Water, boundary: &mut Boundary);
 
-    /// Returns the load of the water on each unit about its centre [m].
+    /// Returns the force of the water on each unit and the torque about its centre of mass; `centres` are these centres
+    /// [m].
     fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Result<Vec<Load>, DeviceError>;
 
-    /// Returns the last computed rates of the water in its order, valid until [`DeviceMemory::sort_ahead`]. Rates from
-    /// cards do not include the approach speed.
+    /// Returns the last computed rates of the water in sorted order, valid until [`DeviceMemory::sort_ahead`]. In rates
+    /// from cards, the approach speed is zero.
     fn water_rates(&mut self) -> Result<Vec<Rate>, DeviceError>;
 
-    /// Returns the powers that act on the water, at the fetched state whose rates were computed last.
+    /// Returns the powers that the water receives, for the fetched state whose rates were computed last.
     fn powers(&mut self, water: &Water) -> Result<Powers, DeviceError>;
 }
 
-/// A device that keeps the water in its own memory instead of the host's arrays. The operations fail if the device is
-/// lost, and [`Self::load`] if its memory is too small.
+/// A device that keeps the water in its own memory instead of the arrays of the host. The operations fail if the device
+/// is lost. [`Self::load`] also fails if the memory of the device is too small.
 pub trait DeviceMemory {
-    /// Copies water and boundary to the device: at the start and after a checkpoint has been read or written.
+    /// Copies water and boundary from the host to the device, at the start and after a checkpoint was read or written.
     fn load(&mut self, water: &Water, boundary: &Boundary) -> Result<(), DeviceError>;
 
-    /// Updates water, its bins and the boundary densities in the arrays of the host.
+    /// Copies the water, its bins and the boundary densities from the device to the arrays of the host.
     fn fetch(&mut self, water: &mut Water, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
-    /// Updates only the boundary densities in the arrays of the host.
+    /// Copies only the boundary densities from the device to the arrays of the host.
     fn fetch_boundary_densities(&mut self, boundary: &mut Boundary) -> Result<(), DeviceError>;
 
-    /// Returns the water near surfaces, which the host keeps out of them.
+    /// Returns the water particles near the `surfaces`. The host then removes their velocities into the surfaces.
     fn fetch_near_water(&mut self, surfaces: &Surfaces) -> Result<NearWater, DeviceError>;
 
     /// Writes the velocities of the water near surfaces back to the device.
     fn write_near_velocities(&mut self, near: &NearWater);
 
-    /// Starts sorting the water at its positions at the end of the time step, while the host moves the units.
+    /// Starts to sort the water at its positions at the end of the time step. Meanwhile the host moves the units.
     fn sort_ahead(&mut self);
 
-    /// Returns the extremes of the water at the end of a time step.
+    /// Returns the extreme values of the water at the end of a time step.
     fn water_extremes(&mut self) -> Result<WaterExtremes, DeviceError>;
 }
 
@@ -182,7 +184,7 @@ pub fn unsupported_on_gpu(parameters: &Parameters) -> Option<&'static str> {
     if !parameters.gap_pressure {
         return Some("units without gap pressure (numerics.gap_pressure = false)");
     }
-    parameters.shifting.map(|_| "particle shifting (numerics.shifting)")
+    parameters.shifting.map(|_| "particle shifting (numerics.shifting_coefficient)")
 }
 
 impl Backend for Solver {

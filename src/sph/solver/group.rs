@@ -24,7 +24,7 @@ impl Group {
         Self { lists: NeighbourLists::new(instructions), ..Self::default() }
     }
 
-    /// Sorts positions into bins.
+    /// Sorts the particles at `positions` [m] into bins.
     pub(super) fn sort(&mut self, grid: &Grid, positions: &[DVec3]) {
         self.bins.sort(grid, positions);
         self.sorted.clear();

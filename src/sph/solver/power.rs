@@ -1,11 +1,11 @@
-//! Power that acts on the water at one moment, and the divergence of its velocity.
+//! Power that the water receives at one moment, and divergence of the water velocity.
 //!
-//! Pressure between two water particles conserves their energy. Therefore the sum
+//! The pressure forces between two water particles conserve their energy. Therefore the sum
 //!
 //!   sum_a m_a (v_a . dv_a/dt + p_a / rho_a^2 d rho_a/dt)     without viscosity and diffusion
 //!
-//! is the power of bed, walls, wavemaker and units. The same sum over the contributions of viscosity and diffusion to
-//! the rates is their power. Gravity only converts kinetic energy to potential energy and back.
+//! is the power of bed, walls, wavemaker and units. The power of viscosity, or of diffusion, is the same sum over its
+//! contribution to the rates. Gravity only converts kinetic energy to potential energy and back.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ use crate::sph::{
 pub struct Powers {
     /// Power of bed, walls, wavemaker and units through pressure.
     pub boundary: f64,
-    /// Power of viscosity; negative unless moving walls drag the water along.
+    /// Power of viscosity; negative, unless moving walls drag the water along.
     pub viscosity: f64,
     /// Power of density diffusion.
     pub diffusion: f64,
@@ -30,7 +30,7 @@ pub struct Powers {
 }
 
 impl Solver {
-    /// Computes the powers at the state whose rates were computed last; `water` is that state, sorted.
+    /// Computes the powers for the state whose rates were computed last. `water` must be this state, in sorted order.
     pub fn powers(&self, water: &Water) -> Powers {
         let parameters = self.parameters;
         let pressure_only = self.rates_with(
@@ -46,7 +46,8 @@ impl Solver {
 }
 
 impl Powers {
-    /// Computes the powers from the rates of the sorted water with and without viscosity and diffusion.
+    /// Computes the powers of the sorted water. Its rates `all` include viscosity and diffusion, `pressure_only` do
+    /// not.
     pub(in crate::sph) fn of(water: &Water, tait: &Tait, all: &[Rate], pressure_only: &[Rate]) -> Self {
         let vector = |rate: &Rate| DVec3::from_array(rate.acceleration.map(f64::from));
         let mut powers = Self::default();

@@ -1,4 +1,4 @@
-//! Interpolation of the water at points: pressure, velocity, level of the free surface.
+//! Interpolates pressure, velocity and free-surface level of the water at given points.
 
 use glam::{DVec2, DVec3};
 
@@ -8,23 +8,23 @@ use crate::sph::particles::water::Water;
 use crate::sph::terms::equation_of_state::Tait;
 use crate::sph::terms::kernel::Wendland;
 
-/// Sum of W V at the free surface: half a neighbourhood.
+/// Sum of W V at the free surface [-]: half a neighbourhood.
 const SURFACE: f64 = 0.5;
 
 /// Smallest scaled determinant for which the linear fit is used; see [`mdbc`](crate::sph::boundary::mdbc).
-const LEAST_DETERMINANT: f64 = 0.01;
+const MIN_DETERMINANT: f64 = 0.01;
 
-/// Second moment of the kernel along each axis, int W x^2 dV [h^2]; 5/18 in two dimensions.
+/// Second moment of the kernel along each axis, int W x^2 dV [h^2]. The exact value in two dimensions is 5/18.
 const SECOND_MOMENT: f64 = 4.0 / 15.0;
 
-/// Sampler of the sorted water of a time step.
+/// Interpolator in the sorted water of a time step.
 #[derive(Clone, Copy)]
 pub struct Sampler<'a> {
     /// Grid of the bins.
     pub grid: &'a Grid,
-    /// Start of each bin.
+    /// Bins of the sorted water.
     pub bins: &'a Bins,
-    /// The water, sorted.
+    /// Water, in sorted order.
     pub water: &'a Water,
     /// Kernel.
     pub kernel: Wendland,
@@ -42,13 +42,14 @@ pub struct Sample {
 }
 
 impl Sampler<'_> {
-    /// Folds over the water within the kernel support of a point; `f` takes the offset from it [m] and the particle.
+    /// Folds `f` over the water particles within the kernel support of a point. `f` takes the value so far, the vector
+    /// from the point to the particle [m] and the index of the particle.
     fn fold<T>(&self, point: DVec3, start: T, mut f: impl FnMut(T, DVec3, usize) -> T) -> T {
         let (grid, reach) = (self.grid, self.kernel.support());
         let [nx, ny, _] = grid.count;
         let bins = |axis: usize| grid.along(axis, point[axis] - reach)..=grid.along(axis, point[axis] + reach);
         let (x, z) = (bins(0), bins(2));
-        // Search every row of a periodic flume; there are only few gauges.
+        // In a periodic flume, search every row: the gauges are few, so this costs little.
         let y = if grid.periodic_width.is_some() { 0..=ny - 1 } else { bins(1) };
         let mut value = start;
         for iz in z {
@@ -71,7 +72,7 @@ impl Sampler<'_> {
         value
     }
 
-    /// Returns m / rho W of a neighbour [-].
+    /// Returns (m / rho) W [-] of the particle `b` at the vector `r` [m] from the point.
     fn weight(&self, r: DVec3, b: usize) -> f64 {
         self.water.mass[b] / self.water.density[b] * self.kernel.value(self.kernel.closeness(r.length()))
     }
@@ -81,11 +82,11 @@ impl Sampler<'_> {
         self.fold(point, 0.0, |sum, r, b| sum + self.weight(r, b))
     }
 
-    /// Returns pressure and velocity from a linear fit with kernel weights (moving least squares), or the weighted mean
-    /// where the fit is ill-conditioned; `None` where the point is dry.
+    /// Returns pressure and velocity at a point from a linear fit with kernel weights (moving least squares), or the
+    /// weighted mean if the fit is ill-conditioned. Returns `None` if the point is dry.
     pub fn sample(&self, point: DVec3) -> Option<Sample> {
         let per_h = 1.0 / self.kernel.h;
-        // Moments of (1, x, y, z) against (1, x, y, z, p, u, v, w).
+        // Weighted sums of the products of (1, x, y, z) with (1, x, y, z, p, u, v, w).
         let mut moments = self.fold(point, [[0.0; 8]; 4], |mut sums, r, b| {
             let weight = self.weight(r, b);
             let [x, y, z] = (r * per_h).to_array();
@@ -99,7 +100,7 @@ impl Sampler<'_> {
             sums
         });
         let occupied = moments[0][0];
-        // A fifth of a neighbourhood, as found slightly above a calm free surface.
+        // A point slightly above a calm free surface has a fifth of a neighbourhood.
         if occupied < 0.2 {
             return None;
         }
@@ -109,13 +110,14 @@ impl Sampler<'_> {
         }
         let value = |field: usize| {
             let rows = moments.map(|row| [row[0], row[1], row[2], row[3], row[4 + field]]);
-            solve(rows, LEAST_DETERMINANT * SECOND_MOMENT.powi(3) * occupied.powi(4))
+            solve(rows, MIN_DETERMINANT * SECOND_MOMENT.powi(3) * occupied.powi(4))
                 .map_or(moments[0][4 + field] / occupied, |s| s[0])
         };
         Some(Sample { pressure: value(0), velocity: DVec3::new(value(1), value(2), value(3)) })
     }
 
-    /// Returns the level z of the free surface at (x, y), searched from `high` down to `low` [m]; `None` if dry.
+    /// Returns the level z of the free surface at (x, y) [m]. It is searched from `high` down to `low` [m]; `None` if
+    /// dry.
     pub fn surface(&self, xy: DVec2, low: f64, high: f64) -> Option<f64> {
         let step = 0.25 * self.kernel.h;
         let occupied_at = |z: f64| self.occupied(xy.extend(z));

@@ -1,10 +1,11 @@
-//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls them in
-//! the order:
+//! Operations of the symplectic position Verlet step (equations 7 to 9). [`crate::simulation::flume`] calls these
+//! operations in this order:
 //!
-//! sort - list - boundary densities - rates - time step - predict - rates - correct
+//! sort - neighbour lists - boundary densities - rates - time step - predict - rates - correct
 //!
-//! The printed equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would count half a
-//! step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the start of the step:
+//! In the paper, equations 8.3, 8.4 and 9.2 have half-step values on their right-hand sides, which would count half a
+//! time step twice. As in equation 7.2 and in Parshikov et al. (2000), this code uses the values at the start of the
+//! time step:
 //! v^{n+1} = v^n + dt dv^{n+1/2}/dt, r^{n+1} = r^n + dt (v^n + v^{n+1})/2, rho^{n+1} = rho^n (2 - eps)/(2 + eps).
 
 use glam::DVec3;
@@ -26,7 +27,7 @@ use crate::sph::{
     terms::{density_diffusion::Diffusion, viscosity::Viscosity, wall_slip::WallSlip},
 };
 
-/// Smallest chunk of an array that is worth a task of the thread pool.
+/// Smallest number of array entries for which a separate task of the thread pool is worthwhile.
 const MIN_CHUNK: usize = 4096;
 
 /// Constants and scratch memory of the solver; scratch memory is kept between time steps only to avoid allocations.
@@ -40,7 +41,7 @@ pub struct Solver {
     water: Group,
     walls: Group,
     units: Group,
-    /// Neighbour lists of the units: bed, walls and units.
+    /// Neighbour lists of the units for the gap pressure; the neighbours are particles of bed, walls and units.
     gap_lists: NeighbourLists,
     records: Vec<Record>,
     ghosts: GhostNodes,
@@ -53,7 +54,7 @@ pub struct Solver {
     unit_force: Vec<DVec3>,
 }
 
-/// Arrays of the water at the start or at the half of a time step.
+/// State of the water at the start of a time step or at the half step.
 #[derive(Clone, Copy)]
 struct State<'a> {
     position: &'a [DVec3],
@@ -99,7 +100,7 @@ impl Solver {
         }
     }
 
-    /// Sorts the particles into bins and the water's arrays into the order of the bins.
+    /// Sorts all particles into bins, and the arrays of `water` into the order of the bins.
     pub fn sort(&mut self, water: &mut Water, boundary: &Boundary) {
         let walls = boundary.walls();
         self.water.sort(&self.grid, &water.position);
@@ -112,7 +113,7 @@ impl Solver {
         self.fill_water_records(State::from_water(water));
     }
 
-    /// Builds the neighbour lists of this time step.
+    /// Builds the neighbour lists for this time step.
     pub fn build_neighbour_lists(&mut self, water: &Water, boundary: &Boundary) {
         let reach = self.reach(water, boundary);
         let Self { grid, water: w, walls, units, .. } = self;
@@ -149,12 +150,13 @@ impl Solver {
         };
         let speed = largest_speed(&water.velocity).max(largest_speed(&boundary.velocity));
         let Parameters { kernel, cfl, tait, .. } = &self.parameters;
-        // dt is at most cfl h / c; in a splash c can be 10 % below c0. Each of the two particles moves speed dt / 2.
+        // dt is at most cfl h / c; in a splash, c can be 10 % below c0. Each of the two particles moves by at most
+        // speed * dt / 2.
         let step = cfl * kernel.h / (0.9 * tait.c0);
         kernel.support() + (speed * step).min(kernel.h)
     }
 
-    /// Fills the records of the water at the start or at the half of a time step.
+    /// Fills the records of the water from its state at the start of a time step or at the half step.
     fn fill_water_records(&mut self, water: State) {
         let (grid, parameters) = (&self.grid, &self.parameters);
         let records = self.records[..water.position.len()].par_iter_mut();
@@ -164,7 +166,8 @@ impl Solver {
         });
     }
 
-    /// Fills the records of the boundary with densities at the start or at the half of a time step.
+    /// Fills the records of the boundary. `density` is its density at the start of a time step or at the half step
+    /// [kg/m3].
     fn fill_boundary_records(&mut self, boundary: &Boundary, density: &[f64]) {
         let (grid, parameters, ghost_velocities) = (&self.grid, &self.parameters, &self.ghost_velocities);
         let (of_walls, of_units) = self.records[self.walls.first_record..].split_at_mut(boundary.walls().len());
@@ -183,7 +186,8 @@ impl Solver {
         fill(of_units, &self.units.bins.order, boundary.walls().len());
     }
 
-    /// Computes boundary densities from ghost nodes under mDBC; under DBC they follow the continuity equation.
+    /// Under mDBC, computes the boundary densities from the ghost nodes. Under DBC they follow from the continuity
+    /// equation. Fills the records of the boundary.
     pub fn boundary_densities(&mut self, boundary: &mut Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             self.ghosts.densities(&self.grid, &self.parameters, &self.water.sources(), &self.records, boundary);
@@ -195,7 +199,7 @@ impl Solver {
         self.fill_boundary_records(boundary, &boundary.density);
     }
 
-    /// Computes the rates of water, units and, under DBC, walls from the present records.
+    /// Computes the rates of water, units and, under DBC, walls from the current records.
     pub fn rates(&mut self) {
         let Self { pairs, records, water, walls, units, parameters, gap_lists, gradients, .. } = self;
         if Gradients::are_needed(parameters) {
@@ -211,7 +215,7 @@ impl Solver {
         }
     }
 
-    /// Returns the last computed rates of the water, in its order.
+    /// Returns the last computed rates of the water, in sorted order.
     pub fn water_rates(&self) -> &[Rate] {
         &self.water.rates
     }
@@ -229,7 +233,8 @@ impl Solver {
         Limits::of(&self.records[..self.water.rates.len()], &self.water.rates, self.parameters.gravity)
     }
 
-    /// Predictor, equations 8.1, 8.2 and 9.1: computes a separate half-step state; `move_boundary` moves the boundary.
+    /// Predictor, equations 8.1, 8.2 and 9.1: computes the half-step state separately from `water`. `move_boundary`
+    /// moves the boundary to the half step.
     pub fn predict(
         &mut self,
         dt: f64,
@@ -263,7 +268,7 @@ impl Solver {
         self.half_density = half_density;
     }
 
-    /// Applies equation 9.1 to the boundary particles of the dynamic boundary condition.
+    /// Under DBC, computes the half-step densities of the boundary particles by equation 9.1.
     fn half_boundary_density(&mut self, half_dt: f64, boundary: &Boundary) {
         if self.parameters.boundary == BoundaryCondition::ModifiedDynamic {
             return;
@@ -274,7 +279,7 @@ impl Solver {
         }
     }
 
-    /// Returns each boundary particle with its d rho / dt [kg/(m3 s)].
+    /// Returns the index of each boundary particle with its d rho / dt [kg/(m3 s)].
     fn boundary_rates(&self) -> Vec<(usize, f64)> {
         let rates = |group: &Group, offset: usize| {
             let pairs = group.bins.order.iter().zip(&group.rates);
@@ -313,7 +318,8 @@ impl Solver {
         }
     }
 
-    /// Returns the load of the water on each unit about its centre [m].
+    /// Returns the force of the water on each unit and the torque about its centre of mass; `centres` are these centres
+    /// [m].
     pub fn unit_loads(&mut self, boundary: &Boundary, centres: &[DVec3]) -> Vec<Load> {
         let first_unit = boundary.walls().end;
         self.unit_force.resize(boundary.len() - first_unit, DVec3::ZERO);
@@ -334,12 +340,12 @@ impl Solver {
         self.pairs.count_within_support(&self.water.lists, &self.records) as f64 / self.water.rates.len().max(1) as f64
     }
 
-    /// Returns the memory that every rate evaluation reads, neighbour lists and records [bytes].
+    /// Returns the size of the neighbour lists and records, which every evaluation of the rates reads [bytes].
     pub fn bytes_read(&self) -> usize {
         self.water.lists.bytes() + self.records.len() * size_of::<Record>()
     }
 
-    /// Returns the memory in use besides the state of water and boundary [bytes].
+    /// Returns the memory in use, without the state of water and boundary [bytes].
     pub fn bytes(&self) -> usize {
         let groups: usize = [&self.water, &self.walls, &self.units].map(Group::bytes).iter().sum();
         let records = self.records.capacity() * size_of::<Record>();
@@ -364,7 +370,8 @@ fn acceleration(rate: &Rate) -> DVec3 {
     DVec3::from_array(rate.acceleration.map(f64::from))
 }
 
-/// Returns rho (2 - eps) / (2 + eps) with eps = -dt (d rho/dt) / rho at the half step (equation 9.2).
+/// Returns the density at the end of a time step [kg/m3], rho (2 - eps) / (2 + eps) with eps = -dt (d rho/dt) / rho at
+/// the half step (equation 9.2).
 fn end_density(rho: f64, half_rho: f64, rate: f64, dt: f64) -> f64 {
     let epsilon = -dt * rate / half_rho;
     rho * (2.0 - epsilon) / (2.0 + epsilon)
@@ -382,12 +389,12 @@ mod tests {
 
     #[test]
     fn density_update_is_second_order() {
-        // d rho / dt = -rho: one time step compared with exp(-dt).
+        // For d rho / dt = -rho, compares one time step with the exact factor exp(-dt).
         let error = |dt: f64| {
             let half = 1000.0 * (1.0 - 0.5 * dt);
             (end_density(1000.0, half, -half, dt) / 1000.0 - (-dt).exp()).abs()
         };
-        // Halving dt reduces the local error by a factor of eight: third order locally.
+        // Halving dt reduces the error of one time step by a factor of eight: this local error is of third order.
         let ratio = error(0.02) / error(0.01);
         assert!((ratio - 8.0).abs() < 0.2, "{ratio}");
     }

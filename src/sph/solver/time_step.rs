@@ -9,14 +9,14 @@ use crate::sph::{neighbours::records::Record, pairs::rate::Rate, parameters::Par
 /// Largest acceleration and signal speed over the water.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Limits {
-    /// max |dv/dt| [m/s2].
+    /// Largest acceleration, max |dv/dt| [m/s2].
     pub acceleration: f64,
-    /// max (c + |mu|) [m/s].
+    /// Largest signal speed, max (c + |mu|) with mu of equation 3 [m/s].
     pub signal_speed: f64,
 }
 
 impl Limits {
-    /// Computes the limits from the records and rates of the water; any NaN makes them NaN.
+    /// Computes the limits from the records and rates of the water. A limit is NaN if one of its values is NaN.
     pub fn of(records: &[Record], rates: &[Rate], gravity: f64) -> Self {
         records
             .par_iter()
@@ -49,7 +49,7 @@ impl Limits {
     }
 }
 
-/// Returns the largest time step [s] for viscous diffusion, from h [m] and nu [m2/s]; infinite without viscosity.
+/// Returns the largest time step for viscous diffusion [s], from h [m] and nu [m2/s]; infinite for nu = 0.
 pub fn viscous_limit(h: f64, nu: f64) -> f64 {
     0.125 * h * h / nu
 }

@@ -2,13 +2,14 @@
 //! D_a = 2 delta h c sum_b (rho_ba^T - rho_ab^H) (r_ab . grad_a W_ab) / r_ab^2 V_b.
 //!
 //! Two details differ from the printed equations. (1) With rho_ba = rho_b - rho_a and r_ab = r_a - r_b the sum is
-//! negative where neighbours are denser. The printed sign would sharpen differences; diffusion needs the opposite sign,
-//! as in Molteni & Colagrossi (2009). (2) Equation 5, rho_ab^H = rho0 g z_ab, is a pressure. The equation of state
-//! gives its density: rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
+//! negative where neighbours are denser. The printed sign would amplify density differences. This code uses the
+//! opposite sign, as in Molteni & Colagrossi (2009). (2) The printed equation 5, rho_ab^H = rho0 g z_ab, is a pressure.
+//! This code uses the density at this pressure from the equation of state,
+//! rho^H = rho0 [(1 + gamma rho0 g z_ab / (rho0 c0^2))^(1/gamma) - 1].
 //!
-//! Boundary particles of the dynamic boundary condition repel the water by their own excess density. As in
-//! DualSPHysics, density diffusion excludes them and the water within their support: diffusion would remove that
-//! excess, and the water would sink into the wall.
+//! Under DBC, boundary particles repel the water by their excess density. As in DualSPHysics, density diffusion
+//! excludes these particles and the water within their support. Diffusion would remove the excess density, and the
+//! water would sink into the wall.
 
 use super::equation_of_state::Tait;
 use crate::sph::lanes::Real;
@@ -22,8 +23,8 @@ pub enum DensityDiffusion {
     MolteniColagrossi,
     /// Diffuses the deviation from the hydrostatic density (Fourtakas et al. 2019).
     Fourtakas,
-    /// Diffuses the difference that the renormalised gradients of the pair do not explain (Antuono et al. 2010):
-    /// rho_b - rho_a - (grad rho_a + grad rho_b) . r_ba / 2.
+    /// Diffuses the part of the density difference that the renormalised gradients do not explain (Antuono et al.
+    /// 2010): rho_b - rho_a - (grad rho_a + grad rho_b) . r_ba / 2.
     Antuono,
 }
 
@@ -60,7 +61,7 @@ impl Diffusion {
         [self.hydrostatic, self.curvature]
     }
 
-    /// Returns constants without diffusion.
+    /// Returns constants that switch density diffusion off.
     pub fn none() -> Self {
         Self { kind: DensityDiffusion::None, strength: 0.0, hydrostatic: 0.0, curvature: 0.0 }
     }
@@ -72,7 +73,8 @@ impl Diffusion {
         slope.mul_add(z_ab, rho_b - rho_a)
     }
 
-    /// Returns the factor of the sum of [`Self::excess`] G V_b [m2/s]; (r_ab . grad_a W_ab) / r_ab^2 = G.
+    /// Returns the factor of sum_b [`Self::excess`] G V_b in equation 4 [m2/s], where
+    /// G = (r_ab . grad_a W_ab) / r_ab^2.
     #[inline(always)]
     pub fn factor(&self) -> f32 {
         -self.strength

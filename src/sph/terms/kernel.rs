@@ -2,8 +2,8 @@
 //!
 //! W(q) = alpha_D (1 - q/2)^4 (2q + 1), q = r/h <= 2, with alpha_D = 21 / (16 pi h^3) in three dimensions. A
 //! two-dimensional flume is a single layer of particles with thickness t. With alpha_D = 7 / (4 pi h^2 t), volumes,
-//! masses and forces keep their units, and every sum over the layer equals the two-dimensional sum.
-//! The gradient is grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3: no division by r.
+//! masses and forces keep their units, and every sum over the layer equals the two-dimensional sum. The gradient is
+//! grad_a W_ab = G(r) r_ab with G = -5 alpha_D / h^2 (1 - q/2)^3. It needs no division by r.
 
 use std::f64::consts::PI;
 
@@ -27,7 +27,8 @@ impl Wendland {
         Self::with_scale(h, 21.0 / (16.0 * PI * h.powi(3)), 3)
     }
 
-    /// Creates the two-dimensional kernel with smoothing length `h` [m] for a layer of particles of this thickness [m].
+    /// Creates the two-dimensional kernel with smoothing length `h` [m] for a layer of particles that is `thickness`
+    /// [m] thick.
     pub fn in_layer(h: f64, thickness: f64) -> Self {
         Self::with_scale(h, 7.0 / (4.0 * PI * h * h * thickness), 2)
     }
@@ -37,7 +38,7 @@ impl Wendland {
         Self { h, inv_2h: (0.5 / h) as f32, alpha: alpha as f32, gradient: gradient as f32, dimensions }
     }
 
-    /// Returns 2 for a layer of particles, otherwise 3.
+    /// Returns the number of dimensions: 2 for a layer of particles, otherwise 3.
     pub fn dimensions(&self) -> u32 {
         self.dimensions
     }
@@ -67,7 +68,7 @@ impl Wendland {
         square * square * closeness.mul_add(R::splat(-4.0), R::splat(5.0))
     }
 
-    /// Returns alpha_D [1/m3].
+    /// Returns alpha_D, the constant factor of W [1/m3].
     pub fn scale(&self) -> f32 {
         self.alpha
     }
@@ -84,7 +85,7 @@ impl Wendland {
         closeness * closeness * closeness
     }
 
-    /// Returns -5 alpha_D / h^2 [1/m5].
+    /// Returns -5 alpha_D / h^2, the constant factor of G [1/m5].
     #[inline(always)]
     pub fn gradient_scale(&self) -> f32 {
         self.gradient
@@ -95,7 +96,7 @@ impl Wendland {
 mod tests {
     use super::*;
 
-    /// Midpoint rule for 4 pi r^2 f(r) over the support.
+    /// Returns the integral of 4 pi r^2 f(r) over the support, by the midpoint rule.
     fn integral(h: f64, f: impl Fn(f64) -> f64) -> f64 {
         let n = 20_000;
         let dr = 2.0 * h / f64::from(n);
@@ -112,14 +113,14 @@ mod tests {
     #[test]
     fn layer_kernel_integrates_to_one_over_the_layer() {
         let kernel = Wendland::in_layer(0.02, 0.01);
-        // The factor converts the 4 pi r^2 of `integral` to 2 pi r times the thickness.
+        // The factor converts the area 4 pi r^2 of `integral` to 2 pi r times the thickness of the layer.
         let over_layer = |r: f64| kernel.value(kernel.closeness(r)) * 0.01 / (2.0 * r);
         assert!((integral(0.02, over_layer) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn gradient_of_a_linear_field_is_exact() {
-        // int (grad W)_x (-x) dV = 1; by symmetry it is a third of -int G r^2 dV.
+        // int (grad W)_x (-x) dV = 1; by symmetry this integral is a third of -int G r^2 dV.
         let kernel = Wendland::new(0.02);
         let sum = integral(0.02, |r| -kernel.gradient_factor(kernel.closeness(r)) * r * r / 3.0);
         assert!((sum - 1.0).abs() < 1e-6);

@@ -9,7 +9,7 @@
 //! | [`turbulence`] | sub-particle-scale stress |
 //! | [`density_diffusion`] | 4 and 5: density diffusion |
 //! | [`equation_of_state`] | 6: Tait |
-//! | [`wall_slip`] | velocity of boundary particles as the water sees it |
+//! | [`wall_slip`] | velocity of boundary particles in the equations of the water |
 //! | [`shifting`] | particle shifting |
 
 pub mod continuity;

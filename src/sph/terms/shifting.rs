@@ -2,21 +2,21 @@
 //!
 //!   dr = -A h |v| dt grad C,   C = sum_b V_b W_ab,
 //!
-//! from dense to sparse regions. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab is smaller than in a
-//! full neighbourhood, the shift decreases to zero.
+//! from dense to sparse regions of particles. Near the free surface, where div r = sum_b V_b r_ba . grad_a W_ab is
+//! smaller than in a full neighbourhood, the shift decreases to zero.
 
 use glam::DVec3;
 
-/// div r at the free surface in two and three dimensions [-]; particles with less are not shifted.
+/// div r at the free surface in two and three dimensions [-]; particles with a smaller div r are not shifted.
 const SURFACE: [f64; 2] = [1.5, 2.75];
 
 /// Largest shift as a share of the particle spacing.
-const LONGEST: f64 = 0.1;
+const MAX_SHIFT: f64 = 0.1;
 
 /// Constants of the shift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shifting {
-    /// A [-].
+    /// Coefficient A of the shift [-].
     pub coefficient: f64,
     /// Smoothing length [m].
     pub h: f64,
@@ -32,7 +32,7 @@ impl Shifting {
         let (full, surface) = (f64::from(self.dimensions), SURFACE[self.dimensions as usize - 2]);
         let inside = ((divergence - surface) / (full - surface)).clamp(0.0, 1.0);
         let shift = -inside * self.coefficient * self.h * speed * dt * concentration_gradient;
-        shift.clamp_length_max(LONGEST * self.dp)
+        shift.clamp_length_max(MAX_SHIFT * self.dp)
     }
 }
 

@@ -2,17 +2,19 @@
 //! Pi_ab = -alpha c_ab mu_ab / rho_ab with mu_ab = h v_ab . r_ab / (r_ab^2 + 0.01 h^2) where v_ab . r_ab < 0, else 0;
 //! c_ab and rho_ab are means of the pair.
 //!
-//! Alternatives are two forms of the laminar viscosity. The acceleration of Lo & Shao (2002),
+//! The alternative is laminar viscosity, in two forms. The acceleration of Lo & Shao (2002),
 //!
 //!   sum_b m_b 4 nu (r_ab . grad_a W_ab) / ((rho_a + rho_b) r_ab^2) v_ab,
 //!
-//! acts along the velocity difference. That of Monaghan & Gingold (1983), in D dimensions with K = 2 (D + 2),
+//! acts along the velocity difference. The acceleration of Monaghan & Gingold (1983), with K = 2 (D + 2) in D
+//! dimensions,
 //!
 //!   sum_b m_b 2 K nu / (rho_a + rho_b) (v_ab . r_ab) / (r_ab^2 + 0.01 h^2) grad_a W_ab,
 //!
-//! acts along the line between the particles. Inside the water both converge to nu laplace v where div v = 0 (Espanol &
-//! Revenga 2003; Hu & Adams 2006). Only the second form conserves angular momentum. At a free surface, only the second
-//! form dissipates as a Newtonian fluid: 2 mu S : S per volume, not mu |grad v|^2 (Colagrossi et al. 2011).
+//! acts along the line between the particles. Inside the water both forms converge to nu laplace v where div v = 0
+//! (Espanol & Revenga 2003; Hu & Adams 2006). Only the second form conserves angular momentum. At a free surface, only
+//! the second form has the dissipation of a Newtonian fluid: 2 mu S : S per volume, not mu |grad v|^2 (Colagrossi et
+//! al. 2011).
 
 use super::turbulence::Smagorinsky;
 use crate::sph::lanes::Real;
@@ -22,7 +24,7 @@ use crate::sph::lanes::Real;
 pub enum Viscosity {
     /// Artificial viscosity, equation 3.
     Artificial {
-        /// alpha [-].
+        /// Coefficient alpha of equation 3 [-].
         alpha: f64,
     },
     /// Laminar viscosity (Lo & Shao 2002), with or without sub-particle-scale turbulence.
@@ -45,24 +47,25 @@ pub fn approach_rate<R: Real>(h: f32, v_dot_r: R, r2: R) -> R {
     v_dot_r / (r2 + R::splat(0.01 * h * h))
 }
 
-/// Returns rho_a rho_b Pi_ab [Pa]; it is never negative, because it only resists approach.
+/// Returns rho_a rho_b Pi_ab [Pa]; it is never negative, because artificial viscosity resists only approach.
 #[inline(always)]
 pub fn viscous_stress<R: Real>(alpha: f32, h: f32, rate: R, c_a: R, c_b: R, rho_a: R, rho_b: R) -> R {
-    // 0.25 combines the factors 1/2 of both means. rho_a rho_b / rho_ab differs from the mean density by
-    // (rho_a - rho_b)^2 / 4 rho_ab. In weakly compressible flow this is below 1e-5 of it, less than single precision
-    // resolves in the sum.
+    // 0.25 combines the factors 1/2 of both means. The mean density replaces rho_a rho_b / rho_ab; the difference is
+    // (rho_a - rho_b)^2 / (4 rho_ab). In weakly compressible flow it is below 1e-5 of the mean density, which is less
+    // than single precision resolves in the sum.
     (c_a + c_b) * (rho_a + rho_b) * (R::splat(-0.25 * alpha * h) * rate.min(R::splat(0.0)))
 }
 
-/// Returns the factor of v_ab in the laminar acceleration times rho_a / (V_b G) [Pa s]. With grad_a W_ab = G r_ab the
-/// term has no singularity. It therefore omits 0.01 h^2, which would reduce the viscosity by 1 %.
+/// Returns the factor of v_ab in the laminar acceleration, multiplied by rho_a / (V_b G) [Pa s]. Because grad_a W_ab =
+/// G r_ab, the term has no singularity. It therefore needs no 0.01 h^2 in the denominator, which would reduce the
+/// viscosity by 1 %.
 #[inline(always)]
 pub fn laminar_factor<R: Real>(nu: f32, rho_a: R, rho_b: R) -> R {
     R::splat(4.0 * nu) * rho_a * rho_b / (rho_a + rho_b)
 }
 
 /// Returns rho_a rho_b Pi_ab [Pa] of Monaghan & Gingold's form, Pi_ab = -2 K nu / (rho_a + rho_b) times the
-/// [`approach_rate`] [1/s]. It has either sign, because it also resists separation.
+/// [`approach_rate`] [1/s]. The stress can have either sign, because this form also resists separation.
 #[inline(always)]
 pub fn monaghan_gingold_stress<R: Real>(k_nu: f32, rate: R, rho_a: R, rho_b: R) -> R {
     R::splat(-2.0 * k_nu) * rate * rho_a * rho_b / (rho_a + rho_b)

@@ -1,4 +1,5 @@
-//! Wall slip under mDBC: velocity of boundary particles in the water's equations, from the velocity at ghost nodes.
+//! Wall slip under mDBC: velocity of boundary particles in the equations of the water, from the velocity at ghost
+//! nodes.
 
 use glam::DVec3;
 
@@ -7,26 +8,28 @@ use glam::DVec3;
 pub struct GhostVelocity {
     /// Velocity [m/s].
     pub velocity: DVec3,
-    /// Trust in the linear fit, from 0 (too few layers of water) to 1.
+    /// Trust in the linear fit [-], from 0 (too few layers of water) to 1 (deep water).
     pub trust: f64,
 }
 
-/// Wall slip condition: which velocity a boundary particle has in the equations of the water.
+/// Wall slip condition, which sets the velocity of a boundary particle in the equations of the water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallSlip {
     /// The velocity of the wall (English et al. 2022).
     Original,
     /// No slip: the water's velocity mirrored about the wall's velocity.
     NoSlip,
-    /// Free slip: the normal component is mirrored, the tangential component equals that of the water.
+    /// Free slip: the normal component is mirrored, and the tangential component equals the tangential velocity of the
+    /// water.
     FreeSlip,
 }
 
 impl WallSlip {
-    /// Returns the velocity [m/s] from the wall's velocity [m/s], the water at the ghost node and the vector to the
-    /// surface [m]. A dry node gives the wall's velocity. In thin sheets nothing is mirrored, because a sheet would
-    /// bounce off its own mirrored velocity. Without `free_slip` (see [`Boundary::allows_free_slip`]), `FreeSlip` keeps
-    /// the wall's tangential velocity.
+    /// Returns the velocity of a boundary particle [m/s]. `wall` is the velocity of the wall [m/s], `ghost` the
+    /// velocity of the water at the ghost node (`None` if dry), and `to_surface` the vector to the surface [m]. A dry
+    /// node gives the velocity of the wall. In thin sheets nothing is mirrored, because a sheet would bounce off its
+    /// own mirrored velocity. If `free_slip` is false (see [`Boundary::allows_free_slip`]), `FreeSlip` uses the
+    /// tangential velocity of the wall.
     ///
     /// [`Boundary::allows_free_slip`]: crate::sph::particles::boundary::Boundary::allows_free_slip
     pub fn velocity(self, wall: DVec3, ghost: Option<GhostVelocity>, to_surface: DVec3, free_slip: bool) -> DVec3 {
@@ -57,11 +60,11 @@ mod tests {
         assert!((mean(WallSlip::NoSlip) - wall).length() < 1e-15);
         assert!((mean(WallSlip::FreeSlip) - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
         assert_eq!(WallSlip::NoSlip.velocity(wall, None, up, true), wall);
-        // A thin sheet has free slip, and the wall mirrors no normal velocity.
+        // In a thin sheet, free slip keeps the tangential velocity and mirrors no normal velocity.
         let sliding = WallSlip::FreeSlip.velocity(wall, ghost_with(0.0), up, true);
         assert!((sliding - DVec3::new(1.0, 2.0, 0.2)).length() < 1e-15);
         assert_eq!(WallSlip::NoSlip.velocity(wall, ghost_with(0.0), up, true), wall);
-        // At an edge the tangential velocity is the wall's, and the normal velocity is still mirrored.
+        // At an edge, the tangential velocity is the velocity of the wall, and the normal velocity is still mirrored.
         let at_edge = WallSlip::FreeSlip.velocity(wall, ghost_with(1.0), up, false);
         assert!((at_edge - DVec3::new(0.1, 0.0, 3.4)).length() < 1e-15);
     }

@@ -1,4 +1,4 @@
-//! Test: the same velocity in the file formats of all programs gives the same table.
+//! Test: files of all programs with the same velocity give the same table.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -18,7 +18,7 @@ fn velocity(z: f64, t: f64) -> f64 {
     0.3 * (k * (z - PLACE.bed_z_m)).cosh() / (k * PLACE.depth_m()).cosh() * (omega * t).cos()
 }
 
-/// Levels z of the middles of the layers [m], from the bed upwards.
+/// Levels z at mid-height of the layers [m], from the bed upwards.
 fn levels() -> Vec<f64> {
     (0..LAYERS).map(|k| PLACE.bed_z_m + (k as f64 + 0.5) * PLACE.depth_m() / LAYERS as f64).collect()
 }
@@ -58,14 +58,14 @@ fn through_probes(folder: &Path) -> VelocityTable {
 }
 
 #[test]
-fn files_of_all_programs_agree() {
+fn same_velocity_in_all_file_formats_gives_the_same_table() {
     let folder = tempfile::tempdir().unwrap();
     let tables = [through_velx(folder.path()), through_swash(folder.path()), through_probes(folder.path())];
     for i in 0..=100 {
         for j in 0..=20 {
             let (t, z) = (0.039 * f64::from(i), PLACE.bed_z_m + 0.04 * f64::from(j));
             let u = tables[0].velocity_m_s(z, t);
-            // The files have all digits; only z - z0 + z0 rounds the levels.
+            // The files have all digits; only adding and subtracting the origin of z rounds the levels.
             assert!(tables.iter().all(|table| (table.velocity_m_s(z, t) - u).abs() < 1e-6));
             if (levels()[0]..=levels()[LAYERS - 1]).contains(&z) {
                 // Error of linear interpolation over 0.1 m and 0.02 s: u'' dz^2 / 8 + u'' dt^2 / 8 is 1e-3 + 2e-4.

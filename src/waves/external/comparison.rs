@@ -3,25 +3,25 @@
 use super::{surface::SurfaceSeries, table::linear};
 use crate::waves::flume_model::record::FlumeRecord;
 
-/// Difference between the surface of another program and of the flume model at a gauge.
+/// Difference between the surface elevations of another program and of the flume model at a gauge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Comparison {
     /// Crest elevation of the other program above still water level [m].
     pub crest_m: f64,
-    /// Time of that crest [s].
+    /// Time of the crest of the other program [s].
     pub crest_s: f64,
-    /// Relative difference of the crest elevation from that of the flume model [-].
+    /// Crest elevation of the other program over that of the flume model, minus 1 [-].
     pub relative_height_difference: f64,
-    /// Delay of the crest relative to the flume model [s].
+    /// Delay of the crest relative to the flume model [s]; positive if the crest of the other program is later.
     pub delay_s: f64,
-    /// RMS of the elevation difference over the crest elevation of the flume model [-], at those times of the other
+    /// RMS difference of the elevations over the crest elevation of the flume model [-], at the times of the other
     /// program that the flume run covers.
     pub relative_rms: f64,
 }
 
 impl Comparison {
-    /// Compares a series with the flume model at a gauge, with still water level z [m]. `None` if they have no common
-    /// time or the flume model has no crest there.
+    /// Compares `other`, from another program, with the flume model at a gauge. `still_level_m` is the still water
+    /// level z of `other` [m]. `None` if the two have no common time or the flume model has no crest at the gauge.
     pub fn new(record: &FlumeRecord, gauge: usize, other: &SurfaceSeries, still_level_m: f64) -> Option<Self> {
         let (flume_m, flume_s) = record.crest(gauge);
         let (top_m, crest_s) = other.crest();

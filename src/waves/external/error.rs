@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// An error in a file of another program: where, what, and what to do.
+/// An error in a file of another program: where it is, what is wrong, and what to do.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ExternalError {
     /// The file or folder cannot be read.
@@ -61,7 +61,7 @@ pub enum ExternalError {
         file: PathBuf,
         /// Time in the file [s].
         time_s: f64,
-        /// Number of levels.
+        /// Number of levels with a velocity.
         layers: usize,
     },
 }

@@ -1,13 +1,13 @@
-//! Velocity and surface of a wave at one position, in files of other programs.
+//! Reads velocity and surface level of a wave at one position from files of other programs.
 //!
 //! | module | contents |
 //! | --- | --- |
-//! | [`table`] | velocity over height and time, the result of every reader, with its checks |
+//! | [`table`] | table of velocity over height and time, which every reader returns, and its checks |
 //! | [`surface`] | surface level over time |
 //! | [`velx`] | DualSPHysics: `_velx` files |
 //! | [`swash`] | SWASH: tables of water level and layer velocities |
 //! | [`openfoam`] | OpenFOAM: probes, sampled lines and `interfaceHeight` |
-//! | [`error`] | errors in these files |
+//! | [`error`] | errors in the files of other programs |
 
 pub mod comparison;
 pub mod error;

@@ -9,9 +9,9 @@
 //! | [`lines`] | `postProcessing/<name>/<t>/<line>_U.xy`: one folder per time, one row per point |
 //! | [`interface_height`] | `postProcessing/<name>/<t0>/position.dat` |
 //!
-//! Probes and `interfaceHeight` write one folder per start of the run. The readers join these folders; where they
-//! overlap, the later start applies. Points outside the mesh have values of about 1e300 and are left out. Velocities
-//! are along x of OpenFOAM.
+//! Probes and `interfaceHeight` write one folder per start of the run. The readers join these folders; where their
+//! times overlap, the later start applies. Points outside the mesh have values of about 1e300 and are left out.
+//! Velocities are along x of OpenFOAM.
 
 mod frame;
 pub mod gauges;

@@ -14,13 +14,13 @@ pub struct SurfaceSeries {
 }
 
 impl SurfaceSeries {
-    /// Creates a series of levels z [m] at increasing times [s] from a file.
+    /// Creates a series of levels z [m] at increasing times [s]; `file` is named in errors.
     ///
     /// # Errors
     /// If the times do not increase or have a gap, or a level is not a finite number.
     ///
     /// # Panics
-    /// If there is not one level per time.
+    /// If the numbers of times and levels differ.
     pub fn new(file: &Path, times_s: Vec<f64>, z_m: Vec<f64>) -> Result<Self, ExternalError> {
         assert_eq!(times_s.len(), z_m.len(), "one level per time");
         check_times(file, &times_s)?;
@@ -36,7 +36,7 @@ impl SurfaceSeries {
         self.times_s.iter().zip(&self.z_m).map(|(&t, &z)| [t, z])
     }
 
-    /// Highest level z [m] and its time [s], from the parabola through the highest point and its neighbours.
+    /// Highest level z [m] and its time [s], from the parabola through the highest point and its two neighbours.
     pub fn crest(&self) -> (f64, f64) {
         let highest = (0..self.z_m.len()).max_by(|&a, &b| self.z_m[a].total_cmp(&self.z_m[b])).unwrap_or(0);
         let (top, time) = (self.z_m[highest], self.times_s[highest]);
@@ -59,15 +59,15 @@ impl SurfaceSeries {
     /// If a time is outside the series.
     pub fn at_times(&self, times_s: &[f64]) -> Result<Vec<f64>, ExternalError> {
         let (first, last) = (self.times_s[0], self.times_s[self.times_s.len() - 1]);
-        // Times are written with few digits, so equal times may differ by rounding.
+        // Other programs write times with few digits, so equal times may differ by rounding.
         let rounding = 1e-5 * (last - first);
         let level = |&t: &f64| {
             if t < first - rounding || t > last + rounding {
                 return Err(ExternalError::moment(
                     &self.file,
                     t,
-                    format!("a velocity without a surface level; surface levels cover {first} to {last} s"),
-                    "write both for the same times",
+                    format!("there is a velocity but no surface level; surface levels cover {first} to {last} s"),
+                    "write velocities and surface levels for the same times",
                 ));
             }
             Ok(linear(&self.times_s, &self.z_m, t))
@@ -95,8 +95,8 @@ mod tests {
         assert_eq!(series.at_times(&[0.0, 0.5, 2.0]).unwrap(), [1.0, 1.5, 0.0]);
         assert_eq!(
             series.at_times(&[3.0]).unwrap_err().to_string(),
-            "wl: at t = 3 s: a velocity without a surface level; surface levels cover 0 to 2 s; write both for \
-             the same times"
+            "wl: at t = 3 s: there is a velocity but no surface level; surface levels cover 0 to 2 s; write \
+             velocities and surface levels for the same times"
         );
     }
 }

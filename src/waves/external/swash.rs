@@ -7,15 +7,15 @@
 //! | item | format |
 //! | --- | --- |
 //! | columns | in the order of the command, separated by blanks; one row per time and point |
-//! | `HEADER` | lines that begin with `%`; one lists the short names of the columns, the next their units |
+//! | `HEADER` | lines that begin with `%`; one line has the short names of the columns, the next line their units |
 //! | `NOHEADER` | rows only |
 //! | short names | `Tsec`, `Watlev`; `Vksi` and `X-vel` are depth-averaged, `Vksi_k` and `X-vel_k` are per layer |
-//! | `VELK` | x of every layer, then y of every layer; `VKSIK` has x only, along the grid |
+//! | `VELK` | x component of every layer, then y of every layer; `VKSIK` has only x, along the grid |
 //! | layers | from the surface downwards; thicknesses relative to the depth (fixed thicknesses are not supported) |
-//! | `WATL` | level above the datum of the run [m]: still water, unless `SET LEVEL` or an input grid shifts it |
+//! | `WATL` | water level [m]; 0 is still water, unless `SET LEVEL` or an input grid shifts the datum of the run |
 //!
-//! The number in a column name gives the layer; without a number the order does. The third form, `TABLE ... SWASH`, is
-//! rejected. Velocities are in m/s along x of SWASH.
+//! The number in a column name gives the layer; without numbers, the order of the columns gives the layer. The third
+//! form, `TABLE ... SWASH`, is rejected. Velocities are in m/s along x of SWASH.
 
 mod columns;
 mod write;
@@ -35,24 +35,24 @@ pub use write::{Heading, write_level, write_velocities};
 pub struct TableFile<'a> {
     /// The file.
     pub path: &'a Path,
-    /// Columns in file order; only needed if no header names them.
+    /// Columns in file order; needed only if the file has no header with their names.
     pub columns: &'a [Column],
 }
 
-/// The tables of one point.
+/// The SWASH tables of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tables<'a> {
     /// Table with `TSEC` and `WATL`.
     pub level: TableFile<'a>,
-    /// Table with `TSEC` and `VELK` or `VKSIK`; may be the same file.
+    /// Table with `TSEC` and `VELK` or `VKSIK`; may be the same file as `level`.
     pub velocity: TableFile<'a>,
     /// Layer thicknesses relative to the depth, from the surface downwards, as in `VERT`; empty if all are equal.
     pub layer_shares: &'a [f64],
 }
 
-/// Reads the tables of one point; velocities apply at the middles of the layers.
+/// Reads the tables of one point; each velocity applies at mid-height of its layer.
 ///
-/// `WATL` = 0 is the still water level of the position.
+/// `WATL` = 0 must be the still water level in the run of SWASH.
 ///
 /// # Errors
 /// If a file cannot be read, a column is missing, a line is wrong, or the values are implausible at the position.
@@ -67,13 +67,13 @@ pub fn read(tables: &Tables, place: &Place) -> Result<VelocityTable, ExternalErr
     let shares = shares(tables, layers.len())?;
     let surface_z_m = surface.at_times(&times_s)?;
     let heights_m = surface_z_m.iter().map(|&z| layer_middles(place.bed_z_m, z, &shares)).collect();
-    // Layers are counted from the surface downwards, levels from the bed upwards.
+    // SWASH counts layers from the surface downwards; a velocity table counts levels from the bed upwards.
     let velocities_m_s = (0..times_s.len()).map(|i| layers.iter().rev().map(|layer| layer[i]).collect()).collect();
     VelocityTable { times_s, surface_z_m: Some(surface_z_m), heights_m, velocities_m_s }
         .checked(tables.velocity.path, place)
 }
 
-/// Relative thicknesses of the layers [-]: the given ones or equal ones.
+/// Layer thicknesses relative to the depth [-]: those of `tables`, or equal thicknesses if it has none.
 fn shares(tables: &Tables, layers: usize) -> Result<Vec<f64>, ExternalError> {
     if tables.layer_shares.is_empty() {
         return Ok(vec![1.0 / layers as f64; layers]);
@@ -90,7 +90,7 @@ fn shares(tables: &Tables, layers: usize) -> Result<Vec<f64>, ExternalError> {
     ))
 }
 
-/// Levels z of the middles of the layers [m], from the bed upwards.
+/// Levels z at mid-height of the layers [m], from the bed upwards.
 fn layer_middles(bed_z_m: f64, surface_z_m: f64, shares: &[f64]) -> Vec<f64> {
     let mut below = 0.0;
     let middle = |share: &f64| {

@@ -1,19 +1,19 @@
-//! Velocity along x over height and time at one position: the result of every reader. Its checks detect wrong units,
-//! gaps and files of another position.
+//! Table of the velocity along x over height and time at one position, which every reader returns. Its checks detect
+//! wrong units, gaps, and files of a different position.
 
 use std::path::Path;
 
 use super::error::ExternalError;
 
-/// An interval longer than this many median intervals is a gap: one lost row gives 2, a restart without its first
-/// output a few.
+/// An interval of more than this many median intervals is a gap. One lost row gives 2; a restart without its first
+/// output gives a few.
 const GAP: f64 = 5.0;
 
-/// Limit of the velocity in units of sqrt(g d), above which the unit must be wrong; breaking crests stay below 2.
+/// Velocity over sqrt(g d) above which the unit must be wrong [-]; breaking crests stay below 2.
 const FASTEST: f64 = 3.0;
 
-/// Distance by which levels may lie outside the water, relative to the depth: surface cells are partly filled, and an
-/// overturning crest lies above the level of equal volume.
+/// Distance by which levels may lie outside the water, relative to the depth [-]: cells at the surface are partly
+/// filled, and an overturning crest is higher than a surface level computed from the volume of water.
 const OUTSIDE: f64 = 0.1;
 
 /// Velocity along x over height and time at one position, from another program.
@@ -21,15 +21,15 @@ const OUTSIDE: f64 = 0.1;
 pub struct VelocityTable {
     /// Times [s], strictly increasing.
     pub times_s: Vec<f64>,
-    /// Surface level z at each time [m], if the file has it.
+    /// Surface level z at each time [m]; `None` if the file has no surface levels.
     pub surface_z_m: Option<Vec<f64>>,
-    /// Increasing levels z in the water [m], one list per time.
+    /// Levels z of the velocities, from the bed upwards [m], one list per time.
     pub heights_m: Vec<Vec<f64>>,
-    /// Velocities along x at these levels [m/s], one list per time.
+    /// Velocities along x at the levels `heights_m` [m/s], one list per time.
     pub velocities_m_s: Vec<Vec<f64>>,
 }
 
-/// Position of a table in the case, and the number of levels that a file must have.
+/// Position of a table in the case, and the number of levels that the table must have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Bed level z [m].
@@ -38,7 +38,7 @@ pub struct Place {
     pub still_water_z_m: f64,
     /// Gravitational acceleration [m/s2], above zero.
     pub gravity_m_s2: f64,
-    /// Required number of levels.
+    /// Required number of levels with velocities.
     pub layers: Layers,
 }
 
@@ -59,7 +59,7 @@ impl Place {
 }
 
 impl VelocityTable {
-    /// Returns the table read from `file` if its values are plausible at the position; the last step of every reader.
+    /// Returns the table read from `file` if its values are plausible at the position. Every reader calls this last.
     ///
     /// # Errors
     /// If times do not increase or have a gap, a value is not finite, or the surface is below the bed. If levels do not
@@ -81,7 +81,7 @@ impl VelocityTable {
         Ok(self)
     }
 
-    /// Velocity along x [m/s] at level z [m] and time t [s]: linear in height and in time, constant beyond the ends.
+    /// Velocity along x [m/s] at level z [m] and time t [s]: linear in height and time, constant outside the table.
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
         let velocity = |i: usize| linear(&self.heights_m[i], &self.velocities_m_s[i], z);
         let after = self.times_s.partition_point(|&time| time <= t);
@@ -96,7 +96,8 @@ impl VelocityTable {
         u0 + (u1 - u0) * (t - t0) / (t1 - t0)
     }
 
-    /// Surface level z [m] at t [s], linear in time and constant beyond the ends; `None` if the file has no levels.
+    /// Surface level z [m] at t [s], linear in time, constant outside the table; `None` if the file has no surface
+    /// levels.
     pub fn surface_at_m(&self, t: f64) -> Option<f64> {
         self.surface_z_m.as_ref().map(|levels| linear(&self.times_s, levels, t))
     }
@@ -116,7 +117,7 @@ impl VelocityTable {
         ))
     }
 
-    /// Checks that there are enough levels, that they increase, and that they are in the water.
+    /// Checks that there are enough levels, and that the levels increase and are in the water.
     fn check_heights(&self, i: usize, file: &Path, place: &Place) -> Result<(), ExternalError> {
         let (t, heights) = (self.times_s[i], &self.heights_m[i]);
         let least = match place.layers {
@@ -130,7 +131,7 @@ impl VelocityTable {
             return Err(ExternalError::moment(
                 file,
                 t,
-                format!("the level z = {} m is not above the one before, {} m", pair[1], pair[0]),
+                format!("the level z = {} m is not above the previous level, {} m", pair[1], pair[0]),
                 "list every level once, from the bed upwards",
             ));
         }
@@ -143,7 +144,7 @@ impl VelocityTable {
                 file,
                 t,
                 format!("the level z = {z} m is not in the water, {} to {surface} m", place.bed_z_m),
-                "check the zero of z, the vertical axis and the unit; leave out samples in air",
+                "check the origin of z, the vertical axis and the unit; leave out samples in air",
             )),
         }
     }
@@ -166,12 +167,13 @@ impl VelocityTable {
                 "check the unit: velocities must be in m/s",
             )
         } else {
-            ExternalError::moment(file, t, problem, "the other program's run failed there; rerun it or cut the file")
+            let advice = "the run of the other program failed at this time; rerun it, or end the file before it";
+            ExternalError::moment(file, t, problem, advice)
         })
     }
 }
 
-/// Checks that there are at least two times, and that they are finite, increasing and without gaps.
+/// Checks that there are at least two times, and that the times are finite, increasing and without gaps.
 pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalError> {
     if times_s.len() < 2 {
         return Err(ExternalError::file(
@@ -198,12 +200,12 @@ pub(super) fn check_times(file: &Path, times_s: &[f64]) -> Result<(), ExternalEr
         Some(i) => Err(ExternalError::file(
             file,
             format!("gap between t = {} s and {} s; the median interval is {median} s", times_s[i], times_s[i + 1]),
-            "write the missing output, or cut the file there",
+            "write the missing output, or end the file before the gap",
         )),
     }
 }
 
-/// Value at x from values at increasing xs: linear, constant beyond the ends.
+/// Value at x from `values` at increasing `xs`: linear between points, constant outside.
 pub(super) fn linear(xs: &[f64], values: &[f64], x: f64) -> f64 {
     let right = xs.partition_point(|&p| p <= x);
     if right == 0 {
@@ -253,7 +255,7 @@ mod tests {
         assert_eq!(
             message(gap),
             "u.tbl: gap between t = 1.75 s and 3.25 s; the median interval is 0.25 s; write the missing output, \
-             or cut the file there"
+             or end the file before the gap"
         );
         let mut back = table(4);
         back.times_s[2] = 0.125;
@@ -276,7 +278,7 @@ mod tests {
         );
         let mut broken = table(4);
         broken.velocities_m_s[1][0] = f64::NAN;
-        assert!(message(broken).starts_with("u.tbl: at t = 0.25 s: the velocity at z = 0.25 m is NaN; the other"));
+        assert!(message(broken).starts_with("u.tbl: at t = 0.25 s: the velocity at z = 0.25 m is NaN; the run"));
     }
 
     #[test]
@@ -290,10 +292,10 @@ mod tests {
         assert!(thin.checked(Path::new("u.tbl"), &Place { layers: Layers::DepthAveraged, ..PLACE }).is_ok());
         let mut air = table(4);
         air.surface_z_m = Some(vec![0.6; 4]);
-        assert!(message(air).contains("the level z = 0.75 m is not in the water, 0 to 0.6 m; check the zero"));
+        assert!(message(air).contains("the level z = 0.75 m is not in the water, 0 to 0.6 m; check the origin"));
         let mut twice = table(4);
         twice.heights_m[0] = vec![0.5, 0.5];
-        assert!(message(twice).contains("the level z = 0.5 m is not above the one before, 0.5 m"));
+        assert!(message(twice).contains("the level z = 0.5 m is not above the previous level, 0.5 m"));
         let mut dry = table(4);
         dry.surface_z_m = Some(vec![1.0, -98.0, 1.0, 1.0]);
         assert!(message(dry).contains("the surface level z = -98 m is not between the bed, 0 m, and 2 m"));

@@ -12,7 +12,7 @@ pub(super) struct TextFile {
 }
 
 impl TextFile {
-    /// Reads the file; `advice` says what to do if this fails.
+    /// Reads the file; `advice` tells the user what to do if the file cannot be read.
     pub(super) fn read(path: &Path, advice: &str) -> Result<Self, ExternalError> {
         match fs::read_to_string(path) {
             Ok(text) => Ok(Self { path: path.to_owned(), text }),
@@ -37,20 +37,20 @@ impl TextFile {
     /// Parses a word of a line as a number.
     pub(super) fn number(&self, line: usize, word: &str) -> Result<f64, ExternalError> {
         let advice = if word.contains('*') {
-            "the number was too wide for its column; write the table without header"
+            "asterisks replace a number that is too wide for its column; write the table without header"
         } else {
             "correct or delete the line"
         };
         word.parse().map_err(|_| self.line_error(line, format!("`{word}` is not a number"), advice))
     }
 
-    /// Parses the numbers of a line; round brackets count as separators.
+    /// Parses the numbers of a line; blanks and round brackets separate the numbers.
     pub(super) fn numbers(&self, line: usize, text: &str) -> Result<Vec<f64>, ExternalError> {
         let words = text.split(|c: char| c.is_whitespace() || c == '(' || c == ')').filter(|word| !word.is_empty());
         words.map(|word| self.number(line, word)).collect()
     }
 
-    /// Creates an error about a line.
+    /// Creates an error with the file, the line number, the problem and the advice.
     pub(super) fn line_error(
         &self,
         line: usize,

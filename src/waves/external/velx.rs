@@ -1,4 +1,4 @@
-//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::generation::velx`]); their heights are levels z.
+//! Conversion from and to DualSPHysics' `_velx` files ([`crate::waves::generation::velx`]), whose heights are levels z.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -11,7 +11,7 @@ use crate::waves::generation::velx::{Velx, VelxError};
 /// Reads a `_velx` file.
 ///
 /// # Errors
-/// If it cannot be read, a line is wrong, or the values are implausible at the position.
+/// If the file cannot be read, a line is wrong, or the values are implausible at the position.
 pub fn read(path: &Path, place: &Place) -> Result<VelocityTable, ExternalError> {
     let unreadable = |reason: std::io::Error| ExternalError::Read {
         file: path.to_owned(),
@@ -32,7 +32,7 @@ pub fn read(path: &Path, place: &Place) -> Result<VelocityTable, ExternalError> 
 }
 
 impl VelocityTable {
-    /// Table of the `_velx` data read from `file`; this format has no surface level.
+    /// Creates the table from the `_velx` data read from `file`; the format has no surface level.
     ///
     /// # Errors
     /// If the values are implausible at the position.
@@ -41,7 +41,7 @@ impl VelocityTable {
         Self { times_s, surface_z_m: None, heights_m, velocities_m_s }.checked(file, place)
     }
 
-    /// Velocities of piston rows at the levels z [m], for a piston at x and y [m].
+    /// Returns the velocities of piston rows at levels z [m]; `position_m` is the position x, y of the piston [m].
     pub fn velx(&self, position_m: [f64; 2], row_heights_m: &[f64]) -> Velx {
         let rows = |&t: &f64| row_heights_m.iter().map(|&z| self.velocity_m_s(z, t)).collect();
         Velx {

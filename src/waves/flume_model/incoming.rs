@@ -11,19 +11,19 @@ pub enum IncomingWave {
     Solitary {
         /// The wave.
         wave: ThirdOrderSolitary,
-        /// Time at which the crest passes [s].
+        /// Time at which the crest passes the inflow [s].
         crest_at_s: f64,
     },
     /// Regular waves of permanent form.
     Regular {
-        /// The wave; a crest passes at t = 0.
+        /// The wave; a crest passes the inflow at t = 0.
         wave: StreamFunctionWave,
         /// Duration of the ramp from still water [s].
         ramp_s: f64,
     },
     /// Irregular waves.
     Irregular {
-        /// The sea.
+        /// The wave components.
         wave: IrregularWave,
         /// Duration of the ramp from still water [s].
         ramp_s: f64,
@@ -31,12 +31,12 @@ pub enum IncomingWave {
 }
 
 impl IncomingWave {
-    /// Creates a solitary wave whose front (1e-4 of its height) enters at t = 0.
+    /// Creates a solitary wave whose front (1e-4 of its height) enters the flume at t = 0.
     pub fn solitary(wave: ThirdOrderSolitary) -> Self {
         Self::Solitary { wave, crest_at_s: wave.half_length_m() / wave.celerity_m_s() }
     }
 
-    /// Elevation above still water [m].
+    /// Elevation above still water [m] at time t [s].
     pub fn elevation_m(&self, t: f64) -> f64 {
         match self {
             Self::Solitary { wave, crest_at_s } => wave.elevation_m(wave.celerity_m_s() * (crest_at_s - t)),
@@ -45,7 +45,7 @@ impl IncomingWave {
         }
     }
 
-    /// Horizontal velocity [m/s] at z [m] above still water.
+    /// Horizontal velocity [m/s] at z [m] above still water and time t [s].
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
         match self {
             Self::Solitary { wave, crest_at_s } => wave.velocity_m_s(wave.celerity_m_s() * (crest_at_s - t), z),
@@ -54,7 +54,7 @@ impl IncomingWave {
         }
     }
 
-    /// Still water depth of the wave [m].
+    /// Still water depth for which the wave is defined [m].
     pub fn depth_m(&self) -> f64 {
         match self {
             Self::Solitary { wave, .. } => wave.depth_m,

@@ -11,8 +11,8 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
-    /// Stencil for `x` on increasing `xs`: Lagrange's cubic through four usable points, else a straight line through
-    /// two. A single point where only one neighbour is usable or x lies outside the range.
+    /// Creates the stencil for `x` among the increasing `xs`: a cubic through four usable points, else a straight line
+    /// through two. The stencil has one point if a neighbour of x is not usable or x is outside the range.
     pub(super) fn at(xs: &[f64], x: f64, usable: impl Fn(usize) -> bool) -> Self {
         let last = xs.len() - 1;
         let single = |first| Self { first, weights: [1.0, 0.0, 0.0, 0.0], points: 1 };
@@ -43,12 +43,12 @@ impl Stencil {
         Self { first: left - 1, weights, points: 4 }
     }
 
-    /// First point of the stencil; if this point is not usable, no point is.
+    /// Index of the first point. If this point is not usable, no point of the stencil is usable.
     pub(super) fn point(&self) -> usize {
         self.first
     }
 
-    /// All points of the stencil.
+    /// Indices of all points of the stencil.
     pub(super) fn points(&self) -> Range<usize> {
         self.first..self.first + self.points
     }

@@ -15,8 +15,8 @@
 //! | time | leapfrog: H at n, u and w at n + 1/2; second-order Adams-Bashforth for advection | here |
 //! | moving piston | cells follow the piston, fluxes relative to the faces | `grid` |
 //! | advection | momentum-conservative, third-order upwind | `advection` |
-//! | pressure q | Keller box, continuity as its transpose, one direct solve per time step | `pressure` |
-//! | free surface, wetting and drying, breaking | half-step depths at the faces, hydrostatic front | `surface` |
+//! | pressure q | Keller box; continuity is its transpose; one direct solve per time step | `pressure` |
+//! | free surface, wetting and drying, breaking | half-step depths at the faces; hydrostatic fronts | `surface` |
 //! | ends | wall, piston, wave inflow, radiation, sponge | `ends` |
 //! | friction | Manning or smooth bed, implicit | `friction` |
 //! | flow at any x | cubic interpolation between the cells | `sample` |
@@ -63,7 +63,7 @@ pub struct LayeredFlume {
     w: Vec<f64>,
     paddle_m: f64,
     entered_m2: f64,
-    // Carried to the next time step: its advection uses these fluxes.
+    // Kept for the advection terms of the next time step.
     flux: Vec<f64>,
     rise_m_s: Vec<f64>,
     breaking: Vec<bool>,
@@ -158,13 +158,13 @@ impl LayeredFlume {
         (0..self.grid.cells()).for_each(|cell| self.follow(cell));
     }
 
-    /// Advances by one time step.
+    /// Advances the flow by one time step.
     pub fn step(&mut self) {
         self.advance_velocities();
         self.advance_depths();
     }
 
-    /// First half of a time step: u and w from n - 1/2 to n + 1/2. [`Self::column`] then returns the flow at n.
+    /// First half of a time step: u and w from n - 1/2 to n + 1/2. Then [`Self::column`] returns the flow at n.
     pub fn advance_velocities(&mut self) {
         self.grid.aim(self.next_paddle_m(), self.step_s);
         self.measure_faces();
@@ -174,7 +174,7 @@ impl LayeredFlume {
         self.accelerate_w();
         self.adopt_provisional_velocities();
         self.correct_with_pressure();
-        self.settle_films();
+        self.limit_film_velocities();
         self.first_step = false;
     }
 
@@ -189,8 +189,8 @@ impl LayeredFlume {
         self.time_s += self.step_s;
     }
 
-    /// Computes the provisional u without non-hydrostatic pressure: u -= dt (adv + g dx eta). Friction and sponge are
-    /// implicit; u is zero at closed faces.
+    /// Computes the provisional u without non-hydrostatic pressure: u -= dt (adv + g dx eta). Friction and sponge
+    /// damping are implicit; u is zero at faces without water.
     fn accelerate_u(&mut self) {
         let (k, dt) = (self.layers, self.step_s);
         for face in 1..self.grid.cells() {
@@ -231,7 +231,8 @@ impl LayeredFlume {
         self.set_end_velocities();
     }
 
-    /// Second-order Adams-Bashforth rate from the current and the previous one; Euler in the first time step.
+    /// Second-order Adams-Bashforth rate from the current and the previous rate; the first time step uses Euler's
+    /// method.
     fn adams_bashforth(&self, new: f64, old: f64) -> f64 {
         if self.first_step { new } else { 1.5 * new - 0.5 * old }
     }
@@ -242,7 +243,7 @@ impl LayeredFlume {
         (level(face) - level(face - 1)) / self.grid.spacing(face)
     }
 
-    /// Time of the depths [s].
+    /// Time of the current depths [s].
     pub fn time_s(&self) -> f64 {
         self.time_s
     }
@@ -252,7 +253,7 @@ impl LayeredFlume {
         self.paddle_m
     }
 
-    /// Net volume of water that has entered through the ends, per metre of width [m2].
+    /// Net volume of water that has entered through both ends, per metre of width [m2].
     pub fn entered_m2(&self) -> f64 {
         self.entered_m2
     }
@@ -262,21 +263,21 @@ impl LayeredFlume {
         self.depth.iter().zip(&self.grid.width).map(|(h, dx)| h * dx).sum()
     }
 
-    /// Largest absolute elevation from still water level over the wet cells [m].
+    /// Largest magnitude of the elevation above still water over the wet cells [m].
     pub fn largest_elevation_m(&self) -> f64 {
         let levels = self.depth.iter().zip(&self.grid.bed).filter(|(h, _)| **h > 0.0).map(|(h, bed)| h + bed);
         levels.fold(0.0, |largest, level| f64::max(largest, (level - self.still_level_m).abs()))
     }
 
-    /// Largest horizontal velocity [m/s].
+    /// Largest magnitude of the horizontal velocity [m/s].
     pub fn largest_velocity_m_s(&self) -> f64 {
         self.u.iter().fold(0.0, |largest, u| f64::max(largest, u.abs()))
     }
 
-    /// Position x [m] of the first unstable cell: a value is not finite, or water crosses the cell in less than a step.
+    /// Position x [m] of the first unstable cell: a value is not finite, or water crosses the cell within a time step.
     pub fn first_unstable_x_m(&self) -> Option<f64> {
         let is_too_fast = |face: usize| {
-            // The millionth covers rounding: `settle_films` allows one cell per time step.
+            // `limit_film_velocities` allows exactly one cell per time step; the 1e-6 covers rounding.
             let limit = (1.0 + 1e-6) * self.grid.spacing(face) / self.step_s;
             self.u[face * self.layers..(face + 1) * self.layers].iter().any(|u| !u.is_finite() || u.abs() > limit)
         };
@@ -307,8 +308,8 @@ mod tests {
         })
     }
 
-    /// c^2 / (g d) of small waves with mu = k d. For one and two layers it is that of the Keller box, linearised from
-    /// the equations in `pressure`; for more layers it is exact.
+    /// Returns c^2 / (g d) of small waves with mu = k d: of the linearised Keller box (see `pressure`) for one and two
+    /// layers, of linear wave theory for more layers.
     fn dispersion(layers: usize, mu: f64) -> f64 {
         match layers {
             1 => 1.0 / (1.0 + mu.powi(2) / 4.0),
@@ -321,8 +322,8 @@ mod tests {
     fn standing_wave_has_the_period_of_linear_theory() {
         // Two half waves in the basin, k d = 2.5: hydrostatic waves would be 60 % too fast.
         let k = std::f64::consts::PI;
-        // One and two layers: only the errors of grid and time step remain, k^2 dx^2 / 24 = 2e-4. Eight layers are
-        // within 1e-3 of the exact dispersion.
+        // With one and two layers, only the errors of grid and time step remain, k^2 dx^2 / 24 = 2e-4. With eight
+        // layers, the model is within 1e-3 of linear theory.
         for (layers, tolerance) in [(1, 5e-4), (2, 5e-4), (8, 1e-3)] {
             let period = std::f64::consts::TAU / (k * (9.81 * 0.8 * dispersion(layers, k * 0.8)).sqrt());
             let mut flume = basin(layers);

@@ -5,11 +5,11 @@ use super::interpolation::Stencil;
 use super::layered::{Column, SurfacePoint};
 use crate::geometry::profile::Profile;
 
-/// Depth below which a point counts as dry in interpolation [m]: for thinner films the difference between the mean bed
-/// of a cell and the profile at a corner matters.
+/// Depth below which a point counts as dry in interpolation [m]. In thinner films, the difference between the mean bed
+/// level of a cell and the profile at a corner would distort the result.
 const FILM_M: f64 = 1e-3;
 
-/// Wave gauges and the flow in a window, recorded at a fixed interval.
+/// Wave gauges, and the flow in a window (a range of x), recorded at a fixed interval.
 #[derive(Debug, Clone)]
 pub struct FlumeRecord {
     /// Bed of the flume.
@@ -18,11 +18,12 @@ pub struct FlumeRecord {
     pub still_level_m: f64,
     /// Number of layers.
     pub layers: usize,
-    /// Time between records [s]; the first is at t = 0.
+    /// Time between records [s]; the first record is at t = 0.
     pub interval_s: f64,
     /// Positions x of the gauges [m].
     pub gauges_x_m: Vec<f64>,
-    /// Elevation above still water at the gauges [m], one series per gauge; bed level minus still water level if dry.
+    /// Elevation above still water at the gauges [m], one series per gauge; where dry, bed level minus still water
+    /// level.
     pub gauge_elevations_m: Vec<Vec<f64>>,
     /// Surface along the whole flume at the requested times.
     pub profiles: Vec<SurfaceProfile>,
@@ -30,11 +31,11 @@ pub struct FlumeRecord {
     pub shore_level_m: Vec<f64>,
     /// Positions x of the points of the window [m].
     pub window_x_m: Vec<f64>,
-    /// Displacement of the piston [m], one value per record.
+    /// Displacement of the piston from its rest position [m], one value per record.
     pub paddle_m: Vec<f64>,
     /// Initial volume of water in the flume per metre of width [m2].
     pub volume_m2: f64,
-    /// Largest error of the volume balance, relative to the initial volume [-].
+    /// Largest error of the water volume balance in the run, relative to the initial volume [-].
     pub volume_error: f64,
     surface_m: Vec<f64>,
     u: Vec<f64>,
@@ -47,7 +48,7 @@ pub struct FlumeRecord {
 pub struct SurfaceProfile {
     /// Time [s].
     pub time_s: f64,
-    /// Cells from left to right.
+    /// Surface in each cell, from left to right.
     pub points: Vec<SurfacePoint>,
 }
 
@@ -92,7 +93,7 @@ impl FlumeRecord {
         }
     }
 
-    /// Adds the state at the time of the next record.
+    /// Adds the state of the flume as the next record.
     pub(in crate::waves) fn push(
         &mut self,
         paddle_m: f64,
@@ -121,13 +122,13 @@ impl FlumeRecord {
         self.times_s.last().copied().unwrap_or(0.0)
     }
 
-    /// Elevation above still water [m] at x [m] and t [s]; bed level minus still water level where dry. Cubic in space
-    /// and time, constant beyond the ends of the window and of the run.
+    /// Elevation above still water [m] at x [m] and t [s]; bed level minus still water level where dry. The
+    /// interpolation is cubic in space and time, and constant outside the window and after the end of the run.
     pub fn elevation(&self, x: f64, t: f64) -> f64 {
         self.surface_level_m(x, t) - self.still_level_m
     }
 
-    /// Surface level z [m] at x [m] and t [s], interpolated as [`Self::elevation`].
+    /// Surface level z [m] at x [m] and t [s], interpolated as in [`Self::elevation`].
     pub fn surface_level_m(&self, x: f64, t: f64) -> f64 {
         let bed = self.profile.z(x);
         self.interpolate_surface(&self.stencils(x, t), bed)
@@ -156,8 +157,8 @@ impl FlumeRecord {
         self.stencils(x, t).interpolate(|i| self.u[i * k..(i + 1) * k].iter().sum::<f64>() / k as f64)
     }
 
-    /// Highest elevation [m] at a gauge and its time [s], from the parabola through the highest record and its
-    /// neighbours.
+    /// Height of the crest at a gauge above still water [m] and its time [s], from the parabola through the highest
+    /// record and its two neighbours.
     pub fn crest(&self, gauge: usize) -> (f64, f64) {
         let series = &self.gauge_elevations_m[gauge];
         let highest = (0..series.len()).max_by(|&a, &b| series[a].total_cmp(&series[b])).unwrap_or(0);
@@ -175,20 +176,21 @@ impl FlumeRecord {
         Stencil::at(&self.times_s, t, |_| true)
     }
 
-    /// Stencils for x [m] and t [s]; the cubic in space leaves out points that are dry at one of the times.
+    /// Stencils for x [m] and t [s]. The stencil in space leaves out points that are dry at a time of the stencil in
+    /// time.
     fn stencils(&self, x: f64, t: f64) -> Stencils {
         let (time, points) = (self.time_stencil(t), self.window_x_m.len());
         let is_wet = |i: usize| time.points().all(|record| self.is_wet(record * points + i));
         Stencils { time, space: Stencil::at(&self.window_x_m, x, is_wet), points }
     }
 
-    /// Whether there is water at a recorded point.
+    /// Returns true if the water at a recorded point is deeper than `FILM_M`.
     fn is_wet(&self, index: usize) -> bool {
         self.surface_m[index] > self.profile.z(self.window_x_m[index % self.window_x_m.len()]) + FILM_M
     }
 }
 
-/// Stencils in time and space for one position and time.
+/// Interpolation stencils in time and space for one position and time.
 struct Stencils {
     time: Stencil,
     space: Stencil,
@@ -203,8 +205,8 @@ impl Stencils {
     }
 }
 
-/// u at a relative height above the bed, 0 to 1, from the layer means. It is linear in the height squared, which is
-/// exact for the parabola a + b height^2 of a long irrotational wave.
+/// Horizontal velocity u at a relative height above the bed (0 to 1), from the layer means. It is linear in the height
+/// squared, which is exact for the parabola a + b height^2 of a long irrotational wave.
 fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     let k = layers.len();
     if k == 1 {
@@ -217,7 +219,7 @@ fn profile_of_u(layers: &[f64], height: f64) -> f64 {
     layers[below] + share * (layers[below + 1] - layers[below])
 }
 
-/// w at a relative height above the bed, 0 to 1, linear between the interfaces.
+/// Vertical velocity w at a relative height above the bed (0 to 1), linear between the layer interfaces.
 fn profile_of_w(interfaces: &[f64], height: f64) -> f64 {
     let k = interfaces.len() - 1;
     let below = ((height * k as f64) as usize).min(k - 1);

@@ -13,10 +13,10 @@ use crate::waves::theory::solitary::SolitaryWave;
 
 /// Largest number of layers; two or three resolve the vertical profile of long waves.
 pub const MAX_LAYERS: usize = 8;
-/// Courant number of a long wave on the largest depth [-]. The scheme is stable up to 1; up to about 0.4 its time
-/// errors stay below its space errors.
+/// Courant number of a long wave in the largest depth [-]. The scheme is stable up to 1. Up to about 0.4, the errors of
+/// the time step are smaller than those of the grid.
 const COURANT: f64 = 0.4;
-/// Length over which the cells follow the piston, in strokes: no cell is compressed by more than 10 %.
+/// Length over which the cells follow the piston, in strokes. At this length, no cell is compressed by more than 10 %.
 const MAPPED_STROKES: f64 = 10.0;
 /// Largest relative compression of the cells in front of the piston [-].
 const MAX_COMPRESSION: f64 = 0.5;
@@ -24,13 +24,13 @@ const MAX_COMPRESSION: f64 = 0.5;
 /// Parameters of a flume run: flume, wave, grid and records.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlumeSetup {
-    /// Bed, from the piston at rest (first point) to the end wall (last point), including the mound.
+    /// Bed, from the piston at rest or the inflow (first point) to the right end (last point), including the mound.
     pub profile: Profile,
     /// Still water level z [m].
     pub still_level_m: f64,
     /// Gravitational acceleration [m/s2].
     pub gravity_m_s2: f64,
-    /// The wave and its generation.
+    /// The incoming wave and how it is generated.
     pub wave: WaveSource,
     /// Right end of the flume.
     pub right_end: RightEnd,
@@ -40,13 +40,14 @@ pub struct FlumeSetup {
     pub friction: Friction,
     /// Wave breaking.
     pub breaking: Breaking,
-    /// Number of layers, 1..=8.
+    /// Number of layers, from 1 to [`MAX_LAYERS`].
     pub layers: usize,
     /// Cell width [m].
     pub cell_m: f64,
     /// Positions x of the wave gauges [m].
     pub gauges_x_m: Vec<f64>,
-    /// Times of surface profiles along the whole flume [s]; each is recorded at the first time step that reaches it.
+    /// Times of surface profiles along the whole flume [s]; each profile is recorded at the first time step that
+    /// reaches it.
     pub profile_times_s: Vec<f64>,
     /// Range of x in which the flow is recorded [m], limited to the flume.
     pub window_x_m: [f64; 2],
@@ -56,7 +57,7 @@ pub struct FlumeSetup {
     pub end_s: f64,
 }
 
-/// Wave generation at the left end; the depth of the wave is the depth there.
+/// Wave generation at the left end. The depth of the wave must equal the still water depth there.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WaveSource {
     /// A piston that generates a solitary wave; its stroke starts at t = 0.
@@ -187,7 +188,7 @@ fn check(setup: &FlumeSetup) -> Result<(), FlumeError> {
     let highest = 0.7 * depth;
     let allowed = format!("at most {highest} (0.7 of the depth); higher solitary waves break");
     require("the wave's height_m", height, height <= highest, &allowed)?;
-    // Flumes are filled to within about a millimetre.
+    // The still water level of a laboratory flume is accurate to about a millimetre.
     let is_same = (setup.wave.depth_m() - depth).abs() <= 1e-3;
     require("the wave's depth_m", setup.wave.depth_m(), is_same, &format!("{depth}, the depth at the wavemaker"))?;
     check_right_end_and_friction(setup, length)?;
@@ -250,7 +251,7 @@ fn steps_per_record(setup: &FlumeSetup, mapped_m: f64) -> usize {
     (setup.record_interval_s / step).ceil().max(1.0) as usize
 }
 
-/// Creates an empty record; its window is limited to the flume and has about one point per cell.
+/// Creates an empty record. Its window is limited to the flume and has about one point per cell.
 fn empty_record(setup: &FlumeSetup, volume_m2: f64) -> FlumeRecord {
     let points = setup.profile.points();
     let from = setup.window_x_m[0].max(points[0][0]);
@@ -317,7 +318,7 @@ mod tests {
         assert!(record.volume_error < 1e-12);
         let back = (record.crest(1).1 / 0.05) as usize;
         let reflected = record.gauge_elevations_m[0][back..].iter().copied().fold(0.0, f64::max);
-        // The reflection costs the wave less than 1 % of its height, and so do 24 m at this cell width.
+        // The wave loses less than 1 % of its height by the reflection, and less than 1 % over 24 m at this cell width.
         assert!((reflected / record.crest(0).0 - 1.0).abs() < 0.02, "{}", reflected / record.crest(0).0);
         assert_eq!(*record.window_x_m.last().unwrap(), 24.0);
     }

@@ -1,14 +1,15 @@
 //! Active absorption: the piston moves with returning waves so that it does not reflect them.
 //!
 //! Schaffer & Klopman (2000), "Review of multidirectional active wave absorption methods"; Altomare et al. (2017),
-//! section 2.3. A gauge that moves with the piston measures the surface. Its excess over the generated wave is the sum
-//! of the returning wave eta_in and the unwanted outgoing wave eta_out. The piston velocity U = -(eta_in + eta_out)
-//! u/eta, with u/eta = sqrt(g/d) for long waves, makes eta_out = eta_in + U eta/u = 0.
+//! section 2.3. A gauge that moves with the piston measures the elevation. The excess over the elevation of the
+//! generated wave is the sum of the returning wave eta_in and the unwanted outgoing wave eta_out. The piston velocity
+//! U = -(eta_in + eta_out) u/eta, with u/eta = sqrt(g/d) for long waves, makes eta_out = eta_in + U eta/u = 0.
 //!
-//! Waves take the time a from the gauge to the piston: eta_in is measured a too early and eta_out a too late. Readings
-//! scatter by 1/20 of the particle spacing and are smoothed: tau y' = eta_in(t + a) + eta_out(t - a) - y. For slow
-//! waves and eta_out = eta_in - y this is y + (tau - a) y' / 2 = eta_in, which has no lag for tau = a. The loop is
-//! stable for any a, because the delayed term never exceeds the other.
+//! Waves travel from the gauge to the piston in the time a. Therefore the gauge measures eta_in too early and eta_out
+//! too late by a. Readings scatter by 1/20 of the particle spacing and are smoothed:
+//! tau y' = eta_in(t + a) + eta_out(t - a) - y. For slow waves and eta_out = eta_in - y this becomes
+//! y + (tau - a) y' / 2 = eta_in, which has no lag for tau = a. The loop is stable for any a, because the coefficient
+//! of the delayed term is not larger than the coefficient of y.
 
 use std::f64::consts::TAU;
 
@@ -25,9 +26,9 @@ pub struct Absorption {
     pub travel_time_s: f64,
     /// Depth-mean velocity of the water per surface elevation, u/eta [1/s].
     pub velocity_per_elevation: f64,
-    /// Largest displacement that absorption may add in either direction [m].
+    /// Largest displacement that absorption may add to the generating motion, seaward or shoreward [m].
     pub max_displacement_m: f64,
-    /// Time constant that returns the added displacement to zero [s]: it prevents drift in periodic waves.
+    /// Time constant with which the added displacement decays to zero [s]; it prevents drift in periodic waves.
     pub return_time_s: Option<f64>,
 }
 
@@ -42,12 +43,13 @@ pub struct AbsorptionState {
     excess_m: f64,
 }
 
-/// Return time of an absorbing piston in periodic waves, in periods. It is short enough to stop drift by mass
-/// transport; absorption loses no more than 1 / (2 pi 10) = 1.6 % of its velocity, out of phase.
+/// Return time of an absorbing piston in periodic waves, in wave periods. It is short enough to stop drift by mass
+/// transport. The return velocity is at most 1 / (2 pi 10) = 1.6 % of the absorbing velocity, and out of phase with it.
 pub(super) const RETURN_PERIODS: f64 = 10.0;
 
 impl Absorption {
-    /// Parameters for a full-depth piston in waves of a period [s], or in long waves if no period is given.
+    /// Creates the parameters of a full-depth piston: for waves of period `period_s`, or for long waves if it is
+    /// `None`.
     ///
     /// Linear theory: a piston with velocity U generates eta = U 4 sinh^2(kd) / (omega (sinh 2kd + 2kd))
     /// (Biesel 1951); the long-wave limit is U sqrt(d/g).
@@ -74,7 +76,7 @@ impl Absorption {
         }
     }
 
-    /// Advances by `dt` [s] with a gauge reading: the excess of the elevation over the generated wave [m].
+    /// Advances the state by `dt` [s]; `excess_m` is the measured elevation minus that of the generated wave [m].
     pub fn advance(&self, state: &mut AbsorptionState, excess_m: f64, dt: f64) {
         state.excess_m += (1.0 - (-dt / self.travel_time_s).exp()) * (excess_m - state.excess_m);
         let return_velocity = self.return_time_s.map_or(0.0, |time| state.displacement_m / time);
@@ -100,7 +102,7 @@ mod tests {
         return_time_s: None,
     };
 
-    /// A piston that moves at U reflects eta_out = eta_in + U eta/u.
+    /// A piston with the velocity U reflects eta_out = eta_in + U eta/u.
     #[test]
     fn piston_reflects_little_of_a_long_wave() {
         let incoming = |t: f64| 0.03 / (3.0 * (t - 3.0)).cosh().powi(2);
@@ -112,7 +114,7 @@ mod tests {
             out.push(incoming(t) + state.velocity_m_s / 5.0);
         }
         let largest = out.iter().fold(0.0_f64, |most, eta| most.max(eta.abs()));
-        // The second-order residue is a^2 eta'' / 4, 4.5 % of this crest; higher orders raise it to 5.2 %.
+        // The second-order residual is a^2 eta'' / 4, 4.5 % of this crest; higher orders raise it to 5.2 %.
         assert!(largest < 0.06 * 0.03, "{}", largest / 0.03);
         // The piston has retreated by u/eta times the integral of the elevation over time: 5 (2/3) 0.03.
         assert!((state.displacement_m + 0.1).abs() < 0.002);
@@ -125,7 +127,7 @@ mod tests {
         let rows = Absorption::for_full_depth_piston(0.2, wave.depth_m, Some(wave.period_s), wave.gravity, 0.1);
         assert!((rows.velocity_per_elevation / rigid.velocity_per_elevation() - 1.0).abs() < 1e-9);
         assert!((rows.travel_time_s * rigid.celerity_m_s() / 0.2 - 1.0).abs() < 1e-9);
-        // Very long waves give the long-wave limit.
+        // Very long waves tend to the long-wave limit.
         let [long, limit] =
             [Some(200.0), None].map(|period| Absorption::for_full_depth_piston(0.2, 0.4, period, 9.81, 0.1));
         assert!((long.velocity_per_elevation / limit.velocity_per_elevation - 1.0).abs() < 1e-4);

@@ -2,12 +2,12 @@
 //!
 //! Altomare, Dominguez, Crespo, Suzuki, Caceres & Gomez-Gesteira (2015), "Hybridization of the wave propagation model
 //! SWASH and the meshfree particle method SPH for real coastal applications". The rows are a Lagrangian wall: they
-//! follow the water that is at x0 when the particle run starts, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t).
-//! Integrating the Eulerian u(x0, t) instead makes the stroke too short.
+//! follow the water that is at x0 when the particle run starts, dX/dt = u(X, Z, t), dZ/dt = w(X, Z, t). Integrating the
+//! Eulerian u(x0, t) instead would make the stroke too short.
 //!
 //! The rows move in x only, whereas the water also rises and falls. Therefore one water particle is tracked in x and z
 //! from the height of each row. A row takes the velocity interpolated in height between the tracked particles. Below
-//! the lowest and above the highest particle (at the surface) the velocity is constant.
+//! the lowest and above the highest particle (at the surface), it takes the velocity of that particle.
 
 use std::io;
 
@@ -22,7 +22,7 @@ pub struct MlPiston {
     row_heights_m: Vec<f64>,
     start_s: f64,
     interval_s: f64,
-    /// Velocities at the knots [m/s], one list per row.
+    /// Velocities at the knots, which are evenly spaced times [m/s]; one list per row.
     velocities: Vec<Vec<f64>>,
     /// Displacements at the knots [m], one list per row.
     displacements: Vec<Vec<f64>>,
@@ -30,13 +30,15 @@ pub struct MlPiston {
 }
 
 impl MlPiston {
-    /// Rows at levels z [m] that start at `x0_m` and move from start to end [s], with knots `interval_s` apart.
+    /// Creates rows at levels z [m] that start at `x0_m` and follow the water of a flume run from start to end [s].
+    /// Velocities are stored at knots, `interval_s` apart.
     ///
-    /// In periodic waves the water drifts with the waves at the surface and against them below, so the rows would move
-    /// apart. `drawn_back_s`, a few periods, is the time constant [s] that returns rows and particles to their start.
+    /// In periodic waves the water drifts shoreward at the surface and seaward below, so the rows would move apart.
+    /// `return_time_s` is the time constant [s] with which rows and particles return to their start; use a few wave
+    /// periods.
     ///
-    /// The window of the record must contain the whole path of the water (about 1 m from x0); outside it the velocity
-    /// at its end is used.
+    /// The recorded window must contain the whole path of the water, about 1 m from x0. Outside the window, the
+    /// velocity at the nearest end of the window is used.
     ///
     /// # Panics
     /// If there is no row, the interval is not positive, the end is not after the start, or x0 is outside the window.
@@ -46,7 +48,7 @@ impl MlPiston {
         row_heights_m: &[f64],
         [start_s, end_s]: [f64; 2],
         interval_s: f64,
-        drawn_back_s: Option<f64>,
+        return_time_s: Option<f64>,
     ) -> Self {
         assert!(
             !row_heights_m.is_empty() && interval_s > 0.0 && end_s > start_s,
@@ -66,13 +68,13 @@ impl MlPiston {
             speeds.sort_by(|a, b| a[0].total_cmp(&b[0]));
             for ((series, displacement), &height) in velocities.iter_mut().zip(&mut displacements).zip(row_heights_m) {
                 let velocity =
-                    velocity_at_height(&speeds, height) - drawn_back_s.map_or(0.0, |time| *displacement / time);
+                    velocity_at_height(&speeds, height) - return_time_s.map_or(0.0, |time| *displacement / time);
                 *displacement += interval_s * velocity;
                 series.push(velocity);
             }
             for (particle, initial) in particles.iter_mut().zip(&initial) {
                 *particle = track_particle(record, *particle, t, interval_s);
-                if let Some(time) = drawn_back_s {
+                if let Some(time) = return_time_s {
                     let share = 1.0 - (-interval_s / time).exp();
                     for (coordinate, start) in particle.iter_mut().zip(initial) {
                         *coordinate += share * (start - *coordinate);
@@ -83,10 +85,11 @@ impl MlPiston {
         Self::from_velocities(x0_m, row_heights_m.to_vec(), start_s, interval_s, velocities)
     }
 
-    /// Rows with the velocities of a file, from start to end [s] in its time, with knots `interval_s` apart.
+    /// Creates rows that move with the velocities of a file from start to end [s], in the time of the file.
     ///
-    /// The file has the velocity at one position x. With a celerity c [m/s], a row displaced by X takes the velocity
-    /// that this position had X / c earlier; without c, it takes the present one.
+    /// The file has the velocities at one position x. With a celerity c [m/s], a row displaced by X takes the velocity
+    /// at the time t - X / c, as in a wave of permanent form. Without c, it takes the velocity at the time t.
+    /// Velocities are stored at knots, `interval_s` apart.
     pub fn from_velx(rows: &Velx, [start_s, end_s]: [f64; 2], interval_s: f64, celerity_m_s: Option<f64>) -> Self {
         let knots = ((end_s - start_s) / interval_s).ceil() as usize + 1;
         let motion = |row: usize| {
@@ -106,7 +109,7 @@ impl MlPiston {
         Self::from_velocities(rows.position_m[0], rows.heights_m[0].clone(), start_s, interval_s, velocities)
     }
 
-    /// Motion from velocities at evenly spaced knots; the displacement is their trapezoidal integral.
+    /// Creates the motion from velocities at evenly spaced knots; the displacement is their trapezoidal integral.
     fn from_velocities(
         rest_x_m: f64,
         row_heights_m: Vec<f64>,
@@ -157,8 +160,8 @@ impl MlPiston {
         self.start_s + (self.velocities[0].len() - 1) as f64 * self.interval_s
     }
 
-    /// Displacement of a row [m] at flume time t [s]: 0 before the start, constant after the end. Between the knots it
-    /// is a parabola, the integral of the linear velocity.
+    /// Displacement of a row [m] at flume time t [s]: 0 before the start, constant after the end. Between two knots it
+    /// is a parabola, because the velocity is linear.
     pub fn displacement_m(&self, row: usize, t: f64) -> f64 {
         let (v, d) = (&self.velocities[row], &self.displacements[row]);
         match self.locate(t) {
@@ -168,8 +171,8 @@ impl MlPiston {
         }
     }
 
-    /// Largest seaward displacement of a row from its rest position [m]. Zero if it is below the row spacing, because
-    /// the layers of particles behind the rows cover it.
+    /// Largest seaward displacement of a row from its rest position [m]. Returns 0 if it is smaller than the row
+    /// spacing, because the particle layers behind the rows then prevent a gap.
     pub fn max_seaward_displacement_m(&self) -> f64 {
         let generated = self.displacements.iter().flatten().fold(0.0_f64, |least, &d| least.min(d));
         let furthest = generated - self.max_absorbed_displacement_m();
@@ -182,13 +185,13 @@ impl MlPiston {
         self.displacements.iter().flatten().fold(0.0_f64, |most, &d| most.max(d)) + self.max_absorbed_displacement_m()
     }
 
-    /// Largest displacement that absorption may add in either direction [m].
+    /// Largest displacement that absorption may add, seaward or shoreward [m]; 0 without absorption.
     fn max_absorbed_displacement_m(&self) -> f64 {
         self.absorption.map_or(0.0, |absorption| absorption.max_displacement_m)
     }
 
-    /// Velocity of a row [m/s] at flume time t [s]: 0 before the start and after the end, linear between knots. It
-    /// jumps at start and end if the water moves then.
+    /// Velocity of a row [m/s] at flume time t [s]: linear between knots, 0 before the start and after the end. The
+    /// velocity jumps at the start or end if the water moves at that time.
     pub fn velocity_m_s(&self, row: usize, t: f64) -> f64 {
         let v = &self.velocities[row];
         match self.locate(t) {
@@ -197,7 +200,7 @@ impl MlPiston {
         }
     }
 
-    /// Locates t among the knots.
+    /// Finds the knots between which the time t [s] lies.
     fn locate(&self, t: f64) -> Knot {
         let offset = (t - self.start_s) / self.interval_s;
         let intervals = self.velocities[0].len() - 1;
@@ -227,14 +230,15 @@ impl MlPiston {
     }
 }
 
-/// Position of a time among the knots; `At` holds the knot before it and the share of the interval.
+/// Position of a time among the knots. `At` has the index of the knot before the time and the elapsed share of the
+/// interval.
 enum Knot {
     Before,
     At(usize, f64),
     After,
 }
 
-/// Velocity of a row of a file [m/s] at t [s]: linear in time, constant beyond the ends.
+/// Velocity of a row [m/s] at t [s]: linear in time, constant before the first and after the last time of the file.
 fn row_velocity(rows: &Velx, row: usize, t: f64) -> f64 {
     let times = &rows.times_s;
     let after = times.partition_point(|&time| time <= t);
@@ -246,7 +250,7 @@ fn row_velocity(rows: &Velx, row: usize, t: f64) -> f64 {
     velocity(after - 1) + share * (velocity(after) - velocity(after - 1))
 }
 
-/// First time [s] at which the mean velocity of the rows below level z [m] reaches `share` of its maximum.
+/// First time [s] at which the mean speed of the rows below the level `below_z_m` reaches `share` of its maximum.
 pub fn velx_start_time(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
     let wet = rows.heights_m[0].partition_point(|&z| z < below_z_m).max(1);
     let mean = |velocities: &Vec<f64>| (velocities[..wet].iter().sum::<f64>() / wet as f64).abs();
@@ -256,8 +260,8 @@ pub fn velx_start_time(rows: &Velx, below_z_m: f64, share: f64) -> f64 {
     rows.times_s[first.unwrap_or(0)]
 }
 
-/// First recorded time [s] at which the depth-mean velocity at x0 reaches `share` of its maximum. Returns the end of
-/// the record if the water never moves.
+/// First recorded time [s] at which the depth-mean speed of the water at x0 reaches `share` of its maximum. Returns the
+/// end of the record if the water never moves.
 pub fn motion_start_time(record: &FlumeRecord, x0_m: f64, share: f64) -> f64 {
     let speeds: Vec<f64> = record.times_s().iter().map(|&t| record.mean_velocity(x0_m, t).abs()).collect();
     let largest = speeds.iter().copied().fold(0.0, f64::max);
@@ -290,7 +294,7 @@ fn track_particle(record: &FlumeRecord, [x, z]: [f64; 2], t: f64, dt: f64) -> [f
     [x, (z + step(1)).clamp(bed, record.surface_level_m(x, t + dt).max(bed))]
 }
 
-/// Velocity at a height from [height, velocity] pairs of increasing height: linear, constant beyond the ends.
+/// Velocity at a height, from [height, velocity] pairs of increasing height: linear between pairs, constant outside.
 fn velocity_at_height(speeds: &[[f64; 2]], height: f64) -> f64 {
     let above = speeds.partition_point(|s| s[0] <= height);
     if above == 0 {

@@ -7,7 +7,7 @@
 //! | [`paddle`] | rigid piston or flap |
 //! | [`paddle_motion`] | paddle motion that generates regular waves |
 //! | [`absorption`] | active absorption of waves that return to a piston |
-//! | [`velx`] | row velocities in DualSPHysics' `_velx` format |
+//! | [`velx`] | velocities of the rows of a piston in DualSPHysics' `_velx` format |
 
 pub mod absorption;
 pub mod ml_piston;

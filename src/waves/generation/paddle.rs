@@ -1,10 +1,11 @@
-//! Rigid wave paddle in the particle domain: all rows move in proportion to one motion.
+//! Rigid wave paddle in the particle domain. All rows of particles move in proportion to the motion at still water
+//! level.
 
 use crate::waves::generation::absorption::{Absorption, RETURN_PERIODS};
 use crate::waves::generation::paddle_motion::{PaddleShape, RegularMotion};
 use crate::waves::theory::solitary::SolitaryWave;
 
-/// Motion of a paddle at still water level; t [s] counts from its start.
+/// Motion of a paddle at still water level; the time t [s] counts from the start of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PaddleMotion {
     /// Generates a solitary wave.
@@ -46,7 +47,8 @@ impl PaddleMotion {
         }
     }
 
-    /// Active absorption for a piston with this motion and a gauge at a distance [m].
+    /// Parameters of the active absorption of a piston with this motion; the gauge is `gauge_m` in front of the piston
+    /// [m].
     pub fn absorption(&self, gauge_m: f64) -> Absorption {
         let max_displacement_m = self.displacement_bounds_m()[1];
         match self {
@@ -68,13 +70,13 @@ impl PaddleMotion {
     }
 }
 
-/// A rigid paddle made of rows. The rows of a flap move only horizontally: shear replaces rotation, with an error of
-/// the order of the flap angle squared.
+/// A rigid paddle made of rows of particles. The rows of a flap move only horizontally, so the flap shears instead of
+/// rotating. The error is of the order of the flap angle squared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Paddle {
     rest_x_m: f64,
     row_heights_m: Vec<f64>,
-    /// Displacement of each row relative to that at still water level [-].
+    /// Displacement of each row over the displacement at still water level [-].
     relative_displacements: Vec<f64>,
     motion: PaddleMotion,
     absorption: Option<Absorption>,
@@ -94,17 +96,17 @@ impl Paddle {
         Self { rest_x_m, row_heights_m, relative_displacements, motion, absorption: None }
     }
 
-    /// Adds active absorption with a gauge at a distance [m].
+    /// Adds active absorption with a gauge `gauge_m` in front of the paddle [m].
     pub fn with_absorption(self, gauge_m: f64) -> Self {
         Self { absorption: Some(self.motion.absorption(gauge_m)), ..self }
     }
 
-    /// Active absorption, if any.
+    /// Parameters of the active absorption; `None` without absorption.
     pub fn absorption(&self) -> Option<&Absorption> {
         self.absorption.as_ref()
     }
 
-    /// Displacement at still water level at t [s], without absorption [m].
+    /// Displacement at still water level at time t [s], without absorption [m].
     pub fn motion_m(&self, t: f64) -> f64 {
         self.motion.displacement_m(t)
     }
@@ -124,7 +126,7 @@ impl Paddle {
         &self.row_heights_m
     }
 
-    /// Displacement [m] and velocity [m/s] of each row at t [s], without absorption.
+    /// Displacement [m] and velocity [m/s] of each row at time t [s], without absorption.
     pub fn rows_at(&self, t: f64) -> impl Iterator<Item = [f64; 2]> {
         let (displacement, velocity) = (self.motion.displacement_m(t), self.motion.velocity_m_s(t));
         self.relative_displacements.iter().map(move |relative| [relative * displacement, relative * velocity])
@@ -160,7 +162,7 @@ mod tests {
     #[test]
     fn flap_rows_move_in_proportion_to_their_height_above_the_hinge() {
         let rows: Vec<[f64; 2]> = paddle(PaddleShape::Flap { hinge_m: 0.2 }).rows_at(4.1).collect();
-        // Hinge at z = 1.2 m, surface at 1.4 m.
+        // Hinge at z = 1.2 m, still water level at 1.4 m.
         for (row, share) in rows.iter().zip([0.0, 0.5, 1.0, 2.0]) {
             for k in 0..2 {
                 assert!((row[k] - share * rows[2][k]).abs() < 1e-15);

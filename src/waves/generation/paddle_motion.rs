@@ -3,20 +3,21 @@
 //! * Biesel & Suquet (1951), in the form of Dean & Dalrymple (1984), section 6.3: small waves in front of a paddle that
 //!   moves by S f(z) / 2 sin(omega t), with f = 1 at still water level.
 //! * Madsen (1971), "On the generation of long waves": a piston motion at twice the wave frequency generates a
-//!   second-order wave of permanent form. Without it the piston also generates a slower free wave at that frequency.
+//!   second-order wave of permanent form. Without this motion, the piston also generates a slower free wave of twice
+//!   the frequency.
 //!
-//! A flap moves at first order only.
+//! A flap has no second-order motion.
 
 use std::f64::consts::PI;
 
 use crate::waves::theory::regular::RegularWave;
 
-/// Shape of a paddle: its displacement over the height.
+/// Shape of a paddle: its displacement as a function of height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PaddleShape {
     /// Uniform over the height.
     Piston,
-    /// Proportional to the height above the hinge, zero below it.
+    /// Proportional to the height above the hinge, zero below the hinge.
     Flap {
         /// Height of the hinge above the bed [m]; negative below the bed.
         hinge_m: f64,
@@ -24,7 +25,8 @@ pub enum PaddleShape {
 }
 
 impl PaddleShape {
-    /// Displacement at `z` [m] above the bed relative to that at still water level, in depth d [m] [-].
+    /// Displacement at `z` [m] above the bed over the displacement at still water level [-]; `depth` is the water depth
+    /// [m].
     pub fn relative_displacement(&self, z: f64, depth: f64) -> f64 {
         match *self {
             Self::Piston => 1.0,
@@ -51,14 +53,14 @@ impl PaddleShape {
     }
 }
 
-/// Motion at still water level of a paddle that generates regular waves.
+/// Motion of a paddle that generates regular waves, at still water level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegularMotion {
     /// Angular frequency [rad/s].
     omega: f64,
     /// Wavenumber [1/m].
     wavenumber: f64,
-    /// Amplitude of the wave [m].
+    /// Amplitude of the generated wave, half its height [m].
     amplitude_m: f64,
     /// First-order amplitude of the paddle at omega, half the stroke [m].
     first_m: f64,
@@ -69,7 +71,7 @@ pub struct RegularMotion {
 }
 
 impl RegularMotion {
-    /// Creates the motion; the stroke grows over `ramp_periods`.
+    /// Creates the motion; the stroke grows from zero over the first `ramp_periods` wave periods.
     pub fn new(wave: &RegularWave, shape: PaddleShape, ramp_periods: f64) -> Self {
         let (k, depth) = (wave.wavenumber_per_m(), wave.depth_m);
         let first_m = 0.5 * wave.height_m / shape.height_per_stroke(k, depth);
@@ -81,12 +83,12 @@ impl RegularMotion {
         Self { omega, wavenumber: k, amplitude_m, first_m, second_m, ramp_s: ramp_periods * wave.period_s }
     }
 
-    /// First-order stroke [m].
+    /// First-order stroke: twice the first-order amplitude of the paddle [m].
     pub fn stroke_m(&self) -> f64 {
         2.0 * self.first_m
     }
 
-    /// Upper bound of the distance from the rest position [m].
+    /// Upper bound of the displacement from the rest position, seaward or shoreward [m].
     pub fn max_displacement_m(&self) -> f64 {
         self.first_m + self.second_m.abs()
     }
@@ -97,13 +99,13 @@ impl RegularMotion {
         self.ramp(t)[0] * self.full_motion(t)[0]
     }
 
-    /// Velocity [m/s], the derivative of the displacement.
+    /// Velocity [m/s], the time derivative of [`Self::displacement_m`].
     pub fn velocity_m_s(&self, t: f64) -> f64 {
         let ([share, rate], [x, v]) = (self.ramp(t), self.full_motion(t));
         rate * x + share * v
     }
 
-    /// First-order elevation of the generated wave [m] at a distance [m] from the paddle and t [s].
+    /// First-order elevation of the generated wave [m], `distance_m` in front of the paddle, at time t [s].
     pub fn elevation_m(&self, distance_m: f64, t: f64) -> f64 {
         let retarded_t = t - self.wavenumber * distance_m / self.omega;
         self.ramp(retarded_t)[0] * self.amplitude_m * (self.omega * retarded_t).cos()
@@ -132,7 +134,7 @@ impl RegularMotion {
         [displacement, velocity]
     }
 
-    /// Ramp factor r [-] and its derivative [1/s]: a half cosine from 0 to 1.
+    /// Ramp factor r [-], a half cosine from 0 to 1, and its time derivative [1/s].
     fn ramp(&self, t: f64) -> [f64; 2] {
         if t <= 0.0 {
             return [0.0, 0.0];
@@ -166,8 +168,8 @@ mod tests {
     #[test]
     fn transfer_function_has_the_shallow_and_deep_water_limits() {
         let flap = PaddleShape::Flap { hinge_m: 0.0 };
-        // In shallow water the wave holds the displaced volume: H/S = kd for a piston, kd/2 for a flap hinged at the
-        // bed. The next term is of order (kd)^2.
+        // In shallow water the volume of the wave equals the displaced volume: H/S = kd for a piston, kd/2 for a flap
+        // hinged at the bed. The next term is of order (kd)^2.
         let k = 0.01 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) / 0.01 - 1.0).abs() < 1e-4);
         assert!((flap.height_per_stroke(k, DEPTH) / 0.005 - 1.0).abs() < 1e-4);
@@ -175,7 +177,7 @@ mod tests {
         let k = 20.0 / DEPTH;
         assert!((PaddleShape::Piston.height_per_stroke(k, DEPTH) - 2.0).abs() < 1e-12);
         assert!((flap.height_per_stroke(k, DEPTH) - 2.0 * (1.0 - 1.0 / 20.0)).abs() < 1e-6);
-        // A flap with its hinge far below the bed acts as a piston.
+        // A flap with its hinge far below the bed moves like a piston.
         let far = PaddleShape::Flap { hinge_m: -1e6 };
         assert!((far.height_per_stroke(k, DEPTH) - PaddleShape::Piston.height_per_stroke(k, DEPTH)).abs() < 1e-5);
     }

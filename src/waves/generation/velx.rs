@@ -1,5 +1,5 @@
 //! `_velx` file of DualSPHysics' one-dimensional multi-layer piston (Altomare et al. 2015). Line 1 is `px:;x;py:;y`,
-//! line 2 is `time;pz_0;...;vel_0;...`. Then one line per time lists the time, heights and velocities, separator `;`.
+//! line 2 is `time;pz_0;...;vel_0;...`. Each further line has a time, the heights and the velocities, separated by `;`.
 
 use std::io::{self, BufRead, Write};
 
@@ -18,7 +18,7 @@ pub struct Velx {
     pub velocities_m_s: Vec<Vec<f64>>,
 }
 
-/// Errors of reading a `_velx` file.
+/// Errors when a `_velx` file is read.
 #[derive(Debug, Error)]
 pub enum VelxError {
     /// The file cannot be read.

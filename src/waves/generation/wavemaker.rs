@@ -1,6 +1,6 @@
 //! Wavemakers: rows of boundary particles that move at the seaward end of the particle domain.
 //!
-//! A new kind of wavemaker is a variant of [`Wavemaker`]: it returns the displacement and velocity along x of each row.
+//! To add a kind of wavemaker, add a variant of [`Wavemaker`] that gives the displacement and velocity of each row.
 
 use crate::waves::{generation::absorption::Absorption, generation::ml_piston::MlPiston, generation::paddle::Paddle};
 
@@ -22,7 +22,7 @@ impl Wavemaker {
         }
     }
 
-    /// Active absorption, if any.
+    /// Parameters of the active absorption; `None` without absorption.
     pub fn absorption(&self) -> Option<&Absorption> {
         match self {
             Self::MlPiston(piston) => piston.absorption(),
@@ -49,7 +49,8 @@ impl Wavemaker {
         }
     }
 
-    /// Position x [m] at flume time t [s]: a paddle at still water level, a multi-layer piston at its highest row.
+    /// Position x [m] at flume time t [s]: at still water level for a paddle, of the highest row for a multi-layer
+    /// piston.
     pub fn x_at_surface_m(&self, t: f64) -> f64 {
         match self {
             Self::MlPiston(piston) => piston.rest_x_m() + piston.displacement_m(piston.row_heights_m().len() - 1, t),
@@ -57,7 +58,7 @@ impl Wavemaker {
         }
     }
 
-    /// Position x of the foremost row at flume time t [s] [m].
+    /// Position x [m] of the row that is furthest shoreward at flume time t [s].
     pub fn foremost_row_x_m(&self, t: f64) -> f64 {
         let furthest = self.rows_at(t).iter().map(|row| row[0]).fold(f64::MIN, f64::max);
         self.rest_x_m() + furthest

@@ -1,22 +1,22 @@
 //! Irregular waves: a first-order JONSWAP sea with random phases.
 //!
 //! Hasselmann et al. (1973): S(f) ~ f^-5 exp(-1.25 (f_p/f)^4) gamma^a, a = exp(-(f - f_p)^2 / (2 s^2 f_p^2)), s = 0.07
-//! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is a sum of waves of amplitude
+//! below the peak and 0.09 above; scaled so that H_s = 4 sqrt(m_0). The surface is a sum of waves with the amplitude
 //! sqrt(2 S df), evenly spaced in frequency, with random phases; it repeats after 1/df. Velocities follow linear theory
-//! with Wheeler (1970) stretching. Bound long waves are left out: the nonlinear flume model generates them. It also
-//! generates spurious free long waves, which second-order wave generation would suppress.
+//! with Wheeler (1970) stretching. The sum has no bound long waves, because the nonlinear flume model generates them.
+//! The flume model also generates spurious free long waves, which second-order wave generation would suppress.
 
 use std::f64::consts::TAU;
 
 use super::regular::{WaveError, linear_wavenumber_per_m};
 use crate::random::SplitMix64;
 
-/// Limits of f / f_p of the spectrum [-]; 1 to 2 % of the energy lies outside.
+/// Lowest and highest f / f_p of the wave components [-]; 1 to 2 % of the spectral energy lies outside.
 const BAND: [f64; 2] = [0.6, 3.0];
 /// Largest number of wave components; the flume model evaluates all of them at every time step.
 const MAX_COMPONENTS: usize = 5000;
 
-/// Target parameters of a JONSWAP sea.
+/// Parameters of a JONSWAP sea.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JonswapSea {
     /// Significant height H_s = 4 sqrt(m_0) [m].
@@ -35,14 +35,14 @@ pub struct JonswapSea {
     pub seed: u64,
 }
 
-/// Wave components of a sea at one position.
+/// Linear wave components of an irregular sea at one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IrregularWave {
     sea: JonswapSea,
     components: Vec<Component>,
 }
 
-/// One linear wave.
+/// One linear wave: amplitude [m], angular frequency [rad/s], wavenumber [1/m] and phase [rad].
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Component {
     amplitude: f64,
@@ -79,18 +79,18 @@ impl IrregularWave {
         Ok(Self { sea, components: components.collect() })
     }
 
-    /// Target parameters.
+    /// Parameters of the sea.
     pub fn sea(&self) -> &JonswapSea {
         &self.sea
     }
 
-    /// Elevation above still water [m].
+    /// Elevation above still water [m] at time t [s].
     pub fn elevation_m(&self, t: f64) -> f64 {
         self.components.iter().map(|c| c.amplitude * c.angle(t).cos()).sum()
     }
 
-    /// Horizontal velocity [m/s] at z [m] above still water: the sum of a omega cosh(k d s) / sinh(k d) cos with
-    /// s = (z + d)/(d + eta).
+    /// Horizontal velocity [m/s] at z [m] above still water and time t [s]: the sum over the components of a omega
+    /// cosh(k d s) / sinh(k d) cos(angle), with s = (z + d)/(d + eta).
     pub fn velocity_m_s(&self, z: f64, t: f64) -> f64 {
         let d = self.sea.depth_m;
         let stretched_height = d * ((z + d) / (d + self.elevation_m(t))).clamp(0.0, 1.0);
@@ -103,7 +103,7 @@ impl Component {
         self.phase - self.angular_frequency * t
     }
 
-    /// Horizontal velocity at a height above the bed [m/s]; exponentials keep cosh / sinh finite in deep water.
+    /// Horizontal velocity at a height above the bed [m/s]. Exponentials keep cosh / sinh finite in deep water.
     fn velocity(&self, height: f64, depth: f64, t: f64) -> f64 {
         let k = self.wavenumber;
         let ratio = ((k * (height - depth)).exp() + (-k * (height + depth)).exp()) / (1.0 - (-2.0 * k * depth).exp());
@@ -171,7 +171,7 @@ mod tests {
         let samples = 4000;
         let eta: Vec<f64> = (0..samples).map(|i| wave.elevation_m(0.1 * f64::from(i))).collect();
         let variance = eta.iter().map(|e| e * e).sum::<f64>() / f64::from(samples);
-        // Over the repeat time the variance equals that of the components to rounding.
+        // Over the repeat time, the variance equals the sum of the variances of the components to rounding.
         assert!((4.0 * variance.sqrt() / 0.08 - 1.0).abs() < 1e-9);
         assert!((wave.elevation_m(3.3) - wave.elevation_m(403.3)).abs() < 1e-9);
         let other = IrregularWave::new(JonswapSea { seed: 8, ..sea() }).unwrap();

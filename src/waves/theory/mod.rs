@@ -3,7 +3,7 @@
 //! | module | contents |
 //! | --- | --- |
 //! | [`solitary`] | piston motion for a solitary wave; third-order solitary wave |
-//! | [`regular`] | target regular waves; linear dispersion and breaking heights |
+//! | [`regular`] | parameters of regular waves; linear dispersion and breaking heights |
 //! | [`stream_function`] | stream function wave theory for regular waves, from deep-water to cnoidal waves |
 //! | [`irregular`] | JONSWAP sea with random phases |
 

@@ -1,4 +1,4 @@
-//! Target regular waves (height, period, depth), linear dispersion and breaking heights.
+//! Regular waves given by height, period and depth; linear dispersion relation and breaking heights.
 
 use std::f64::consts::{PI, TAU};
 
@@ -38,11 +38,11 @@ impl RegularWave {
         TAU / self.wavenumber_per_m()
     }
 
-    /// Group velocity omega / (2 k) (1 + 2kd / sinh 2kd) [m/s].
+    /// Group velocity omega / (2 k) (1 + 2kd / sinh 2kd) of linear theory [m/s].
     pub fn group_velocity_m_s(&self) -> f64 {
         let k = self.wavenumber_per_m();
         let two_kd = 2.0 * k * self.depth_m;
-        // For 2kd > 710 sinh overflows to infinity and the quotient is zero, the correct limit.
+        // For 2kd > 710, sinh overflows to infinity; the quotient is then zero, which is the correct limit.
         0.5 * self.angular_frequency() / k * (1.0 + two_kd / two_kd.sinh())
     }
 
@@ -51,13 +51,13 @@ impl RegularWave {
         MICHE * self.wavelength_m() * (self.wavenumber_per_m() * self.depth_m).tanh()
     }
 
-    /// Whether second-order theory holds: one crest per period, H L^2 / d^3 below 8 pi^2 / 3 (Madsen 1971).
+    /// Returns true if a second-order wave has one crest per period: H L^2 / d^3 is below 8 pi^2 / 3 (Madsen 1971).
     pub fn is_second_order(&self) -> bool {
         self.height_m * self.wavelength_m().powi(2) / self.depth_m.powi(3) < LARGEST_URSELL
     }
 }
 
-/// Mean flow under regular waves; wave theory needs it as an extra condition.
+/// Mean flow under regular waves; stream function theory needs this additional condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MeanFlow {
     /// Zero mean mass transport, as in a closed flume.
@@ -101,7 +101,7 @@ impl WaveError {
     }
 }
 
-/// Largest stable wave height H/d for a wavelength L/d (Fenton 1990, fitted to the results of Williams 1981) [-].
+/// Largest stable wave height H/d [-] for the wavelength L/d (Fenton 1990, fitted to the results of Williams 1981).
 pub fn max_height_over_depth(length_over_depth: f64) -> f64 {
     let l = length_over_depth;
     (0.141_063 * l + 0.009_572_1 * l * l + 0.007_782_9 * l.powi(3))
@@ -111,7 +111,7 @@ pub fn max_height_over_depth(length_over_depth: f64) -> f64 {
 /// Solves omega^2 = g k tanh(k d) for the wavenumber k [1/m] by Newton's method from Eckart's (1952) estimate.
 pub fn linear_wavenumber_per_m(angular_frequency: f64, depth_m: f64, gravity: f64) -> f64 {
     let deep_kd = angular_frequency * angular_frequency * depth_m / gravity;
-    // Eckart's estimate is within 5 %; each Newton iteration squares the error: 1e-3, 1e-6, 1e-12, rounding.
+    // Eckart's estimate is within 5 %. Each Newton iteration squares the error: 1e-3, 1e-6, 1e-12, rounding error.
     let mut kd = deep_kd / deep_kd.tanh().sqrt();
     for _ in 0..5 {
         let tanh = kd.tanh();

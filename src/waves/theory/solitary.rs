@@ -1,12 +1,14 @@
 //! Solitary waves: piston motion that generates them, and a reference profile.
 //!
-//! * Goring & Raichlen (1980), "The generation of long waves in the laboratory": the piston follows the water.
-//! * Guizien & Barthelemy (2002), "Accuracy of solitary wave generation by a piston wave maker": Rayleigh's outskirt.
+//! * Goring & Raichlen (1980), "The generation of long waves in the laboratory": the piston moves with the water.
+//! * Guizien & Barthelemy (2002), "Accuracy of solitary wave generation by a piston wave maker": decay coefficient
+//!   (outskirt) of Rayleigh's solitary wave.
 //! * Grimshaw (1971), Fenton (1972): third-order solitary wave.
 
-/// Newton iterations for the phase: the initial guess is within 1e-2, five iterations reach rounding.
+/// Number of Newton iterations for the phase. The initial guess is within 1e-2; five iterations reach rounding error.
 const NEWTON_STEPS: usize = 5;
-/// Phase at which the piston starts and stops; the elevation there is sech^2(3.8) = 0.002 of the crest.
+/// Phase at which the piston starts (-) and stops (+). The elevation there is sech^2(3.8) = 0.002 of the crest
+/// elevation.
 const END_PHASE: f64 = 3.8;
 
 /// Wave theory for the piston motion.
@@ -14,7 +16,7 @@ const END_PHASE: f64 = 3.8;
 pub enum PistonTheory {
     /// Goring & Raichlen (1980).
     Boussinesq,
-    /// Guizien & Barthelemy (2002); closer to the exact wave.
+    /// Guizien & Barthelemy (2002); the generated wave is closer to the exact solitary wave.
     Rayleigh,
 }
 
@@ -27,7 +29,7 @@ pub struct SolitaryWave {
     pub depth_m: f64,
     /// Gravitational acceleration g [m/s2].
     pub gravity: f64,
-    /// Wave theory.
+    /// Wave theory for the piston motion.
     pub theory: PistonTheory,
 }
 
@@ -78,8 +80,8 @@ impl SolitaryWave {
         self.depth_m * u / (self.celerity_m_s() - u)
     }
 
-    /// Phase theta at the piston, from -3.8 to 3.8 over the stroke: the root of
-    /// theta + (H/d) tanh theta = k c (t - T/2), by Newton's method. (As tanh 3.8 = 0.999, the ends agree to 1e-4.)
+    /// Phase theta at the piston, from -3.8 to 3.8 over the stroke: the root, by Newton's method, of
+    /// theta + (H/d) tanh theta = k c (t - T/2). (The end values agree only to 1e-4, because tanh 3.8 = 0.999.)
     fn phase(&self, t: f64) -> f64 {
         let e = self.height_m / self.depth_m;
         let right = self.outskirt_per_m() * self.celerity_m_s() * (t - 0.5 * self.duration_s());
@@ -141,7 +143,7 @@ impl ThirdOrderSolitary {
         (0.75 * e).sqrt() * (1.0 - 0.625 * e + 71.0 / 128.0 * e * e)
     }
 
-    /// sech^2 and tanh^2 of a x / d.
+    /// Returns sech^2 and tanh^2 of a x / d, with the decay coefficient a.
     fn sech2_tanh2(&self, x: f64) -> (f64, f64) {
         let s2 = sech2(self.decay() * x / self.depth_m);
         (s2, 1.0 - s2)
@@ -161,8 +163,9 @@ mod tests {
     }
 
     #[test]
-    fn outskirt_celerity_stroke_and_duration_match_hand_values_in_0_8_m() {
-        // H; k of Boussinesq and Rayleigh; c; S of both; T of Boussinesq. Tolerance: half a unit of the last digit.
+    fn outskirt_celerity_stroke_and_duration_match_values_calculated_by_hand() {
+        // Depth 0.8 m. H; k of Boussinesq and Rayleigh; c; S of both; T of Boussinesq. Tolerance: half a unit of the
+        // last digit.
         let table = [
             (0.026, 0.19516, 0.19206, 2.8466, 0.3331, 0.3384, 13.80),
             (0.045, 0.25674, 0.24982, 2.8791, 0.4382, 0.4503, 10.43),
@@ -199,7 +202,7 @@ mod tests {
     fn third_order_wave_has_its_height_and_the_exact_celerity() {
         let w = ThirdOrderSolitary { height_m: 0.064, depth_m: 0.8, gravity: 9.81 };
         assert!((w.elevation_m(0.0) - 0.064).abs() < 1e-12);
-        // Exact Froude numbers; third order is accurate to 1e-5 at these heights.
+        // Exact Froude numbers c / sqrt(g d); the third-order theory is accurate to 1e-5 at these heights.
         for (height_m, froude) in [(0.026, 1.016093), (0.045, 1.027659), (0.064, 1.039065)] {
             let c = ThirdOrderSolitary { height_m, ..w }.celerity_m_s();
             assert!((c / (9.81f64 * 0.8).sqrt() - froude).abs() < 1e-5);

@@ -9,8 +9,8 @@
 //! psi = - Q and (u^2 + v^2) / 2 + Y = R on the surface
 //! ```
 //!
-//! at N + 1 points from crest to trough. Mean depth, height, period and mean flow complete the 2 N + 6 equations.
-//! Newton's method solves them for a low wave first and then for increasing heights.
+//! The surface conditions hold at N + 1 points from crest to trough. Mean depth, height, period and mean flow complete
+//! the 2 N + 6 equations. Newton's method solves them for a low wave first and then for increasing heights.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,14 +19,14 @@ use super::regular::{MeanFlow, RegularWave, WaveError, linear_wavenumber_per_m, 
 mod equations;
 use equations::{SteadyWave, solve};
 
-/// Ratio of the heights of successive solutions [-]; each solution starts from a line through the last two.
+/// Ratio of the heights of successive solutions [-]. Each initial guess is extrapolated from the last two solutions.
 const HEIGHT_GROWTH: f64 = 1.25;
-/// Largest Ursell number H L^2 / d^3 of the first wave [-], which is then nearly a cosine.
+/// Largest Ursell number H L^2 / d^3 of the first, lowest wave [-]. A wave below this limit is nearly a cosine.
 const FIRST_URSELL: f64 = 4.0;
-/// Largest height of the first wave per depth [-].
+/// Largest height of the first, lowest wave over the depth [-].
 const FIRST_HEIGHT: f64 = 0.02;
-/// Limit of the wavelength per depth [-]: the crests of longer waves are solitary waves.
-const LONGEST: f64 = 60.0;
+/// Limit of the wavelength over the depth [-]. The crests of longer waves are practically solitary waves.
+const MAX_WAVELENGTH: f64 = 60.0;
 
 /// A solution of stream function wave theory in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ impl StreamFunctionWave {
         let not_found = || WaveError::NotFound { height_m, period_s, depth_m };
         let height = height_m / depth_m;
         let period = period_s * (gravity / depth_m).sqrt();
-        // The crest of a long wave covers a small part of the wavelength; a higher order resolves it.
+        // The crest of a long wave covers a small part of the wavelength, so a higher order is needed to resolve it.
         let order = (16.0 + 0.8 * length_guess).min(64.0) as usize;
         let wave = solve_by_growing_height(order, height, period, mean_flow).ok_or_else(not_found)?;
         if !wave.falls_from_crest_to_trough() {
@@ -75,7 +75,7 @@ impl StreamFunctionWave {
         }
     }
 
-    /// Target height, period and depth.
+    /// Height, period and depth for which the wave was computed.
     pub fn parameters(&self) -> &RegularWave {
         &self.parameters
     }
@@ -90,17 +90,17 @@ impl StreamFunctionWave {
         self.celerity
     }
 
-    /// Phase X = k x - omega t at x [m] and t [s]; 0 under a crest.
+    /// Phase X = k x - omega t [rad] at x [m] and t [s]; 0 under a crest.
     pub fn phase(&self, x: f64, t: f64) -> f64 {
         self.wavenumber * x - TAU / self.parameters.period_s * t
     }
 
-    /// Elevation above still water [m].
+    /// Elevation above still water [m] at a phase [rad].
     pub fn elevation_m(&self, phase: f64) -> f64 {
         self.elevation.iter().enumerate().map(|(j, e)| e * (j as f64 * phase).cos()).sum()
     }
 
-    /// Horizontal velocity [m/s] at z [m] above still water.
+    /// Horizontal velocity [m/s] at a phase [rad] and z [m] above still water.
     pub fn velocity_m_s(&self, phase: f64, z: f64) -> f64 {
         let d = self.parameters.depth_m;
         let (kd, height) = (self.wavenumber * d, (z + d) / d);
@@ -112,7 +112,7 @@ impl StreamFunctionWave {
     }
 }
 
-/// Checks the ranges and returns the linear wavelength per depth [-].
+/// Checks the ranges of the parameters. Returns the wavelength of linear theory over the depth [-].
 fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     for (name, value) in
         [("height_m", wave.height_m), ("period_s", wave.period_s), ("depth_m", wave.depth_m), ("gravity", wave.gravity)]
@@ -120,11 +120,13 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
         WaveError::require_positive(name, value)?;
     }
     let length = wave.wavelength_m() / wave.depth_m;
-    if !length.is_finite() || length >= LONGEST {
-        let allowed = format!("short enough for a wavelength below {LONGEST} depths (linear theory: {length:.1})");
+    if !length.is_finite() || length >= MAX_WAVELENGTH {
+        let allowed =
+            format!("short enough for a wavelength below {MAX_WAVELENGTH} depths (linear theory: {length:.1})");
         return Err(WaveError::Value { name: "period_s", value: wave.period_s, allowed });
     }
-    // High waves are up to 20 % longer than linear ones, which raises their limit. Newton's method detects the rest.
+    // A high wave is up to 20 % longer than a linear wave, so it can be higher. Newton's method detects other breaking
+    // waves.
     let highest = max_height_over_depth(1.2 * length) * wave.depth_m;
     if wave.height_m >= highest {
         let allowed = format!("below {highest:.4}, where waves of this period and depth break");
@@ -133,7 +135,8 @@ fn check(wave: &RegularWave) -> Result<f64, WaveError> {
     Ok(length)
 }
 
-/// Solves from a low wave up to `height`; each solution is the initial guess of the next one.
+/// Solves for increasing heights, from a low wave up to `height`. Each initial guess extrapolates the last two
+/// solutions.
 fn solve_by_growing_height(order: usize, height: f64, period: f64, mean_flow: MeanFlow) -> Option<SteadyWave> {
     let k = linear_wavenumber_per_m(TAU / period, 1.0, 1.0);
     let first = height.min(FIRST_HEIGHT).min(FIRST_URSELL * (k / TAU).powi(2));
@@ -153,7 +156,8 @@ fn solve_by_growing_height(order: usize, height: f64, period: f64, mean_flow: Me
     Some(wave)
 }
 
-/// E_j of elevation(X) = sum E_j cos(j X) through the N + 1 points of `surface` - 1, from crest to trough.
+/// Coefficients E_j of elevation(X) = sum E_j cos(j X), where elevation = `surface` - 1 at N + 1 points from crest to
+/// trough.
 fn cosine_coefficients(surface: &[f64]) -> Vec<f64> {
     let n = surface.len() - 1;
     let half_at_ends = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
@@ -210,13 +214,13 @@ mod tests {
 
     #[test]
     fn long_wave_travels_as_a_solitary_wave_over_its_trough() {
-        // Ursell number 150: the crest is a solitary wave on the depth of the trough, with known celerity.
+        // At Ursell number 150 the crest is a solitary wave on the depth of the trough, whose celerity is known.
         let w = wave(0.08, 14.0, 1.0, MeanFlow::NoCurrent);
         let trough = 1.0 + w.elevation_m(PI);
         let e = 0.08 / trough;
         let solitary = (9.81 * trough * (1.0 + e - e * e / 20.0 - 3.0 * e.powi(3) / 70.0)).sqrt();
         let over_trough = w.celerity_m_s() - w.velocity_m_s(PI, -0.5);
-        // The trough is level only in the limit: between crests 1e-2 of the height remains.
+        // The trough is level only for infinitely long waves; here 1e-2 of the height remains between the crests.
         assert!((over_trough / solitary - 1.0).abs() < 1e-3, "{over_trough} {solitary}");
     }
 

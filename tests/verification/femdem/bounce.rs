@@ -1,15 +1,16 @@
-//! A tetrahedron bounces off another: conservation of energy for any penalty.
+//! Conservation of energy when a tetrahedron bounces off another tetrahedron, for any contact penalty.
 
 use super::*;
 use breakwater::femdem::mesh::{Body as MeshBody, Mesh};
 
-/// Runs the impact of a tetrahedron on a larger one, which is held or free. Returns the relative energy residual, the
-/// number of time steps in contact, and the relative energy lost by friction.
+/// Runs the impact of a tetrahedron on a larger tetrahedron, which is held or free. Returns the energy residual over
+/// the initial kinetic energy, the number of time steps in contact, and the energy lost by friction over the same
+/// energy.
 fn bounce(penalty: f64, held: bool, friction: f64) -> (f64, usize, f64) {
     let size = 0.1;
     let mesh = Mesh {
         nodes: [
-            // The tip of the upper tetrahedron. It is above the middle of the top face of the lower one.
+            // The tip of the upper tetrahedron is above the middle of the top face of the lower tetrahedron.
             [0.03, 0.02, 0.0],
             [0.1, 0.03, 0.08],
             [0.0, 0.1, 0.09],
@@ -70,7 +71,7 @@ fn a_tetrahedron_bounces_without_loss_for_any_penalty() {
     for penalty in [0.1, 1.0, 10.0] {
         for held in [false, true] {
             let (residual, touched, _) = bounce(penalty, held, 0.0);
-            // Target: 1e-6. The time step is a hundredth of the longest stable one.
+            // Target: 1e-6. The time step is a hundredth of the longest stable time step.
             assert!(residual.abs() < 1e-6 && touched > 100, "p = {penalty} E: {residual:.1e}");
         }
     }

@@ -73,9 +73,9 @@ fn two_bars_separate_after_the_wave_returns() {
     }
     let duration = contact_times[contact_times.len() - 1] - contact_times[0];
     let celerity = bar_celerity();
-    // The contact lasts while the wave runs to the far end and back.
+    // The contact lasts until the wave has travelled to the far end and back.
     let expected = 2.0 * length / celerity;
-    // The mean pressure, from the momentum over the duration, excludes the overshoot of the front.
+    // The mean stress follows from momentum over duration, so it does not contain the overshoot of the wave front.
     let mean = 2340.0 * length * 0.5 * speed * 2.0 / duration;
     let stress = 2340.0 * celerity * 0.5 * speed;
     println!(
@@ -121,7 +121,7 @@ fn a_sliding_block_stops_after_the_coulomb_distance() {
         }
     }
     let last = world.step_with_energies().unwrap();
-    // v^2 / (2 mu g)
+    // Coulomb friction: v^2 / (2 mu g).
     let expected = 1.0 / (2.0 * 0.6 * 9.8);
     println!(
         "sliding distance {distance:.5} m ({expected:.5} expected), duration {rest:.4} s ({:.4}), friction {:.5} J of {:.5} J, residual {:.1e}",
@@ -137,10 +137,11 @@ fn a_sliding_block_stops_after_the_coulomb_distance() {
 
 /// Returns the speed of a block on a slope [degrees] after 0.05 and 0.1 s [m/s].
 fn down_a_slope(degrees: f64) -> [f64; 2] {
-    // The viscosity damps oscillations on the contacts: after each separation the friction springs start from zero.
+    // The viscosity damps oscillations on the contacts, because after each separation the friction springs restart from
+    // zero.
     let soft = Elastic { young_modulus: 1e8, density: 2340.0, poisson_ratio: 0.2, viscosity: 1e4 };
     let mesh = two([
-        // The initial overlap is about that at rest; with more overlap, the block would jump and lose contact.
+        // The initial overlap is about the overlap at rest. With more overlap, the block would jump and lose contact.
         (DVec3::new(0.1, 0.1, 0.05), [2, 2, 1], DVec3::new(0.05, 0.05, -4e-8)),
         (DVec3::new(0.3, 0.2, 0.05), [4, 3, 1], DVec3::new(0.0, 0.0, -0.05)),
     ]);
@@ -165,11 +166,11 @@ fn a_block_slides_only_on_slopes_steeper_than_the_friction_angle() {
     let angle = 35f64.to_radians();
     let expected = 9.8 * (angle.sin() - 0.6 * angle.cos());
     let found = (late - early) / 0.05;
-    // arctan 0.6 = 30.96 degrees.
+    // The friction angle is arctan 0.6 = 30.96 degrees.
     let [_, held] = down_a_slope(30.0);
     println!("{found:.4} m/s2 ({expected:.4}); at 30 degrees {held:.1e} m/s after 0.1 s");
     // Target: 1 %.
     assert!((found / expected - 1.0).abs() < 0.01);
-    // 1e-9: at rest to rounding.
+    // Limit 1e-9: at rest to rounding.
     assert!(held.abs() < 1e-9);
 }

@@ -65,11 +65,11 @@ fn joints_make_a_bar_softer_by_their_compliance() {
         let softer = (found / plain).powi(2);
         let expected = 1.0 / (1.0 + 2.7 / penalty);
         println!("p0 = {penalty} E: E_eff / E = {softer:.4}, {expected:.4} by the rule for unstructured meshes");
-        // The rule is for other meshes, where the joint area per volume times h / 3 is 2.7.
+        // The rule is for unstructured meshes, where the joint area per volume times h / 3 is 2.7.
         assert!((softer / expected - 1.0).abs() < tolerance);
     }
     let tied = bar_frequency(cohesion(2.0, true));
-    // 1e-4: the time step differs, which shifts frequencies by (omega dt)^2 / 24.
+    // Limit 1e-4: the time step differs, which shifts frequencies by (omega dt)^2 / 24.
     assert!((tied / plain - 1.0).abs() < 1e-4);
 }
 
@@ -102,7 +102,8 @@ fn cantilever(cells: usize) -> f64 {
 fn a_cantilever_has_the_first_frequency_of_beam_theory() {
     let [coarse, fine] = [2, 4].map(cantilever);
     println!("first frequency {coarse:.2} Hz, {fine:.2} Hz with elements half as long; 53.85 Hz expected");
-    // Target: 3 % on the finer mesh. Elements of constant strain are too stiff in bending, with second order.
+    // Target: 3 % on the finer mesh. Elements of constant strain are too stiff in bending; this error is of second
+    // order.
     assert!((fine / 53.85 - 1.0).abs() < 0.03 && (coarse - 53.85).abs() > (fine - 53.85).abs());
 }
 

@@ -72,8 +72,8 @@ fn energy_balance_of_a_shattering_block_closes_better_with_shorter_time_steps() 
             100.0 * long.lost[0],
             100.0 * long.lost[1]
         );
-        // Target: 1 %. A quarter of the time step lowers the residual to 1/16, but to 1/4 with friction on rotating
-        // fragments.
+        // Target: 1 %. A quarter of the time step lowers the residual to 1/16, but only to 1/4 with friction on
+        // rotating fragments.
         assert!(long.residual < 0.01 && short.residual < 0.5 * long.residual && short.residual < 1e-3);
         assert!(long.failed > 20 && long.lost[0] > 0.02);
     }

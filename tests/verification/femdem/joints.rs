@@ -58,10 +58,10 @@ fn a_bar_breaks_at_its_strength_with_its_fracture_energy() {
         // Only the plane between the cells fails, by opening.
         assert!((area / 25e-4 - 1.0).abs() < 1e-9);
         assert!(world.failures.iter().all(|failure| !failure.by_sliding));
-        // 5 %: the stress from the strain energy includes the held ends and the soft joints. The tests of the cohesive
-        // law show that the strength at a point is exact.
+        // Limit 5 %: the stress from the strain energy includes the held ends and the soft joints. The tests of the
+        // cohesive law show that the strength at a point is exact.
         assert!((largest_stress / 3.3e6 - 1.0).abs() < 0.05);
-        // 3 %: the inclined faces take less than that.
+        // Limit 3 %: the inclined faces dissipate less than 3 % of the energy.
         assert!((fracture_energy / 50.0 - 1.0).abs() < 0.03);
         // Target: 1 %.
         assert!(residual < 0.01 * last.work);

@@ -1,4 +1,4 @@
-//! Loads: traction, pressure, force and moment about a point; their work.
+//! Loads (traction, pressure, force and moment about a point) and the work of these loads.
 
 use super::*;
 use breakwater::femdem::loads::patch::{Axes, Patch, faces_near};
@@ -55,9 +55,10 @@ fn a_bar_under_traction_stretches_by_hooke_and_its_energy_balance_closes() {
         (last.work - last.viscous) / expected,
         (last.total() - first.total()) / last.work
     );
-    // 2e-3: the finite ramp leaves a small oscillation.
+    // Limit 2e-3: the finite ramp leaves a small oscillation.
     assert!((stretch - 1.0).abs() < 2e-3 && ((last.work - last.viscous) / expected - 1.0).abs() < 2e-3);
-    // 1e-6: second order of half the longest time step, for the oscillating part. Target: 1 %.
+    // Target: 1 %. Limit 1e-6: the error of the oscillating part is of second order in the time step, here half of the
+    // longest stable time step.
     assert!((last.total() - first.total()).abs() < 1e-6 * last.work);
 }
 
@@ -94,10 +95,10 @@ fn pressure_on_all_sides_compresses_by_the_bulk_modulus() {
         strain * bulk / pressure,
         (last.total() - first.total()) / last.work
     );
-    // 2e-3: finite strain, as p / K is 7e-4.
+    // Limit 2e-3: the strain is finite, because p / K is 7e-4.
     assert!((strain * bulk / pressure - 1.0).abs() < 2e-3);
     assert!((last.total() - first.total()).abs() < 1e-4 * last.work);
-    // 1e-12: rounding; a pressure on a closed surface has no resultant in any deformation.
+    // Limit 1e-12: rounding; a pressure on a closed surface has no resultant in any deformation.
     let mut forces = Vec::new();
     world.setup().loads[0].forces(&world.configuration(), world.time, &mut forces);
     let [force, moment] = resultant(&world, &forces, DVec3::ZERO);
@@ -122,7 +123,7 @@ fn a_load_about_a_point_has_the_given_force_and_moment() {
     let places = [
         (DVec3::new(0.121, 0.083, 0.1), 0.0),
         (DVec3::new(0.121, 0.083, 0.1), 0.06),
-        // Points off the surface, as recorded contacts may be; at an edge; inside the body.
+        // A point outside the body, as recorded contact points may be; a point at an edge; a point inside the body.
         (DVec3::new(0.301, 0.1, 0.05), 0.03),
         (DVec3::new(0.0, 0.0, 0.05), 0.05),
         (DVec3::new(0.15, 0.1, 0.05), 1.0),
@@ -136,7 +137,7 @@ fn a_load_about_a_point_has_the_given_force_and_moment() {
                 let map = |x: DVec3| rotation * (x + strain * x) + DVec3::new(1.0, -2.0, 0.5);
                 displace(&mut world, |x| map(x) - x);
                 let Load::Patch(patch) = &world.setup().loads[0] else { panic!() };
-                // The point moves with the body. 1e-13: rounding of some hundred terms.
+                // The point moves with the body. Limit 1e-13: rounding of some hundred terms.
                 assert!((patch.position(&world.configuration()) - map(place)).length() < 1e-13);
                 let mut forces = Vec::new();
                 world.setup().loads[0].forces(&world.configuration(), 0.0, &mut forces);
@@ -147,7 +148,7 @@ fn a_load_about_a_point_has_the_given_force_and_moment() {
                     // The polar decomposition gives a rotation that the strain changes slightly.
                     Axes::Body => patch.prescribed(&world.configuration(), 0.0),
                 };
-                // 1e-12: rounding.
+                // Limit 1e-12: rounding.
                 assert!((force - expected[0]).length() < 1e-12 * expected[0].length(), "{place} {radius}");
                 assert!((about - expected[1]).length() < 1e-12 * expected[0].length(), "{place} {radius}");
                 if axes == Axes::Body {
@@ -204,11 +205,11 @@ fn a_recorded_load_gives_its_momentum_and_its_work() {
             last.work,
             (last.total() - first.total()) / last.work
         );
-        // 1e-10: rounding.
+        // Limit 1e-10: rounding.
         let expected = DVec3::from_slice(&impulse[..3]);
         assert!((linear - expected).length() < 1e-10 * expected.length());
         assert!((angular - expected_angular).length() < 1e-10 * expected_angular.length());
-        // 1e-3: second order of the time step, for the oscillating part.
+        // Limit 1e-3: the error of the oscillating part is of second order in the time step.
         assert!((last.total() - first.total()).abs() < 1e-3 * last.work);
     }
 }

@@ -40,7 +40,7 @@ fn a_free_rigid_body_tumbles_and_falls_without_loss() {
     // Without torque, the angular momentum changes only by rounding in the sum of forces.
     assert!((now.angular_momentum - start.angular_momentum).length() < 1e-12 * l.length());
     assert!(now.centre.distance(start.centre) > 10.0 && longest < 1e-12);
-    // 1e-5: second order of the time step, (omega dt)^2 = 4e-6.
+    // Limit 1e-5: the error is of second order in the time step, (omega dt)^2 = 4e-6.
     assert!(residual < 1e-5);
 }
 
@@ -54,8 +54,6 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
         .collect();
     setup.constraints = vec![constant_velocity(edge, [Some(0.0); 3])];
     // The body starts below the edge with an angular velocity.
-    let tilt = (side / length).atan();
-    setup.gravity = DVec3::new(-tilt.sin(), 0.0, -tilt.cos()).normalize() * 9.8;
     let (dx, dz) = (0.5 * side, 0.5 * length);
     let down = DVec3::new(dx, 0.0, -dz);
     setup.gravity = down.normalize() * 9.8;
@@ -73,18 +71,18 @@ fn a_rigid_pendulum_swings_about_its_held_edge() {
     }
     let times = crossings(&signal);
     let period = 2.0 * (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    // T = 2 pi sqrt(I / (m g d)) with I about the edge; the amplitude of 0.02 adds 1/16 of its square.
+    // T = 2 pi sqrt(I / (m g d)) with I about the edge. An amplitude of 0.02 lengthens T by the share 0.02^2 / 16.
     let inertia = (side * side + length * length) / 12.0 + down.length_squared();
     let expected = TAU * (inertia / (9.8 * down.length())).sqrt();
     println!("period {period:.5} s ({expected:.5} expected), residual {residual:.1e}");
-    // 0.1 %: half of it is the resolution of the zero crossings, as the centre is half a time step off.
+    // Limit 0.1 %: half of this limit is the error of the zero crossings, because the centre is half a time step off.
     assert!((period / expected - 1.0).abs() < 1e-3);
-    // 1e-3: the constraint does no work except for the error of the time step.
+    // Limit 1e-3: the constraint does no work except for the error of the time step.
     assert!(residual < 1e-3);
 }
 
 #[test]
-fn a_rigid_block_bounces_off_a_deformable_one() {
+fn a_rigid_block_bounces_off_a_deformable_block() {
     let gap = 1e-5;
     let mesh = two([
         (DVec3::new(0.06, 0.06, 0.06), [2, 2, 2], DVec3::new(0.02, 0.03, 0.1 + gap)),
@@ -122,9 +120,9 @@ fn a_rigid_block_bounces_off_a_deformable_one() {
         (end[1] - start[1]).length()
     );
     assert!(touched > 10 && world.rigid_bodies[0].motion.velocity.z > -0.5 && last.friction > 0.0);
-    // 1e-12: rounding.
+    // Limit 1e-12: rounding.
     assert!((end[0] - start[0]).length() < 1e-12 && (end[1] - start[1]).length() < 1e-12);
-    // 1e-2: second order of a fifth of the longest time step.
+    // Limit 1e-2: the error is of second order in the time step, here a fifth of the longest stable time step.
     assert!((last.total() - first.total()).abs() < 1e-2 * first.kinetic);
 }
 

@@ -1,4 +1,4 @@
-//! The stable time step compared with the largest eigenvalue.
+//! The stable time step compared with the limit from the largest eigenvalue.
 
 use super::*;
 
@@ -25,13 +25,13 @@ fn largest_frequency_squared(setup: &Setup) -> f64 {
 }
 
 #[test]
-fn stable_time_step_is_close_below_the_limit_of_the_largest_eigenvalue() {
+fn stable_time_step_is_below_but_near_the_limit_from_the_largest_eigenvalue() {
     let mesh = mesh(DVec3::new(0.3, 0.2, 0.2), [3, 2, 2]);
     for (name, cohesion) in
         [("plain", None), ("p0 = 10 E", cohesion(10.0, false)), ("p0 = 50 E", cohesion(50.0, false))]
     {
         let mut setup = setup(&mesh, cohesion);
-        // Without contact.
+        // Contact forces are switched off.
         setup.bodies[0].contact_penalty = 0.0;
         let exact = 2.0 / largest_frequency_squared(&setup).sqrt();
         let used = World::new(setup, 1.0).dt;

@@ -4,9 +4,9 @@ use super::*;
 use breakwater::femdem::mesh;
 use std::path::Path;
 
-/// Load curve of a downward displacement.
+/// Load-displacement curve of a body that a constraint loads downwards.
 struct Curve {
-    /// Displacement [m], mean force since the previous row [N], and the watched value.
+    /// Displacement [m], mean force since the previous row [N], and the value of `watch` in [`load`].
     rows: Vec<[f64; 3]>,
     world: World,
     /// Largest residual of the energy balance until the largest force, over the work [-].
@@ -38,8 +38,8 @@ fn downwards(speed: f64, after: f64) -> History<1> {
     History::new([(0.0, [0.0]), (after, [-speed])]).unwrap()
 }
 
-/// Advances until the force has fallen to 0.6 of its peak. The force is the work over the displacement, so only the
-/// constraint with this velocity may do work.
+/// Advances until the force has fallen to 0.6 of its peak; `row` is the time between rows [s]. The force is the work
+/// over the displacement, so only the constraint with this velocity may do work.
 fn load(setup: Setup, share: f64, velocity: &History<1>, row: f64, watch: impl Fn(&World) -> f64) -> Curve {
     let mut world = World::new(setup, share);
     let mut rows: Vec<[f64; 3]> = Vec::new();
@@ -137,14 +137,14 @@ fn a_finer_prism_is_crushed_at_the_uniaxial_strength() {
 }
 
 /// Creates Guo's beam of 320 x 40 x 20 mm on supports 314 mm apart, from cells of 24 tetrahedra with `cells` over the
-/// height. It is half of the width; y = 0 is a plane of symmetry.
+/// height. The mesh has half the width of the beam; y = 0 is a plane of symmetry.
 fn beam(cells: usize) -> PreparedMesh {
     let (length, height, span) = (0.32, 0.04, 0.314);
     let mut mesh = block(DVec3::new(length, 0.01, height), [8 * cells, cells / 4, cells], Pattern::Centred);
     let cell = height / cells as f64;
     let overhang = 0.5 * (length - span);
     for node in &mut mesh.nodes {
-        // Nodes are moved to the supports.
+        // Moves nodes along x, so that the second node from each end is at a support.
         let inner = overhang + (node.x - cell) * span / (length - 2.0 * cell);
         let end = if node.x < 0.5 * length { node.x } else { length - node.x };
         let x = if end >= cell { inner } else { end * overhang / cell };
@@ -186,7 +186,7 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     ]
     .concat();
     setup.constraints.push(constant_velocity(plane, [None, Some(0.0), None]));
-    // The deflection is that of nodes at half the height, which excludes local dents at load and supports.
+    // The deflection is measured at nodes at half the height, which excludes local dents at load and supports.
     let axis: Vec<usize> = [0.0, -0.157, 0.157]
         .map(|x| {
             let found = nodes_where(&mesh, |at| (at - DVec3::new(x, 0.0, 0.02)).length() < near);
@@ -200,7 +200,7 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
         0.5 * (z(axis[1]) + z(axis[2])) - z(axis[0])
     };
     let curve = load(setup, 0.8, &velocity, 2e-6 / speed, deflection);
-    // The stiffness is that before the first faces fail.
+    // The stiffness is the slope of the load before the first faces fail.
     let (peak, stiffness) = (2.0 * curve.peak(), 2.0 * curve.slope(0.1, 0.4));
     println!(
         "{cells} cells, tied {tied}: {peak:.1} N, {:.3} MN/m, {} faces failed, kinetic over strain energy {:.1e}, residual {:.1e}",
@@ -212,11 +212,12 @@ fn bend_beam(cells: usize, penalty: f64, tied: bool, speed: f64) -> [f64; 2] {
     [peak, stiffness]
 }
 
-/// Largest load of this beam by a fictitious crack with the same softening in plane stress
-/// (tools/fictitious-crack/beam) [N]. Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
+/// Largest load of this beam [N] by a fictitious crack with the same softening in plane stress
+/// (tools/fictitious-crack/beam). Guo's results are 298.8 N with elements of 2.5 mm and 279.3 N with 5 mm.
 const BY_FICTITIOUS_CRACK: f64 = 308.1;
 
-/// Reached with cells of 10 mm: 334.5 N, 9 % above theory; with 20 E, 331 and 328 N on cells of 10 and 5 mm.
+/// Reached with cells of 10 mm: 334.5 N, 9 % above theory. With joints of p_0 = 20 E: 331 and 328 N on cells of 10 and
+/// 5 mm.
 #[test]
 fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     let [peak, _] = bend_beam(4, 50.0, false, 0.025);
@@ -224,8 +225,8 @@ fn a_beam_breaks_at_the_load_of_a_fictitious_crack() {
     assert!((peak / BY_FICTITIOUS_CRACK - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
-/// Guo's beam has half of the bending stiffness of a beam, 2.0 MN/m, because his joints are soft. With such joints,
-/// this beam has his largest load.
+/// Guo's beam has a stiffness of 2.0 MN/m, half of the stiffness by beam theory, because its joints are soft. With
+/// equally soft joints, the beam of this test has the same largest load as Guo's beam.
 #[test]
 #[ignore = "10 minutes: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_beam_of_soft_joints"]
@@ -235,11 +236,11 @@ fn a_beam_of_soft_joints_breaks_at_the_published_load() {
     assert!((peak / 279.3 - 1.0).abs() < 0.15, "{peak:.1} N");
 }
 
-/// The load is not asserted. Tied faces open by the mean stress of two tetrahedra, which is less than the largest
-/// stress on the plane between them. A node splits only after the faces around it. With cells of 10 and 5 mm the
-/// beam breaks at 429 and 360 N, 39 and 17 % above theory.
+/// The test does not check the largest load. Tied faces open by the mean stress of two tetrahedra, which is less than
+/// the largest stress on the plane between them. A node splits only after the faces around it have failed. Therefore,
+/// with cells of 10 and 5 mm, the beam breaks at 429 and 360 N, 39 and 17 % above theory.
 #[test]
-fn a_beam_bends_with_the_stiffness_of_a_beam() {
+fn a_beam_bends_with_the_stiffness_of_beam_theory() {
     let [_, stiffness] = bend_beam(4, 10.0, true, 0.025);
     // Target: 3 % of Timoshenko's 4.07 MN/m.
     assert!((stiffness / 4.07e6 - 1.0).abs() < 0.03, "{:.3} MN/m", stiffness / 1e6);
@@ -283,7 +284,7 @@ fn split_disc(penalty: f64, tied: bool, opening_energy: f64) -> f64 {
 }
 
 /// This test fails: with E G_f / f_t^2 = 144 mm, the disc is too small to split at its tensile strength. With G_f = 5
-/// J/m2 and joints in the middle plane only, the load is 1.1 times that of the strength.
+/// J/m2 and joints only in the middle plane, the load is 1.1 times the load that belongs to the tensile strength.
 #[test]
 #[ignore = "minutes, known to fail: \
     cargo test --release --test verification -- --ignored --nocapture femdem::strength::a_disc"]

@@ -33,6 +33,6 @@ fn a_tetrapod_below_the_friction_angle_does_not_creep_in_a_minute() {
 fn a_tetrapod_creeps_with_chrono4() {
     let [displacement, speed] = creep_of(ContactModel::Chrono4, 5.0);
     println!("chrono4: {:.3} mm in 5 s, {:.3} mm/s", displacement * 1e3, speed * 1e3);
-    // chrono4 has friction only above a least speed, 0.1 mm/s, so the unit creeps at least with it.
+    // With chrono4, friction acts only above a speed of 0.1 mm/s, so the unit creeps at least at this speed.
     assert!(displacement > 5.0 * 1e-4);
 }

@@ -1,4 +1,4 @@
-//! Cubes: sliding, tipping, stacks of aligned and turned cubes, and the energy of a heap.
+//! Cubes: sliding, tipping, stacks of aligned and rotated cubes, and the energy of a heap.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
 use breakwater::rigid::{BodyShape, BodyState, RigidSetup, RigidWorld};
@@ -13,7 +13,8 @@ fn cube() -> ArmourUnit {
     ArmourUnit::cuboid(DVec3::splat(EDGE), 0.05).unwrap()
 }
 
-/// Setup of a stack of cubes, each turned about the vertical relative to the one below [rad].
+/// Returns the setup of a stack of cubes. Each cube is rotated about the vertical relative to the cube below by `turn`
+/// [rad].
 fn stack(count: u32, turn: f64) -> RigidSetup {
     let body = |level: u32| {
         let centre = DVec3::Z * (f64::from(level) + 0.5) * EDGE;
@@ -39,15 +40,15 @@ fn a_cube_slides_only_above_the_friction_angle() {
     for (share, slides) in [(0.98, false), (1.02, true)] {
         let mut world = tilted_world(stack(1, 0.0), share * 0.45f64.atan());
         run(&mut world, 1.0, 1e-4);
-        // 2 % above, g (sin - mu cos) = 0.07 m/s2 moves the cube 36 mm in a second; below, springs deform by
-        // micrometres.
+        // 2 % above the friction angle, g (sin - mu cos) = 0.07 m/s2 moves the cube 36 mm in a second. Below the
+        // friction angle, springs deform by micrometres.
         assert_eq!(world.states()[0].position.x > 0.01, slides, "{share}: {}", world.states()[0].position.x);
     }
 }
 
 #[test]
 fn a_rough_cube_tips_when_its_weight_passes_the_edge() {
-    // The rounded tipping edge lies R inside the sharp edge: tan = (a/2 - R) / (a/2).
+    // The cube tips about its rounded edge, which is R inside the sharp edge: tan = (a/2 - R) / (a/2).
     let tipping = ((0.5 - 0.05) / 0.5_f64).atan();
     for (share, tips) in [(0.98, false), (1.02, true)] {
         let mut rough = stack(1, 0.0);
@@ -61,14 +62,15 @@ fn a_rough_cube_tips_when_its_weight_passes_the_edge() {
 
 #[test]
 fn a_stack_of_cubes_stands_for_any_rotation() {
-    // Aligned cubes; a small rotation, where corners carry; large rotations, where only crossing edges carry.
+    // Aligned cubes; a small rotation, where corners carry the load; large rotations, where only crossing edges carry
+    // it.
     for turn in [0.0, 0.02, 0.4, 0.7] {
         let mut world = RigidWorld::new(stack(3, turn)).unwrap();
         run(&mut world, 0.5, 1e-4);
         let before = world.states().to_vec();
         run(&mut world, 2.0, 1e-4);
         for (a, b) in world.states().iter().zip(&before) {
-            // 0.01 mm in two seconds.
+            // Limit 0.01 mm in two seconds.
             assert!((a.position - b.position).length() < 1e-5, "{turn}: {}", a.position - b.position);
         }
         // The net contact force on the lowest cube is its own weight; 1e-3 allows for residual motion.
@@ -97,7 +99,7 @@ fn a_heap_of_cubes_gains_no_energy() {
     );
     // The mechanical energy may not rise; 1e-3 J is 0.01 % of the energy of the fall.
     assert!(highest < 1e-3);
-    // The energy balance itself has an error of 1.3 % of the dissipation, as contacts between boxes start and end with
-    // some overlap. The cubes have stopped: the kinetic energy is below a thousandth of the dissipation.
+    // The energy balance itself has an error of 1.3 % of the dissipation, because contacts between boxes start and end
+    // with some overlap. The cubes have stopped: the kinetic energy is below a thousandth of the dissipation.
     assert!(energy.kinetic < 1e-3 * dissipated);
 }

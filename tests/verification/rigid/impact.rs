@@ -22,7 +22,7 @@ fn a_sphere_on_a_plane_follows_the_law_of_hertz() {
     assert_eq!(events.len(), 1);
     let e = &events[0];
     println!("Hertz: F {:.2} N, d {:.2} um, t {:.1} us", e.peak_force, deepest * 1e6, (e.end - e.start) * 1e6);
-    // 1 %: the reference values are for this law, and the contact lasts 150 time steps.
+    // Limit 1 %: the reference values follow from Hertz's law, and the contact lasts 150 time steps.
     assert!((e.peak_force / 424.8 - 1.0).abs() < 0.01);
     assert!((deepest / 261.3e-6 - 1.0).abs() < 0.01);
     assert!(((e.end - e.start) / 769e-6 - 1.0).abs() < 0.015, "a time step is 0.7 % of the contact");
@@ -49,7 +49,7 @@ fn restitution_equals_the_given_coefficient() {
             let out = world.states()[1].velocity.x / speed;
             println!("restitution {e}: found {out:.5}, speed {speed}, dt {dt}, substeps {}", world.substeps());
             worst = worst.max((out - e).abs());
-            // 1e-12: rounding; forces are equal and opposite.
+            // Limit 1e-12: rounding; forces are equal and opposite.
             assert!((world.states()[0].velocity + world.states()[1].velocity).length() < 1e-12);
         }
     }
@@ -69,6 +69,7 @@ fn frictionless_elastic_bodies_keep_their_energy() {
         run(&mut world, 0.1, 1e-4);
     }
     println!("elastic collisions: energy change {:.2e} of {start:.3} J after 1 s", mechanical(&world) - start);
-    // 0.2 %: second-order time steps over some fifty impacts; a jump in gap or normal would exceed it by far.
+    // Limit 0.2 %: error of second order in the time step over some fifty impacts. A jump in gap or normal of a contact
+    // would cause a far larger error.
     assert!((mechanical(&world) - start).abs() < 0.002 * start);
 }

@@ -30,7 +30,8 @@ fn restitution_equals_the_given_coefficient() {
     for e in [0.3, 0.5, 0.8, 1.0] {
         let [out, _] = impact(e, 1e5);
         println!("restitution {e}: found {out:.5}");
-        // 0.005: the dashpot force starts with a jump, resolved to first order by steps of an eightieth of a period.
+        // Limit 0.005: the dashpot force starts with a jump. Time steps of an eightieth of a period resolve it to first
+        // order.
         assert!((out - e).abs() < 0.005);
     }
 }
@@ -42,7 +43,7 @@ fn an_elastic_impact_lasts_half_a_period() {
         let [_, time] = impact(1.0, stiffness);
         let expected = PI * (0.5 * mass / stiffness).sqrt();
         println!("k = {stiffness:e}: duration {:.2} us, expected {:.2} us", time * 1e6, expected * 1e6);
-        // 3 %: start and end are known to one substep, 1/160 of the period.
+        // Limit 3 %: start and end of the contact are known to one substep, 1/160 of the period.
         assert!((time / expected - 1.0).abs() < 0.03);
     }
 }

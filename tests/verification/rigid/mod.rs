@@ -1,4 +1,4 @@
-//! Rigid bodies and contact compared with exact answers from mechanics.
+//! Rigid bodies and contact compared with exact solutions of mechanics.
 
 mod catalogue;
 mod creep;
@@ -73,7 +73,7 @@ fn ball(radius: f64, density: f64) -> BodyShape {
     BodyShape::ball(radius, density * 4.0 / 3.0 * PI * radius.powi(3))
 }
 
-/// Setup of ten units above each other in a shaft, in various orientations.
+/// Returns the setup of ten units above each other in a shaft, in various orientations.
 fn heap(unit: &ArmourUnit) -> RigidSetup {
     let body = |i: usize| {
         let t = i as f64;

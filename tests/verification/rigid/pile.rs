@@ -11,7 +11,8 @@ use super::{HEIGHT, MASS, MORTAR, setup, tetrapod};
 /// Spacing of the initial lattice [m], so wide that Tetrapods of any orientation do not touch.
 const SPACING: f64 = 1.36 * HEIGHT;
 
-/// Setup of `count` Tetrapods in various orientations over a slope between walls, `along` x `across` in each layer.
+/// Returns the setup of `count` Tetrapods in various orientations over a slope between walls, `along` x `across` in
+/// each layer.
 fn lattice(count: usize, along: usize, across: usize) -> RigidSetup {
     let (length, width) = (SPACING * along as f64, SPACING * across as f64);
     let slope = |x: f64| x.clamp(0.0, length) / 1.5;
@@ -39,7 +40,7 @@ struct Pile {
     substep: f64,
 }
 
-/// Runs a pile until it is at rest; fails if that takes more than `longest` [s].
+/// Runs a pile until it is at rest. Fails if the pile still moves after `longest` [s].
 fn run_to_rest(count: usize, along: usize, across: usize, longest: f64) -> Pile {
     let mut world = RigidWorld::new(lattice(count, along, across)).unwrap();
     let loads = vec![Load::default(); count];
@@ -67,8 +68,9 @@ fn run_to_rest(count: usize, along: usize, across: usize, longest: f64) -> Pile 
     let substep = clock.elapsed().as_secs_f64() / (world.substeps() - all) as f64;
     let e = world.energy();
     println!(
-        "{count} units: at rest after {:.2} s, {all} substeps, {wall:.0} s; kinetic {:.1e} of the drop, deepest overlap \
-         {:.3} % of H, largest rise {:.1e} of the drop, {} contacts, {:.0} us per substep, {:.2} us per contact",
+        "{count} units: at rest after {:.2} s, {all} substeps, {wall:.0} s; kinetic energy over the loss of \
+         potential energy {:.1e}; deepest overlap {:.3} % of H; largest rise of energy over the loss of potential \
+         energy {:.1e}; {} contacts, {:.0} us per substep, {:.2} us per contact",
         world.time(),
         e.kinetic / (start.potential - e.potential),
         100.0 * world.deepest_overlap() / HEIGHT,
@@ -94,7 +96,8 @@ fn five_hundred_tetrapods_cost_as_much_per_contact_as_fifteen() {
     let piles =
         [(15, 3, 2), (100, 6, 4), (500, 10, 8)].map(|(count, along, across)| run_to_rest(count, along, across, 20.0));
     let per_contact = |pile: &Pile| pile.substep / pile.contacts as f64;
-    // Target: nearly linear cost. Twice, as part of a substep costs time per unit, in contact or not.
+    // Target: nearly linear cost. A factor of two is allowed, because part of a substep takes time for each unit, with
+    // or without contacts.
     assert!(per_contact(&piles[2]) < 2.0 * per_contact(&piles[0]));
 }
 

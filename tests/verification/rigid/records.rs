@@ -1,4 +1,4 @@
-//! Recorded impacts: states before them, force histories, impulses.
+//! Recorded impacts: states before the impact, force histories, impulses.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ fn the_impact_of_a_dropped_ball_records_its_fall_and_its_impulse() {
     let impacts = world.impacts();
     let [contact] = &impacts[..] else { panic!("{} impacts", impacts.len()) };
     assert_eq!(contact.event, event);
-    // 1e-12: rounding; the scheme is exact in free fall, until the impact starts.
+    // Limit 1e-12: rounding; the scheme is exact in free fall, until the impact starts.
     let t = event.start;
     assert!((event.before.velocity - DVec3::NEG_Z * G * t).length() < 1e-12);
     assert!((event.before.position - body.position - DVec3::NEG_Z * (0.5 * G * t * t)).length() < 1e-12);
@@ -43,7 +43,7 @@ fn the_impact_of_a_dropped_ball_records_its_fall_and_its_impulse() {
     // In body axes, the contact point is below the centre, half the overlap above the lowest point.
     let below = rotation * DVec3::from_array(event.point_in_body);
     assert!((below - DVec3::NEG_Z * radius).length() < 1e-4, "{below}");
-    // The impulse is m (v + v') plus that of the weight during the history. Target: 1e-9.
+    // The impulse is m (v + v') plus the impulse of the weight during the history. Target: 1e-9.
     let samples = contact.history.samples();
     let [first, last] = [samples.first(), samples.last()].map(Option::unwrap);
     let (begin, ended) = (first.start, last.start + last.duration);
@@ -79,7 +79,7 @@ fn impact_partners_are_adjacent_across_a_periodic_side() {
     let event = &contact.event;
     let partner = event.partner_before.unwrap();
     let apart = event.before.position - partner.position;
-    // 1e-4 m: at the start they touch, except for the overlap of the first substep.
+    // Limit 1e-4 m: at the start of the impact the balls just touch, except for the overlap of the first substep.
     assert!((apart.length() - 0.04).abs() < 1e-4, "{apart}");
     assert!(DVec3::from_array(event.normal).dot(apart.normalize()) > 1.0 - 1e-9);
     assert!((event.before.velocity + partner.velocity).length() < 1e-12 && event.before.velocity.length() == 1.0);
@@ -111,7 +111,7 @@ fn impulses_of_all_contacts_equal_the_change_of_momentum_of_a_heap() {
     }
     for ((now, start), impulse) in world.states().iter().zip(&start).zip(&impulses) {
         let change = MASS * (now.velocity - *start + DVec3::Z * (G * duration));
-        // 1e-9: rounding of thousands of substeps.
+        // Limit 1e-9: rounding of thousands of substeps.
         assert!((change - *impulse).length() < 1e-9, "{change} {impulse}");
     }
     // The record contains the strongest contact of each unit, with its whole impulse in the history.

@@ -33,7 +33,7 @@ fn alternating_neighbours_do_not_overlap_at_the_pitch_of_the_experiment() {
     let [alternating, equal] = [PI, 0.0].map(|azimuth| least_pitch(&unit, azimuth));
     println!("least pitch: alternating {:.2} mm, equal orientation {:.2} mm", alternating * 1e3, equal * 1e3);
     assert!(alternating < 0.08);
-    // The gap to the sharp surface of the other unit, which bounds the water.
+    // Gap between the sharp surfaces of both units. The sharp surface, not the rounded surface, bounds the water.
     let second = unit.standing_rotation(PI);
     let gap = unit
         .solid()
@@ -54,9 +54,8 @@ fn images_across_periodic_sides_touch_like_neighbours() {
     let unit = tetrapod();
     let run_row = |sides: Sides, shift: f64| {
         let mut bodies = vec![standing(&unit, 0.0, 0.02 + shift, 0.0), standing(&unit, 0.0, 0.14, PI)];
-        bodies[0].velocity = DVec3::Y * -0.3 * (1.0 - 2.0 * f64::from(shift != 0.0));
-        bodies[1].velocity = DVec3::Y * 0.3;
         bodies[0].velocity = DVec3::NEG_Y * 0.3;
+        bodies[1].velocity = DVec3::Y * 0.3;
         let mut world =
             RigidWorld::new(RigidSetup { sides, ..setup(BodyShape::from_unit(&unit, MASS), bodies, MORTAR, 0.32) })
                 .unwrap();
@@ -66,7 +65,7 @@ fn images_across_periodic_sides_touch_like_neighbours() {
     let width = 0.24;
     let (images, plain) = (run_row(Sides::Periodic { width }, 0.0), run_row(Sides::Open, width));
     assert!(images[0].position.y > -0.06, "the units did not meet across the side");
-    // 1e-6 m: the shift changes the last bits of y, which the impacts amplify.
+    // Limit 1e-6 m: the shift changes the last bits of y, and the impacts amplify this change.
     assert!((images[0].position + DVec3::Y * width - plain[0].position).length() < 1e-6);
     assert!((images[1].position - plain[1].position).length() < 1e-6);
 }
@@ -78,14 +77,14 @@ fn a_substep_of_a_row_takes_less_than_half_a_millisecond() {
         let row =
             (0..count).map(|i| standing(&unit, 0.0, 0.0495 + 0.0787 * f64::from(i), PI * f64::from(i % 2))).collect();
         let mut world = RigidWorld::new(setup(BodyShape::from_unit(&unit, MASS), row, MORTAR, 0.32)).unwrap();
-        let push = vec![Load { force: DVec3::X * 2.0, torque: DVec3::ZERO }; count as usize];
+        let loads = vec![Load { force: DVec3::X * 2.0, torque: DVec3::ZERO }; count as usize];
         let clock = Instant::now();
         for _ in 0..2000 {
-            world.advance(1e-4, &push).unwrap();
+            world.advance(1e-4, &loads).unwrap();
         }
         let each = clock.elapsed().as_secs_f64() / world.substeps() as f64;
         println!("{count} units: {:.1} us per substep, {} substeps", each * 1e6, world.substeps());
-        // 0.5 ms: half of the target.
+        // Limit 0.5 ms per substep: half of the target.
         assert!(each < 5e-4);
     }
 }
@@ -111,7 +110,7 @@ fn a_unit_slides_over_the_lee_edge_and_comes_to_rest_below() {
     );
     assert!(end.position.x > 0.16 && end.position.z > profile.z(end.position.x));
     assert!(end.velocity.length() < 1e-3);
-    // 1 % of the energy of the fall and of the initial velocity, 0.6 J.
+    // Limit: 1 % of the energy of the fall and the initial velocity, which is 0.6 J.
     assert!((total_energy(&world) - before).abs() < 6e-3);
 }
 
@@ -135,9 +134,9 @@ fn a_row_slides_over_the_mound_and_its_energy_balance_closes() {
     let mut most_contacts = 0;
     for step in 0..20_000 {
         let time = 1e-4 * f64::from(step);
-        let push = if time < 0.4 { 3.0 } else { 0.0 };
+        let force = if time < 0.4 { 3.0 } else { 0.0 };
         let loads: Vec<Load> = (0..15)
-            .map(|i| Load { force: DVec3::new(push * (1.0 + 0.02 * f64::from(i)), 0.0, 0.0), torque: DVec3::ZERO })
+            .map(|i| Load { force: DVec3::new(force * (1.0 + 0.02 * f64::from(i)), 0.0, 0.0), torque: DVec3::ZERO })
             .collect();
         world.advance(1e-4, &loads).unwrap();
         most_contacts = most_contacts.max(world.contact_count());
@@ -154,6 +153,6 @@ fn a_row_slides_over_the_mound_and_its_energy_balance_closes() {
         assert!(state.position.x > 0.16 && state.position.z > profile.z(state.position.x));
         assert!(state.position.y > 0.0 && state.position.y < 1.2);
     }
-    // 1 % of the work of the load.
+    // Limit: 1 % of the work of the load.
     assert!((total_energy(&world) - start).abs() < 0.01 * world.energy().load_work);
 }

@@ -42,7 +42,7 @@ fn a_sliding_tetrapod_has_the_acceleration_of_kinetic_friction() {
 }
 
 #[test]
-fn a_unit_between_both_friction_angles_slides_only_after_a_push() {
+fn a_unit_between_both_friction_angles_slides_only_after_an_external_force() {
     let resistance = Resistance { kinetic_friction: 0.32, ..0.65.into() };
     let angle = 0.5f64.atan();
     let mut world = tilted_world(0.0, resistance, angle);
@@ -50,19 +50,19 @@ fn a_unit_between_both_friction_angles_slides_only_after_a_push() {
     let rest = world.states()[0];
     run(&mut world, 1.0, 1e-4);
     let now = world.states()[0];
-    // 0.01 mm: the limit below the friction angle.
+    // Limit 0.01 mm, as for a unit below the friction angle.
     assert!((now.position - rest.position).length() < 1e-5 && now.velocity.length() < 1e-5);
-    // The push, 0.2 m/s within 0.1 s, lowers the friction to the kinetic one, and the unit continues to slide.
-    let push = breakwater::rigid::Load { force: DVec3::X * (MASS * 2.0 + 2.0), torque: DVec3::ZERO };
+    // A force for 0.1 s starts the motion. Then kinetic friction replaces static friction, and the unit keeps sliding.
+    let load = breakwater::rigid::Load { force: DVec3::X * (MASS * 2.0 + 2.0), torque: DVec3::ZERO };
     for _ in 0..1000 {
-        world.advance(1e-4, &[push]).unwrap();
+        world.advance(1e-4, &[load]).unwrap();
     }
-    let pushed = world.states()[0].velocity.x;
+    let speed = world.states()[0].velocity.x;
     run(&mut world, 0.2, 1e-4);
-    let acceleration = (world.states()[0].velocity.x - pushed) / 0.2;
+    let acceleration = (world.states()[0].velocity.x - speed) / 0.2;
     let expected = G * (angle.sin() - 0.32 * angle.cos());
-    println!("pushed to {pushed:.3} m/s, then {acceleration:.4} m/s2, expected {expected:.4}");
-    assert!(pushed > 0.05 && (acceleration / expected - 1.0).abs() < 0.01);
+    println!("{speed:.3} m/s after the load, then {acceleration:.4} m/s2, expected {expected:.4}");
+    assert!(speed > 0.05 && (acceleration / expected - 1.0).abs() < 0.01);
 }
 
 #[test]

@@ -1,15 +1,15 @@
-//! Free spin and the spinning top.
+//! Free rotation of a Core-Loc, and precession of a spinning top.
 
 use breakwater::geometry::armour_unit::ArmourUnit;
-use breakwater::geometry::convex_part::ConvexPart;
+use breakwater::geometry::convex::convex_part::ConvexPart;
 use breakwater::rigid::{BodyShape, BodyState, RigidSetup, RigidWorld};
 use glam::{DMat3, DQuat, DVec3};
 
 use super::{G, MORTAR, run, setup};
 
-/// Returns the principal moments in rising order, and the rotation from principal to body axes.
+/// Returns the principal moments of inertia in rising order, and the rotation from principal to body axes.
 fn principal(inertia: DMat3) -> (DVec3, DQuat) {
-    // Jacobi rotations, to rounding.
+    // Jacobi rotations make the matrix diagonal to rounding.
     let (mut axes, mut turned) = (DMat3::IDENTITY, inertia);
     for _ in 0..50 {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
@@ -33,8 +33,10 @@ fn principal(inertia: DMat3) -> (DVec3, DQuat) {
 }
 
 /// Returns the time between flips of a body with principal moments i and a spin w nearly about its middle axis: 2
-/// K(k)/p with p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3), k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 - I_2)(L^2 - 2 E
-/// I_1)) for L^2 > 2 E I_2; otherwise 1 and 3 change places. K comes from the arithmetic-geometric mean.
+/// K(k)/p.
+///
+/// For L^2 > 2 E I_2, p^2 = (I_3 - I_2)(L^2 - 2 E I_1)/(I_1 I_2 I_3) and k^2 = (I_2 - I_1)(2 E I_3 - L^2)/((I_3 -
+/// I_2)(L^2 - 2 E I_1)); otherwise the indices 1 and 3 are exchanged. K follows from the arithmetic-geometric mean.
 fn flip_time(i: DVec3, w: DVec3) -> f64 {
     let (two_e, l2) = ((i * w * w).element_sum(), (i * i * w * w).element_sum());
     let (low, high) = if l2 > two_e * i.y { (i.x, i.z) } else { (i.z, i.x) };
@@ -97,7 +99,7 @@ fn a_top_precesses_at_the_rate_of_theory() {
     let rate = (c * spin - root) / (2.0 * a * tilt.cos());
     let rotation = DQuat::from_rotation_y(tilt);
     let axis = rotation * DVec3::Z;
-    // The angular velocity is the spin along the axis plus the part of the precession across it.
+    // The angular velocity is the spin along the axis plus the part of the precession across the axis.
     let across = DVec3::Z * rate - axis * (rate * axis.z);
     let height = arm * tilt.cos() + tip - 3e-5;
     let body = BodyState { angular_velocity: axis * spin + across, ..BodyState::at_rest(DVec3::Z * height, rotation) };
@@ -117,7 +119,7 @@ fn a_top_precesses_at_the_rate_of_theory() {
         turned / 2.0,
         axis.z.acos()
     );
-    // 0.5 %: the initial overlap differs by 0.01 mm from that at rest, which causes a small nutation.
+    // Limit 0.5 %: the initial overlap differs by 0.01 mm from the overlap at rest, which causes a small nutation.
     assert!((turned / 2.0 / rate - 1.0).abs() < 0.005);
     assert!((axis.z.acos() - tilt).abs() < 0.01);
 }

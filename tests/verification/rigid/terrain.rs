@@ -54,7 +54,8 @@ fn a_tetrapod_slides_over_a_terrain_edge_like_over_exact_planes() {
         let distance = a.position.distance(b.position);
         println!("{:.3} s: x = {:.5} m, {distance:.1e} m apart", worlds[0].time(), a.position.x);
         // On the crest both surfaces agree to rounding. The legs touch the lee edge while they press into the crest.
-        // Contacts with triangles count from their first overlap, which changes the rolling by up to a millimetre.
+        // For contacts with triangles, overlap counts from the first touch, which changes the rolling by up to a
+        // millimetre.
         assert!(distance < if worlds[0].time() < 0.18 { 1e-12 } else { 1e-3 });
     }
     assert!(worlds[0].states()[0].position.x > 0.25);
@@ -77,7 +78,8 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
     })
     .unwrap();
     let before = total_energy(&world);
-    // Without friction the ball does not rotate: a pendulum of length R - r with a period longer by angle^2 / 16.
+    // Without friction the ball does not rotate, so it moves like a pendulum of length R - r. The finite angle
+    // lengthens the period by the share angle^2 / 16.
     let period = std::f64::consts::TAU * (pendulum_length / 9.81).sqrt() * (1.0 + angle * angle / 16.0);
     let (mut crossings, mut last) = (Vec::new(), start.x);
     while world.time() < 3.3 * period {
@@ -94,7 +96,7 @@ fn a_ball_oscillates_in_a_terrain_trough_without_loss() {
         "period {found:.4} s, {period:.4} s expected; energy loss {:.1e} of {before:.3} J",
         before - e.kinetic - e.potential - e.elastic
     );
-    // 1 %: facets of 0.02 rad disturb the ball a little.
+    // Limit 1 %: facets of 0.02 rad disturb the ball a little.
     assert!((found / period - 1.0).abs() < 0.01);
     let fall =
         4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * 2400.0 * 9.81 * pendulum_length * (1.0 - angle.cos());
@@ -132,7 +134,8 @@ fn ten_tetrapods_come_to_rest_on_rough_rock() {
     let e = world.energy();
     let drop = start.potential - e.potential;
     println!(
-        "on rock: kinetic {:.1e} of the drop, largest rise {:.1e} of it, deepest overlap {:.3} % of H, {} contacts",
+        "on rock: kinetic energy {:.1e} and largest rise of energy {:.1e} over the loss of potential energy; deepest \
+         overlap {:.3} % of H, {} contacts",
         e.kinetic / drop,
         rise / drop,
         100.0 * world.deepest_overlap() / HEIGHT,

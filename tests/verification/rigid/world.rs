@@ -32,7 +32,7 @@ fn a_heap_comes_to_rest_without_gaining_energy() {
     );
     assert!(highest < 1e-3);
     assert!(e.kinetic < 1e-4);
-    // 1 % of the energy of the fall, about 10 J.
+    // Limit: 1 % of the energy of the fall, which is about 10 J.
     assert!((total_energy(&world) - start).abs() < 0.1);
     assert!(world.states().iter().all(|s| s.position.z > 0.02 && s.position.is_finite()));
 }

@@ -5,26 +5,27 @@ use std::collections::{BTreeMap, BTreeSet};
 use breakwater::{case::file::CaseFile, sweep::plan::in_words};
 use serde_json::Value;
 
-/// Two units between periodic sides; the three waves differ in the wave height alone.
+/// Base case: two units between periodic sides. The base cases of the three waves differ only in the wave height.
 const BASE: &str = include_str!("../../../cases/fudo/H4.5-slice.json");
 
-/// Friction of the units on the mound.
+/// Key of the friction coefficient between units and mound.
 pub const FRICTION: &str = "friction.mortar-pvc.coefficient";
 
 /// Keys that do not change how the units move.
 const WITHOUT_EFFECT: [&str; 8] =
     ["$schema", "title", "assumptions", "reference", "output", "gauges", "fracture", "stop"];
 
-/// Particle spacing and wave have columns of their own; twice the time step changes the forces by less than 2 %.
+/// Keys that are not listed as changes. Tables have separate columns for particle spacing and wave height. Doubling the
+/// time step changes the forces by less than 2 %.
 const SHOWN_ELSEWHERE: [&str; 3] = ["domain.dp_m", "numerics.cfl", "wave.height_m"];
 
-/// Keys that change together with the number of units.
+/// Keys that must change with the number of units. If `units.count` is a change, these keys are not listed.
 const OF_ROW: [&str; 3] = ["domain.sides", "domain.width_m", "units.pitch_m"];
 
-/// A key with another value than in the base case.
+/// A key whose value differs from the base case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
-    /// Path of the key; an element of a list has its name or its pair of names: `friction.mortar-pvc.coefficient`.
+    /// Path of the key. A list element is identified by its name or pair of names: `friction.mortar-pvc.coefficient`.
     pub key: String,
     /// Value in the base case; null if not set.
     pub base: Value,
@@ -33,18 +34,18 @@ pub struct Change {
 }
 
 impl Change {
-    /// The value in the run, in words.
+    /// Value in the run as text for the page.
     pub fn value_in_words(&self) -> String {
         words(&self.value)
     }
 
-    /// The value in the base case, in words.
+    /// Value in the base case as text for the page.
     pub fn base_in_words(&self) -> String {
         words(&self.base)
     }
 }
 
-/// Large numbers with a power of ten.
+/// Value as text for the page. Numbers from 1e6 on are written with a power of ten.
 fn words(value: &Value) -> String {
     match value.as_f64() {
         Some(number) if number >= 1e6 => format!("{number:e}"),
@@ -53,7 +54,7 @@ fn words(value: &Value) -> String {
     }
 }
 
-/// Friction of the units on the mound in the base case.
+/// Friction coefficient between units and mound in the base case [-].
 pub fn base_friction() -> f64 {
     leaves(&base())[FRICTION].as_f64().unwrap_or(f64::NAN)
 }
@@ -62,7 +63,7 @@ fn base() -> Value {
     serde_json::from_str(BASE).unwrap_or_default()
 }
 
-/// Changes of a case from the base case, by key.
+/// Changes of a case from the base case, sorted by key.
 pub fn changes(case: &Value) -> Vec<Change> {
     let (base, case) = (leaves(&base()), leaves(case));
     let value = |leaves: &BTreeMap<String, Value>, key: &str| leaves.get(key).cloned().unwrap_or_default();
@@ -77,7 +78,7 @@ pub fn changes(case: &Value) -> Vec<Change> {
     changes
 }
 
-/// Values at the ends of all paths of a case, with its defaults.
+/// Values of all keys of a case by their paths, with defaults filled in. [`WITHOUT_EFFECT`] keys are left out.
 fn leaves(case: &Value) -> BTreeMap<String, Value> {
     let complete = serde_json::from_value::<CaseFile>(case.clone()).and_then(serde_json::to_value);
     let mut leaves = BTreeMap::new();
@@ -102,7 +103,7 @@ fn collect(path: &str, value: &Value, leaves: &mut BTreeMap<String, Value>) {
     }
 }
 
-/// Name of an element of a list: its `name`, or the names that it lies `between`.
+/// Identifier of a list element: its `name`, or the names in `between`, joined by hyphens.
 fn name(item: &Value) -> Option<String> {
     if let Some(name) = item.get("name").and_then(Value::as_str) {
         return Some(name.to_owned());
@@ -126,7 +127,7 @@ mod tests {
         case["output"]["series_interval_s"] = json!(0.02);
         case["numerics"]["cfl"] = json!(0.4);
         case["wave"]["height_m"] = json!(0.026);
-        // A default that is written, and a number in another notation.
+        // Neither a default that is written out nor another notation of the same number is a change.
         case["numerics"]["viscosity_alpha"] = json!(0.04);
         case["flume"]["mound"]["lee_run_per_rise"] = json!(2);
         assert_eq!(changes(&case), []);

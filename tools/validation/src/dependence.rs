@@ -1,8 +1,8 @@
-//! Runs with one changed input: what the result depends on.
+//! Sensitivity: effect of changed inputs on the mean displacement.
 
 use breakwater::{
     case::ReferenceWave,
-    report::plot::{Lever, TornadoChart},
+    report::plot::{TornadoChart, TornadoInput},
     sweep::key::brief,
 };
 
@@ -12,7 +12,7 @@ use crate::{
     page::{Compared, centimetres, millimetres},
 };
 
-/// Runs with the same changes at the same particle spacing.
+/// Runs of the different waves with the same changes and the same particle spacing.
 struct Group<'a> {
     dp_m: f64,
     changes: &'a [Change],
@@ -20,7 +20,8 @@ struct Group<'a> {
     percents: Vec<Option<f64>>,
 }
 
-/// Groups of runs; the friction sweep has a figure of its own.
+/// Groups the runs by changes and particle spacing. Runs of the friction sweep are left out; they have their own
+/// figure.
 fn groups<'a>(waves: &[&ReferenceWave], results: &'a [Compared]) -> Vec<Group<'a>> {
     let mut groups: Vec<Group> = Vec::new();
     for result in results {
@@ -46,7 +47,7 @@ fn groups<'a>(waves: &[&ReferenceWave], results: &'a [Compared]) -> Vec<Group<'a
     groups
 }
 
-/// Adds figure and table; nothing if no run has a changed input.
+/// Adds figure and table of the changed inputs to the page, unless no run has a changed input.
 pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared]) {
     let groups = groups(waves, results);
     if groups.is_empty() {
@@ -73,7 +74,7 @@ pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared]) {
 }
 
 fn chart(waves: &[&ReferenceWave], groups: &[Group]) -> String {
-    let mut levers: Vec<Lever> = Vec::new();
+    let mut levers: Vec<TornadoInput> = Vec::new();
     for group in groups {
         let [change] = group.changes else { continue };
         let name = format!("{} {}", brief(&change.key), change.base_in_words());
@@ -82,7 +83,7 @@ fn chart(waves: &[&ReferenceWave], groups: &[Group]) -> String {
         });
         match levers.iter_mut().find(|lever| lever.name == name) {
             Some(lever) => lever.values.extend(values),
-            None => levers.push(Lever { name, values: values.collect() }),
+            None => levers.push(TornadoInput { name, values: values.collect() }),
         }
     }
     TornadoChart {

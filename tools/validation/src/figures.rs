@@ -1,4 +1,4 @@
-//! Figures of the base cases: means, damage, convergence.
+//! Figures of the base cases: mean displacement, share of damaged units, convergence.
 
 use breakwater::{
     case::{ReferenceWave, Series},
@@ -13,7 +13,7 @@ use crate::{
     page::{Compared, centimetres, millimetres},
 };
 
-/// Adds the three figures.
+/// Adds the three figures to the page.
 pub fn add(page: &mut Page, waves: &[&ReferenceWave], base: &[&Compared]) {
     let means = bars(waves, base, "mean displacement [m]", |_, series| series.mean_m(), |run| run.mean_m);
     page.figure("fudo-means.svg", &means, "Mean displacement for each wave; hollow bars are published values.");

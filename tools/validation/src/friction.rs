@@ -1,4 +1,4 @@
-//! The friction of the mound: mean displacement in runs that differ in nothing else.
+//! Friction sweep: mean displacement in runs that differ only in the friction coefficient of the mound.
 
 use std::path::Path;
 
@@ -14,14 +14,14 @@ use crate::{
     page::{Compared, centimetres, millimetres},
 };
 
-/// The two points of the friction sweep of a wave that section 4.7 of the paper gives in numbers.
+/// The two points of a wave's friction sweep that section 4.7 of the paper states as numbers.
 pub struct Published {
     height_m: f64,
     /// Friction coefficient [-] and mean displacement [m].
     points: Vec<[f64; 2]>,
 }
 
-/// Reads the published sweeps.
+/// Reads the published points of all waves.
 ///
 /// # Errors
 /// If the table cannot be read.
@@ -37,7 +37,7 @@ pub fn published(reference: &Path) -> Result<Vec<Published>, OutputError> {
     Ok((0..table.rows()).map(row).collect())
 }
 
-/// Friction of the mound in a run that differs from the base case in nothing else.
+/// Friction coefficient of the mound [-]; `None` if the run also differs from the base case in another input.
 fn friction(result: &Compared) -> Option<f64> {
     match &result.changes[..] {
         [] => Some(change::base_friction()),
@@ -46,7 +46,7 @@ fn friction(result: &Compared) -> Option<f64> {
     }
 }
 
-/// Adds the figure; nothing if no run has another friction.
+/// Adds the figure of the friction sweep to the page, unless every run has the same friction coefficient.
 pub fn add(page: &mut Page, waves: &[&ReferenceWave], results: &[Compared], published: &[Published]) {
     let mut lines: Vec<Line> = Vec::new();
     for (index, wave) in waves.iter().enumerate() {

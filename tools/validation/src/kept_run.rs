@@ -1,4 +1,4 @@
-//! Kept runs: case and summary of finished runs.
+//! Kept runs: copies of the case and summary of finished runs.
 
 use std::{
     error::Error,
@@ -12,28 +12,28 @@ use breakwater::{
 };
 use serde_json::{Value, json};
 
-/// The measurements, seen from the folder of a kept run.
+/// Folder of the measurements, relative to the folder of a kept run.
 const REFERENCE: &str = "../../../../cases/fudo/reference";
 
-/// A run that the page is written from.
+/// A run whose results are on the page.
 pub struct KeptRun {
     /// Name of the run's folder.
     pub name: String,
     /// The case of the run.
     pub case: Value,
     summary: Summary,
-    /// Mesh of a unit, if the case names one.
+    /// Content of the mesh file of a unit, if the run has one.
     mesh: Option<Vec<u8>>,
 }
 
 impl KeptRun {
-    /// Reads a finished run or a kept one.
+    /// Reads the folder of a finished run or of a kept run.
     ///
     /// # Errors
     /// If the run is not finished or a file cannot be read.
     pub fn of_run(run: &Path) -> Result<Self, Box<dyn Error>> {
         let named = |file: &Path, error: &dyn Error| format!("{}: {error}", file.display());
-        // The folder's own name, whatever path leads to it.
+        // The absolute path ends with the name of the folder, also if `run` is a path such as `runs/a/.`.
         let run = fs::canonicalize(run).map_err(|error| named(run, &error))?;
         let path = run.join("case.json");
         let text = fs::read_to_string(&path).map_err(|error| named(&path, &error))?;
@@ -45,21 +45,21 @@ impl KeptRun {
     /// All kept runs, by name.
     ///
     /// # Errors
-    /// If there are none, or one of them cannot be read.
+    /// If no runs are kept, or a kept run cannot be read.
     pub fn all(runs: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
         let mut paths: Vec<PathBuf> =
             fs::read_dir(runs).into_iter().flatten().flatten().map(|run| run.path()).collect();
         paths.sort();
         if paths.is_empty() {
-            return Err(format!("{}: no runs are kept; name the folders of finished runs", runs.display()).into());
+            return Err(format!("{}: no runs are kept; give the folders of finished runs", runs.display()).into());
         }
         paths.iter().map(|path| Self::of_run(path)).collect()
     }
 
-    /// Refuses a run that has the name of a kept run of another case.
+    /// Checks that no kept run of another case has the name of this run.
     ///
     /// # Errors
-    /// If it has.
+    /// If a kept run of another case has this name.
     pub fn check_name(&self, runs: &Path) -> Result<(), String> {
         let folder = runs.join(&self.name);
         match Summary::read(&folder) {
@@ -71,7 +71,7 @@ impl KeptRun {
         }
     }
 
-    /// Keeps the run.
+    /// Copies case, mesh and summary of the run to the folder of kept runs.
     ///
     /// # Errors
     /// If a file cannot be written.

@@ -1,18 +1,18 @@
 //! Writes the page that compares breakwater with the experiment of Mitsui et al. (2023), `docs/validation/fudo.md`.
 //!
-//! | file | holds |
+//! | file | content |
 //! | --- | --- |
 //! | `kept_run` | runs kept in `tools/validation/runs`: case and summary |
 //! | `change` | differences between the case of a run and the base case |
-//! | `page` | verdict, table and order of the page |
+//! | `page` | summary, table and order of the sections |
 //! | `figures` | means, damage, convergence |
 //! | `friction` | friction sweep |
 //! | `dependence` | runs with a changed input |
-//! | `markdown` | Markdown with figures beside it |
+//! | `markdown` | Markdown page with its figure files |
 //!
 //! Every number on the page comes from the kept runs and `cases/fudo/reference`.
 
-// Units stand in brackets in descriptions; rustdoc would read `[m]` as a link.
+// Descriptions have units in brackets. Without this line, rustdoc would read `[m]` as a broken link.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod change;
@@ -37,17 +37,17 @@ use kept_run::KeptRun;
 /// Adds finished runs to the validation page docs/validation/fudo.md and writes the page with its figures.
 #[derive(Parser)]
 struct Arguments {
-    /// Folders of finished runs of cases/fudo; without them, the page is written from the runs that are kept.
+    /// Folders of finished runs of cases/fudo. Without folders, the page is rewritten from the runs added earlier.
     runs: Vec<PathBuf>,
 }
 
-/// Where the page and its sources are.
+/// Folders of the page and its sources.
 struct Folders {
-    /// Kept runs.
+    /// Folder of the kept runs.
     runs: PathBuf,
-    /// Page and figures.
+    /// Folder of the page and its figures.
     page: PathBuf,
-    /// Measurements.
+    /// Folder of the measurements.
     reference: PathBuf,
 }
 
@@ -75,11 +75,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// Adds finished runs and writes the page; returns the files written, the page last.
+/// Adds finished runs and writes the page. Returns the paths of the written files; the page is the last.
 ///
 /// # Errors
-/// If a run is not finished, has a wave that was not measured, or has the name of a kept run of another case: nothing is
-/// written then. If a file cannot be read or written.
+/// If a run is not finished, has a wave that was not measured, or has the name of a kept run of another case; then
+/// nothing is written. Also if a file cannot be read or written.
 fn write(folders: &Folders, new: &[PathBuf]) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let reference = Reference::load(&folders.reference)?;
     compare(new, &reference)?;
@@ -110,7 +110,7 @@ mod tests {
 
     use super::*;
 
-    /// Folder of a finished run of two units with displacements [m] and one changed number of the case.
+    /// Writes the folder of a finished run of two units that move by `moved` [m]. `change` sets one number of the case.
     fn run(folder: &Path, name: &str, height_m: f64, dp_m: f64, change: (&str, f64), moved: [f64; 2]) -> PathBuf {
         let dir = folder.join(name);
         fs::create_dir_all(&dir).unwrap();
@@ -155,22 +155,22 @@ mod tests {
         let page = fs::read_to_string(&path).unwrap();
         for words in [
             "by \u{2212}53.5 % for the 2.6 cm wave and by +1.1 and +3.2 % for the 4.5 cm wave.",
-            "The 2.6 cm wave is missed on the unsafe side:",
-            "At the finest spacing breakwater damages 0 and 100 % of the units; 80 and 100 % were measured.",
+            "For the 2.6 cm wave, breakwater is on the unsafe side:",
+            "At the finest spacing, 0 and 100 % of the units are damaged in breakwater, and 80 and 100 % in the experiment.",
             "| 4.5 | 9 | 0.242 | 0.245 | +1.1 | \u{2212}32.5 | 100 / 100 |",
             "| `mound.crest_width_m` | 0.32 | 0.28 | 9 |  | \u{2212}14.3 |",
             "(fudo-friction.svg)",
         ] {
             assert!(page.contains(words), "{words} in\n{page}");
         }
-        // The page needs only the kept runs, and notes below the last generated line remain.
+        // The page needs only the kept runs. Notes below the last generated line are kept.
         runs.iter().for_each(|run| fs::remove_dir_all(run).unwrap());
         fs::write(&path, page + "A note.\n").unwrap();
         assert_eq!(write(&folders, &[]).unwrap(), files);
         assert!(fs::read_to_string(&path).unwrap().ends_with(&format!("{}\nA note.\n", page::END)));
     }
 
-    /// Otherwise: `cargo run --release -p validation`.
+    /// If this test fails, run `cargo run --release -p validation`.
     #[test]
     fn page_in_docs_is_up_to_date() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,13 +1,13 @@
-//! A Markdown page with figures beside it.
+//! A Markdown page and its figures, which are separate files.
 
 use breakwater::report::plot::standalone;
 
-/// A percentage with its sign.
+/// A percentage as text with its sign and one decimal.
 pub fn signed(percent: f64) -> String {
     format!("{percent:+.1}").replace('-', "\u{2212}")
 }
 
-/// Words with commas between them and `and` before the last.
+/// A list in words: `a, b and c`.
 pub fn joined(words: &[String]) -> String {
     match words {
         [] => String::new(),
@@ -48,7 +48,7 @@ impl Page {
         self.add((line(head) + &line(&rule) + &rows).trim_end());
     }
 
-    /// Adds a chart, `<svg>`, as a file beside the page, with one sentence below it.
+    /// Adds a chart (an `<svg>` element) as the figure `file`, with a caption of one sentence below the figure.
     pub fn figure(&mut self, file: &str, chart: &str, caption: &str) {
         self.add(&format!("![{}]({file})\n\n{caption}", caption.trim_end_matches('.')));
         self.figures.push((file.to_owned(), standalone(chart)));

@@ -1,4 +1,4 @@
-//! The page: verdict, table, figures, dependence, command.
+//! The page: summary, table, figures, sensitivity, and the command that repeats a run.
 
 use breakwater::{
     case::ReferenceWave,
@@ -16,13 +16,14 @@ use crate::{
     markdown::{Page, joined, signed},
 };
 
-/// Name of the page.
+/// File name of the page.
 pub const FILE: &str = "fudo.md";
 
-/// Last line that is written by the program; what follows it on the page is kept.
+/// Last generated line of the page. Text below this line is kept when the page is written again.
 pub const END: &str = "<!-- Generated up to here; text below this line is kept. -->";
 
-/// A mean that deviates by more than this is missed [%]: the measured repetitions scatter by less than half as much.
+/// Largest deviation of a mean displacement that counts as agreement [%]. Repeated measurements scatter by less than
+/// half as much.
 const MISSED_PERCENT: f64 = 10.0;
 
 /// A run with its changes from the base case.
@@ -42,17 +43,17 @@ impl Compared<'_> {
     }
 }
 
-/// Wave height for people, [cm].
+/// Wave height in cm, as text.
 pub fn centimetres(wave: &ReferenceWave) -> String {
     short(100.0 * wave.height_m, 1)
 }
 
-/// Particle spacing for people, [mm].
+/// Particle spacing in mm, as text.
 pub fn millimetres(dp_m: f64) -> String {
     short(1000.0 * dp_m, 2)
 }
 
-/// The page.
+/// Builds the page from the compared runs.
 pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) -> Page {
     let changes_of = |run: &RunResult| {
         runs.iter().find(|kept| kept.name == run.name).map(|kept| changes(&kept.case)).unwrap_or_default()
@@ -71,7 +72,7 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
     page.add(&verdict(&waves, &base));
     page.add(
         "The runs of breakwater have two units between periodic sides, which represent the inner units of the row of fifteen.\n\
-         The published code is DualSPHysics with Project Chrono, all fifteen units, at the same particle spacing.\n\
+         The published runs were made with DualSPHysics and Project Chrono, for all fifteen units and the same particle spacing.\n\
          A unit is damaged when it has moved further than its height, 0.077 m.",
     );
     add_table(&mut page, &base);
@@ -89,7 +90,8 @@ pub fn page(comparison: &Comparison, runs: &[KeptRun], frictions: &[Published]) 
     page
 }
 
-/// How near the means come at the published spacings, which waves are missed, and damage ratios.
+/// Summary in words: deviations of the mean displacement at the published particle spacings, waves with a deviation of
+/// more than [`MISSED_PERCENT`], and shares of damaged units.
 fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
     let of_wave = |wave: &ReferenceWave| -> Vec<&Compared> {
         let is_published = |dp_m: f64| wave.convergence.iter().any(|other| (other.dp_m - dp_m).abs() < 1e-9);
@@ -112,7 +114,7 @@ fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
         };
         missed.extend(side.map(|(side, than, percent)| {
             format!(
-                "{name} is missed on the {side} side: the units move up to {} % {than} than measured",
+                "for {name}, breakwater is on the {side} side: the units move up to {} % {than} than measured",
                 short(percent, 0)
             )
         }));
@@ -122,11 +124,14 @@ fn verdict(waves: &[&ReferenceWave], base: &[&Compared]) -> String {
     spacings.sort_by(|a, b| b.total_cmp(a));
     spacings.dedup();
     let spacings: Vec<String> = spacings.into_iter().map(millimetres).collect();
-    let missed =
-        if missed.is_empty() { format!("no wave is missed by more than {MISSED_PERCENT} %") } else { joined(&missed) };
+    let missed = if missed.is_empty() {
+        format!("no mean displacement deviates by more than {MISSED_PERCENT} %")
+    } else {
+        joined(&missed)
+    };
     format!(
         "At particle spacings of {} mm the mean displacement deviates from the measured mean {}.\n{}{}.\n\
-         At the finest spacing breakwater damages {} % of the units; {} % were measured.",
+         At the finest spacing, {} % of the units are damaged in breakwater, and {} % in the experiment.",
         joined(&spacings),
         joined(&deviations),
         missed[..1].to_uppercase(),

@@ -4,9 +4,10 @@ use super::Contacts;
 use crate::femdem::assembly::tets::Tets;
 
 impl Contacts {
-    /// Returns the pair with the deepest overlap in the last time step, and this overlap without its initial part:
-    /// overlap energy over penalty over the volume of the smaller tetrahedron [-]. It is 1/2 for identical tetrahedra,
-    /// up to 5/4 for one inside the other, and about 1e-3 for a contact at the strength of concrete.
+    /// Returns the pair with the deepest overlap in the last time step, and the relative depth of this overlap [-].
+    /// Relative depth: overlap energy without its initial part, over penalty and volume of the smaller tetrahedron. It
+    /// is 1/2 for identical tetrahedra, up to 5/4 for a tetrahedron inside the other one, and about 1e-3 for a contact
+    /// at the strength of concrete.
     pub fn deepest_overlap(&self, tets: &Tets) -> Option<([u32; 2], f64)> {
         let volume = |tet: u32| tets.shape[tet as usize].volume;
         let share = |pair: &super::Pair| {
@@ -20,7 +21,7 @@ impl Contacts {
         touching.map(|pair| (pair.tets, share(pair))).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Whether a tetrahedron was in contact in the last time step.
+    /// Returns true if a tetrahedron was in contact in the last time step.
     pub fn is_in_contact(&self, tet: u32) -> bool {
         self.pairs.iter().any(|pair| pair.forces.is_some() && pair.tets.contains(&tet))
     }

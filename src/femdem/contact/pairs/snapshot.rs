@@ -7,7 +7,7 @@ use super::{ContactScalars, Contacts, Pair};
 use crate::femdem::assembly::tets::Tets;
 use crate::femdem::setup::Setup;
 
-/// History of the contacts of a world. Which tetrahedra can touch follows from the broken faces.
+/// History of the contacts of a world. It does not list the tetrahedra that can touch; the broken faces determine them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactSnapshot {
     /// Tetrahedra of each pair, the pairs in ascending order.
@@ -16,11 +16,11 @@ pub struct ContactSnapshot {
     pub initial_overlap: Vec<f64>,
     /// Numbers of the pairs with a friction spring, in ascending order.
     pub pairs_with_spring: Vec<u32>,
-    /// Extension and normal of each spring [m, -].
+    /// Extension [m] and normal [-] of each friction spring.
     pub springs: Vec<[f64; 6]>,
-    /// Tetrahedra whose joint has broken since the last search.
+    /// Pairs of tetrahedra whose joint has broken since the last search.
     pub opened: Vec<[u32; 2]>,
-    /// Energy that the joint leaves to them [J].
+    /// Elastic energy [J] that each pair in `opened` takes over from its joint.
     pub inherited_energy: Vec<f64>,
 }
 
@@ -42,10 +42,10 @@ impl Contacts {
         }
     }
 
-    /// Restores the history into new contacts whose groups are up to date. The tetrahedra `open` have broken faces.
+    /// Restores the history into new contacts whose groups are up to date. `open` are the tetrahedra with broken faces.
     ///
     /// # Errors
-    /// Says why the snapshot does not belong to this world.
+    /// If the snapshot does not belong to this world. The text gives the reason.
     pub fn restore(
         &mut self,
         (snapshot, scalars): (ContactSnapshot, ContactScalars),

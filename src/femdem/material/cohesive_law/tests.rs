@@ -89,7 +89,7 @@ fn unloading_follows_the_secant_and_damage_does_not_heal() {
     let mut point = up.point;
     let half = law.respond(&mut point, 0.5e-5, [0.0; 2]);
     assert!((half.normal / (0.5 * up.last.normal) - 1.0).abs() < 1e-12);
-    // In compression the stiffness is the initial one.
+    // In compression, damage does not reduce the stiffness.
     assert_eq!(law.respond(&mut point, -1e-7, [0.0; 2]).normal, -1e-7 * law.stiffness());
 }
 
@@ -107,7 +107,7 @@ fn energy_balances_and_dissipation_is_never_negative_on_any_path() {
         let start = std::iter::once((0.0, 0.0));
         let out = follow_path(&law, start.chain((1..=20_000).map(path)));
         let balance = out.work - out.stored - out.dissipated;
-        // Trapezoidal rule over 20,000 increments; the yield stress changes with the pressure within an increment.
+        // Tolerance: trapezoidal rule over 20,000 increments, in which the yield stress changes with the pressure.
         assert!(balance.abs() < 2e-3 * out.work.abs().max(1.0), "{seed}: {balance:.2e} of {:.2e}", out.work);
     }
 }
@@ -144,6 +144,6 @@ fn a_released_joint_starts_with_the_stress_of_the_tied_face() {
 fn at_the_longest_edge_the_softening_range_is_zero() {
     let cohesion = Cohesion { strength: CONCRETE, penalty: 26e9, range: Range::Exact, tied: false };
     let law = cohesion.law(cohesion.longest_edge());
-    // Rounding, relative to G_f / f_t.
+    // Tolerance: rounding, relative to G_f / f_t.
     assert!(law.opening_range.abs() < 1e-12 * 50.0 / 3.3e6);
 }

@@ -1,4 +1,4 @@
-//! Builds bodies and sets from the sections of a file.
+//! Builds bodies, triangle sets and node sets from the sections of an MSH file.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -11,7 +11,7 @@ use super::sections::{ElementBlock, Key, Sections, TRIANGLE, element_type};
 /// Marks a node that no element uses.
 const UNUSED: u32 = u32::MAX;
 
-/// Builds the mesh, with lengths multiplied by `scale`.
+/// Builds the mesh of a file, with lengths multiplied by `scale`.
 pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
     let volumes = volume_blocks(file)?;
     let surfaces = surface_blocks(file)?;
@@ -59,10 +59,10 @@ pub(super) fn mesh(file: &Sections, scale: f64) -> Result<Mesh, MshError> {
     Ok(mesh)
 }
 
-/// Blocks of elements by physical group.
+/// Blocks of elements of each physical group, by the tag of the group.
 type Groups<'a> = BTreeMap<i32, Vec<&'a ElementBlock>>;
 
-/// Collects the volumes of each body; every volume must be in exactly one body.
+/// Collects the element blocks of each body. Every volume must be in exactly one body.
 fn volume_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     let mut groups = declared(file, 3);
     if groups.is_empty() {
@@ -82,7 +82,7 @@ fn volume_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     Ok(groups)
 }
 
-/// Collects the surfaces of each set; a surface may be in several sets or in none.
+/// Collects the element blocks of each triangle set. A surface may be in several sets or in none.
 fn surface_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     let mut groups = declared(file, 2);
     for block in file.blocks.iter().filter(|block| block.dimension == 2) {
@@ -98,7 +98,7 @@ fn surface_blocks(file: &Sections) -> Result<Groups<'_>, MshError> {
     Ok(groups)
 }
 
-/// Collects the curves or points of each node set.
+/// Collects the element blocks of each node set: curves (`dimension` 1) or points (`dimension` 0).
 fn line_blocks(file: &Sections, dimension: i32) -> Groups<'_> {
     let mut groups = declared(file, dimension);
     for block in file.blocks.iter().filter(|block| block.dimension == dimension) {
@@ -109,7 +109,7 @@ fn line_blocks(file: &Sections, dimension: i32) -> Groups<'_> {
     groups
 }
 
-/// Gmsh's name for the physical groups of a dimension.
+/// Returns Gmsh's name for the physical groups of a dimension.
 fn kind_of(dimension: i32) -> &'static str {
     match dimension {
         0 => "Point",
@@ -119,14 +119,14 @@ fn kind_of(dimension: i32) -> &'static str {
     }
 }
 
-/// All groups of a dimension in the file, including empty ones, which are refused later.
+/// Returns all physical groups of a dimension, without their blocks. [`named`] refuses groups that remain empty.
 fn declared(file: &Sections, dimension: i32) -> Groups<'_> {
     let named = file.names.keys().filter(|key| key.0 == dimension).map(|key| key.1);
     let used = file.groups.iter().filter(|(key, _)| key.0 == dimension).flat_map(|(_, groups)| groups.iter().copied());
     named.chain(used).map(|group| (group, Vec::new())).collect()
 }
 
-/// Returns the groups with their names; checks that names are unique and groups not empty.
+/// Returns the groups with their names, and checks that the names are unique and that no group is empty.
 fn named<'a>(
     file: &Sections,
     dimension: i32,
@@ -152,7 +152,7 @@ fn named<'a>(
     Ok(result)
 }
 
-/// Returns elements of `N` nodes as node indices.
+/// Returns the node indices of elements with `N` nodes.
 fn elements<const N: usize>(block: &ElementBlock, nodes: &mut NodeTable) -> Result<Vec<[u32; N]>, MshError> {
     let mut result = Vec::with_capacity(block.tags.len());
     for (element, tags) in block.tags.iter().zip(block.nodes.as_chunks::<N>().0) {
@@ -165,7 +165,7 @@ fn elements<const N: usize>(block: &ElementBlock, nodes: &mut NodeTable) -> Resu
     Ok(result)
 }
 
-/// Nodes of a file by their tags.
+/// Nodes of a file, found by their tags. The table marks the nodes that elements use.
 struct NodeTable {
     positions: Vec<(u64, DVec3)>,
     index: HashMap<u64, u32>,
@@ -200,7 +200,7 @@ impl NodeTable {
         Some(index)
     }
 
-    /// Moves the used nodes to the mesh and renumbers its elements.
+    /// Moves the used nodes to the mesh, and renumbers the nodes of its elements and sets.
     fn drop_unused(self, mesh: &mut Mesh) {
         let mut new_index = vec![UNUSED; self.positions.len()];
         for (old, (tag, position)) in self.positions.iter().enumerate().filter(|(old, _)| self.used[*old]) {

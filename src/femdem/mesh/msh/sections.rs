@@ -1,7 +1,7 @@
 //! Raw content of an MSH 4.1 file, section by section.
 //!
-//! Format: Gmsh reference manual, section "MSH file format". The crate `mshio` 0.4.2 is not used: it drops the tags of
-//! nodes numbered without gaps, and so mixes up the nodes of every renumbered mesh.
+//! Format: Gmsh reference manual, section "MSH file format". The crate `mshio` 0.4.2 is not used, because it drops the
+//! tags of nodes that are numbered without gaps. It therefore mixes up the nodes of every renumbered mesh.
 
 use std::collections::BTreeMap;
 
@@ -10,15 +10,15 @@ use glam::DVec3;
 use super::error::MshError;
 use super::source::Source;
 
-/// Gmsh's number for a triangle with three nodes.
+/// Gmsh's element type of a triangle with three nodes.
 pub(super) const TRIANGLE: i32 = 2;
-/// Gmsh's number for a tetrahedron with four nodes.
+/// Gmsh's element type of a tetrahedron with four nodes.
 pub(super) const TETRAHEDRON: i32 = 4;
 
-/// Dimension and number of a group or of an entity.
+/// Dimension and number of a physical group or of an entity.
 pub(super) type Key = (i32, i32);
 
-/// Content of a file.
+/// Content of an MSH file.
 #[derive(Debug, Default)]
 pub(super) struct Sections {
     /// Name of each physical group.
@@ -38,16 +38,16 @@ pub(super) struct ElementBlock {
     pub dimension: i32,
     /// Number of the entity.
     pub entity: i32,
-    /// Gmsh's number for the shape.
+    /// Gmsh's element type.
     pub kind: i32,
     /// Tag of each element.
     pub tags: Vec<u64>,
-    /// Tags of the nodes of all elements.
+    /// Tags of the nodes of all elements, element by element.
     pub nodes: Vec<u64>,
 }
 
 impl Sections {
-    /// Reads a whole file. Memory and time depend only on its size, even if its counts are wrong.
+    /// Reads a whole file. Memory and time depend only on the size of the file, even if counts in the file are wrong.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, MshError> {
         let mut source = Source::new(bytes)?;
         let mut content = Self::default();
@@ -77,7 +77,7 @@ impl Sections {
         Ok(content)
     }
 
-    /// Reads lines `dimension tag "name"`, which are text in binary files, too.
+    /// Reads lines `dimension tag "name"`, which are text even in binary files.
     fn read_names(&mut self, source: &mut Source) -> Result<(), MshError> {
         let start = source.position();
         let line = source.text_line()?;
@@ -104,7 +104,7 @@ impl Sections {
                 }
                 let mut groups = Vec::new();
                 for _ in 0..source.size()? {
-                    // The sign is the orientation of the entity in the group.
+                    // The sign is the orientation of the entity in the group, which is not needed.
                     groups.push(source.int()?.saturating_abs());
                 }
                 groups.sort_unstable();
@@ -123,7 +123,7 @@ impl Sections {
     /// Reads blocks of node tags followed by positions.
     fn read_nodes(&mut self, source: &mut Source) -> Result<(), MshError> {
         let blocks = source.size()?;
-        // Number of nodes, smallest and largest tag: redundant.
+        // Skips the number of nodes and the smallest and largest tag, which are redundant.
         for _ in 0..3 {
             source.size()?;
         }
@@ -133,7 +133,7 @@ impl Sections {
             let start = source.position();
             let parameters = match source.int()? {
                 0 => 0,
-                // Coordinates on the curve or surface follow the position.
+                // Parametric coordinates on the curve, surface or volume follow the position.
                 1 => dimension.clamp(0, 3),
                 other => return Err(source.unexpected(start, "0 or 1", other.to_string().as_bytes())),
             };
@@ -155,7 +155,7 @@ impl Sections {
     /// Reads blocks of elements of one shape.
     fn read_elements(&mut self, source: &mut Source) -> Result<(), MshError> {
         let blocks = source.size()?;
-        // Number of elements, smallest and largest tag: redundant.
+        // Skips the number of elements and the smallest and largest tag, which are redundant.
         for _ in 0..3 {
             source.size()?;
         }
@@ -166,7 +166,7 @@ impl Sections {
             let (name, shape) = element_type(kind);
             let Some((shape_dimension, corners)) = shape else {
                 let remedy = if matches!(kind, 5..=7) {
-                    "do not recombine or extrude in layers"
+                    "do not recombine the mesh or extrude it in layers"
                 } else {
                     "set Mesh.ElementOrder = 1"
                 };
@@ -202,7 +202,7 @@ fn physical_name(line: &str) -> Option<(Key, String)> {
     (numbers.next().is_none() && !name.is_empty()).then(|| (key, name.to_owned()))
 }
 
-/// Name of an element type; for types allowed in a mesh of linear tetrahedra also dimension and number of nodes.
+/// Returns the name of an element type, and for allowed types also their dimension and number of nodes.
 pub(super) fn element_type(kind: i32) -> (&'static str, Option<(i32, usize)>) {
     match kind {
         1 => ("lines", Some((1, 2))),

@@ -14,7 +14,7 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// Reads the header, which is followed by the sections.
+    /// Reads the header of a file. The reading position is then at the first section.
     pub(super) fn new(bytes: &'a [u8]) -> Result<Self, MshError> {
         let mut source = Self { bytes, offset: 0, binary: false, section: "MeshFormat" };
         let first = source.line().unwrap_or_default();
@@ -31,7 +31,7 @@ impl<'a> Source<'a> {
             "1 8" => true,
             other => return Err(MshError::Header(other.to_owned())),
         };
-        // The integer 1, which shows the byte order.
+        // A binary file contains the integer 1 here, which shows the byte order.
         if source.binary && source.take_bytes()? != 1i32.to_le_bytes() {
             return Err(MshError::Header(format!("{layout} (binary, big-endian)")));
         }
@@ -39,7 +39,7 @@ impl<'a> Source<'a> {
         Ok(source)
     }
 
-    /// Returns the name of the section that starts here, `None` at the end of the file.
+    /// Reads the name of the section that starts at the reading position; `None` at the end of the file.
     pub(super) fn next_section(&mut self) -> Result<Option<&'a str>, MshError> {
         self.skip_space();
         if self.offset == self.bytes.len() {
@@ -91,12 +91,12 @@ impl<'a> Source<'a> {
         std::str::from_utf8(line).map_err(|_| self.unexpected(start, "text in UTF-8", line))
     }
 
-    /// Reads a signed integer: a dimension, an entity, a type.
+    /// Reads a signed integer: a dimension, an entity number or an element type.
     pub(super) fn int(&mut self) -> Result<i32, MshError> {
         if self.binary { Ok(i32::from_le_bytes(self.take_bytes()?)) } else { self.word("an integer") }
     }
 
-    /// Reads an unsigned integer: a count, a node, an element.
+    /// Reads an unsigned integer: a count, or the tag of a node or an element.
     pub(super) fn size(&mut self) -> Result<u64, MshError> {
         if self.binary { Ok(u64::from_le_bytes(self.take_bytes()?)) } else { self.word("a count or a tag") }
     }
@@ -106,25 +106,25 @@ impl<'a> Source<'a> {
         if self.binary { Ok(f64::from_le_bytes(self.take_bytes()?)) } else { self.word("a number") }
     }
 
-    /// Number of bytes read so far.
+    /// Returns the number of bytes read so far.
     pub(super) fn position(&self) -> usize {
         self.offset
     }
 
-    /// Returns a position as line or byte for messages.
+    /// Converts a position in bytes to the line (text file) or byte (binary file) for an error message.
     pub(super) fn file_position(&self, position: usize) -> FilePosition {
         if self.binary {
             FilePosition::Byte(position + 1)
         } else {
             let read = &self.bytes[..position];
             let line = 1 + read.iter().filter(|byte| **byte == b'\n').count();
-            // White space between two numbers belongs to the line of the second.
+            // If the position is in white space, the line is that of the next number.
             let space = self.bytes[position..].iter().take_while(|byte| byte.is_ascii_whitespace());
             FilePosition::Line(line + space.filter(|byte| **byte == b'\n').count())
         }
     }
 
-    /// Creates the error for unexpected content at `position`.
+    /// Creates the error for unexpected content at a position in bytes.
     pub(super) fn unexpected(&self, position: usize, expected: &'static str, found: &[u8]) -> MshError {
         let section = quote(self.section.as_bytes());
         MshError::Unexpected { position: self.file_position(position), section, expected, found: quote(found) }
@@ -160,7 +160,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Returns the start of some bytes as a quote for a message.
+/// Returns the first characters of a part of the file, as a quote for an error message.
 fn quote(bytes: &[u8]) -> String {
     String::from_utf8_lossy(&bytes[..bytes.len().min(4 * LONGEST_QUOTE)]).chars().take(LONGEST_QUOTE).collect()
 }

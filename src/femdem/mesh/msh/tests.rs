@@ -13,7 +13,7 @@ fn cracked() -> Mesh {
     mesh
 }
 
-/// The same mesh as text.
+/// The mesh of [`cracked`] as a text file.
 fn text() -> String {
     String::from_utf8(write(&cracked(), false)).unwrap()
 }
@@ -23,7 +23,7 @@ fn error_of(text: &str) -> String {
     parse(text.as_bytes(), 1.0).unwrap_err().to_string()
 }
 
-/// Error message of the reader for the valid text with `from`, which must occur, replaced by `to`.
+/// Error message of the reader for the valid text after replacement of `from`, which must occur, by `to`.
 fn error_with(from: &str, to: &str) -> String {
     let text = text();
     assert!(text.contains(from), "{from:?} not in {text}");
@@ -202,7 +202,7 @@ fn only_linear_tetrahedra_make_bodies() {
         assert!(message.contains(&format!("type {kind}")), "{message}");
         assert!(message.contains(name) && message.contains(remedy), "{message}");
     }
-    // Quadrangles have as many nodes as tetrahedra, but cannot mesh a volume.
+    // Quadrangles have four nodes, like tetrahedra, but cannot mesh a volume.
     assert!(error_with("3 1 4 12", "3 1 3 12").contains("quadrangles"));
     let quads = error_with("2 7 2 2 \n33 2 3 4 \n34 2 4 8 \n", "2 7 3 1 \n33 2 3 4 8 \n");
     assert!(quads.contains("2-D entity 7") && quads.contains("quadrangles") && quads.contains("recombine"), "{quads}");
@@ -293,7 +293,7 @@ proptest! {
         }
         if let Ok(mesh) = parse(&bytes, 1.0) {
             prop_assert!(mesh.tets.iter().flatten().all(|node| (*node as usize) < mesh.nodes.len()));
-            // Any result is fine, only a panic is not.
+            // The result of `prepare` does not matter; only a panic is an error.
             let _ = prepare(mesh);
         }
     }

@@ -1,4 +1,4 @@
-//! Writes meshes in MSH 4.1, as compact as the format allows: one entity per body and set. Node sets are points.
+//! Writes meshes in compact MSH 4.1: one entity per body and per set. Node sets are written as points.
 
 use super::super::Mesh;
 
@@ -44,8 +44,8 @@ impl Sink {
     }
 }
 
-/// Returns the content of a mesh file, text or binary. Bodies are the volumes 1, 2, ..., triangle sets the surfaces
-/// 1, 2, ..., node sets the points 1, 2, ...
+/// Returns the content of a mesh file, as text or binary. Bodies become the volumes 1, 2, ..., triangle sets the
+/// surfaces 1, 2, ..., and node sets the points 1, 2, ...
 pub fn write(mesh: &Mesh, binary: bool) -> Vec<u8> {
     let mut sink = Sink { bytes: Vec::new(), binary };
     sink.text(if binary { "$MeshFormat\n4.1 1 8\n" } else { "$MeshFormat\n4.1 0 8\n" });

@@ -1,35 +1,35 @@
-//! Units of measurement for the forces and areas of a table, chosen by the largest value: impact forces are
-//! meganewtons on a unit of 40 t, but newtons on a unit in the flume.
+//! Units of measurement for the forces and areas of a table, chosen by the largest value. For example, impact forces
+//! are meganewtons on an armour unit of 40 t, but newtons on a model unit in the flume.
 
-/// A unit of measurement.
+/// A unit of measurement, such as kN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measure {
-    /// Its name.
+    /// Name of the unit of measurement, for the table.
     pub name: &'static str,
-    /// Its size in SI units.
+    /// Value of the unit of measurement in SI units.
     size: f64,
 }
 
 impl Measure {
-    /// Returns the unit for these forces [N].
+    /// Returns the unit of measurement for a table with these forces [N].
     pub fn of_forces(forces: impl Iterator<Item = f64>) -> Self {
         Self::holding(forces, [("N", 1.0), ("kN", 1e3), ("MN", 1e6)])
     }
 
-    /// Returns the unit for these areas [m2].
+    /// Returns the unit of measurement for a table with these areas [m2].
     pub fn of_areas(areas: impl Iterator<Item = f64>) -> Self {
-        // Square centimetres up to 0.1 m2.
+        // The factor 10 selects square centimetres for areas below 0.1 m2.
         Self::holding(areas.map(|area| 10.0 * area), [("cm\u{b2}", 1e-4), ("m\u{b2}", 1.0)])
     }
 
-    /// Returns the largest unit not larger than the largest value, or else the smallest unit.
+    /// Returns the largest of the `units` that does not exceed the largest value, or the first unit if all exceed it.
     fn holding<const N: usize>(values: impl Iterator<Item = f64>, units: [(&'static str, f64); N]) -> Self {
         let largest = values.fold(0.0, f64::max);
         let fitting = units.iter().rev().find(|(_, size)| *size <= largest).unwrap_or(&units[0]);
         Self { name: fitting.0, size: fitting.1 }
     }
 
-    /// Formats a value in this unit, without a minus sign before zero.
+    /// Formats an SI value in this unit of measurement, without a minus sign before zero.
     pub fn show(self, value: f64) -> String {
         format!("{:.3}", value / self.size + 0.0)
     }

@@ -14,7 +14,7 @@ use super::super::plot::{escape, short};
 use super::folder::RunFolder;
 use crate::simulation::breakage::results::{BROKEN, Breakage, UnitBreakage};
 
-/// Returns the content of the section; empty without a breakage analysis.
+/// Returns the content of the report section; empty without a breakage analysis.
 pub fn breakage(run: &RunFolder) -> String {
     let Some(breakage) = &run.breakage else { return String::new() };
     let mut html = introduction(breakage);
@@ -24,7 +24,7 @@ pub fn breakage(run: &RunFolder) -> String {
     html + &worst::worst(breakage, run)
 }
 
-/// Introduction: scale, damage by movement and by breakage, and the definition of a broken unit.
+/// Returns the introduction: scale, damage by movement and by breakage, and the definition of a broken unit.
 fn introduction(breakage: &Breakage) -> String {
     let count = |is: fn(&UnitBreakage) -> bool| breakage.units.iter().filter(|unit| is(unit)).count();
     let (units, analysed) = (breakage.units.len(), count(|unit| unit.broken.is_some()));
@@ -33,7 +33,7 @@ fn introduction(breakage: &Breakage) -> String {
     } else {
         format!("At prototype scale, {} times the size of the run", short(breakage.scale, 3))
     };
-    // A deep crack may need more than the computed time to split a unit.
+    // These units are listed, because a deep crack may split the unit after the end of the fracture run.
     let cracked = count(|unit| unit.broken == Some(false) && unit.crack_area_m2 > Some(0.0));
     let cracked = match cracked {
         0 => String::new(),
@@ -60,7 +60,7 @@ fn introduction(breakage: &Breakage) -> String {
     )
 }
 
-/// List of the failed fracture runs with their errors.
+/// Returns the list of the failed fracture runs with their errors, or an empty string.
 fn failures(breakage: &Breakage) -> String {
     let failed = breakage.impacts.iter().filter_map(|impact| Some((&impact.name, impact.failure.as_ref()?)));
     let items: String =

@@ -1,4 +1,4 @@
-//! Tables of units and impacts.
+//! Tables of the units and of the re-run impacts in the breakage section of the report.
 
 use super::super::super::plot::{escape, short};
 use super::super::folder::RunFolder;
@@ -8,7 +8,7 @@ use crate::simulation::breakage::froude::Froude;
 use crate::simulation::breakage::results::{Breakage, Found, Outcome, UnitBreakage};
 use crate::simulation::breakage::run::FOLDER;
 
-/// Residuals of the energy balance smaller than this are shown as "below" [%].
+/// A smaller residual of the energy balance is shown as "below 0.01" [%].
 const LEAST_RESIDUAL: f64 = 0.01;
 
 /// Formats a stress [Pa] in megapascals.
@@ -45,9 +45,9 @@ pub fn units(breakage: &Breakage) -> String {
          <th>Pieces</th><th>Broken</th></tr></thead>\n<tbody>\n{rows}\
          <tr class=\"sum\"><td>All</td><td></td><td>{} of {units}</td><td colspan=\"5\"></td><td>{} of {units}</td></tr>\n\
          </tbody></table></div>\n\
-         <figcaption>Peak impact force: the largest force of all recorded impacts, by Hertz's law. Nominal stress: the stress \
-         under such forces by beam theory. \u{3c3}\u{2081} (largest first principal stress), cracks and pieces are from \
-         the fracture runs: the worst of all impacts of a unit.</figcaption>\n",
+         <figcaption>Peak impact force: the largest force of all recorded impacts, by Hertz's law. Nominal stress: the \
+         largest stress of all recorded impacts, by beam theory. \u{3c3}\u{2081} (first principal stress), crack area \
+         and number of pieces are the largest values in the fracture runs of the unit.</figcaption>\n",
         force.name,
         area.name,
         count(|unit| unit.damaged),
@@ -59,7 +59,7 @@ pub fn units(breakage: &Breakage) -> String {
 /// Table of the impacts that were re-run at prototype scale.
 pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
     if breakage.impacts.is_empty() {
-        return "<p>No impact was re-run: none was as hard as <code>breakage.select</code> asks for.</p>\n".to_owned();
+        return "<p>No impact was re-run, because no impact fulfilled <code>breakage.select</code>.</p>\n".to_owned();
     }
     let found = || breakage.impacts.iter().flat_map(|impact| &impact.found);
     let area = Measure::of_areas(found().map(|found| found.crack_area_m2));
@@ -97,15 +97,16 @@ pub fn impacts(breakage: &Breakage, run: &RunFolder) -> String {
          <div class=\"scroll\"><table>\n<thead><tr><th>Unit</th><th>Hits</th><th>Flume time [s]</th><th>Approach velocity, run [m/s]</th>\
          <th>Approach velocity, prototype [m/s]</th><th class=\"words\">Method</th><th>\u{3c3}\u{2081} [MPa]</th><th>Crack area [{}]</th><th>Pieces</th>\
          <th>Energy residual [%]</th><th>Details</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
-         <figcaption>Approach velocities scale with the square root of length (Froude). Collision: both bodies collide again \
-         from their positions and velocities just before the impact. Recorded forces: the forces of the run act on the unit \
-         alone. Two values in a cell: first the unit, then the unit that it hit. Energy residual: error of the energy balance, \
-         relative to the largest kinetic energy.</figcaption>\n",
+         <figcaption>Approach velocities scale with the square root of length (Froude). Method \"collision\": both \
+         bodies start at their positions and velocities just before the impact and collide again. Method \"recorded \
+         forces\": the recorded forces of contacts and water act on the unit, without other bodies. Two values in a \
+         cell: first the unit, then the unit that it hit. Energy residual: error of the energy balance, relative to \
+         the largest kinetic energy.</figcaption>\n",
         area.name
     )
 }
 
-/// Name of the body that the unit hit.
+/// Returns the name of the body that the unit hit, for the table.
 pub fn partner(impact: &Outcome) -> String {
     impact.partner.map_or("bed or wall".to_owned(), |unit| format!("unit {unit}"))
 }
@@ -122,7 +123,7 @@ fn percent(ratio: f64) -> String {
     if percent < LEAST_RESIDUAL { format!("below {LEAST_RESIDUAL}") } else { short(percent, 2) }
 }
 
-/// Link to the report of an impact, or a dash if there is none.
+/// Returns a link to the report of an impact, or a dash if the report does not exist.
 fn link(impact: &Outcome, run: &RunFolder) -> String {
     let path = format!("{FOLDER}/{}/report.html", impact.name);
     if run.has(&path) { format!("<a href=\"{}\">report</a>", escape(&path)) } else { "\u{2013}".to_owned() }

@@ -7,7 +7,7 @@ use crate::report::fracture::pictures_of_impact_and_end;
 use crate::simulation::breakage::results::{Breakage, Found, Outcome};
 use crate::simulation::breakage::run::FOLDER;
 
-/// Pictures of the impact with the largest crack area, or a note that there are none.
+/// Returns the pictures of the worst impact, or a note if its folder has no surface files.
 pub fn worst(breakage: &Breakage, run: &RunFolder) -> String {
     let Some(impact) = worst_impact(breakage) else { return String::new() };
     let words = format!(
@@ -24,7 +24,7 @@ pub fn worst(breakage: &Breakage, run: &RunFolder) -> String {
     let pictures = match pictures_of_impact_and_end(&run.dir.join(FOLDER).join(&impact.name)) {
         Ok(Some(pictures)) => pictures,
         Ok(None) => "<p>No pictures of this impact: its folder has no surface files.</p>\n".to_owned(),
-        // Without these files the rest of the report is still valid.
+        // The error is only noted, because the other sections of the report do not need these files.
         Err(error) => format!("<p>No pictures of this impact: {}.</p>\n", escape(&error.to_string())),
     };
     words + &pictures
@@ -33,14 +33,14 @@ pub fn worst(breakage: &Breakage, run: &RunFolder) -> String {
 /// Returns the impact with the largest crack area in one unit, or with the largest sigma_1 if no unit cracked.
 fn worst_impact(breakage: &Breakage) -> Option<&Outcome> {
     let computed = breakage.impacts.iter().filter(|impact| !impact.found.is_empty());
-    // Reversed, because `max_by` returns the last of equals and the hardest impact is first.
+    // The order is reversed, because the hardest impact is first and `max_by` returns the last of equal impacts.
     computed.rev().max_by(|a, b| {
         let ([area_a, sigma_a], [area_b, sigma_b]) = (largest_area_and_stress(a), largest_area_and_stress(b));
         area_a.total_cmp(&area_b).then(sigma_a.total_cmp(&sigma_b))
     })
 }
 
-/// Largest crack area [m2] and largest first principal stress [Pa] of the units in an impact.
+/// Returns the largest crack area [m2] and the largest first principal stress [Pa] of the units in an impact.
 fn largest_area_and_stress(impact: &Outcome) -> [f64; 2] {
     // Adding zero removes the sign of a negative zero.
     let largest = |quantity: fn(&Found) -> f64| impact.found.iter().map(quantity).fold(0.0, f64::max) + 0.0;

@@ -1,7 +1,7 @@
 //! Surface level at gauges from OpenFOAM's function objects.
 //!
-//! `interfaceHeight` writes all gauges together. Where it is missing (as in Debian's OpenFOAM 1912), `probes` of the
-//! volume fraction of water on a vertical give the surface level: the depth of water between the lowest and highest.
+//! `interfaceHeight` writes all gauges together. If it is not available (as in Debian's OpenFOAM 1912), use `probes` of
+//! the volume fraction of water on a vertical line. The depth of water between the probes gives the surface level.
 
 use std::path::Path;
 
@@ -10,9 +10,9 @@ use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 use super::{interface_height, probes};
 
-/// Reads the surface level at the named gauges. If `folder` has a folder with the name of a gauge, each gauge has a
-/// folder with probes of `water` on a vertical. Otherwise `folder` is that of `interfaceHeight`, whose locations are
-/// the gauges in their order.
+/// Reads the surface level at the gauges `names`. If `folder` has a subfolder with the name of a gauge, every gauge
+/// must have a subfolder, with probes of `water` on a vertical line. Otherwise `folder` must be the output of
+/// `interfaceHeight`, whose locations are the gauges in the same order.
 ///
 /// # Errors
 /// If a folder or file cannot be read or understood.
@@ -33,7 +33,7 @@ mod tests {
     const FRAME: Frame = Frame { up: Up::Z, origin_z_m: 0.0 };
 
     #[test]
-    fn probes_of_water_and_positions_give_the_same_surface() {
+    fn probes_and_interface_height_give_the_same_surface() {
         let folder = tempfile::tempdir().unwrap();
         let start = folder.path().join("post/front/0");
         fs::create_dir_all(&start).unwrap();

@@ -1,6 +1,7 @@
-//! Function object `interfaceHeight`: surface level at its locations, integrated from the water above them.
+//! Output of the function object `interfaceHeight`: the surface level at each location, integrated from the volume
+//! fraction of water above the location.
 //!
-//! `position.dat` has rows `t (x y z) (x y z) ...` with the position of the surface for each location.
+//! `position.dat` has rows `t (x y z) (x y z) ...` with the position of the surface at each location.
 
 use std::path::Path;
 
@@ -11,7 +12,7 @@ use super::starts::Joined;
 
 const FILE: &str = "position.dat";
 
-/// Reads the surface level from `<folder>/<t0>/position.dat`, at a location counted from 0.
+/// Reads the surface level from `<folder>/<t0>/position.dat`; `location` is the number of the location, from 0.
 ///
 /// # Errors
 /// If a file cannot be read, a line is wrong, the location does not exist, or times have a gap.

@@ -1,9 +1,9 @@
-//! Sampled lines: `postProcessing/<name>/<t>/<line>_U.xy`, one row per point with coordinates and components.
+//! Sampled lines: `postProcessing/<name>/<t>/<line>_U.xy`, one row per point with coordinates and vector components.
 //!
-//! The function object `sets` writes them with `setFormat raw; fields (U alpha.water);` and a line with `axis z` (or y,
-//! the vertical axis) or `axis xyz`; `axis distance` lacks the level. Up to v2112 each type of field has its own file,
-//! `<line>_U.xy` and `<line>_alpha.water.xy`. Later versions write `<line>_alpha.water_U.xy`, with the volume fraction
-//! of water first.
+//! The function object `sets` writes these files with `setFormat raw; fields (U alpha.water);` and a line with `axis z`
+//! (or y, the vertical axis) or `axis xyz`. Do not use `axis distance`, because it does not write the level z. Up to
+//! v2112 each type of field has its own file, `<line>_U.xy` and `<line>_alpha.water.xy`. Later versions write
+//! `<line>_alpha.water_U.xy`, with the volume fraction of water first.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use super::frame::Frame;
 use super::samples::{Sample, Vertical, in_water};
 use super::starts::time_folders;
 
-/// Reads the sampled line with the given name and leaves out points in air.
+/// Reads the velocities on the sampled line `line` at all times and leaves out points in air.
 ///
 /// # Errors
 /// If a file cannot be read, a row is wrong, or the values are implausible at the position.
@@ -30,7 +30,7 @@ pub fn read(vertical: &Vertical, line: &str, place: &Place) -> Result<VelocityTa
     VelocityTable { times_s, surface_z_m, heights_m, velocities_m_s }.checked(vertical.folder, place)
 }
 
-/// Reads the points of one time.
+/// Reads the samples in the folder of one time.
 fn read_time(vertical: &Vertical, line: &str, folder: &Path) -> Result<Vec<Sample>, ExternalError> {
     let path = |fields: &str| folder.join(format!("{line}_{fields}.xy"));
     let Some(water) = vertical.water else {
@@ -45,28 +45,28 @@ fn read_time(vertical: &Vertical, line: &str, folder: &Path) -> Result<Vec<Sampl
     let velocity = read_points(vertical.frame, &path(vertical.velocity), 3)?;
     let shares = read_points(vertical.frame, &path(water), 1)?;
     if velocity.len() != shares.len() {
-        let problem = format!("{} point(s), but {} with a velocity", shares.len(), velocity.len());
+        let problem = format!("{} volume fraction(s), but {} velocities", shares.len(), velocity.len());
         return Err(ExternalError::file(&path(water), problem, "sample both fields in one function object"));
     }
     let pair = |(u, share): (&Point, &Point)| Sample { z_m: u.z_m, u_m_s: u.values[0], water: share.values[0] };
     Ok(velocity.iter().zip(&shares).map(pair).collect())
 }
 
-/// A point of a file.
+/// A point of a sampled line: level z [m] and field values.
 struct Point {
     z_m: f64,
     values: Vec<f64>,
 }
 
-/// Reads the points of a file with the given number of values each. Some types of line list a point on a cell face
-/// twice; only the first is kept.
+/// Reads the points of a file with `values` field values per point. Some types of line list a point on a cell face
+/// twice; only the first entry is kept.
 fn read_points(frame: Frame, path: &Path, values: usize) -> Result<Vec<Point>, ExternalError> {
     let text =
         TextFile::read(path, "sample `fields (U alpha.water)` with `setFormat raw`, and check the name of the line")?;
     let mut points: Vec<Point> = Vec::new();
     for (line, words) in text.lines().filter(|(_, words)| !words.starts_with('#')) {
         let mut numbers = text.numbers(line, words)?;
-        // One coordinate along the axis, or all three.
+        // A row has one coordinate along the axis, or all three coordinates.
         let coordinates = numbers.len().checked_sub(values).filter(|c| [1, 3].contains(c));
         let Some(coordinates) = coordinates else {
             let problem = format!("{} numbers, expected {} or {}", numbers.len(), values + 1, values + 3);
@@ -138,6 +138,6 @@ mod tests {
         let ragged = message(&[("gauge_U.xy", "0.25 1 0 0\n0.5 2 0\n")], None);
         assert!(ragged.contains("0/gauge_U.xy: line 2: 3 numbers, expected 4 or 6; write one or three"), "{ragged}");
         let files = [("gauge_U.xy", "0.25 1 0 0\n0.5 2 0 0\n"), ("gauge_alpha.water.xy", "0.25 1\n")];
-        assert!(message(&files, Some("alpha.water")).contains("1 point(s), but 2 with a velocity; sample both"));
+        assert!(message(&files, Some("alpha.water")).contains("1 volume fraction(s), but 2 velocities; sample both"));
     }
 }

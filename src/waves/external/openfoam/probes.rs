@@ -1,7 +1,9 @@
-//! Probes: `postProcessing/<name>/<t0>/U` with lines `# Probe 0 (x y z)` and one row `t (ux uy uz) ...` per time.
+//! Output of `probes`: `postProcessing/<name>/<t0>/U` with lines `# Probe 0 (x y z)` and one row `t (ux uy uz) ...` per
+//! time.
 //!
-//! The volume fraction of water in `alpha.water`, in the same folder, shows which probes are in air. A probe outside
-//! the mesh has `# Not Found` after its position, and either a value of -1e300 or none (`includeOutOfBounds false`).
+//! The file `alpha.water` in the same folder has the volume fraction of water, which shows the probes in air. A probe
+//! outside the mesh has `# Not Found` after its position. It has either a value of -1e300 or, with
+//! `includeOutOfBounds false`, no value.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -13,14 +15,14 @@ use super::frame::Frame;
 use super::samples::{OUTSIDE_MESH, Sample, Vertical, in_water};
 use super::starts::Joined;
 
-/// Largest horizontal distance of probes on one vertical [m].
+/// Largest horizontal distance between probes that count as one vertical line [m].
 const ONE_PLACE_M: f64 = 1e-3;
 
-/// Reads probes and leaves out values in air.
+/// Reads the velocities at the probes on a vertical line and leaves out values in air.
 ///
 /// # Errors
-/// If a file cannot be read, a line is wrong, or the probes are not on one vertical. If velocity and volume fraction
-/// differ in probes or times, or the values are implausible at the position.
+/// If a file cannot be read, a line is wrong, or the probes are not on one vertical line. Also if the probes or times
+/// of velocity and volume fraction differ, or the values are implausible at the position.
 pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalError> {
     let velocity = Joined::read(probes.folder, probes.velocity)?;
     let points = Points::from_comments(&velocity, 3, probes.folder, probes.velocity)?;
@@ -38,8 +40,8 @@ pub fn read(probes: &Vertical, place: &Place) -> Result<VelocityTable, ExternalE
     VelocityTable { times_s: velocity.times_s, surface_z_m, heights_m, velocities_m_s }.checked(probes.folder, place)
 }
 
-/// Reads the surface level from the volume fraction of water on a vertical: the level of the lowest probe plus the
-/// depth of water between the lowest and highest probe. Below the lowest probe there must be only water.
+/// Reads the surface level from the volume fraction of water on a vertical line: the level of the lowest probe plus the
+/// depth of water between the lowest and the highest probe. There must be only water below the lowest probe.
 ///
 /// # Errors
 /// See [`read`].
@@ -67,7 +69,7 @@ pub fn read_surface(folder: &Path, water: &str, frame: Frame) -> Result<SurfaceS
 struct Points(Vec<[f64; 3]>);
 
 impl Points {
-    /// Positions of the probes from the comments of a field with the given number of components.
+    /// Reads the positions of the probes from the comments in the file of a field with `components` components.
     fn from_comments(joined: &Joined, components: usize, folder: &Path, field: &str) -> Result<Self, ExternalError> {
         let probes: Vec<([f64; 3], bool)> = joined.comments.iter().filter_map(|comment| parse_probe(comment)).collect();
         let columns = joined.rows.first().map_or(components * probes.len(), Vec::len);
@@ -83,11 +85,11 @@ impl Points {
         Err(ExternalError::file(
             folder,
             format!("`{field}` has {columns} columns for {} probes", probes.len()),
-            format!("it must have {components} per probe, and a line `# Probe 0 (x y z)` per probe"),
+            format!("it must have {components} column(s) per probe, and a line `# Probe 0 (x y z)` per probe"),
         ))
     }
 
-    /// Levels z of the probes [m], if they are on one vertical.
+    /// Returns the levels z of the probes [m]; an error if the probes are not on one vertical line.
     fn levels_m(&self, probes: &Vertical) -> Result<Vec<f64>, ExternalError> {
         let first = probes.frame.place(self.0[0]);
         let is_off_vertical = |point: &&[f64; 3]| {
@@ -98,14 +100,14 @@ impl Points {
             None => Ok(self.0.iter().map(|&point| probes.frame.z(point)).collect()),
             Some(point) => Err(ExternalError::file(
                 probes.folder,
-                format!("the probes at {:?} and {point:?} are not on one vertical", self.0[0]),
-                "write one vertical per function object, and check the vertical axis",
+                format!("the probes at {:?} and {point:?} are not on one vertical line", self.0[0]),
+                "write one vertical line per function object, and check the vertical axis",
             )),
         }
     }
 }
 
-/// Parses a comment line of a probe: its position and whether it is inside the mesh.
+/// Parses the comment line of a probe. Returns its position, and true if it is inside the mesh.
 fn parse_probe(comment: &str) -> Option<([f64; 3], bool)> {
     let (position, remark) = comment.strip_prefix("Probe")?.split_once('(')?.1.split_once(')')?;
     let numbers: Vec<f64> = position.split_whitespace().map_while(|word| word.parse().ok()).collect();
@@ -118,7 +120,7 @@ fn read_water(folder: &Path, field: &str, velocity: &Joined, points: &Points) ->
     if Points::from_comments(&water, 1, folder, field)? == *points && water.times_s == velocity.times_s {
         return Ok(water.rows);
     }
-    let problem = format!("`{field}` has other probes or times than the velocity");
+    let problem = format!("the probes or times of `{field}` differ from those of the velocity");
     Err(ExternalError::file(folder, problem, "sample both fields in one function object"))
 }
 
@@ -137,8 +139,8 @@ pub fn write_velocities(
     write_field(&table.times_s, levels_m, x_m, frame, value, out)
 }
 
-/// Writes the volume fraction of water at the probes of [`write()`]: 1 up to the surface and 0 above. It is 1
-/// everywhere if the table has no surface levels.
+/// Writes the volume fraction of water at the probes of [`write_velocities`]: 1 up to the surface and 0 above it. If
+/// the table has no surface levels, the volume fraction is 1 everywhere.
 ///
 /// # Errors
 /// If writing fails.
@@ -252,17 +254,17 @@ mod tests {
         };
         let with = read(rows);
         assert_eq!((&with.heights_m[1], &with.velocities_m_s[1]), (&vec![-0.75, -0.5], &vec![1.0, 2.0]));
-        // The same file with `includeOutOfBounds false`.
+        // The same file as written with `includeOutOfBounds false`.
         assert_eq!(read(&rows.replace(" (-1e+300 -1e+300 -1e+300)", "")), with);
     }
 
     #[test]
-    fn errors_name_mismatched_probes() {
+    fn error_names_probes_that_do_not_match() {
         let folder = tempfile::tempdir().unwrap();
         write_start(folder.path(), "0", &table(0, 5, 0.0));
         let message = |probes: Vertical| read(&probes, &PLACE).unwrap_err().to_string();
         let up = Vertical { frame: Frame { up: Up::Z, origin_z_m: 0.0 }, ..probes(folder.path()) };
-        assert!(message(up).contains("are not on one vertical; write one vertical per function object, and check"));
+        assert!(message(up).contains("are not on one vertical line; write one vertical line per function object"));
         assert!(
             message(Vertical { velocity: "alpha.water", ..up })
                 .contains("`alpha.water` has 4 columns for 4 probes; it must")
@@ -274,7 +276,8 @@ mod tests {
         let shorter = fs::read_to_string(&path).unwrap().trim_end().rsplit_once('\n').unwrap().0.to_owned();
         fs::write(path, shorter).unwrap();
         assert!(message(probes(folder.path())).ends_with(
-            "`alpha.water` has other probes or times than the velocity; sample both fields in one function object"
+            "the probes or times of `alpha.water` differ from those of the velocity; sample both fields in one \
+             function object"
         ));
     }
 }

@@ -1,17 +1,17 @@
-//! A sampled vertical and its samples in the water at one time.
+//! A vertical line sampled by OpenFOAM, and the selection of its samples in the water at one time.
 
 use std::path::Path;
 
 use super::super::surface::SurfaceSeries;
 use super::frame::Frame;
 
-/// Least volume fraction of water of a sample in the water [-]; samples below are in air and are left out.
+/// Smallest volume fraction of water of a sample in the water [-]; samples with less water are in air and are left out.
 const WATER: f64 = 0.5;
 
-/// Values above this are outside the mesh; OpenFOAM writes about 1e300 there.
+/// A larger magnitude marks a point outside the mesh; OpenFOAM writes about 1e300 there.
 pub(super) const OUTSIDE_MESH: f64 = 1e30;
 
-/// A vertical sampled by a function object.
+/// A vertical line sampled by an OpenFOAM function object.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertical<'a> {
     /// Folder `postProcessing/<name>`.
@@ -20,7 +20,7 @@ pub struct Vertical<'a> {
     pub velocity: &'a str,
     /// Name of the volume fraction field, such as `alpha.water`; `None` if every sample is always in water.
     pub water: Option<&'a str>,
-    /// Axes of OpenFOAM.
+    /// Axes of the OpenFOAM run.
     pub frame: Frame,
     /// Surface level, if known.
     pub surface: Option<&'a SurfaceSeries>,
@@ -37,9 +37,9 @@ pub(super) struct Sample {
     pub(super) water: f64,
 }
 
-/// Levels [m] and velocities [m/s] of the samples inside the mesh and in water, from the bed upwards.
+/// Returns levels z [m] and velocities [m/s] of the samples inside the mesh and in water, from the bed upwards.
 pub(super) fn in_water(samples: impl Iterator<Item = Sample>) -> (Vec<f64>, Vec<f64>) {
-    // NaN is kept, so that the checks of the table report it.
+    // NaN is kept, so that `VelocityTable::checked` reports it.
     let mut kept: Vec<Sample> = samples.filter(|s| !(s.u_m_s.abs() > OUTSIDE_MESH || s.water < WATER)).collect();
     kept.sort_by(|a, b| a.z_m.total_cmp(&b.z_m));
     kept.iter().map(|s| (s.z_m, s.u_m_s)).unzip()

@@ -1,6 +1,6 @@
-//! Joins the files of one field over all starts of the run, `<folder>/<t0>/<file>`.
+//! Joins the files of one field over all starts (restarts) of an OpenFOAM run, `<folder>/<t0>/<file>`.
 //!
-//! `#` begins a comment. Other rows are a time and numbers; the components of a vector are in brackets.
+//! A line that begins with `#` is a comment. Other lines have a time and numbers, with vectors in round brackets.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,18 +8,18 @@ use std::path::{Path, PathBuf};
 use super::super::error::ExternalError;
 use super::super::text_file::TextFile;
 
-/// Rows of all starts in order of time.
+/// Rows of all starts of a run, in order of time.
 pub(super) struct Joined {
     /// Comments without their `#`, the same in every start.
     pub(super) comments: Vec<String>,
     /// Times [s].
     pub(super) times_s: Vec<f64>,
-    /// Numbers after the time, equally many in every row.
+    /// Numbers after the time, one list per time; all lists have the same length.
     pub(super) rows: Vec<Vec<f64>>,
 }
 
 impl Joined {
-    /// Reads `<folder>/<t0>/<file>` for every t0 that has the file.
+    /// Reads and joins `<folder>/<t0>/<file>` of every start time t0 that has the file.
     pub(super) fn read(folder: &Path, file: &str) -> Result<Self, ExternalError> {
         let mut joined: Option<Self> = None;
         for (_, start) in time_folders(folder)? {
@@ -36,7 +36,7 @@ impl Joined {
         joined.ok_or_else(|| {
             ExternalError::file(
                 folder,
-                format!("no start time folder has a file `{file}`"),
+                format!("no folder of a start time has a file `{file}`"),
                 "give the folder `postProcessing/<name>`, and sample this field",
             )
         })
@@ -75,11 +75,11 @@ impl Joined {
         Ok(start)
     }
 
-    /// Appends a later start, which replaces earlier rows from its first time on.
+    /// Appends the rows of a later start. They replace earlier rows from the first time of the later start onwards.
     fn append(&mut self, later: Self, path: &Path) -> Result<(), ExternalError> {
         let width = |start: &Self| start.rows.first().map(Vec::len);
         if later.comments != self.comments || (width(self).zip(width(&later)).is_some_and(|(a, b)| a != b)) {
-            let problem = "the heading or number of columns differs from that of the earlier starts";
+            let problem = "the heading or number of columns differs from the files of earlier starts";
             return Err(ExternalError::file(path, problem, "delete the folders of runs with other probes"));
         }
         let Some(first) = later.times_s.first() else { return Ok(()) };
@@ -92,7 +92,7 @@ impl Joined {
     }
 }
 
-/// Subfolders whose names are times, with these times [s], in order of time.
+/// Returns the subfolders whose names are times, with the times [s], in order of time.
 pub(super) fn time_folders(folder: &Path) -> Result<Vec<(f64, PathBuf)>, ExternalError> {
     let unreadable = |reason: std::io::Error| ExternalError::Read {
         file: folder.to_owned(),
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn errors_name_missing_files_and_other_probes() {
-        assert!(message(&[]).starts_with("probes: no start time folder has a file `U`; give the folder"));
+        assert!(message(&[]).starts_with("probes: no folder of a start time has a file `U`; give the folder"));
         assert!(message(&[("0", "# a\n1 1\n"), ("1", "# b\n2 1\n")]).starts_with("probes/1/U: the heading or number"));
         let missing = Joined::read(Path::new("no/such"), "U").err().unwrap().to_string();
         assert!(missing.starts_with("no/such: cannot be read: ") && missing.ends_with("`postProcessing/<name>`"));

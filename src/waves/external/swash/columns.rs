@@ -1,4 +1,4 @@
-//! Columns of a table and their values.
+//! Columns of a SWASH table and their values.
 
 use std::path::PathBuf;
 
@@ -6,22 +6,22 @@ use super::TableFile;
 use crate::waves::external::error::ExternalError;
 use crate::waves::external::text_file::TextFile;
 
-/// A column of a table.
+/// Meaning of a column of a SWASH table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Column {
     /// Time [s]: `TSEC`.
     Tsec,
     /// Surface level above the datum [m]: `WATL`.
     Watl,
-    /// Depth-averaged velocity along x [m/s]: x of `VEL`, or `VKSI`.
+    /// Depth-averaged velocity along x [m/s]: the x component of `VEL`, or `VKSI`.
     VelX,
-    /// Velocity along x of a layer [m/s], counted from 1 at the surface: x of `VELK`, or `VKSIK`.
+    /// Velocity of a layer along x [m/s]: the x component of `VELK`, or `VKSIK`. The surface layer is number 1.
     VelkX(usize),
     /// Any other column, such as velocities along y; its values need not be numbers.
     Ignored,
 }
 
-/// Columns of `TSEC VELK` for a number of layers.
+/// Returns the columns of the table `TSEC VELK` for a number of layers.
 pub fn velk_columns(layers: usize) -> Vec<Column> {
     let mut columns = vec![Column::Tsec];
     columns.extend((1..=layers).map(Column::VelkX));
@@ -59,7 +59,7 @@ impl Table {
         Ok(Self { path: text.path().to_owned(), columns, rows })
     }
 
-    /// Values of a column.
+    /// Values of a column, one per row; an error if the table does not have the column.
     pub(super) fn column(&self, column: Column) -> Result<Vec<f64>, ExternalError> {
         match self.columns.iter().position(|&c| c == column) {
             Some(index) => Ok(self.rows.iter().map(|row| row[index]).collect()),
@@ -76,7 +76,7 @@ impl Table {
         }
     }
 
-    /// Velocities along x, one list per layer from the surface downwards; a single list if they are depth-averaged.
+    /// Velocities along x, one list per layer from the surface downwards; one list if they are depth-averaged.
     pub(super) fn layers(&self) -> Result<Vec<Vec<f64>>, ExternalError> {
         let numbers = self.columns.iter().filter_map(|column| match column {
             Column::VelkX(layer) => Some(*layer),
@@ -89,7 +89,7 @@ impl Table {
     }
 }
 
-/// Columns that a header line names; `None` if it names no known column.
+/// Returns the columns that a header line names; `None` if it names no known column.
 fn parse_header(comment: &str) -> Option<Vec<Column>> {
     let mut columns = Vec::new();
     for name in comment.split_whitespace() {
@@ -99,7 +99,7 @@ fn parse_header(comment: &str) -> Option<Vec<Column>> {
             "watlev" | "watl" => Column::Watl,
             "x-vel" | "vksi" => Column::VelX,
             _ => match name.strip_prefix("x-vel_k").or_else(|| name.strip_prefix("vksi_k")) {
-                // Names without a number repeat for every layer.
+                // Without layer numbers, the same name repeats for every layer.
                 Some("") => Column::VelkX(1 + columns.iter().filter(|c| matches!(c, Column::VelkX(_))).count()),
                 Some(number) => number.parse().map_or(Column::Ignored, Column::VelkX),
                 None => Column::Ignored,
@@ -158,8 +158,8 @@ mod tests {
         );
         assert_eq!(
             message("0 ******* 0\n", &columns),
-            "line 1: `*******` is not a number; the number was too wide for its column; write the table without \
-             header"
+            "line 1: `*******` is not a number; asterisks replace a number that is too wide for its column; write the \
+             table without header"
         );
         assert_eq!(
             message("SWASH   1   Swash standard file, version\n", &columns),

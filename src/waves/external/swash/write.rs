@@ -5,16 +5,16 @@ use std::io::{self, Write};
 use super::layer_middles;
 use crate::waves::external::table::{Place, VelocityTable};
 
-/// Whether a table begins with a header.
+/// Header of a SWASH table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Heading {
     /// `HEADER`: names and units of the columns.
     Names,
-    /// `NOHEADER`.
+    /// `NOHEADER`: no header.
     None,
 }
 
-/// Writes `TSEC WATL`; a table without surface levels gives still water.
+/// Writes the SWASH table `TSEC WATL`. If `table` has no surface levels, still water is written.
 ///
 /// # Errors
 /// If writing fails.
@@ -27,8 +27,8 @@ pub fn write_level(table: &VelocityTable, place: &Place, heading: Heading, mut o
     Ok(())
 }
 
-/// Writes `TSEC VELK` for layers with the given shares of the depth [-], from the surface downwards; velocities along y
-/// are 0.
+/// Writes the SWASH table `TSEC VELK` for layers with the given shares of the depth [-], from the surface downwards.
+/// Velocities along y are 0.
 ///
 /// # Errors
 /// If writing fails.

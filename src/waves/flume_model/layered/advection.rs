@@ -64,7 +64,7 @@ impl LayeredFlume {
         let w = self.w[cell * k + m];
         let momentum_flux = |face: usize| {
             let flux = self.flux[face * k + m];
-            // Water that passes an end has the w of the end cell.
+            // Water that flows through an end has the w of the end cell, so the term is zero.
             let is_inner = face > 0 && face < self.grid.cells();
             if flux == 0.0 || !is_inner { 0.0 } else { flux * (self.w_at_face(face, m, flux) - w) }
         };

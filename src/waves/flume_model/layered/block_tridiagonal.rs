@@ -14,7 +14,7 @@ pub(super) struct BlockTridiagonal {
 }
 
 impl BlockTridiagonal {
-    /// Creates a system of zeros.
+    /// Creates a system whose entries are all zero.
     pub(super) fn new(blocks: usize, size: usize) -> Self {
         let square = blocks * size * size;
         Self {
@@ -34,22 +34,23 @@ impl BlockTridiagonal {
         self.right.fill(0.0);
     }
 
-    /// Adds to `D_block[row, column]`.
+    /// Adds `value` to `D_block[row, column]`.
     pub(super) fn add_diagonal(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.diagonal[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Adds to `U_block[row, column]`, which couples unknown `row` of the block to unknown `column` of the next.
+    /// Adds `value` to `U_block[row, column]`, which couples unknown `row` of the block to unknown `column` of the next
+    /// block.
     pub(super) fn add_upper(&mut self, block: usize, row: usize, column: usize, value: f64) {
         self.upper[(block * self.size + row) * self.size + column] += value;
     }
 
-    /// Adds to `r_block[row]`.
+    /// Adds `value` to `r_block[row]`.
     pub(super) fn add_right(&mut self, block: usize, row: usize, value: f64) {
         self.right[block * self.size + row] += value;
     }
 
-    /// Unknowns after [`Self::solve`].
+    /// Returns the unknowns of all blocks; call it after [`Self::solve`].
     pub(super) fn unknowns(&self) -> &[f64] {
         &self.right
     }
@@ -65,6 +66,7 @@ impl BlockTridiagonal {
         }
     }
 
+    /// Eliminates q_{i-1} from row i:
     /// S = D_i - U_{i-1}^T C_{i-1}, C_i = S^-1 U_i, r_i = S^-1 (r_i - U_{i-1}^T r_{i-1}).
     fn eliminate(&mut self, block: usize) {
         let k = self.size;
@@ -90,7 +92,7 @@ impl BlockTridiagonal {
         solve_block(&mut self.pivot, eliminated, &mut self.right[block * k..(block + 1) * k]);
     }
 
-    /// q_i = r_i - C_i q_{i+1}.
+    /// Computes the unknowns of a block from those of the next block: q_i = r_i - C_i q_{i+1}.
     fn substitute_back(&mut self, block: usize) {
         let k = self.size;
         for row in 0..k {
@@ -173,7 +175,7 @@ mod tests {
                         left += upper[((block - 1) * k + column) * k + row] * q[(block - 1) * k + column];
                     }
                 }
-                // The 15 x 15 system is well conditioned, so only rounding remains.
+                // The 15 x 15 system is well conditioned, so only rounding errors remain.
                 assert!((left - right[block * k + row]).abs() < 1e-12);
             }
         }

@@ -7,12 +7,13 @@
 //! ```
 //!
 //! with the mean velocity U over the depth H. The bed shear stress rho c_f |U| U is distributed over the layers in
-//! proportion to their velocity. The model has no turbulence that carries stress upwards: a stress on the lowest layer
-//! alone would let the other layers slide over it. Zijlema, Stelling & Smit (2011), equation 6, for one layer.
+//! proportion to their velocity. The model has no turbulent stress between layers, so a stress on the lowest layer
+//! alone would let the other layers slide over it. With one layer, this is equation 6 of Zijlema, Stelling & Smit
+//! (2011).
 //!
-//! On a smooth bed the stress is 3 mu U / H of a laminar film or, if larger, that of Blasius's (1913) law. Blasius's
-//! law for smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law holds for
-//! rough beds; it would slow thin water on glass too much.
+//! On a smooth bed the stress is the larger of 3 mu U / H (laminar film) and Blasius's (1913) law. Blasius's law for
+//! smooth walls is f = 0.316 (4 Re)^(-1/4) with c_f = f / 8 (Chow 1959, equation 1-8). Manning's law is valid for rough
+//! beds; it would slow shallow water on glass too much.
 
 use super::{DRY_DEPTH_M, Friction, LayeredFlume};
 
@@ -31,7 +32,8 @@ impl LayeredFlume {
         friction + self.sponge_rate[face]
     }
 
-    /// Depth for friction at a face [m]: the mean of both sides, or the larger one next to a thin or dry cell.
+    /// Depth for friction at a face [m]: the mean of both cells, or the larger depth if one cell has only a film or is
+    /// dry.
     fn friction_depth(&self, face: usize) -> f64 {
         let inner = face.clamp(1, self.grid.cells() - 1);
         let [left, right] = [self.depth[inner - 1], self.depth[inner]];
@@ -44,7 +46,7 @@ fn manning_coefficient(gravity: f64, n: f64, depth: f64) -> f64 {
     gravity * n * n / depth.cbrt()
 }
 
-/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-]; finite in still water, where it has no effect.
+/// c_f = max(3 / Re, 0.0279 Re^(-1/4)) [-]; finite in still water, where friction has no effect.
 fn smooth_coefficient(reynolds: f64) -> f64 {
     let reynolds = reynolds.max(1e-6);
     (3.0 / reynolds).max(0.0279 * reynolds.powf(-0.25))

@@ -1,13 +1,13 @@
 //! Cells that follow the piston: an arbitrary Lagrangian-Eulerian (ALE) grid in one dimension.
 //!
-//! Near the piston the faces move in proportion, x = x0 + X (1 - x0 / L) for x0 < L; beyond L they are fixed. The
-//! piston is the first face and all fluxes are relative to the moving faces. So the volume of water is conserved to
-//! rounding for any stroke. (An inflow at x = 0 with the piston's velocity would need a correction for the displaced
-//! water and would start the wave at the wrong position.)
+//! Near the piston, the faces move by a share of its displacement X: x = x0 + X (1 - x0 / L) for x0 < L. Beyond L they
+//! are fixed. The piston is the first face, and all fluxes are relative to the moving faces. Therefore the volume of
+//! water is conserved to rounding for any stroke. (An inflow at x = 0 with the piston's velocity would need a
+//! correction for the displaced water and would start the wave at the wrong position.)
 
 use crate::geometry::profile::Profile;
 
-/// Number of samples for the mean bed level of a cell.
+/// Number of bed levels that are averaged for the mean bed level of a cell.
 const BED_SAMPLES: usize = 8;
 
 /// Cells from the piston to the end of the flume.
@@ -16,9 +16,9 @@ pub(super) struct Grid {
     profile: Profile,
     /// Positions of the faces with the piston at rest [m].
     reference_x: Vec<f64>,
-    /// Length from the piston at rest over which the faces follow it [m].
+    /// Length from the piston at rest over which the faces follow the piston [m].
     mapped_m: f64,
-    /// Positions of the faces [m], one more than cells; the first is the piston.
+    /// Positions of the faces [m]; one more than the number of cells; the first face is the piston.
     pub face_x: Vec<f64>,
     /// Centres of the cells [m].
     pub centre_x: Vec<f64>,
@@ -28,7 +28,7 @@ pub(super) struct Grid {
     pub bed: Vec<f64>,
     /// Velocity of the faces during the current time step [m/s].
     pub face_velocity: Vec<f64>,
-    /// Number of faces, from the piston, that can move.
+    /// Number of faces, counted from the piston, that can move.
     moving_faces: usize,
 }
 
@@ -74,14 +74,14 @@ impl Grid {
         self.centre_x[face] - self.centre_x[face - 1]
     }
 
-    /// Sets the velocities that move the faces within `dt` to their positions for a piston displacement `paddle_m`.
+    /// Sets the face velocities [m/s] so that after `dt` [s] the piston displacement is `paddle_m` [m].
     pub fn aim(&mut self, paddle_m: f64, dt: f64) {
         for face in 0..self.moving_faces {
             self.face_velocity[face] = (self.mapped(face, paddle_m) - self.face_x[face]) / dt;
         }
     }
 
-    /// Moves the faces to their positions for a piston displacement `paddle_m`.
+    /// Moves the faces to their positions for a piston displacement `paddle_m` [m], and updates the cells.
     pub fn arrive(&mut self, paddle_m: f64) {
         for face in 0..self.moving_faces {
             self.face_x[face] = self.mapped(face, paddle_m);
@@ -95,7 +95,7 @@ impl Grid {
         x + paddle_m * (1.0 - (x - self.reference_x[0]) / self.mapped_m)
     }
 
-    /// Updates centre, width and bed level of a cell from its faces.
+    /// Updates centre, width and mean bed level of a cell from the positions of its faces.
     fn measure(&mut self, cell: usize) {
         let (left, right) = (self.face_x[cell], self.face_x[cell + 1]);
         self.width[cell] = right - left;

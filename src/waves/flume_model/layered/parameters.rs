@@ -15,7 +15,8 @@ pub struct LayeredParameters {
     pub gravity_m_s2: f64,
     /// Number of layers K.
     pub layers: usize,
-    /// Cell width [m], at least 1/20 of the depth: a few layers cannot resolve the shortest waves of a finer grid.
+    /// Cell width [m]; use at least 1/20 of the depth, because a few layers do not resolve the shortest waves of a
+    /// finer grid.
     pub cell_m: f64,
     /// Time step [s].
     pub step_s: f64,
@@ -38,9 +39,9 @@ pub enum LeftEnd {
     Wall,
     /// A piston that generates a solitary wave; its stroke starts at t = 0.
     Piston {
-        /// The wave; its depth is the depth at the piston.
+        /// The wave; its depth is the still water depth at the piston.
         wave: SolitaryWave,
-        /// Length in front of the piston over which the cells follow it [m].
+        /// Length in front of the piston over which the cells follow the piston [m].
         mapped_m: f64,
     },
     /// An inflow boundary: the wave enters and returning waves leave through it.
@@ -50,9 +51,9 @@ pub enum LeftEnd {
 /// Shoreward end of a flume.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RightEnd {
-    /// A wall; the shore may lie in front of it.
+    /// A wall; the water may end at a dry shore in front of it.
     Wall,
-    /// An open end through which long waves leave (see `ends`). It must be wet.
+    /// An open end through which long waves leave (see `ends`). The bed at this end must be under water.
     Radiating,
     /// A sponge layer in front of a wall (see `ends`).
     Sponge {
@@ -64,9 +65,9 @@ pub enum RightEnd {
 /// Pressure model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pressure {
-    /// With vertical accelerations: waves disperse.
+    /// With vertical accelerations, so that waves are dispersive.
     NonHydrostatic,
-    /// Shallow-water equations, for comparison with their solutions.
+    /// Shallow-water equations without dispersion, for comparison with their exact solutions.
     Hydrostatic,
 }
 
@@ -90,13 +91,13 @@ pub enum Friction {
 /// Breaking of fronts that become too steep for a single-valued surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Breaking {
-    /// No breaking model: fronts steepen as far as the grid resolves them.
+    /// No breaking model: a front steepens until the grid no longer resolves it.
     Unlimited,
     /// Breaking fronts are hydrostatic and become bores (Smit, Zijlema & Stelling 2013).
     HydrostaticFront {
         /// Rate of rise of the surface over sqrt(g H) above which a cell starts to break [-].
         onset: f64,
-        /// Rate of rise over sqrt(g H) above which a cell breaks if it or a neighbour broke before [-].
+        /// Rate of rise over sqrt(g H) above which a cell breaks if it or a neighbour broke in the last time step [-].
         persistence: f64,
     },
 }

@@ -6,19 +6,19 @@
 //! du_m/dt = - [dx q_bar_m - (q_{m+1} - q_m) dx z_m / h_m],   dw_m/dt = - (q_{m+1} - q_m) / h_m
 //! ```
 //!
-//! with z_m the middle of layer m and q_bar_m the mean over its two interfaces. Continuity is the exact transpose of
-//! this force. At the interface between layers m-1 and m it is
+//! with z_m the middle of layer m and q_bar_m the mean over its two interfaces. The discrete continuity equation is the
+//! exact transpose of this force. At the interface between layers m-1 and m it is
 //!
 //! ```text
 //! w_m - w_{m-1} + [dx(h u)_{m-1} + dx(h u)_m] / 2 + u_{m-1} dx z_{m-1} - u_m dx z_m = 0
 //! ```
 //!
-//! and at the bed w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0. Hence pressure does no work on the water, the system is
-//! symmetric and positive definite, and corners of the bed cause no trouble.
+//! and at the bed w_0 + dx(h u)_0 / 2 - u_0 dx z_0 = 0. Therefore the pressure does no work on the water, the system is
+//! symmetric and positive definite, and corners of the bed need no special treatment.
 
 use super::LayeredFlume;
 
-/// Weights of q for layer m at a face [1/m]: bottom and top on the left, bottom and top on the right.
+/// Weights of q in dx q for one layer at a face [1/m]: [bottom, top] of the layer on the left and on the right.
 #[derive(Debug, Clone, Copy)]
 struct Gradient {
     left: [f64; 2],
@@ -54,14 +54,14 @@ impl LayeredFlume {
         (middle(face) - middle(face - 1)) / self.grid.spacing(face)
     }
 
-    /// Weights of q at a face; an end face takes the slope of the nearest inner face.
+    /// Weights of q for layer m at a face; an end face takes the slope of the nearest inner face.
     fn gradient_at(&self, face: usize, m: usize) -> Gradient {
         let last = self.grid.cells();
         let slope = self.slope_at(face.clamp(1, last - 1), m);
         Gradient::new(self.grid.spacing(face), slope, self.layer_depth_at(face))
     }
 
-    /// Assembles the system A q dt = C(u*, w*).
+    /// Assembles the system A q dt = C(u*, w*), with the error C of continuity of the provisional velocities u* and w*.
     fn assemble(&mut self) {
         let (k, cells) = (self.layers, self.grid.cells());
         self.system.clear();
@@ -79,7 +79,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Adds the contributions of layer m at a face, weighted with its volume h dx.
+    /// Adds the contributions of u_m at a face, weighted with the volume h dx of the layer at the face.
     fn assemble_face(&mut self, face: usize, m: usize) {
         let (k, cells) = (self.layers, self.grid.cells());
         let gradient = self.gradient_at(face, m);
@@ -148,7 +148,7 @@ impl LayeredFlume {
         }
     }
 
-    /// q dt at the bottom and the top of layer m [m2/s].
+    /// Pressure impulse q dt at the bottom and the top of layer m of a cell [m2/s].
     fn impulse(&self, cell: usize, m: usize) -> [f64; 2] {
         let k = self.layers;
         let q = self.system.unknowns();
@@ -181,7 +181,7 @@ impl LayeredFlume {
         }
     }
 
-    /// dx(h u)_m and the mean of u_m dx z_m over both faces of a cell [m/s].
+    /// Returns dx(h u)_m, and the mean of u_m dx z_m over both faces of a cell [m/s].
     fn outflow_and_climb(&self, cell: usize, m: usize) -> [f64; 2] {
         let (k, last) = (self.layers, self.grid.cells());
         let flux = |face: usize| self.layer_depth_at(face) * self.u[face * k + m];

@@ -3,8 +3,8 @@
 use super::{DRY_DEPTH_M, LayeredFlume};
 use crate::waves::flume_model::interpolation::Stencil;
 
-/// Film depth that defines the shoreline, relative to the largest still water depth [-]. Laboratory observers see the
-/// run-up tongue, not the film that it leaves behind.
+/// Water depth at the shoreline, relative to the largest still water depth [-]. In a laboratory, run-up is observed at
+/// the front of the water, not in the thin film that remains behind it.
 const SHORE_FILM_SHARE: f64 = 1e-3;
 
 /// Flow at one position and time.
@@ -16,7 +16,7 @@ pub struct Column {
     pub bed_m: f64,
     /// Horizontal velocity of each layer, from the bed upwards [m/s].
     pub u: Vec<f64>,
-    /// Vertical velocity at each interface, from the bed upwards, one more than layers [m/s].
+    /// Vertical velocity at each layer interface, from bed to surface [m/s]; one value more than the number of layers.
     pub w: Vec<f64>,
 }
 
@@ -46,8 +46,8 @@ impl LayeredFlume {
         (0..self.grid.cells()).map(point).collect()
     }
 
-    /// Bed level z at the shoreline [m]: where the depth, coming from the left end, first falls to 1/1000 of the
-    /// largest still water depth. Linear between two cell centres.
+    /// Bed level z at the shoreline [m]: the first point from the left end where the depth falls to 1/1000 of the
+    /// largest still water depth. The level is interpolated linearly between two cell centres.
     pub fn shore_level_m(&self) -> f64 {
         let deepest = self.grid.bed.iter().fold(0.0, |most, bed| f64::max(most, self.still_level_m - bed));
         let film = SHORE_FILM_SHARE * deepest;
@@ -62,7 +62,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Stencil over the wet cells around x.
+    /// Interpolation stencil over the wet cells around x [m].
     fn wet_cells(&self, x: f64) -> Stencil {
         Stencil::at(&self.grid.centre_x, x, |cell| self.depth[cell] > DRY_DEPTH_M)
     }
@@ -76,7 +76,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Flow at x [m] and at the time of the depths; valid between the two halves of a time step.
+    /// Flow at x [m] at the time of the current depths; call it only between the two halves of a time step.
     pub fn column(&self, x: f64) -> Column {
         let k = self.layers;
         let (cells, bed_m) = (self.wet_cells(x), self.grid.bed_at(x));
@@ -93,7 +93,7 @@ impl LayeredFlume {
         }
     }
 
-    /// w at the bed of a cell, u_0 dx z_b [m/s].
+    /// Vertical velocity w at the bed of a cell, u_0 dx z_b [m/s].
     fn climb_along_bed(&self, cell: usize) -> f64 {
         let (k, last) = (self.layers, self.grid.cells());
         let climb = |face: usize| {
@@ -105,7 +105,8 @@ impl LayeredFlume {
     }
 }
 
-/// w at the interfaces from w in the middle of the layers and at the bed: means inside, extrapolated to the surface.
+/// w at the interfaces, from w in the middle of the layers and at the bed: means between layers, extrapolated to the
+/// surface.
 fn at_interfaces(middle: &[f64], bed: f64) -> Vec<f64> {
     let mut w = vec![bed];
     w.extend(middle.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));

@@ -1,18 +1,19 @@
 //! Continuity of the water column, wetting and drying, wave breaking.
 //!
-//! * Depth at a face: in calm deep water the mean of both sides. In shallow, fast or breaking flow the upwind level
-//!   (Stelling & Duinmeijer 2003) above the higher bed of both sides, reconstructed with limited slopes.
-//! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and stays so above 0.3 (Smit,
-//!   Zijlema & Stelling 2013). It steepens into a bore, in which the momentum-conservative scheme dissipates energy.
+//! * Depth at a face: in calm deep water, the mean of both cells. In shallow, fast or breaking flow, the upwind surface
+//!   level (Stelling & Duinmeijer 2003) minus the higher bed level of both sides, reconstructed with limited slopes.
+//! * Breaking: a front becomes hydrostatic where it rises faster than 0.6 sqrt(g H), and remains hydrostatic while it
+//!   rises faster than 0.3 sqrt(g H) (Smit, Zijlema & Stelling 2013). The front steepens into a bore, in which the
+//!   momentum-conservative scheme dissipates energy.
 
 use super::{Breaking, DRY_DEPTH_M, LayeredFlume, Pressure};
 
-/// Depth below which water is hydrostatic, relative to the largest still water depth [-]: films do not disperse.
+/// Depth below which water is hydrostatic, relative to the largest still water depth [-]; films have no dispersion.
 const HYDROSTATIC_SHARE: f64 = 2.5e-3;
 /// Froude numbers between which the face depth changes from the mean to the upwind depth.
 const FROUDE_RANGE: [f64; 2] = [0.7, 1.0];
 
-/// Water on one side of a face.
+/// Surface and bed level on one side of a face.
 #[derive(Debug, Clone, Copy)]
 struct Side {
     /// Surface level z [m].
@@ -21,13 +22,13 @@ struct Side {
     bed: f64,
 }
 
-/// Depth below which water is hydrostatic [m], from the still water depths of all cells [m].
+/// Returns the depth below which water is hydrostatic [m], from the still water depths of all cells [m].
 pub(super) fn hydrostatic_below_m(still_depths: &[f64]) -> f64 {
     HYDROSTATIC_SHARE * still_depths.iter().copied().fold(DRY_DEPTH_M / HYDROSTATIC_SHARE, f64::max)
 }
 
 impl LayeredFlume {
-    /// Marks the cells that break, those with non-hydrostatic pressure, and those where third order is safe.
+    /// Marks the breaking cells, the cells with non-hydrostatic pressure, and the cells with third-order advection.
     pub(super) fn classify_cells(&mut self) {
         let cells = self.grid.cells();
         let before = std::mem::take(&mut self.breaking);
@@ -43,7 +44,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Whether a cell breaks, from its rate of rise and the cells that broke in the previous time step.
+    /// Returns true if a cell breaks, from its rate of rise and the cells that broke in the previous time step.
     fn is_breaking(&self, cell: usize, before: &[bool]) -> bool {
         let Breaking::HydrostaticFront { onset, persistence } = self.breaking_law else { return false };
         if self.depth[cell] < self.hydrostatic_below_m {
@@ -54,13 +55,14 @@ impl LayeredFlume {
         steepness > onset || (broke_nearby && steepness > persistence)
     }
 
-    /// 1 where the water at an inner face is deep compared with the step of the bed, 0 where it is shallow [-].
+    /// Weight of the deep-water scheme at an inner face [-]: 1 if the water is deep compared with the bed step, 0 if
+    /// shallow.
     fn deep_share(&self, face: usize) -> f64 {
         let step = 2.0 * (self.grid.bed[face] - self.grid.bed[face - 1]).abs() + self.hydrostatic_below_m;
         (self.depth[face - 1].min(self.depth[face]) / step - 1.0).clamp(0.0, 1.0)
     }
 
-    /// Depth of the water that crosses a face with velocity `u` [m]; `depth` holds the cell depths.
+    /// Depth of the water that crosses a face with the velocity `u` [m]; `depth` is the list of cell depths [m].
     pub(super) fn transport_depth(&self, face: usize, depth: &[f64], u: f64) -> f64 {
         let (left, right) = (face - 1, face);
         let bed = &self.grid.bed;
@@ -81,7 +83,7 @@ impl LayeredFlume {
         (surface - sill).max(0.0)
     }
 
-    /// Weight of the mean of both sides in the depth at a face; the upwind side has the rest [-].
+    /// Weight of the mean depth of both cells in the depth at a face [-]; the upwind level has the remaining weight.
     fn central_share(&self, face: usize, froude: f64) -> f64 {
         if self.breaking[face - 1] || self.breaking[face] {
             return 0.0;
@@ -90,9 +92,9 @@ impl LayeredFlume {
         self.deep_share(face) * subcritical
     }
 
-    /// Reconstructs a cell's water at its right (`sign` = 1) or left (-1) face with limited slopes of level and depth
-    /// (Audusse et al. 2004, section 4). On a plane bed both sides get the same bed at the face. At the ends and next
-    /// to dry cells the cell's own values are used.
+    /// Reconstructs surface and bed level of a cell at its right (`sign` = 1) or left (-1) face, with limited slopes of
+    /// level and depth (Audusse et al. 2004, section 4). On a plane bed, the cells on both sides give the same bed
+    /// level at the face. At the ends and next to dry cells, the values of the cell itself are used.
     fn reconstruct(&self, cell: usize, sign: f64, depth: &[f64]) -> Side {
         let level = |cell: usize| self.grid.bed[cell] + depth[cell];
         let is_inner = cell > 0 && cell + 1 < depth.len();
@@ -109,8 +111,8 @@ impl LayeredFlume {
         self.u[face * self.layers..(face + 1) * self.layers].iter().sum::<f64>() / self.layers as f64
     }
 
-    /// Computes the volume fluxes through the faces, relative to the moving faces [m2/s]. A predictor with the initial
-    /// depths gives the depths at half the time step, from which the fluxes follow. No cell loses more than it holds.
+    /// Computes the volume fluxes through the faces, relative to the moving faces [m2/s]. The fluxes follow from the
+    /// depths at half the time step, which a predictor computes. No cell loses more water than it contains.
     pub(super) fn volume_fluxes(&mut self, dt: f64) {
         self.next_depth.copy_from_slice(&self.depth);
         self.compute_total_fluxes();
@@ -130,7 +132,7 @@ impl LayeredFlume {
         }
     }
 
-    /// Computes the total flux through each face, h_f (U - v), with the depths in `next_depth`.
+    /// Computes the total flux through each face, h_f (U - v), with the face velocity v and the depths in `next_depth`.
     fn compute_total_fluxes(&mut self) {
         for face in 1..self.grid.cells() {
             let u = self.mean_velocity(face);
@@ -171,9 +173,9 @@ impl LayeredFlume {
         }
     }
 
-    /// Limits the velocities in thin water, which is not resolved: films get a uniform velocity over their depth, and
-    /// shallow water crosses at most one cell per time step, dt |u| / dx <= 1.
-    pub(super) fn settle_films(&mut self) {
+    /// Limits the velocities in shallow water, which the grid does not resolve. Films get a uniform velocity over their
+    /// depth. Shallow water crosses at most one cell per time step, dt |u| / dx <= 1.
+    pub(super) fn limit_film_velocities(&mut self) {
         let k = self.layers;
         for face in (1..self.grid.cells()).filter(|&face| self.open[face]) {
             if self.mean_depth[face] < self.hydrostatic_below_m {
@@ -196,7 +198,8 @@ impl LayeredFlume {
         std::mem::swap(&mut self.depth, &mut self.next_depth);
     }
 
-    /// Computes the depth at each face: the mean of its two cells, zero if the face is dry, extrapolated at the ends.
+    /// Marks the faces through which water can flow, and computes the depth at each face: the mean of its two cells, 0
+    /// at a dry face, extrapolated at the ends.
     pub(super) fn measure_faces(&mut self) {
         let cells = self.grid.cells();
         for face in 1..cells {

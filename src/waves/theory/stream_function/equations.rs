@@ -4,14 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use super::MeanFlow;
 
-/// Largest number of Newton iterations; five are enough from a close initial guess.
+/// Largest number of Newton iterations; five are enough if the initial guess is good.
 const MAX_ITERATIONS: usize = 30;
-/// Largest residual of a converged solution: rounding in sums of 100 terms of order one.
+/// Largest residual of a converged solution: the rounding error of sums of 100 terms of order one.
 const SOLVED: f64 = 1e-11;
-/// Number of scalar unknowns, which precede the surface heights: k, U, c, Q, R.
+/// Number of scalar unknowns k, U, c, Q, R. They precede the surface heights in the vector of unknowns.
 const SCALARS: usize = 5;
 
-/// Unknowns of a steady wave.
+/// Unknowns of a steady wave, in units of depth and gravity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteadyWave {
     /// Wavenumber.
@@ -31,7 +31,7 @@ pub struct SteadyWave {
 }
 
 impl SteadyWave {
-    /// Linear wave of the given height and wavenumber.
+    /// Creates a linear wave with the given height and wavenumber; `order` is N.
     pub fn linear(order: usize, height: f64, k: f64) -> Self {
         let c = (k.tanh() / k).sqrt();
         let surface = (0..=order).map(|m| 1.0 + 0.5 * height * (m as f64 * PI / order as f64).cos()).collect();
@@ -40,14 +40,14 @@ impl SteadyWave {
         Self { k, u: c, c, q: c, r: 1.0 + 0.5 * c * c, surface, b }
     }
 
-    /// Extrapolates linearly from `earlier` through this wave, beyond it by `share` of their distance.
+    /// Extrapolates linearly from `earlier` through this wave, by `share` times their difference beyond this wave.
     pub fn extrapolated(&self, earlier: &Self, share: f64) -> Self {
         let (current, previous) = (self.to_vector(), earlier.to_vector());
         let next: Vec<f64> = current.iter().zip(&previous).map(|(a, b)| a + share * (a - b)).collect();
         Self::from_vector(&next)
     }
 
-    /// Whether the surface falls all the way from crest to trough.
+    /// Returns true if the surface falls monotonically from crest to trough.
     pub fn falls_from_crest_to_trough(&self) -> bool {
         // The tolerance covers rounding in the level trough of a long wave.
         self.surface.windows(2).all(|pair| pair[1] < pair[0] + 1e-6)
@@ -83,7 +83,7 @@ fn sinh_ratio(a: f64, y: f64) -> f64 {
     ((a * (y - 1.0)).exp() - (-a * (y + 1.0)).exp()) / (1.0 + (-2.0 * a).exp())
 }
 
-/// Newton's method from `start`; `None` if it does not converge.
+/// Solves the equations by Newton's method with the initial guess `start`; `None` if it does not converge.
 pub fn solve(start: SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -> Option<SteadyWave> {
     let mut wave = start;
     for _ in 0..MAX_ITERATIONS {
@@ -135,7 +135,8 @@ fn linearise(wave: &SteadyWave, height: f64, period: f64, mean_flow: MeanFlow) -
     (matrix, residual)
 }
 
-/// Residuals psi + Q and (u^2 + v^2) / 2 + Y - R at surface point m; their derivatives go to `stream` and `bernoulli`.
+/// Residuals psi + Q and (u^2 + v^2) / 2 + Y - R at surface point m. Writes their derivatives to `stream` and
+/// `bernoulli`.
 fn surface_equations(wave: &SteadyWave, m: usize, stream: &mut [f64], bernoulli: &mut [f64]) -> [f64; 2] {
     let order = wave.b.len();
     let (k, y) = (wave.k, wave.surface[m]);
@@ -216,7 +217,7 @@ mod tests {
             let (up, down) = (shifted(1e-5), shifted(-1e-5));
             for row in 0..x.len() {
                 let slope = (up[row] - down[row]) / 2e-5;
-                // Error of central differences: (1e-5)^2 times third derivatives of up to (N k)^3 = 100.
+                // Error of the central difference: (1e-5)^2 times third derivatives of up to (N k)^3 = 100.
                 assert!((slope - matrix[row * x.len() + column]).abs() < 1e-7, "{row} {column}");
             }
         }

@@ -1,0 +1,97 @@
+//! The sections `output` and `stop` of flume cases and dry tests as the user writes them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Output files and their intervals.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct OutputFile {
+    /// Interval between snapshots of the water particles [s]; 0 for no snapshots.
+    pub fluid_interval_s: f64,
+    /// Interval between outputs of the unit surfaces [s]; 0 for no output.
+    pub units_interval_s: f64,
+    /// Interval between rows of the tables with gauges, unit motion, unit forces and energy [s].
+    pub series_interval_s: f64,
+    /// Interval between checkpoints in simulated time [s]; 0 for only one checkpoint, at the end of the run.
+    pub checkpoint_interval_s: f64,
+    /// Fields of the water particles in the snapshots, each listed at most once. The position is always written. The
+    /// report draws the water only if the list contains `velocity`.
+    // Not written at its default, so that the hash of cases without this key does not change.
+    #[serde(skip_serializing_if = "is_every_field")]
+    pub fluid_fields: Vec<FluidField>,
+    /// Lower and upper corner [[x, y, z], [x, y, z]] of a box [m]. The snapshots contain only the water particles in
+    /// this box. By default, they contain all water particles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fluid_box_m: Option<[[f64; 3]; 2]>,
+}
+
+impl Default for OutputFile {
+    fn default() -> Self {
+        Self {
+            fluid_interval_s: 0.1,
+            units_interval_s: 0.02,
+            series_interval_s: 0.01,
+            checkpoint_interval_s: 0.5,
+            fluid_fields: FluidField::ALL.to_vec(),
+            fluid_box_m: None,
+        }
+    }
+}
+
+fn is_every_field(fields: &[FluidField]) -> bool {
+    fields == FluidField::ALL
+}
+
+/// Field of the water particles in a snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FluidField {
+    /// Velocity [m/s], three components.
+    Velocity,
+    /// Pressure [Pa].
+    Pressure,
+    /// Density [kg/m3].
+    Density,
+    /// Identification number of the particle, constant during the run.
+    Id,
+}
+
+impl FluidField {
+    /// All fields, in their default order.
+    pub const ALL: [Self; 4] = [Self::Velocity, Self::Pressure, Self::Density, Self::Id];
+
+    /// Returns the name of the field in case files and in ParaView.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Pressure => "pressure",
+            Self::Density => "density",
+            Self::Id => "id",
+        }
+    }
+}
+
+/// Criteria that end the run. Times count from the start of the particle simulation or of the dry test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StopFile {
+    /// Simulated time after which the run ends at the latest [s].
+    pub duration_s: f64,
+    /// Rest criterion: ends the run before `duration_s` if all units are at rest.
+    #[serde(default)]
+    pub at_rest: Option<AtRestFile>,
+}
+
+/// Rest criterion: the run ends when all units have been at rest for `for_s`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AtRestFile {
+    /// A unit is at rest if its centre and its tips are slower than this speed [m/s]. In a flume case, they must also
+    /// move no further than this speed times `for_s` during the time at rest.
+    pub speed_m_s: f64,
+    /// Time for which all units must be at rest [s].
+    pub for_s: f64,
+    /// Earliest time at which the rest criterion can end the run [s].
+    pub not_before_s: f64,
+}

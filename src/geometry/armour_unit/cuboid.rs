@@ -1,0 +1,72 @@
+//! Cuboid: a block with three pairs of plane faces.
+
+use glam::DVec3;
+
+use super::section::Section;
+use crate::geometry::convex::polyhedron::{Polyhedron, PolyhedronError};
+
+/// Corner `number` of a box of half-edges `half` [m] about its centre.
+fn corner(half: DVec3, number: usize) -> DVec3 {
+    let side = |axis: usize| if number >> axis & 1 == 1 { 1.0 } else { -1.0 };
+    half * DVec3::new(side(0), side(1), side(2))
+}
+
+/// Surface of a cuboid with the given edges [m], centred at the origin: vertices [m] and triangles.
+pub fn surface(edges: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let vertices = (0..8).map(|number| corner(0.5 * edges, number)).collect();
+    // Corners of each face, counter-clockwise seen from outside: -x, +x, -y, +y, -z, +z.
+    let faces: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    (vertices, triangles)
+}
+
+/// Convex polyhedron of a cuboid with the given edges [m], centred at the origin.
+///
+/// # Errors
+/// If an edge is negligible compared with the others.
+pub fn block(edges: DVec3) -> Result<Polyhedron, PolyhedronError> {
+    Polyhedron::hull(&surface(edges).0)
+}
+
+/// Sections through the middle of a cuboid with the given edges [m]: for each axis, one section towards each end.
+pub fn sections(edges: DVec3) -> Vec<Section> {
+    let across = |axis: usize| [edges[(axis + 1) % 3], edges[(axis + 2) % 3]];
+    let sections = |axis: usize| {
+        [1.0, -1.0].map(|side| Section::chamfered(DVec3::ZERO, DVec3::AXES[axis] * side, across(axis), 0.0))
+    };
+    (0..3).flat_map(sections).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DMat3;
+
+    use super::super::ArmourUnit;
+    use super::*;
+
+    #[test]
+    fn cuboid_has_the_volume_and_inertia_of_its_edges() {
+        let edges = DVec3::new(0.1, 0.2, 0.3);
+        let unit = ArmourUnit::cuboid(edges, 0.05).unwrap();
+        let properties = unit.solid.volume_properties();
+        assert!((properties.volume - 0.006).abs() < 1e-15 && properties.centre.length() < 1e-15);
+        // m (b^2 + c^2) / 12 about each axis; 1e-12 allows for rounding errors.
+        let mass = 12.0;
+        let expected = DMat3::from_diagonal(DVec3::new(0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04));
+        assert!(unit.inertia(mass).abs_diff_eq(expected, 1e-12), "{}", unit.inertia(mass));
+        assert_eq!(unit.height(), 0.3);
+    }
+
+    #[test]
+    fn contact_surface_of_a_cuboid_matches_its_faces() {
+        let unit = ArmourUnit::cuboid(DVec3::new(0.1, 0.2, 0.3), 0.05).unwrap();
+        let [part] = unit.parts() else { panic!("one part") };
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let face = axis * unit.solid.bounds()[1];
+            assert!(part.distance(face).abs() < 1e-15);
+        }
+        // A corner is cut by R (sqrt 3 - 1).
+        assert!((part.distance(unit.solid.bounds()[1]) - 0.015 * (3f64.sqrt() - 1.0)).abs() < 1e-12);
+        assert!((unit.standing_height() - 0.15).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,37 @@
+//! Energy balance of the water: energy received from boundaries, viscosity, diffusion and zones.
+//!
+//! Powers are evaluated at the rows of the series and integrated by the trapezoidal rule. The energy of the water also
+//! changes by errors of the time integration and of this rule, and because impermeable surfaces remove velocity.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sph::solver::power::Powers;
+
+/// Energy received by the water since the start [J]; part of every checkpoint.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Balance {
+    /// From bed, walls, wavemaker and units, through pressure.
+    pub boundary: f64,
+    /// From viscosity.
+    pub viscosity: f64,
+    /// From density diffusion.
+    pub diffusion: f64,
+    /// From damping and relaxation zones, added in every time step.
+    pub zones: f64,
+    /// Time [s] of the last row, and the powers [W] of boundaries, viscosity and diffusion at that time.
+    last: Option<(f64, [f64; 3])>,
+}
+
+impl Balance {
+    /// Adds the energy that the water has received since the last row; `powers` are the powers at `time` [s].
+    pub fn add(&mut self, time: f64, powers: Powers) {
+        let now = [powers.boundary, powers.viscosity, powers.diffusion];
+        if let Some((before, last)) = self.last {
+            let mean = |k: usize| 0.5 * (time - before) * (last[k] + now[k]);
+            self.boundary += mean(0);
+            self.viscosity += mean(1);
+            self.diffusion += mean(2);
+        }
+        self.last = Some((time, now));
+    }
+}

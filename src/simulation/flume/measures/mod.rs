@@ -1,0 +1,9 @@
+//! Quantities that a flume run measures or accumulates at each time step. All of them are part of the checkpoint.
+
+pub mod balance;
+pub mod energy;
+pub mod extremes;
+pub mod mean_loads;
+pub mod rest;
+pub mod statistics;
+pub mod water_at_impacts;

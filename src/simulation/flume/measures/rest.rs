@@ -1,0 +1,73 @@
+//! The rest criterion: units are at rest if they stay near their reference poses for some time.
+//!
+//! The criterion uses displacements, because velocities are misleading. After the wave, low-viscosity water still
+//! shakes units: with a few millimetres per second, but by only hundredths of a millimetre.
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use crate::rigid::BodyState;
+
+/// Reference poses of the units, and the time when they were set; part of every checkpoint.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rest {
+    /// Time of the reference poses [s].
+    since: f64,
+    /// Reference pose of each unit: centre [m] and rotation; empty before the first check.
+    places: Vec<([f64; 3], [f64; 4])>,
+}
+
+impl Rest {
+    /// Returns the time for which all units have stayed within `reach` [m] of their reference poses [s]. The rotation
+    /// counts as the displacement of the tips, which are at `tips` [m] from the centre. If a unit moves further, the
+    /// current poses become the reference poses.
+    pub fn look(&mut self, time: f64, states: &[BodyState], tips: f64, reach: f64) -> f64 {
+        let stays = |((centre, rotation), state): (&([f64; 3], [f64; 4]), &BodyState)| {
+            let turned = DQuat::from_array(*rotation).angle_between(state.rotation);
+            state.position.distance(DVec3::from_array(*centre)) + tips * turned <= reach
+        };
+        if self.places.len() != states.len() || !self.places.iter().zip(states).all(stays) {
+            self.since = time;
+            self.places = states.iter().map(|s| (s.position.to_array(), s.rotation.to_array())).collect();
+        }
+        time - self.since
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the time for which units with the given motion have stayed within 1 mm, after checks for one second [s].
+    fn stayed(motion: impl Fn(f64) -> (DVec3, DQuat)) -> f64 {
+        let mut rest = Rest::default();
+        let stay_after = |i: u32| {
+            let time = f64::from(i) * 1e-3;
+            let (position, rotation) = motion(time);
+            let states = [BodyState::at_rest(position, rotation), BodyState::at_rest(DVec3::ONE, DQuat::IDENTITY)];
+            rest.look(time, &states, 0.04, 1e-3)
+        };
+        (0..=1000).map(stay_after).last().unwrap()
+    }
+
+    #[test]
+    fn trembling_units_are_at_rest_and_creeping_units_are_not() {
+        let still = stayed(|_| (DVec3::ZERO, DQuat::IDENTITY));
+        // Oscillation with 7 mm/s and an amplitude of 0.1 mm.
+        let trembles =
+            stayed(|t| (1e-4 * (70.0 * t).sin() * DVec3::X, DQuat::from_rotation_y(1e-3 * (50.0 * t).cos())));
+        assert_eq!([still, trembles], [1.0; 2]);
+        // At 3 mm/s, a unit moves by a millimetre in a third of a second.
+        assert!(stayed(|t| (3e-3 * t * DVec3::Y, DQuat::IDENTITY)) < 0.34);
+        // The tips are 4 cm from the centre: at 0.1 rad/s they move at 4 mm/s.
+        assert!(stayed(|t| (DVec3::ZERO, DQuat::from_rotation_z(0.1 * t))) < 0.26);
+    }
+
+    #[test]
+    fn serialization_keeps_the_state_of_the_rest_criterion() {
+        let mut rest = Rest::default();
+        let states = [BodyState::at_rest(DVec3::new(0.1, 0.2, 1.0 / 3.0), DQuat::from_rotation_x(0.7))];
+        rest.look(0.1, &states, 0.04, 1e-3);
+        assert_eq!(serde_json::from_str::<Rest>(&serde_json::to_string(&rest).unwrap()).unwrap(), rest);
+    }
+}

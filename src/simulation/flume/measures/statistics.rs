@@ -1,0 +1,101 @@
+//! Extremes and counts of a flume run that its tables do not contain.
+
+use super::{balance::Balance, rest::Rest};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::rigid::Load;
+
+/// Extremes and counts since the start of a run; part of every checkpoint.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Number of time steps.
+    pub steps: u64,
+    /// Shortest time step [s].
+    pub shortest_step: f64,
+    /// Longest time step [s].
+    pub longest_step: f64,
+    /// Sum of the water forces on each unit [N], and number of time steps in the sum. It covers the second half of the
+    /// time before the release of the units.
+    still_force: (Vec<[f64; 3]>, u64),
+    /// Largest water force on each unit [N]: mean between two rows of `units.csv`, minus the mean force of still water.
+    pub peak_fluid_force: Vec<f64>,
+    /// Largest contact force on each unit [N]: mean between two rows of `units.csv`.
+    pub peak_contact_force: Vec<f64>,
+    /// Number of contacts of each unit: first with bed and walls, then with other units. A contact of two units counts
+    /// for one of them.
+    pub contacts: Vec<[u64; 2]>,
+    /// Largest contact force [N].
+    pub peak_contact: f64,
+    /// Largest approach velocity at the start of a contact [m/s].
+    pub fastest_contact: f64,
+    /// State of the rest criterion.
+    pub rest: Rest,
+    /// Energy of water and units at the start [J].
+    pub energy_start: Option<f64>,
+    /// Energy that the water has received from boundaries, viscosity, diffusion and zones.
+    pub balance: Balance,
+    /// Volume [m3] and number of particles of the water at the first row of `diagnostics.csv`.
+    pub water_start: Option<(f64, u64)>,
+    /// Largest Mach number: speed of the water over its speed of sound c0 [-].
+    pub largest_mach: f64,
+    /// Largest Mach number [-], lowest and highest density [kg/m3] since the last row of `diagnostics.csv`.
+    water_since_row: Option<[f64; 3]>,
+    /// Warnings since the start of the run.
+    pub warnings: Vec<String>,
+    /// Wall time of all sessions of the run [s].
+    pub wall_s: f64,
+}
+
+impl Statistics {
+    /// Returns the statistics of a run with `units` units, before its first time step.
+    pub fn new(units: usize) -> Self {
+        Self {
+            still_force: (vec![[0.0; 3]; units], 0),
+            peak_fluid_force: vec![0.0; units],
+            peak_contact_force: vec![0.0; units],
+            contacts: vec![[0; 2]; units],
+            ..Self::default()
+        }
+    }
+
+    /// Counts a time step of length `dt` [s].
+    pub fn count_step(&mut self, dt: f64) {
+        self.shortest_step = if self.steps == 0 { dt } else { self.shortest_step.min(dt) };
+        self.longest_step = self.longest_step.max(dt);
+        self.steps += 1;
+    }
+
+    /// Adds the extremes of the water at the end of a time step: Mach number [-], densities [kg/m3].
+    pub fn count_water(&mut self, mach: f64, lowest_density: f64, highest_density: f64) {
+        self.largest_mach = self.largest_mach.max(mach);
+        let [m, low, high] = self.water_since_row.unwrap_or([mach, lowest_density, highest_density]);
+        self.water_since_row = Some([m.max(mach), low.min(lowest_density), high.max(highest_density)]);
+    }
+
+    /// Returns the largest Mach number [-], lowest and highest density [kg/m3] since the last call; `None` if no time
+    /// step was counted since then.
+    pub fn take_water_since_row(&mut self) -> Option<[f64; 3]> {
+        self.water_since_row.take()
+    }
+
+    /// Adds the water loads of a time step before the release of the units.
+    pub fn count_still_loads(&mut self, fluid: &[Load]) {
+        let (sums, count) = &mut self.still_force;
+        sums.iter_mut().zip(fluid).for_each(|(sum, load)| *sum = (DVec3::from(*sum) + load.force).to_array());
+        *count += 1;
+    }
+
+    /// Returns the mean force of the still water on a unit [N]; zero if the units were free from the start.
+    pub fn still_force(&self, unit: usize) -> DVec3 {
+        let (sums, count) = &self.still_force;
+        DVec3::from(sums[unit]) / (*count).max(1) as f64
+    }
+
+    /// Adds the mean loads of water and contact on a unit between two rows of `units.csv`.
+    pub fn count_mean_loads(&mut self, unit: usize, [fluid, contact]: [Load; 2]) {
+        let beyond_still = (fluid.force - self.still_force(unit)).length();
+        self.peak_fluid_force[unit] = self.peak_fluid_force[unit].max(beyond_still);
+        self.peak_contact_force[unit] = self.peak_contact_force[unit].max(contact.force.length());
+    }
+}

@@ -1,0 +1,38 @@
+//! Water loads on the units at the force peaks of their impacts.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::{
+    output::{FluidAtPeak, PressurePoint},
+    rigid::{Load, RigidWorld},
+    sph::{particles::boundary::Boundary, terms::equation_of_state::Tait},
+};
+
+/// Water loads at the force peaks of the hardest contacts of each unit; the key is the number of the contact.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WaterAtImpacts(pub BTreeMap<u64, FluidAtPeak>);
+
+impl WaterAtImpacts {
+    /// Records the water `loads` of a time step for each hard contact whose force peak is in this time step. The time
+    /// step began at the contact time `since` [s]. Removes contacts that are neither active nor among the hardest.
+    pub fn note(&mut self, world: &RigidWorld, since: f64, loads: &[Load], boundary: &Boundary, tait: &Tait) {
+        let mut noted = false;
+        for event in world.impacts_with_peak_after(since) {
+            let unit = event.body as usize;
+            let densities = &boundary.density[boundary.units()[unit].clone()];
+            let pressure = densities.iter().map(|density| tait.pressure(*density) as f32).collect();
+            self.0.insert(event.number, FluidAtPeak { load: loads[unit], pressure });
+            noted = true;
+        }
+        if noted {
+            let remembered: BTreeSet<u64> = world.remembered_contacts().collect();
+            self.0.retain(|number, _| remembered.contains(number));
+        }
+    }
+}
+
+/// Returns the points of a unit at which water pressures are recorded.
+pub fn pressure_places(boundary: &Boundary) -> Vec<PressurePoint> {
+    let place = |(particle, to_surface)| PressurePoint { particle, to_surface };
+    boundary.positions_in_unit().map(place).collect()
+}

@@ -1,0 +1,223 @@
+//! Checkpoints: the bitwise state of a flume run in an HDF5 file.
+//!
+//! Arrays are datasets. One JSON text has all other state: time, bodies with their contacts, statistics, progress of
+//! the outputs. Every number in this text has the fewest digits that give the same bits.
+
+use std::path::Path;
+
+use glam::DVec3;
+use hdf5_metno::{File, Group};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use super::recorder_state::RecorderState;
+use crate::simulation::flume::{
+    Simulation,
+    measures::{mean_loads::MeanLoads, statistics::Statistics, water_at_impacts::WaterAtImpacts},
+};
+use crate::{
+    output::{
+        FluidAtPeak, OutputError,
+        state_file::{Hdf5Result, read_state, read_vectors, write_column, write_state, write_vectors},
+    },
+    rigid::{Load, RigidSnapshot},
+    sph::particles::water::Water,
+    waves::generation::absorption::AbsorptionState,
+};
+
+/// Version of the file layout; increased when the layout changes.
+const VERSION: u32 = 14;
+
+/// All state except the arrays.
+#[derive(Serialize, Deserialize)]
+struct Scalars {
+    version: u32,
+    case_hash: String,
+    /// Name of the device that computed the water.
+    device: String,
+    time: f64,
+    steps: u64,
+    statistics: Statistics,
+    recorder: RecorderState,
+    rigid: Option<RigidSnapshot>,
+    fluid_loads: Vec<Load>,
+    mean_loads: MeanLoads,
+    absorbed: AbsorptionState,
+}
+
+/// A copy of the state of a run, which can be written while the run continues.
+pub struct Checkpoint {
+    scalars: Scalars,
+    water: Water,
+    boundary_density: Vec<f64>,
+    water_at_impacts: WaterAtImpacts,
+}
+
+impl Checkpoint {
+    /// File name of the checkpoint in the run folder.
+    pub const FILE: &str = "checkpoint.h5";
+
+    /// File name of the state that is saved when a run fails.
+    pub const FAILED_FILE: &str = "failed.h5";
+
+    /// Copies the current state of a run, with the progress of its outputs.
+    pub fn of(simulation: &Simulation, recorder: &RecorderState) -> Self {
+        let units = simulation.units.as_ref();
+        let scalars = Scalars {
+            version: VERSION,
+            case_hash: simulation.case.hash.clone(),
+            device: simulation.solver.name().to_owned(),
+            time: simulation.time,
+            steps: simulation.steps,
+            statistics: simulation.statistics.clone(),
+            recorder: recorder.clone(),
+            rigid: units.map(|units| units.world.snapshot()),
+            fluid_loads: units.map_or_else(Vec::new, |units| units.fluid_loads.clone()),
+            mean_loads: units.map_or_else(MeanLoads::default, |units| units.mean_loads.clone()),
+            absorbed: simulation.absorbed,
+        };
+        Self {
+            scalars,
+            water: simulation.water.clone(),
+            boundary_density: simulation.boundary.density.clone(),
+            water_at_impacts: units.map_or_else(WaterAtImpacts::default, |units| units.water_at_impacts.clone()),
+        }
+    }
+
+    /// Writes the state to `file` in the run folder. The file is written under a temporary name, synced, and then
+    /// renamed.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, dir: &Path, file: &str) -> Result<(), OutputError> {
+        let path = dir.join(file);
+        let text = serde_json::to_string(&self.scalars).map_err(OutputError::json(&path))?;
+        write_state(&path, &text, |file| {
+            let group = file.create_group("water")?;
+            write_vectors(&group, "position_m", &self.water.position)?;
+            write_vectors(&group, "velocity_m_s", &self.water.velocity)?;
+            write_column(&group, "density_kg_m3", &self.water.density)?;
+            write_column(&group, "mass_kg", &self.water.mass)?;
+            write_column(&group, "id", &self.water.id)?;
+            write_column(&file.create_group("boundary")?, "density_kg_m3", &self.boundary_density)?;
+            write_impacts(&file.create_group("impacts")?, &self.water_at_impacts)
+        })
+    }
+}
+
+/// Returns the name of the device that computed the run in `dir`; `None` if the checkpoint cannot be read.
+pub fn device_of(dir: &Path) -> Option<String> {
+    let path = dir.join(Checkpoint::FILE);
+    let (text, ()) = read_state(&path, |_| Ok(())).ok()?;
+    parse::<Scalars>(&text, &path).ok().map(|scalars| scalars.device)
+}
+
+/// Restores a simulation of the same case from the checkpoint in `dir`; returns the progress of the outputs.
+///
+/// # Errors
+/// If the checkpoint is missing, damaged or of another case.
+pub fn read(simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
+    let hash = simulation.case.hash.clone();
+    read_of(simulation, dir, &hash)
+}
+
+/// Like [`read`], for the checkpoint of another case. `case_hash` is the hash of the other case, which must have the
+/// same particles and units.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_of(simulation: &mut Simulation, dir: &Path, case_hash: &str) -> Result<RecorderState, OutputError> {
+    let checkpoint = Checkpoint::read(dir)?;
+    if checkpoint.scalars.case_hash != case_hash {
+        let what = "belongs to another case than case.json in its folder".to_owned();
+        return Err(OutputError::content(&dir.join(Checkpoint::FILE), what));
+    }
+    checkpoint.restore(simulation, dir)
+}
+
+impl Checkpoint {
+    fn read(dir: &Path) -> Result<Self, OutputError> {
+        let path = dir.join(Self::FILE);
+        let (text, (water, boundary_density, water_at_impacts)) = read_state(&path, read_arrays)?;
+        let scalars: Scalars = parse(&text, &path)?;
+        if scalars.version != VERSION {
+            let what = format!(
+                "was written by another version of breakwater (layout {} instead of {VERSION}); rerun the case",
+                scalars.version
+            );
+            return Err(OutputError::content(&path, what));
+        }
+        Ok(Self { scalars, water, boundary_density, water_at_impacts })
+    }
+
+    fn restore(self, simulation: &mut Simulation, dir: &Path) -> Result<RecorderState, OutputError> {
+        let Self { scalars, water, boundary_density, water_at_impacts } = self;
+        let path = dir.join(Self::FILE);
+        if boundary_density.len() != simulation.boundary.len() {
+            return Err(OutputError::content(&path, "does not match the particles of the case".to_owned()));
+        }
+        simulation.water = water;
+        simulation.boundary.density = boundary_density;
+        simulation.time = scalars.time;
+        simulation.steps = scalars.steps;
+        simulation.statistics = scalars.statistics;
+        let now = simulation.solver.name();
+        if scalars.device != now {
+            simulation.statistics.warnings.push(format!(
+                "resumed at {:.3} s on another device ({now} instead of {}): equally accurate, but not bitwise equal",
+                simulation.flume_time(),
+                scalars.device
+            ));
+        }
+        simulation.absorbed = scalars.absorbed;
+        if let (Some(units), Some(snapshot)) = (&mut simulation.units, &scalars.rigid) {
+            units.world.restore(snapshot).map_err(|error| OutputError::content(&path, error.to_string()))?;
+            units.fluid_loads = scalars.fluid_loads;
+            units.mean_loads = scalars.mean_loads;
+            let points = simulation.boundary.positions_in_unit().count();
+            if water_at_impacts.0.values().any(|water| water.pressure.len() != points) {
+                return Err(OutputError::content(&path, "does not match the particles of the units".to_owned()));
+            }
+            units.water_at_impacts = water_at_impacts;
+        }
+        simulation.place_boundary();
+        Ok(scalars.recorder)
+    }
+}
+
+fn parse<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, OutputError> {
+    serde_json::from_str(text).map_err(OutputError::json(path))
+}
+
+fn write_impacts(group: &Group, water: &WaterAtImpacts) -> Hdf5Result<()> {
+    let vectors = |load: fn(&FluidAtPeak) -> DVec3| water.0.values().map(load).collect::<Vec<_>>();
+    let pressures: Vec<f32> = water.0.values().flat_map(|water| &water.pressure).copied().collect();
+    write_column(group, "contact", &water.0.keys().copied().collect::<Vec<u64>>())?;
+    write_vectors(group, "force_n", &vectors(|water| water.load.force))?;
+    write_vectors(group, "torque_n_m", &vectors(|water| water.load.torque))?;
+    write_column(group, "pressure_pa", &pressures)
+}
+
+fn read_impacts(group: &Group) -> Hdf5Result<WaterAtImpacts> {
+    let contacts: Vec<u64> = group.dataset("contact")?.read_raw()?;
+    let (forces, torques) = (read_vectors(group, "force_n")?, read_vectors(group, "torque_n_m")?);
+    let pressures: Vec<f32> = group.dataset("pressure_pa")?.read_raw()?;
+    let points = pressures.len() / contacts.len().max(1);
+    let loads = forces.into_iter().zip(torques).map(|(force, torque)| Load { force, torque });
+    // If the units have no particles, there are no pressures.
+    let pressures = pressures.chunks(points.max(1)).map(<[f32]>::to_vec).chain(std::iter::repeat(Vec::new()));
+    let water = loads.zip(pressures).map(|(load, pressure)| FluidAtPeak { load, pressure });
+    Ok(WaterAtImpacts(contacts.into_iter().zip(water).collect()))
+}
+
+/// Reads the water, the boundary densities, and the water loads at the impacts.
+fn read_arrays(file: &File) -> Hdf5Result<(Water, Vec<f64>, WaterAtImpacts)> {
+    let group = file.group("water")?;
+    let water = Water {
+        position: read_vectors(&group, "position_m")?,
+        velocity: read_vectors(&group, "velocity_m_s")?,
+        density: group.dataset("density_kg_m3")?.read_raw()?,
+        mass: group.dataset("mass_kg")?.read_raw()?,
+        id: group.dataset("id")?.read_raw()?,
+    };
+    Ok((water, file.dataset("boundary/density_kg_m3")?.read_raw()?, read_impacts(&file.group("impacts")?)?))
+}

@@ -1,0 +1,7 @@
+//! Outputs of a flume run: tables, ParaView files, checkpoints and the summary.
+
+pub mod checkpoint;
+pub mod recorder;
+pub mod recorder_state;
+pub mod snapshots;
+pub mod summary;

@@ -1,0 +1,349 @@
+//! Outputs of a flume run: tables of gauges, units, contacts, energy and diagnostics; snapshots for ParaView;
+//! checkpoints.
+//!
+//! The rows of the tables are short and are written immediately. Snapshots and checkpoints are large, so a separate
+//! thread writes them (see [`Writer`]). The thread keeps their order: a checkpoint never counts a snapshot that is not
+//! in its file yet.
+//!
+//! All times are flume times, which start at 0 with the flume model.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    checkpoint::Checkpoint,
+    recorder_state::RecorderState,
+    snapshots::{Frame, SURFACES_FILE, SnapshotFiles, WATER_FILE},
+};
+use crate::simulation::flume::{Simulation, Units, measures::water_at_impacts::pressure_places, step::PreparedStep};
+use crate::{
+    case::{BreakageSettings, Case, Gauge, Quantity, ROWS_FILE, Reference, Wave},
+    output::{
+        CsvSeries, Impact, Impacts, OutputError, UnitSurface, Writer, columns, is_due, write_atomically,
+        write_flume_gauges,
+    },
+    rigid::{ContactEvent, RecordedContact},
+    sph::solver::power::Powers,
+};
+
+/// Open output files of a flume run.
+pub struct Recorder {
+    dir: PathBuf,
+    state: RecorderState,
+    gauges: CsvSeries,
+    units: CsvSeries,
+    contacts: CsvSeries,
+    energy: CsvSeries,
+    diagnostics: CsvSeries,
+    writer: Writer<SnapshotFiles>,
+}
+
+const GAUGES_FILE: &str = "gauges.csv";
+const UNITS_FILE: &str = "units.csv";
+const CONTACTS_FILE: &str = "contacts.csv";
+const ENERGY_FILE: &str = "energy.csv";
+const DIAGNOSTICS_FILE: &str = "diagnostics.csv";
+
+impl Recorder {
+    /// Creates the files in the run folder, and writes the files that do not change during the run: case, bed, unit
+    /// shape, flume gauges.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
+        let case = &simulation.case;
+        write_atomically(&dir.join("case.json"), case.text.as_bytes())?;
+        if let Some(settings) = &case.breakage {
+            write_atomically(&dir.join(BreakageSettings::MESH), &settings.mesh_file)?;
+        }
+        if let Some(reference) = &case.reference {
+            let folder = dir.join(Reference::FOLDER);
+            fs::create_dir_all(&folder).map_err(OutputError::io(&folder))?;
+            reference.files.iter().try_for_each(|(name, content)| write_atomically(&folder.join(name), content))?;
+        }
+        if let Wave::External(wave) = &case.wave {
+            write_atomically(&dir.join(ROWS_FILE), &wave.rows_text())?;
+        }
+        let mut profile = CsvSeries::create(&dir.join("profile.csv"), &columns::PROFILE)?;
+        profile.append_rows(case.flume.profile.points())?;
+        if let (Some(units), Some(of_case)) = (&simulation.units, &case.units) {
+            UnitSurface::of(units.shape.solid()).write(&dir.join(UnitSurface::FILE))?;
+            for (name, content) in of_case.files() {
+                write_atomically(&dir.join(name), content)?;
+            }
+        }
+        if let Some(record) = &simulation.flume {
+            write_flume_gauges(case, record, &dir.join("flume_gauges.csv"))?;
+        }
+        let mut recorder = Self {
+            dir: dir.to_owned(),
+            state: RecorderState::default(),
+            gauges: CsvSeries::create(&dir.join(GAUGES_FILE), &gauge_columns(case))?,
+            units: CsvSeries::create(&dir.join(UNITS_FILE), &columns::UNITS)?,
+            contacts: CsvSeries::create(&dir.join(CONTACTS_FILE), &columns::CONTACTS)?,
+            energy: CsvSeries::create(&dir.join(ENERGY_FILE), &columns::ENERGY)?,
+            diagnostics: CsvSeries::create(&dir.join(DIAGNOSTICS_FILE), &columns::DIAGNOSTICS)?,
+            writer: Writer::spawn(SnapshotFiles::create(simulation, dir)?),
+        };
+        recorder.note_lengths();
+        Ok(recorder)
+    }
+
+    /// Opens the files of an interrupted run, and truncates them to their lengths at the checkpoint.
+    ///
+    /// # Errors
+    /// If a file is missing or shorter than at the checkpoint.
+    pub fn reopen(simulation: &Simulation, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+        let table = |file: &str, bytes: u64| CsvSeries::open_truncated(&dir.join(file), bytes);
+        Ok(Self {
+            dir: dir.to_owned(),
+            gauges: table(GAUGES_FILE, state.bytes[0])?,
+            units: table(UNITS_FILE, state.bytes[1])?,
+            contacts: table(CONTACTS_FILE, state.bytes[2])?,
+            energy: table(ENERGY_FILE, state.bytes[3])?,
+            diagnostics: table(DIAGNOSTICS_FILE, state.bytes[4])?,
+            writer: Writer::spawn(SnapshotFiles::reopen(simulation, dir, state.water, state.surfaces)?),
+            state,
+        })
+    }
+
+    /// Creates the files of a run that starts from the checkpoint of another run in the folder `from`. Copies the
+    /// tables and snapshots of the other run up to this checkpoint.
+    ///
+    /// # Errors
+    /// If a file cannot be read or written.
+    pub fn branch(simulation: &Simulation, from: &Path, dir: &Path, state: RecorderState) -> Result<Self, OutputError> {
+        drop(Self::create(simulation, dir)?);
+        let tables = [GAUGES_FILE, UNITS_FILE, CONTACTS_FILE, ENERGY_FILE, DIAGNOSTICS_FILE];
+        for file in tables.into_iter().chain([WATER_FILE, SURFACES_FILE]) {
+            let (from, to) = (from.join(file), dir.join(file));
+            if to.exists() {
+                fs::copy(&from, to).map_err(OutputError::io(&from))?;
+            }
+        }
+        Self::reopen(simulation, dir, state)
+    }
+
+    /// Returns how often each output was written, and the lengths of the tables.
+    pub fn state(&self) -> &RecorderState {
+        &self.state
+    }
+
+    /// Writes the outputs that are due at the current time.
+    ///
+    /// # Errors
+    /// If a file, an earlier snapshot or an earlier checkpoint cannot be written, or the device is lost.
+    pub fn record_due(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        self.writer.check()?;
+        let (time, case) = (now.time, now.case.clone());
+        if self.is_anything_due(&case, time) {
+            now.fetch()?;
+        }
+        if is_due(self.state.series, Some(case.output.series_interval), time) {
+            self.record_series(now)?;
+            self.state.series += 1;
+        }
+        if is_due(self.state.surfaces, case.output.units_interval, time) {
+            self.record_surfaces(now)?;
+            self.state.surfaces += 1;
+        }
+        if is_due(self.state.water, case.output.fluid_interval, time) {
+            self.record_water(now)?;
+            self.state.water += 1;
+        }
+        self.note_lengths();
+        // The first checkpoint is due after the first interval, because the case file defines the start.
+        if is_due(self.state.checkpoints + 1, case.output.checkpoint_interval, time) {
+            // Count first: the checkpoint includes itself in the number of checkpoints.
+            self.state.checkpoints += 1;
+            self.record_checkpoint(now)?;
+        }
+        Ok(())
+    }
+
+    /// Writes all outputs at the end of the run, and waits until all data are in the files.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn record_end(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        now.fetch()?;
+        // Write the checkpoint before the last row, and before active contacts are recorded as ended. A run with a
+        // longer duration may resume from it.
+        self.record_checkpoint(now)?;
+        self.record_series(now)?;
+        if now.case.output.units_interval.is_some() {
+            self.record_surfaces(now)?;
+        }
+        if now.case.output.fluid_interval.is_some() {
+            self.record_water(now)?;
+        }
+        if let Some(units) = &now.units {
+            let offset = contact_clock(now, units);
+            let running: Vec<ContactEvent> = units.world.running_events().copied().collect();
+            for event in &running {
+                self.contacts.append(&columns::contact_row(event, offset))?;
+            }
+            impacts_of(now, units, offset).write(&self.dir.join(Impacts::FILE))?;
+            running.iter().for_each(|event| count_contact(now, event));
+        }
+        self.writer.drain()
+    }
+
+    /// Writes a checkpoint of a run that the user stops, and waits until the checkpoint is in its file.
+    ///
+    /// # Errors
+    /// If a file cannot be written, or the device is lost.
+    pub fn record_interruption(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        now.fetch()?;
+        self.record_checkpoint(now)?;
+        self.drain()
+    }
+
+    /// Waits until all snapshots and checkpoints are in their files.
+    ///
+    /// # Errors
+    /// If a snapshot or checkpoint cannot be written.
+    pub fn drain(&mut self) -> Result<(), OutputError> {
+        self.writer.drain()
+    }
+
+    /// Returns true if an output that needs the water is due at `time` [s].
+    fn is_anything_due(&self, case: &Case, time: f64) -> bool {
+        let (state, output) = (&self.state, &case.output);
+        is_due(state.series, Some(output.series_interval), time)
+            || is_due(state.water, output.fluid_interval, time)
+            || is_due(state.checkpoints + 1, output.checkpoint_interval, time)
+    }
+
+    fn note_lengths(&mut self) {
+        let tables = [&self.gauges, &self.units, &self.contacts, &self.energy, &self.diagnostics];
+        self.state.bytes = tables.map(CsvSeries::bytes);
+    }
+
+    fn record_series(&mut self, now: &mut PreparedStep) -> Result<(), OutputError> {
+        let (time, dt) = (now.flume_time(), now.dt());
+        self.gauges.append(&gauge_row(now))?;
+        let powers = now.powers()?;
+        self.energy.append(&energy_row(now, powers))?;
+        self.diagnostics.append(&now.diagnostics_row(dt, powers.divergence))?;
+        let simulation: &mut Simulation = now;
+        let Some(units) = &mut simulation.units else { return Ok(()) };
+        let events = units.world.take_events();
+        let means = units.mean_loads.take();
+        let free = simulation.time > simulation.case.numerics.hold_units;
+        for (number, state) in units.states().iter().enumerate() {
+            // Before the first row there is no time step to average over.
+            let now = || [units.fluid_loads[number], units.world.contact_loads()[number]];
+            let loads = means.as_ref().map_or_else(now, |means| means[number]);
+            if free {
+                simulation.statistics.count_mean_loads(number, loads);
+            }
+            let [fluid, contact] = loads;
+            let mut row = vec![time, (number + 1) as f64];
+            row.extend(state.position.to_array());
+            row.extend(state.rotation.to_array());
+            let vectors =
+                [state.velocity, state.angular_velocity, fluid.force, fluid.torque, contact.force, contact.torque];
+            row.extend(vectors.iter().flat_map(|v| v.to_array()));
+            self.units.append(&row)?;
+        }
+        let offset = simulation.units.as_ref().map_or(0.0, |units| contact_clock(simulation, units));
+        for event in &events {
+            self.contacts.append(&columns::contact_row(event, offset))?;
+            count_contact(simulation, event);
+        }
+        Ok(())
+    }
+
+    fn record_surfaces(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let Some(units) = &simulation.units else { return Ok(()) };
+        let frame = Frame::of_surfaces(units.shape.solid(), units.states(), simulation.flume_time());
+        self.writer.give(move |files| files.append_surfaces(&frame))
+    }
+
+    fn record_water(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let frame = Frame::of_water(simulation);
+        self.writer.give(move |files| files.append_water(&frame))
+    }
+
+    fn record_checkpoint(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let (checkpoint, dir) = (Checkpoint::of(simulation, &self.state), self.dir.clone());
+        self.writer.give(move |_| checkpoint.write(&dir, Checkpoint::FILE))
+    }
+}
+
+/// Returns the gauges in the particle domain.
+fn wet_gauges(case: &Case) -> impl Iterator<Item = &Gauge> {
+    case.gauges.iter().filter(|gauge| gauge.in_domain)
+}
+
+fn gauge_columns(case: &Case) -> Vec<String> {
+    let names = wet_gauges(case).flat_map(|gauge| match gauge.quantity {
+        Quantity::Elevation => vec![columns::elevation(&gauge.name)],
+        Quantity::Pressure => vec![columns::pressure(&gauge.name)],
+        Quantity::Velocity => columns::velocity(&gauge.name).to_vec(),
+    });
+    ["time_s".to_owned()].into_iter().chain(names).collect()
+}
+
+/// Returns a row of `gauges.csv`; NaN for dry gauges and for gauges near or behind the wavemaker.
+fn gauge_row(simulation: &Simulation) -> Vec<f64> {
+    let (case, sampler) = (&simulation.case, simulation.sampler());
+    let wet_from = simulation.wavemaker_front().map_or(f64::NEG_INFINITY, |front| front + case.numerics.h);
+    let mut row = vec![simulation.flume_time()];
+    for gauge in wet_gauges(case) {
+        let at = simulation.gauge_position(gauge);
+        let sample = || sampler.sample(at).filter(|_| at.x > wet_from);
+        match gauge.quantity {
+            Quantity::Elevation => {
+                let (bed, top) = (case.flume.profile.z(at.x), case.domain.top_z);
+                let level = sampler.surface(at.truncate(), bed, top).filter(|_| at.x > wet_from);
+                row.push(level.map_or(f64::NAN, |z| z - case.flume.still_water_level));
+            }
+            Quantity::Pressure => row.push(sample().map_or(f64::NAN, |s| s.pressure)),
+            Quantity::Velocity => row.extend(sample().map_or([f64::NAN; 3], |s| s.velocity.to_array())),
+        }
+    }
+    row
+}
+
+fn energy_row(simulation: &mut Simulation, powers: Powers) -> [f64; 10] {
+    simulation.statistics.balance.add(simulation.time, powers);
+    let balance = simulation.statistics.balance;
+    let energy = simulation.energy();
+    [
+        simulation.flume_time(),
+        energy.kinetic,
+        energy.potential,
+        energy.internal,
+        energy.units_kinetic,
+        energy.units_potential,
+        balance.boundary,
+        balance.viscosity,
+        balance.diffusion,
+        balance.zones,
+    ]
+}
+
+/// Returns the flume time minus the contact time [s]. The contact time starts at the release of the units.
+fn contact_clock(simulation: &Simulation, units: &Units) -> f64 {
+    simulation.flume_time() - units.world.time()
+}
+
+/// Returns the hardest impacts so far; `offset` [s] is added to their times to give flume times.
+fn impacts_of(simulation: &Simulation, units: &Units, offset: f64) -> Impacts {
+    let water = &units.water_at_impacts.0;
+    let contacts = units.world.impacts();
+    let impact = |contact: &RecordedContact| Impact::new(contact, offset, water.get(&contact.event.number).cloned());
+    Impacts { places: pressure_places(&simulation.boundary), impacts: contacts.iter().map(impact).collect() }
+}
+
+fn count_contact(simulation: &mut Simulation, event: &ContactEvent) {
+    let statistics = &mut simulation.statistics;
+    let with_unit = usize::from(event.partner_unit().is_some());
+    statistics.contacts[event.body as usize][with_unit] += 1;
+    statistics.peak_contact = statistics.peak_contact.max(event.peak_force);
+    statistics.fastest_contact = statistics.fastest_contact.max(event.approach_normal);
+}

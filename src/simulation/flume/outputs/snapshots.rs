@@ -1,0 +1,220 @@
+//! Snapshots of the water and of the surfaces of the units for ParaView.
+//!
+//! A [`Frame`] is a copy in single precision. A separate thread can write it while the run continues.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::simulation::flume::Simulation;
+use crate::{
+    case::{FluidField, Output},
+    geometry::solid::Solid,
+    output::{Cells, FieldKind, FieldValues, OutputError, PolyDataSeries},
+    rigid::BodyState,
+    sph::particles::water::Water,
+};
+
+/// File name of the snapshots of the water.
+pub const WATER_FILE: &str = "fluid.vtkhdf";
+/// File name of the snapshots of the unit surfaces.
+pub const SURFACES_FILE: &str = "units.vtkhdf";
+
+/// Fields of the unit surfaces.
+pub const UNIT_FIELDS: [(&str, FieldKind); 2] = [("velocity", FieldKind::Vector), ("unit", FieldKind::Integer)];
+
+/// Open snapshot files; `None` for a file that the case does not request.
+pub struct SnapshotFiles {
+    water: Option<PolyDataSeries>,
+    surfaces: Option<PolyDataSeries>,
+}
+
+impl SnapshotFiles {
+    /// Creates the files in the run folder.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(simulation: &Simulation, dir: &Path) -> Result<Self, OutputError> {
+        let fields = water_fields(&simulation.case.output);
+        let water = |_| PolyDataSeries::create(&dir.join(WATER_FILE), Cells::Vertices, &fields);
+        let surfaces = |_| PolyDataSeries::create(&dir.join(SURFACES_FILE), Cells::Triangles, &UNIT_FIELDS);
+        Ok(Self {
+            water: simulation.case.output.fluid_interval.map(water).transpose()?,
+            surfaces: surfaces_interval(simulation).map(surfaces).transpose()?,
+        })
+    }
+
+    /// Opens the files of an interrupted run. Truncates the water file to `water` snapshots and the surface file to
+    /// `surfaces` snapshots.
+    ///
+    /// # Errors
+    /// If a file is missing or shorter than at the checkpoint.
+    pub fn reopen(simulation: &Simulation, dir: &Path, water: u64, surfaces: u64) -> Result<Self, OutputError> {
+        let fields = water_fields(&simulation.case.output);
+        let open = |file: &str, cells: Cells, fields: &[(&str, FieldKind)], steps: u64| {
+            PolyDataSeries::open_and_truncate(&dir.join(file), cells, fields, steps as usize)
+        };
+        let water = |_| open(WATER_FILE, Cells::Vertices, &fields, water);
+        let surfaces = |_| open(SURFACES_FILE, Cells::Triangles, &UNIT_FIELDS, surfaces);
+        Ok(Self {
+            water: simulation.case.output.fluid_interval.map(water).transpose()?,
+            surfaces: surfaces_interval(simulation).map(surfaces).transpose()?,
+        })
+    }
+
+    /// Appends a snapshot of the water, if its file is open.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn append_water(&mut self, frame: &Frame) -> Result<(), OutputError> {
+        self.water.as_mut().map_or(Ok(()), |series| frame.append_to(series))
+    }
+
+    /// Appends a snapshot of the unit surfaces, if their file is open.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn append_surfaces(&mut self, frame: &Frame) -> Result<(), OutputError> {
+        self.surfaces.as_mut().map_or(Ok(()), |series| frame.append_to(series))
+    }
+}
+
+fn surfaces_interval(simulation: &Simulation) -> Option<f64> {
+    simulation.case.output.units_interval.filter(|_| simulation.units.is_some())
+}
+
+fn water_fields(output: &Output) -> Vec<(&'static str, FieldKind)> {
+    let kind = |field: FluidField| match field {
+        FluidField::Velocity => FieldKind::Vector,
+        FluidField::Pressure | FluidField::Density => FieldKind::Scalar,
+        FluidField::Id => FieldKind::Integer,
+    };
+    output.fluid_fields.iter().map(|&field| (field.name(), kind(field))).collect()
+}
+
+/// One snapshot of the water or of the unit surfaces.
+pub struct Frame {
+    /// Flume time [s].
+    time: f64,
+    /// Points [m].
+    points: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    /// Fields in the order of the file; each has one value per point.
+    fields: Vec<Column>,
+}
+
+/// Values of a field, one per point.
+enum Column {
+    Scalar(Vec<f32>),
+    Vector(Vec<[f32; 3]>),
+    Integer(Vec<i32>),
+}
+
+impl Column {
+    fn values(&self) -> FieldValues<'_> {
+        match self {
+            Self::Scalar(values) => FieldValues::Scalar(values),
+            Self::Vector(values) => FieldValues::Vector(values),
+            Self::Integer(values) => FieldValues::Integer(values),
+        }
+    }
+}
+
+impl Frame {
+    /// Copies the current water: the fields and the box that the `output` section of the case requests.
+    pub fn of_water(simulation: &Simulation) -> Self {
+        let (water, output) = (&simulation.water, &simulation.case.output);
+        let tait = simulation.solver().parameters().tait;
+        let chosen = particles_in(water, output.fluid_box);
+        let column = |field: &FluidField| match field {
+            FluidField::Velocity => Column::Vector(pick(&chosen, |i| water.velocity[i].as_vec3().to_array())),
+            FluidField::Pressure => Column::Scalar(pick(&chosen, |i| tait.pressure(water.density[i]) as f32)),
+            FluidField::Density => Column::Scalar(pick(&chosen, |i| water.density[i] as f32)),
+            FluidField::Id => Column::Integer(pick(&chosen, |i| water.id[i] as i32)),
+        };
+        Self {
+            time: simulation.flume_time(),
+            points: pick(&chosen, |i| water.position[i].as_vec3().to_array()),
+            triangles: Vec::new(),
+            fields: output.fluid_fields.iter().map(column).collect(),
+        }
+    }
+
+    /// Copies the surfaces of the units, with the velocity of each point and the number of its unit.
+    pub fn of_surfaces(solid: &Solid, states: &[BodyState], time: f64) -> Self {
+        let (mut points, mut triangles) = (Vec::new(), Vec::new());
+        let (mut velocity, mut number) = (Vec::new(), Vec::new());
+        for (unit, state) in states.iter().enumerate() {
+            let first = points.len() as u32;
+            triangles.extend(solid.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
+            for &vertex in solid.vertices() {
+                let arm = state.rotation * vertex;
+                points.push((state.position + arm).as_vec3().to_array());
+                velocity.push((state.velocity + state.angular_velocity.cross(arm)).as_vec3().to_array());
+                number.push(unit as i32 + 1);
+            }
+        }
+        Self { time, points, triangles, fields: vec![Column::Vector(velocity), Column::Integer(number)] }
+    }
+
+    /// Appends the snapshot to a file with the same fields.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn append_to(&self, series: &mut PolyDataSeries) -> Result<(), OutputError> {
+        let values: Vec<FieldValues> = self.fields.iter().map(Column::values).collect();
+        series.append(self.time, &self.points, &self.triangles, &values)
+    }
+}
+
+/// Returns the indices of the particles inside a box [m]; of all particles if there is no box.
+fn particles_in(water: &Water, corners: Option<[[f64; 3]; 2]>) -> Vec<u32> {
+    let all = 0..water.len() as u32;
+    let Some([low, high]) = corners.map(|corners| corners.map(glam::DVec3::from_array)) else { return all.collect() };
+    let inside = |&i: &u32| {
+        let position = water.position[i as usize];
+        position.cmpge(low).all() && position.cmple(high).all()
+    };
+    all.into_par_iter().with_min_len(4096).filter(inside).collect()
+}
+
+/// Returns `value` of each chosen particle, in the order of `chosen`.
+fn pick<T: Send>(chosen: &[u32], value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    chosen.par_iter().with_min_len(4096).map(|&i| value(i as usize)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use serde_json::json;
+
+    use super::*;
+    use crate::case::Case;
+
+    #[test]
+    fn a_snapshot_has_the_fields_and_the_box_of_the_case() {
+        let case = json!({
+            "title": "Still water",
+            "flume": { "bed_m": [[0.0, 0.0], [1.0, 0.0]], "still_water_level_m": 0.3 },
+            "domain": { "x_m": [0.0, 1.0], "width_m": 0.3, "sides": "periodic", "top_z_m": 0.5, "dp_m": 0.025 },
+            "output": { "fluid_fields": ["id", "pressure"], "fluid_box_m": [[0.4, 0.0, 0.0], [0.6, 0.3, 0.1]] },
+            "stop": { "duration_s": 1.0 }
+        });
+        let case = Case::from_str(&case.to_string(), "test").unwrap_or_else(|errors| panic!("{errors}"));
+        let simulation = Simulation::new(Arc::new(case)).unwrap();
+        let frame = Frame::of_water(&simulation);
+        // The box contains 8 particles along the flume, 12 across and 4 upwards.
+        assert_eq!(frame.points.len(), 8 * 12 * 4);
+        assert!(frame.points.iter().all(|p| (0.4..=0.6).contains(&p[0]) && p[2] <= 0.1));
+        let [Column::Integer(id), Column::Scalar(pressure)] = &frame.fields[..] else { panic!("id and pressure") };
+        assert_eq!((id.len(), pressure.len()), (frame.points.len(), frame.points.len()));
+        let index_of = |id: i32| simulation.water.id.iter().position(|&other| other as i32 == id).unwrap();
+        for (point, &id) in frame.points.iter().zip(id) {
+            assert_eq!(*point, simulation.water.position[index_of(id)].as_vec3().to_array());
+        }
+        // Still water: p = rho g (0.3 m - z). Tolerance 1 %, because the density rises with depth.
+        let expected = |point: &[f32; 3]| 9810.0 * (0.3 - point[2]);
+        assert!(frame.points.iter().zip(pressure).all(|(point, p)| (p / expected(point) - 1.0).abs() < 0.01));
+    }
+}

@@ -1,0 +1,128 @@
+//! The summary of a flume run.
+
+use std::path::Path;
+
+use crate::simulation::flume::Simulation;
+use crate::{
+    case::{Case, Quantity, Sides, Wave, Wavemaker},
+    output::{
+        ContactSummary, EnergySummary, Execution, GaugeSummary, OutputError, ParticleCounts, Stopped, Summary, Table,
+        TimeStepSummary, UnitSummary, WaveSummary, columns,
+    },
+    waves::theory::solitary::PistonTheory,
+};
+
+/// Summarises a run; reads the crests from the gauge tables in the run folder `dir`.
+///
+/// # Errors
+/// If the gauge tables cannot be read.
+pub fn summarise(simulation: &Simulation, stopped: Stopped, dir: &Path) -> Result<Summary, OutputError> {
+    let (case, statistics) = (&simulation.case, &simulation.statistics);
+    let counts = particle_counts(simulation);
+    let steps_run = statistics.steps.max(1) as f64;
+    let mut summary = Summary {
+        title: case.title.clone(),
+        breakwater_version: env!("CARGO_PKG_VERSION").to_owned(),
+        case_hash: case.hash.clone(),
+        wave: wave(case),
+        gauges: gauges(simulation, dir)?,
+        contacts: ContactSummary {
+            with_bed: statistics.contacts.iter().map(|c| c[0]).sum(),
+            between_units: statistics.contacts.iter().map(|c| c[1]).sum(),
+            peak_force_n: statistics.peak_contact,
+            peak_normal_velocity_m_s: statistics.fastest_contact,
+        },
+        energy: statistics.energy_start.map(|start_j| EnergySummary { start_j, end_j: simulation.energy().total() }),
+        assumptions: case.assumptions.clone(),
+        warnings: case.warnings.iter().chain(&statistics.warnings).cloned().collect(),
+        largest_mach: Some(statistics.largest_mach),
+        particles: counts.water + counts.bed + counts.wavemaker + counts.units,
+        particle_counts: counts,
+        dp_m: case.domain.dp,
+        speed_of_sound_m_s: case.fluid.sound_speed,
+        still_water_level_m: case.flume.still_water_level,
+        domain_x_m: case.domain.x,
+        domain_width_m: case.domain.width,
+        side_walls: case.domain.sides == Sides::Walls,
+        two_dimensional: case.domain.sides == Sides::TwoDimensional,
+        obstacles_m: case.domain.obstacles.iter().map(|o| [o.low, o.high].map(|corner| corner.to_array())).collect(),
+        steps: simulation.steps,
+        simulated_s: simulation.time,
+        start_s: simulation.start,
+        time_step_s: TimeStepSummary {
+            min: statistics.shortest_step,
+            mean: simulation.time / steps_run,
+            max: statistics.longest_step,
+        },
+        stopped,
+        execution: Execution::here(statistics.wall_s, steps_run, Some(simulation.solver().name())),
+        ..Summary::default()
+    };
+    if let Some(units) = &case.units {
+        summary.set_units(units_of(simulation, units.damage_distance), units.damage_distance);
+    }
+    Ok(summary)
+}
+
+fn particle_counts(simulation: &Simulation) -> ParticleCounts {
+    let boundary = &simulation.boundary;
+    ParticleCounts {
+        water: simulation.water.len() as u64,
+        bed: boundary.piston().start as u64,
+        wavemaker: boundary.piston().len() as u64,
+        units: (boundary.len() - boundary.walls().end) as u64,
+    }
+}
+
+fn wave(case: &Case) -> Option<WaveSummary> {
+    let (kind, theory) = match (&case.wave, case.wavemaker) {
+        (Wave::None, _) => return None,
+        (Wave::Solitary(wave), _) if wave.theory == PistonTheory::Boussinesq => ("solitary", "boussinesq"),
+        (Wave::Solitary(_), _) => ("solitary", "rayleigh"),
+        (Wave::SolitaryInflow(_), _) => ("solitary", "third_order"),
+        (Wave::Regular { .. }, Wavemaker::MlPiston { .. }) => ("regular", "stream_function"),
+        (Wave::Regular { .. }, Wavemaker::Piston { .. }) => ("regular", "madsen"),
+        (Wave::Regular { .. }, Wavemaker::Flap { .. }) => ("regular", "biesel"),
+        (Wave::Irregular { .. }, _) => ("irregular", "jonswap"),
+        // The height of a wave from files is not known.
+        (Wave::External(_), _) => return None,
+    };
+    let (kind, theory) = (kind.to_owned(), theory.to_owned());
+    Some(WaveSummary { kind, theory, height_m: case.wave.height()?, period_s: case.wave.period() })
+}
+
+fn units_of(simulation: &Simulation, damage_distance: f64) -> Vec<UnitSummary> {
+    let Some(units) = &simulation.units else { return Vec::new() };
+    let statistics = &simulation.statistics;
+    let summary_of = |(k, (now, start)): (usize, (&crate::rigid::BodyState, &crate::rigid::BodyState))| {
+        let turned = (now.rotation * start.rotation.inverse()).normalize();
+        let angle = 2.0 * turned.xyz().length().atan2(turned.w.abs());
+        let (from, to) = (start.position.to_array(), now.position.to_array());
+        UnitSummary {
+            peak_fluid_force_n: statistics.peak_fluid_force[k],
+            peak_contact_force_n: statistics.peak_contact_force[k],
+            bed_contacts: statistics.contacts[k][0],
+            unit_contacts: statistics.contacts[k][1],
+            ..UnitSummary::moved(k as u32 + 1, from, to, angle.to_degrees(), damage_distance)
+        }
+    };
+    units.states().iter().zip(&units.start).enumerate().map(summary_of).collect()
+}
+
+/// Returns the highest elevation at each elevation gauge, read from the gauge tables.
+fn gauges(simulation: &Simulation, dir: &Path) -> Result<Vec<GaugeSummary>, OutputError> {
+    let particles = Table::read_if_present(&dir.join("gauges.csv"))?;
+    let flume = Table::read_if_present(&dir.join("flume_gauges.csv"))?;
+    let crest = |table: &Option<Table>, name: &str| {
+        let series = table.as_ref()?.get(&columns::elevation(name))?;
+        series.iter().copied().filter(|eta| eta.is_finite()).reduce(f64::max)
+    };
+    let elevation = simulation.case.gauges.iter().filter(|gauge| gauge.quantity == Quantity::Elevation);
+    let summaries = elevation.map(|gauge| GaugeSummary {
+        name: gauge.name.clone(),
+        x_m: gauge.at[0],
+        crest_sph_m: crest(&particles, &gauge.name),
+        crest_flume_m: crest(&flume, &gauge.name),
+    });
+    Ok(summaries.collect())
+}
